@@ -1,0 +1,70 @@
+"""The contracts plugin authors read: one short file per kind of component."""
+
+from mrpbench_core.api.assigner import Assigner, AssignmentError
+from mrpbench_core.api.component import Component, option
+from mrpbench_core.api.controller import Controller, ControllerSession, FleetControllerSession
+from mrpbench_core.api.crowd import Crowd, CrowdSession
+from mrpbench_core.api.dispatcher import Dispatcher, DispatcherSession, DispatchError
+from mrpbench_core.api.executor import ExecutorSource
+from mrpbench_core.api.exporter import Exporter, ExporterSession
+from mrpbench_core.api.hooks import hookimpl
+from mrpbench_core.api.localizer import Localizer, LocalizerSession
+from mrpbench_core.api.metric import Column, Metric, Value
+from mrpbench_core.api.navigator import Navigator, NavigatorSession
+from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.api.roadmap import RoadmapBuilder
+from mrpbench_core.api.scenario import ScenarioSource
+from mrpbench_core.api.simulator import Simulation, Simulator
+from mrpbench_core.api.world import WorldSource
+
+KINDS: dict[str, type[Component]] = {
+    "world": WorldSource,
+    "roadmap": RoadmapBuilder,
+    "scenario": ScenarioSource,
+    "assigner": Assigner,
+    "planner": Planner,
+    "dispatcher": Dispatcher,
+    "navigator": Navigator,
+    "controller": Controller,
+    "localizer": Localizer,
+    "simulator": Simulator,
+    "crowd": Crowd,
+    "metric": Metric,
+    "exporter": Exporter,
+    "executor": ExecutorSource,
+}
+"""Every kind by its one word; the entry-point group is the class's `group`."""
+
+__all__ = [
+    "KINDS",
+    "Assigner",
+    "AssignmentError",
+    "Column",
+    "Component",
+    "Controller",
+    "ControllerSession",
+    "Crowd",
+    "CrowdSession",
+    "DispatchError",
+    "Dispatcher",
+    "DispatcherSession",
+    "ExecutorSource",
+    "Exporter",
+    "ExporterSession",
+    "FleetControllerSession",
+    "Localizer",
+    "LocalizerSession",
+    "Metric",
+    "Navigator",
+    "NavigatorSession",
+    "Planner",
+    "Promise",
+    "RoadmapBuilder",
+    "ScenarioSource",
+    "Simulation",
+    "Simulator",
+    "Value",
+    "WorldSource",
+    "hookimpl",
+    "option",
+]

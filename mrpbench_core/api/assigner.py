@@ -1,0 +1,34 @@
+"""Contract of the kind *assigner*."""
+
+from abc import abstractmethod
+from typing import ClassVar, Literal
+
+import attrs
+
+from mrpbench_core.api.component import Component, option
+from mrpbench_core.model.assignment import Assignment, AssignmentProblem
+
+Cost = Literal["euclidean", "manhattan", "roadmap"]
+
+
+@attrs.frozen(kw_only=True)
+class Assigner(Component):
+    """Decides which robot does which task."""
+
+    group: ClassVar[str] = "mrpbench.assigners"
+    reads_costs: ClassVar[bool] = True
+    """False for an assigner that ignores the cost matrix, which is then not computed."""
+
+    cost: Cost = option("euclidean", help="what the cost matrix holds: straight-line or Manhattan metres, or true shortest paths (s)")
+
+    @abstractmethod
+    def assign(self, problem: AssignmentProblem) -> Assignment:
+        """Return an assignment of min(n, m) tasks that is optimal in the assigner's objective.
+
+        Raises:
+            AssignmentError: no assignment avoids the forbidden (infinite) costs.
+        """
+
+
+class AssignmentError(Exception):
+    """No feasible assignment exists, or the solver did not find one."""

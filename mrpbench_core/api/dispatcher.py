@@ -1,0 +1,39 @@
+"""Contract of the kind *dispatcher*."""
+
+from abc import ABC, abstractmethod
+from typing import ClassVar
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.model.execution import FleetView, Orders
+from mrpbench_core.model.plan import Plan
+from mrpbench_core.model.problem import Problem
+
+
+class DispatcherSession(ABC):
+    """Releases one plan."""
+
+    @abstractmethod
+    def update(self, now: float, view: FleetView) -> Orders:
+        """Return how far along its path each robot may go. Called every control period; `now` in simulated seconds."""
+
+    @abstractmethod
+    def adopt(self, problem: Problem, plan: Plan) -> None:
+        """Continue with a new plan that begins with what was released of the old one (`problem.commitments`)."""
+
+
+class Dispatcher(Component):
+    """Decides how far along its path each robot may go now."""
+
+    group: ClassVar[str] = "mrpbench.dispatchers"
+
+    @abstractmethod
+    def start(self, problem: Problem, plan: Plan) -> DispatcherSession:
+        """Begin to release `plan`.
+
+        Raises:
+            DispatchError: the plan cannot be released safely; says which robots and where.
+        """
+
+
+class DispatchError(Exception):
+    """A plan that this dispatcher cannot release: it has conflicts, or a cycle no footprint allows."""

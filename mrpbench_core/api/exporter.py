@@ -1,0 +1,31 @@
+"""Contract of the kind *exporter* (provisional)."""
+
+from abc import ABC, abstractmethod
+from pathlib import Path
+from typing import ClassVar
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.run import RunContext
+
+
+class ExporterSession(ABC):
+    """Writes one run."""
+
+    @abstractmethod
+    def write(self, chunk: Chunk) -> None:
+        """Append what happened since the last chunk."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Finish the file; until then it has a temporary name or is readable as it stands."""
+
+
+class Exporter(Component):
+    """Writes runs in another program's format; serves live runs and stored recordings alike."""
+
+    group: ClassVar[str] = "mrpbench.exporters"
+
+    @abstractmethod
+    def open(self, context: RunContext, destination: Path) -> ExporterSession:
+        """Begin to write the run to `destination`, a path without suffix in an existing folder; what is there is replaced."""

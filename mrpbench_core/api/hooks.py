@@ -1,0 +1,43 @@
+"""Lifecycle hooks, group `mrpbench.hooks`: for watching only. A hook that raises is logged and switched off for that run."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import pluggy
+
+from mrpbench_core.model.execution import State
+from mrpbench_core.model.plan import PlanResult
+from mrpbench_core.model.problem import Problem
+
+hookspec = pluggy.HookspecMarker("mrpbench")
+hookimpl = pluggy.HookimplMarker("mrpbench")
+
+
+@hookspec
+def mrpbench_study_started(study: Mapping[str, Any], runs: int) -> None:
+    """A study begins with its configuration and the number of runs to do (invoking process)."""
+
+
+@hookspec
+def mrpbench_run_started(run_id: str, config: Mapping[str, Any]) -> None:
+    """A run was handed to a worker (invoking process)."""
+
+
+@hookspec
+def mrpbench_run_finished(record: Mapping[str, Any]) -> None:
+    """A run's record was stored (invoking process)."""
+
+
+@hookspec
+def mrpbench_study_finished(records: int) -> None:
+    """Every run of the study has a record (invoking process)."""
+
+
+@hookspec
+def mrpbench_planned(problem: Problem, result: PlanResult) -> None:
+    """A planner returned (the run's process)."""
+
+
+@hookspec
+def mrpbench_stepped(now: float, state: State) -> None:
+    """A control period ended; `now` in simulated seconds (the run's process)."""

@@ -1,0 +1,31 @@
+"""Contract of the kind *localizer* (provisional)."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import ClassVar
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Estimate, Odometry, ScanBatch
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.world import World
+
+
+class LocalizerSession(ABC):
+    """Estimates the poses of a fleet."""
+
+    @abstractmethod
+    def update(self, now: float, odometry: Odometry, scans: Sequence[ScanBatch], truth: Float | None) -> Estimate:
+        """Return pose estimates in `map`. `truth` f8[n,3] is None unless the recipe declares `needs_truth`."""
+
+
+class Localizer(Component):
+    """Tells robots where they are."""
+
+    group: ClassVar[str] = "mrpbench.localizers"
+    needs_truth: ClassVar[bool] = False
+    """Only the ground-truth localizer may say so."""
+
+    @abstractmethod
+    def start(self, fleet: Fleet, world: World, placements: Float, seed: int) -> LocalizerSession:
+        """Begin with robots placed at `placements` f8[n,3]."""

@@ -1,0 +1,35 @@
+"""Contract of the kind *navigator* (provisional)."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import ClassVar
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.api.controller import Controller
+from mrpbench_core.model.execution import FleetObservation, Motion, Orders, Route
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.world import World
+
+
+class NavigatorSession(ABC):
+    """Drives a fleet."""
+
+    @abstractmethod
+    def adopt(self, routes: Sequence[Route]) -> None:
+        """Follow new routes, one per robot; each begins with what was already released of the old one, index by index."""
+
+    @abstractmethod
+    def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
+        """Return twists for one control period and how far each robot got; `now` in simulated seconds."""
+
+
+class Navigator(Component):
+    """Drives robots along what is released: checkers, recoveries, and a controller."""
+
+    group: ClassVar[str] = "mrpbench.navigators"
+
+    @abstractmethod
+    def start(
+        self, fleet: Fleet, world: World, routes: Sequence[Route], controller: Controller, period: float, seed: int
+    ) -> NavigatorSession:
+        """Begin at the start of `routes`; `period` is the control period in simulated seconds."""

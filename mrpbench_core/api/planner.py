@@ -1,0 +1,39 @@
+"""Contract of the kind *planner*."""
+
+from abc import abstractmethod
+from enum import StrEnum
+from typing import ClassVar
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.model.plan import Budget, PlanResult
+from mrpbench_core.model.problem import Feature, Problem
+
+
+class Promise(StrEnum):
+    """What holds for every plan of a planner; the engine checks what can be checked."""
+
+    CONFLICT_FREE = "conflict_free"
+    OPTIMAL = "optimal"
+    """Least sum of costs."""
+    BOUNDED = "bounded"
+    """The sum of costs is at most the planner's option `w` times `PlanResult.lower_bound`."""
+    COMPLETE = "complete"
+    """Finds a plan if one exists, given time."""
+    DETERMINISTIC = "deterministic"
+
+
+class Planner(Component):
+    """Turns a problem into one timed path per robot."""
+
+    group: ClassVar[str] = "mrpbench.planners"
+    supports: ClassVar[frozenset[Feature]] = frozenset()
+    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE})
+
+    @abstractmethod
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """Return a plan or say definitely why there is none, within `budget`. Does not change `problem`."""
+
+    def skip(self, problem: Problem) -> str | None:
+        """Why this planner must not be given `problem`, or None. By default: the features it does not support."""
+        lacking = sorted(problem.features - self.supports)
+        return f"does not support {', '.join(lacking)}" if lacking else None

@@ -1,0 +1,25 @@
+"""Contract of the kind *roadmap*."""
+
+from abc import abstractmethod
+from typing import ClassVar
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.world import World
+
+
+class RoadmapBuilder(Component):
+    """Builds the discrete graph that planners search."""
+
+    group: ClassVar[str] = "mrpbench.roadmaps"
+
+    @abstractmethod
+    def build(self, world: World, fleet: Fleet) -> Roadmap:
+        """Return a roadmap on which each robot of `fleet` keeps clear of walls.
+
+        `Roadmap.duration` has one row per `fleet.profiles`. What had to be left out stands in `Roadmap.notes`.
+
+        Raises:
+            InputError: nothing drivable is left.
+        """

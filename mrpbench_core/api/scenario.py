@@ -1,0 +1,32 @@
+"""Contract of the kind *scenario*."""
+
+from abc import abstractmethod
+from typing import ClassVar
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.world import World
+
+
+class ScenarioSource(Component):
+    """Draws or reads starts and goals."""
+
+    group: ClassVar[str] = "mrpbench.scenarios"
+
+    @abstractmethod
+    def size(self) -> int:
+        """Number of robots, known before anything is loaded.
+
+        Raises:
+            InputError: a file that says it is missing or malformed.
+        """
+
+    @abstractmethod
+    def draw(self, world: World, roadmap: Roadmap, fleet: Fleet, seed: int) -> Scenario:
+        """Return starts and goals in metres for `len(fleet) == size()` robots. The same arguments give the same scenario.
+
+        Raises:
+            InputError: the world cannot hold the scenario (too few vertices, unknown names).
+        """

@@ -1,0 +1,56 @@
+"""Contract of the kind *simulator*."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from types import TracebackType
+from typing import ClassVar, Self
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Inputs, ScanBatch, State
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.world import World
+
+
+class Simulation(ABC):
+    """A world in motion. Exact: the engine adds all noise. Used as a context manager; `close` may be called twice."""
+
+    @property
+    @abstractmethod
+    def state(self) -> State:
+        """The truth now; before the first step, the placements."""
+
+    @abstractmethod
+    def step(self, inputs: Inputs) -> State:
+        """Advance by one control period with constant `inputs`."""
+
+    @abstractmethod
+    def scans(self) -> tuple[ScanBatch, ...]:
+        """Scans taken since the last call, in order of time."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Release everything the simulation holds."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self.close()
+
+
+class Simulator(Component):
+    """Moves robots through a world and takes their scans."""
+
+    group: ClassVar[str] = "mrpbench.simulators"
+
+    @abstractmethod
+    def open(
+        self, world: World, fleet: Fleet, placements: Float, seed: int, period: float, movers: Sequence[float] = ()
+    ) -> Simulation:
+        """Place robots at `placements` f8[n,3] on level 0.
+
+        Args:
+            period: control period in simulated seconds; the simulator subdivides it as it likes.
+            movers: radii in metres of discs that are not robots, moved by `Inputs.movers`.
+        """

@@ -1,0 +1,43 @@
+"""The one exception for a user's mistake: what is wrong, where, and what to do."""
+
+from pathlib import Path
+
+
+class InputError(Exception):
+    """A mistake in something the user wrote; printed as one line, never as a traceback.
+
+    Attributes:
+        message: what is wrong.
+        file: the file it stands in, if any.
+        line, column: counted from 1, where known.
+        hint: what to do, e.g. `did you mean 'eecbs'?`.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        file: Path | str | None = None,
+        line: int | None = None,
+        column: int | None = None,
+        hint: str | None = None,
+    ) -> None:
+        self.message = message
+        self.file = None if file is None else Path(file)
+        self.line = line
+        self.column = column
+        self.hint = hint
+        super().__init__(str(self))
+
+    def __str__(self) -> str:
+        parts = [str(part) for part in (self.file, self.line, self.column) if part is not None]
+        where = ":".join(parts) + ": " if parts else ""
+        return where + self.message + (f" ({self.hint})" if self.hint else "")
+
+
+class InputErrors(Exception):
+    """Several mistakes found at once, in reading order."""
+
+    def __init__(self, errors: list[InputError]) -> None:
+        self.errors = errors
+        super().__init__("\n".join(str(error) for error in errors))

@@ -1,0 +1,1 @@
+"""Immutable data that crosses the seams between stages: NumPy and attrs only."""

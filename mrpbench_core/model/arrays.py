@@ -1,0 +1,39 @@
+"""Read-only NumPy fields for attrs classes."""
+
+from typing import Any
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+
+Float = NDArray[np.float64]
+Int = NDArray[np.int64]
+Int32 = NDArray[np.int32]
+Int16 = NDArray[np.int16]
+Byte = NDArray[np.uint8]
+Bool = NDArray[np.bool_]
+
+
+def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None) -> NDArray[Any]:
+    """Return a read-only copy of `values` as `dtype`; `columns` shapes an empty list as (0, columns)."""
+    array = np.array(values, dtype=dtype, order="C")
+    if columns is not None:
+        array = array.reshape(-1, columns)
+    array.flags.writeable = False
+    return array
+
+
+def array(dtype: DTypeLike, columns: int | None = None, **arguments: Any) -> Any:
+    """Declare an attrs field that holds a read-only array of `dtype` (with `columns` columns if two-dimensional)."""
+    return attrs.field(
+        converter=lambda values: frozen_array(values, dtype, columns),
+        eq=attrs.cmp_using(eq=equal_arrays),
+        **arguments,
+    )
+
+
+def equal_arrays(left: NDArray[Any], right: NDArray[Any]) -> bool:
+    """Tell whether two arrays have the same shape and values, NaN equal to NaN."""
+    if left.shape != right.shape or left.dtype != right.dtype:
+        return False
+    return bool(np.array_equal(left, right, equal_nan=left.dtype.kind == "f"))

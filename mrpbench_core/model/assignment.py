@@ -1,0 +1,29 @@
+"""Which robot does which task."""
+
+import attrs
+
+from mrpbench_core.model.arrays import Float, Int32, array
+from mrpbench_core.model.scenario import Task
+
+
+@attrs.frozen(kw_only=True)
+class AssignmentProblem:
+    """Costs of every robot doing every task."""
+
+    costs: Float = array("f8")
+    """f8[n,m]; inf = forbidden. May be rectangular."""
+    tasks: tuple[Task, ...] = ()
+    robots: tuple[int, ...] = ()
+    """Robot of each row; () = 0..n-1."""
+    now: float = 0.0
+    """simulated seconds."""
+
+
+@attrs.frozen(kw_only=True)
+class Assignment:
+    """min(n, m) robots get one task each."""
+
+    task: Int32 = array("i4")
+    """i4[n]: column taken by each row, -1 = none."""
+    cost: float
+    """Value of the assigner's objective."""

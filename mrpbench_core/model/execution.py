@@ -1,0 +1,172 @@
+"""What flows between simulator, localizer, dispatcher, navigator and controller, every control period."""
+
+from collections.abc import Mapping
+from enum import IntEnum
+
+import attrs
+
+from mrpbench_core.model.arrays import Byte, Float, Int16, Int32, array
+
+
+class Mode(IntEnum):
+    """What a robot is doing."""
+
+    FOLLOWING = 0
+    WAITING = 1
+    RECOVERING = 2
+    OFF_PATH = 3
+    ABORTED = 4
+
+
+@attrs.frozen(kw_only=True)
+class FleetView:
+    """What a dispatcher knows: estimates, never ground truth."""
+
+    revision: int
+    """How often `adopt` was called: which plan the indices below refer to."""
+    reached: Int32 = array("i4")
+    """i4[n]: number of leading path segments each robot has completed."""
+    cleared: Int32 = array("i4")
+    """i4[n]: number of leading path segments whose *start vertex* the robot's footprint has left, so that another robot
+    may stand there."""
+    pose: Float = array("f8", 3)
+    """f8[n,3] estimated x, y, yaw."""
+    level: Int16 = array("i2")
+    mode: Byte = array("u1")
+    """u1[n] of `Mode`."""
+    granted: tuple[tuple[int, str], ...] = ()
+    """(robot, resource) pairs held now."""
+
+
+@attrs.frozen(kw_only=True)
+class Orders:
+    """What a dispatcher allows."""
+
+    released: Int32 = array("i4")
+    """i4[n]: number of leading path segments each robot may complete; never decreases within a revision."""
+    requests: tuple[tuple[int, str], ...] = ()
+    """(robot, resource) pairs wanted."""
+    replan: str | None = None
+    """Why a new plan is wanted, if one is."""
+
+
+@attrs.frozen(kw_only=True)
+class Route:
+    """One robot's path in metres, as a navigator needs it."""
+
+    waypoint: Float = array("f8", 3)
+    """f8[k+1,3]: x, y, yaw (NaN = any): the start, then the end of each path segment."""
+    level: Int16 = array("i2")
+    """i2[k+1]."""
+    speed: Float = array("f8")
+    """f8[k] m/s: upper limit on each segment, inf = none."""
+
+
+@attrs.frozen(kw_only=True)
+class ScanBatch:
+    """Scans of several robots with like lidars, taken at one instant."""
+
+    stamp: float
+    """simulated seconds."""
+    robot: Int32 = array("i4")
+    """i4[k]."""
+    ranges: Float = array("f8")
+    """f8[k,beams] metres, inf = no return. Beam i points at i * 2*pi / beams from straight ahead, counter-clockwise."""
+
+
+@attrs.frozen(kw_only=True)
+class Odometry:
+    """Where the robots believe to have driven."""
+
+    pose: Float = array("f8", 3)
+    """f8[n,3] in each robot's odometry frame, which starts at its true placement."""
+    twist: Float = array("f8", 2)
+    """f8[n,2]: m/s forward, rad/s counter-clockwise."""
+
+
+@attrs.frozen(kw_only=True)
+class Estimate:
+    """Where the robots believe to be."""
+
+    pose: Float = array("f8", 3)
+    """f8[n,3] in the frame `map`."""
+    covariance: Float | None = None
+    """f8[n,3,3] or None."""
+
+
+@attrs.frozen(kw_only=True)
+class FleetObservation:
+    """What a navigator knows."""
+
+    estimate: Estimate
+    odometry: Odometry
+    level: Int16 = array("i2")
+    scans: tuple[ScanBatch, ...] = ()
+    """Only those that are new since the last period."""
+
+
+@attrs.frozen(kw_only=True)
+class Observation:
+    """What one robot's controller knows."""
+
+    now: float
+    pose: Float = array("f8")
+    """f8[3] estimated x, y, yaw in `map`."""
+    twist: Float = array("f8")
+    """f8[2] measured m/s, rad/s."""
+    path: Float = array("f8", 2)
+    """f8[k,2]: released waypoints ahead, nearest first; the robot is to stop at the last."""
+    yaw: float = float("nan")
+    """Yaw to take at the last waypoint, NaN = any."""
+    speed: float = float("inf")
+    """m/s allowed now."""
+    scan: ScanBatch | None = None
+    """This robot's newest scan if it is new since the last call (one row)."""
+
+
+@attrs.frozen(kw_only=True)
+class Event:
+    """Something worth a line in the recording: a recovery, an abort, a replan, a contact."""
+
+    stamp: float
+    kind: str
+    robot: int = -1
+    detail: str = ""
+
+
+@attrs.frozen(kw_only=True)
+class Motion:
+    """What a navigator wants, and how far it got."""
+
+    twist: Float = array("f8", 2)
+    """f8[n,2] commanded m/s, rad/s."""
+    reached: Int32 = array("i4")
+    cleared: Int32 = array("i4")
+    mode: Byte = array("u1")
+    events: tuple[Event, ...] = ()
+
+
+@attrs.frozen(kw_only=True)
+class Inputs:
+    """What drives the simulator for one control period."""
+
+    twist: Float = array("f8", 2)
+    """f8[n,2] commanded m/s, rad/s."""
+    movers: Float | None = None
+    """f8[m,4]: x, y, vx, vy of things that are not robots, or None."""
+    facilities: Mapping[str, float] = attrs.field(factory=dict)
+    """Door or lift name -> commanded opening 0..1."""
+
+
+@attrs.frozen(kw_only=True)
+class State:
+    """The truth after one control period."""
+
+    pose: Float = array("f8", 3)
+    """f8[n,3] x, y, yaw in `map`."""
+    twist: Float = array("f8", 2)
+    """f8[n,2] true m/s forward, rad/s."""
+    level: Int16 = array("i2")
+    contacts: Int32 = array("i4", 2)
+    """i4[k,2]: robot and what it touched during the period (a robot of higher index, or -1 = wall or obstacle)."""
+    facilities: Mapping[str, float] = attrs.field(factory=dict)

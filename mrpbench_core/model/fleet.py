@@ -1,0 +1,79 @@
+"""The robots: what each is, carries and can do."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.arrays import Float, array
+
+
+@attrs.frozen(kw_only=True)
+class Lidar:
+    """A planar scanner. Beam i points at `i * 2*pi / beams` (plus the robot's yaw), counter-clockwise from straight ahead."""
+
+    beams: int = 360
+    range: float = 3.5
+    """metres; a beam that hits nothing within it reads inf."""
+    min_range: float = 0.12
+    rate: float = 5.0
+    """Hz of simulated time."""
+    mount: tuple[float, float, float] = (0.0, 0.0, 0.18)
+    """x, y, z of the sensor in the robot's base frame, metres."""
+
+
+@attrs.frozen(kw_only=True)
+class RobotModel:
+    """A kind of robot. The base frame sits on the floor, at the point the robot turns about, x forward."""
+
+    name: str
+    footprint: Float = array("f8", 2)
+    """f8[k,2] polygon in the base frame, metres, counter-clockwise."""
+    max_speed: float
+    """m/s."""
+    max_turn_rate: float
+    """rad/s."""
+    acceleration: float = 2.5
+    """m/s^2."""
+    turn_acceleration: float = 3.2
+    """rad/s^2."""
+    height: float = 0.15
+    mass: float = 1.0
+    """kilogram."""
+    wheel_radius: float = 0.033
+    wheel_separation: float = 0.16
+    lidar: Lidar | None = None
+
+    @property
+    def radius(self) -> float:
+        """Circumscribed radius about the base frame's origin, metres: the disc that holds the robot at any yaw."""
+        return float(np.hypot(self.footprint[:, 0], self.footprint[:, 1]).max())
+
+
+@attrs.frozen(kw_only=True)
+class Fleet:
+    """Robots in order; robot i of every array in this project is `robots[i]`."""
+
+    robots: tuple[RobotModel, ...]
+
+    def __len__(self) -> int:
+        return len(self.robots)
+
+    @property
+    def radii(self) -> Float:
+        """Circumscribed radii f8[n], metres."""
+        return np.array([robot.radius for robot in self.robots])
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """`robot_0`, `robot_1`, ...: the ROS namespaces."""
+        return tuple(f"robot_{index}" for index in range(len(self.robots)))
+
+    @property
+    def profiles(self) -> tuple[tuple[RobotModel, ...], tuple[int, ...]]:
+        """The distinct robot models, in order of first use, and the index of each robot's among them."""
+        kinds: list[RobotModel] = []
+        index = []
+        for robot in self.robots:
+            if robot not in kinds:
+                kinds.append(robot)
+            index.append(kinds.index(robot))
+        return tuple(kinds), tuple(index)

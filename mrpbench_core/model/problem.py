@@ -1,0 +1,97 @@
+"""What a planner is asked: robots on a roadmap, with goals and rules."""
+
+from enum import StrEnum
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.arrays import Float, Int, Int32, array
+from mrpbench_core.model.plan import Path
+from mrpbench_core.model.roadmap import Roadmap
+
+GoalSet = tuple[int, ...]
+"""Roadmap vertices of which reaching any one counts."""
+
+
+class Feature(StrEnum):
+    """What a problem may contain and a planner may support."""
+
+    EDGE_DURATIONS = "edge_durations"
+    """Some edge takes other than one tick."""
+    FOOTPRINTS = "footprints"
+    """Robots are discs of `Problem.radius`: elements of the roadmap closer than two radii exclude one another."""
+    RESOURCES = "resources"
+    PROFILES = "profiles"
+    """More than one motion profile."""
+    HEADINGS = "headings"
+    GOAL_SETS = "goal_sets"
+    GOAL_SEQUENCES = "goal_sequences"
+    COMMITMENTS = "commitments"
+    HORIZON = "horizon"
+    FOLLOWING_FORBIDDEN = "following_forbidden"
+
+
+@attrs.frozen(kw_only=True)
+class Rules:
+    """Conventions of the field that differ between sources."""
+
+    following: str = "allowed"
+    """allowed | forbidden: may a robot enter a vertex in the tick in which another leaves it?"""
+    at_goal: str = "stay"
+    """stay | disappear."""
+
+
+@attrs.frozen(kw_only=True)
+class Problem:
+    """Everything a planner sees. See `mrpbench_core.model.conflicts` for what counts as a conflict."""
+
+    roadmap: Roadmap
+    profile: Int32 = array("i4")
+    """i4[n]: row of `Roadmap.duration` for each robot."""
+    radius: Float = array("f8")
+    """f8[n] metres."""
+    start: Int32 = array("i4")
+    """i4[n] roadmap vertices."""
+    ready: Int = array("i8")
+    """i8[n] ticks: a robot stands at its start at least until then."""
+    goals: tuple[tuple[GoalSet, ...], ...]
+    """goals[robot] = the goal sets to visit in order; the robot ends at the last. Empty: it may end anywhere."""
+    commitments: tuple[Path, ...] = ()
+    """Released prefixes, one per robot (possibly empty), that a new plan must begin with; () = none."""
+    rules: Rules = Rules()
+    horizon: int | None = None
+    """Ticks after which conflicts need not be resolved; None = all."""
+    features: frozenset[Feature] = frozenset()
+
+    def __len__(self) -> int:
+        return len(self.start)
+
+    def duration(self, robot: int) -> Int32:
+        """Ticks i4[E] each edge takes `robot`, -1 = forbidden."""
+        row: Int32 = self.roadmap.duration[self.profile[robot]]
+        return row
+
+
+def features_of(problem: Problem) -> frozenset[Feature]:
+    """The features `problem` cannot be solved without, footprints apart (those are a choice of the caller)."""
+    found = set()
+    used = problem.roadmap.duration
+    if ((used != 1) & (used != -1)).any():
+        found.add(Feature.EDGE_DURATIONS)
+    if len(np.unique(problem.profile)) > 1 and not (used == used[:1]).all():
+        found.add(Feature.PROFILES)
+    if problem.roadmap.resources:
+        found.add(Feature.RESOURCES)
+    if not np.isnan(problem.roadmap.heading).all():
+        found.add(Feature.HEADINGS)
+    if any(len(goal) != 1 for sequence in problem.goals for goal in sequence):
+        found.add(Feature.GOAL_SETS)
+    if any(len(sequence) != 1 for sequence in problem.goals):
+        found.add(Feature.GOAL_SEQUENCES)
+    if any(len(path) for path in problem.commitments) or problem.ready.any():
+        found.add(Feature.COMMITMENTS)
+    if problem.horizon is not None:
+        found.add(Feature.HORIZON)
+    if problem.rules.following == "forbidden":
+        found.add(Feature.FOLLOWING_FORBIDDEN)
+    return frozenset(found)

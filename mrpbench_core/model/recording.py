@@ -1,0 +1,30 @@
+"""What truly happened during a run, in channels.
+
+| channel | per sample | meaning |
+|---|---|---|
+| `time` | f8 | simulated seconds of the periodic channels below |
+| `truth` | f8[n,3] | true x, y, yaw in `map` |
+| `truth_twist` | f8[n,2] | true m/s, rad/s |
+| `estimate` | f8[n,3] | localizer's x, y, yaw in `map` |
+| `odometry` | f8[n,5] | x, y, yaw in the odometry frame, m/s, rad/s |
+| `command` | f8[n,2] | commanded m/s, rad/s |
+| `level` | i2[n] | index into `World.levels` |
+| `released`, `reached`, `cleared` | i4[n] | path segments |
+| `mode` | u1[n] | `Mode` |
+| `contact_time`, `contact` | f8; i4[2] | one row per pair and control period in contact: robot and other (-1 = wall) |
+| `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
+| `event_time`, `event_kind`, `event_robot`, `event_detail` | f8; U; i4; U | see `Event` |
+
+Periodic channels are sampled every `1 / recording.rate` seconds, and at the start and the end of the execution.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from numpy.typing import NDArray
+
+Chunk = Mapping[str, NDArray[Any]]
+"""Consecutive rows of some channels, by channel name."""
+
+PERIODIC = ("truth", "truth_twist", "estimate", "odometry", "command", "level", "released", "reached", "cleared", "mode")
+"""Channels that share the time axis `time`."""

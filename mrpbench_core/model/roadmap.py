@@ -1,0 +1,80 @@
+"""The discrete graph that planners search."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.arrays import Float, Int16, Int32, array
+
+
+@attrs.frozen(kw_only=True)
+class Resource:
+    """A door, lift or mutex that at most `capacity` robots may hold while on its vertices or edges."""
+
+    name: str
+    kind: str
+    """door | lift | mutex."""
+    capacity: int = 1
+    vertices: tuple[int, ...] = ()
+    edges: tuple[int, ...] = ()
+    setup_ticks: int = 0
+
+
+@attrs.frozen(kw_only=True)
+class Grid:
+    """That a roadmap's vertices are cells of a raster, and which."""
+
+    shape: tuple[int, int]
+    """rows, columns."""
+    cell_size: float
+    origin: tuple[float, float]
+    """x, y of the lower left corner of cell (0, 0), metres."""
+    cell: Int32 = array("i4", 2)
+    """i4[V,2]: row (0 = lowest y) and column of each vertex."""
+
+
+@attrs.frozen(kw_only=True)
+class Roadmap:
+    """Vertices and directed edges with integer durations. Built once per world and fleet."""
+
+    position: Float = array("f8", 2)
+    """f8[V,2] metres, frame `map`."""
+    level: Int16 = array("i2")
+    """i2[V]: index into `World.levels`."""
+    heading: Float = array("f8")
+    """f8[V] radians: the yaw a vertex prescribes, NaN = any."""
+    edges: Int32 = array("i4", 2)
+    """i4[E,2]: from, to. A two-way lane is two edges."""
+    duration: Int32 = array("i4")
+    """i4[P,E] ticks per motion profile; -1 = this profile may not use the edge."""
+    tick: float
+    """seconds per tick."""
+    resources: tuple[Resource, ...] = ()
+    grid: Grid | None = None
+    place: Int32 = array("i4", factory=list)
+    """i4[len(World.vertices)]: the roadmap vertex that stands for each world vertex, -1 = none."""
+    notes: tuple[str, ...] = ()
+    """What was left out and why (edges that hit a wall, places that are blocked), one sentence each."""
+
+    def nearest(self, x: float, y: float, level: int = 0) -> tuple[int, float]:
+        """The vertex nearest to a point on a level, and its distance in metres (-1, inf if the level has none)."""
+        squared = ((self.position - (x, y)) ** 2).sum(axis=1)
+        squared = np.where(self.level == level, squared, np.inf)
+        best = int(squared.argmin()) if len(squared) else -1
+        if best < 0 or not np.isfinite(squared[best]):
+            return -1, float("inf")
+        return best, float(np.sqrt(squared[best]))
+
+    def locate(self, points: Float, levels: Int16) -> Int32:
+        """The vertex that stands for each of `points` f8[n,2] on `levels` i2[n]; -1 = none.
+
+        On a raster it is the vertex of the cell that holds the point, otherwise the nearest vertex within 1 mm,
+        otherwise the nearest vertex of all.
+        """
+        if self.grid is None:
+            return np.array([self.nearest(x, y, lvl)[0] for (x, y), lvl in zip(points, levels, strict=True)], "i4")
+        rows, columns = self.grid.shape
+        table = np.full(rows * columns, -1, "i4")
+        table[self.grid.cell[:, 0] * columns + self.grid.cell[:, 1]] = np.arange(len(self.grid.cell))
+        cell = np.floor((np.atleast_2d(points) - self.grid.origin) / self.grid.cell_size).astype(int)
+        inside = (cell >= 0).all(1) & (cell[:, 0] < columns) & (cell[:, 1] < rows)
+        return np.where(inside, table[np.where(inside, cell[:, 1] * columns + cell[:, 0], 0)], -1).astype("i4")

@@ -1,0 +1,54 @@
+"""A run as metrics and exporters see it."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import attrs
+from numpy.typing import NDArray
+
+from mrpbench_core.model.execution import Route
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.plan import PlanResult
+from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.world import World
+
+
+@attrs.frozen(kw_only=True)
+class RunContext:
+    """What was known before execution began."""
+
+    run_id: str
+    world: World
+    fleet: Fleet
+    scenario: Scenario
+    problem: Problem
+    result: PlanResult
+    """The first plan."""
+    routes: tuple[Route, ...]
+    goal: tuple[tuple[float, float, float], ...]
+    """Final goal x, y (metres), yaw (NaN = any) of each robot: where its path ends."""
+    period: float = 0.05
+    """control period, simulated seconds."""
+    assigned: tuple[int, ...] = ()
+    """Task of each robot, -1 = none."""
+
+
+@attrs.frozen(kw_only=True)
+class FinishedRun:
+    """A run that ended, with its recording."""
+
+    context: RunContext
+    executed: bool
+    """False when the run ended after planning (`simulator: none`, or no plan to execute)."""
+    channels: Mapping[str, Callable[[], NDArray[Any]]] = attrs.field(factory=dict)
+    """Loads a whole channel by name; see `mrpbench_core.model.recording`."""
+    timing: Mapping[str, float | bool | None] = attrs.field(factory=dict)
+
+    def channel(self, name: str) -> NDArray[Any]:
+        """The whole of a channel."""
+        return self.channels[name]()
+
+    def has(self, name: str) -> bool:
+        """Tell whether the recording holds a channel (or, for `plan`, whether there is a plan)."""
+        return self.context.result.plan is not None if name == "plan" else name in self.channels
