@@ -19,7 +19,9 @@ class Assigner(Component):
     reads_costs: ClassVar[bool] = True
     """False for an assigner that ignores the cost matrix, which is then not computed."""
 
-    cost: Cost = option("euclidean", help="what the cost matrix holds: straight-line or Manhattan metres, or true shortest paths (s)")
+    cost: Cost = option(
+        "euclidean", help="what the cost matrix holds: straight-line or Manhattan metres, or true shortest paths (s)"
+    )
 
     @abstractmethod
     def assign(self, problem: AssignmentProblem) -> Assignment:

@@ -1,0 +1,1 @@
+"""Independent validators of plans, assignments, recordings and worlds."""

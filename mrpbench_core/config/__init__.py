@@ -1,0 +1,1 @@
+"""From a YAML file to runs: structuring, matrix, defaults, JSON Schema, identity."""

@@ -1,0 +1,1 @@
+"""Executes runs: pipeline, mission, worker slots, seeds."""

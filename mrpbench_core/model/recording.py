@@ -26,5 +26,16 @@ from numpy.typing import NDArray
 Chunk = Mapping[str, NDArray[Any]]
 """Consecutive rows of some channels, by channel name."""
 
-PERIODIC = ("truth", "truth_twist", "estimate", "odometry", "command", "level", "released", "reached", "cleared", "mode")
+PERIODIC = (
+    "truth",
+    "truth_twist",
+    "estimate",
+    "odometry",
+    "command",
+    "level",
+    "released",
+    "reached",
+    "cleared",
+    "mode",
+)
 """Channels that share the time axis `time`."""

@@ -1,0 +1,1 @@
+"""Registry of components, guarded hooks, provenance, local plugins."""

@@ -1,0 +1,1 @@
+"""The results folder: records, invocations and recordings on disk."""
