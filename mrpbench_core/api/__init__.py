@@ -4,7 +4,7 @@ from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.api.component import Component, option
 from mrpbench_core.api.controller import Controller, ControllerSession, FleetControllerSession
 from mrpbench_core.api.crowd import Crowd, CrowdSession
-from mrpbench_core.api.dispatcher import Dispatcher, DispatcherSession, DispatchError
+from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.api.exporter import Exporter, ExporterSession
 from mrpbench_core.api.hooks import hookimpl

@@ -27,7 +27,7 @@ class ControllerSession(ABC):
         """Tell for each pose f8[k,3] whether the robot's footprint fits there as far as the controller knows."""
         return np.ones(len(poses), bool)
 
-    def reroute(self, observation: Observation) -> Float | None:
+    def reroute(self, observation: Observation) -> Float | None:  # noqa: ARG002 - for those that override it
         """Return waypoints f8[k,2] around what blocks the path, or None when the controller knows none."""
         return None
 

@@ -25,7 +25,7 @@ class ScenarioSource(Component):
 
     @abstractmethod
     def draw(self, world: World, roadmap: Roadmap, fleet: Fleet, seed: int) -> Scenario:
-        """Return starts and goals in metres for `len(fleet) == size()` robots. The same arguments give the same scenario.
+        """Return starts and goals in metres for `len(fleet) == size()` robots; the same for the same arguments.
 
         Raises:
             InputError: the world cannot hold the scenario (too few vertices, unknown names).

@@ -52,7 +52,6 @@ class Simulator(Component):
     ) -> Simulation:
         """Place robots at `placements` f8[n,3] on level 0.
 
-        Args:
-            period: control period in simulated seconds; the simulator subdivides it as it likes.
-            movers: radii in metres of discs that are not robots, moved by `Inputs.movers`.
+        `period` is the control period in simulated seconds; the simulator subdivides it as it likes. `movers` are the
+        radii in metres of discs that are not robots, moved by `Inputs.movers`.
         """

@@ -35,7 +35,7 @@ class InputError(Exception):
         return where + self.message + (f" ({self.hint})" if self.hint else "")
 
 
-class InputErrors(Exception):
+class InputErrors(Exception):  # noqa: N818 - it is several of them
     """Several mistakes found at once, in reading order."""
 
     def __init__(self, errors: list[InputError]) -> None:

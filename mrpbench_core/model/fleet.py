@@ -8,7 +8,7 @@ from mrpbench_core.model.arrays import Float, array
 
 @attrs.frozen(kw_only=True)
 class Lidar:
-    """A planar scanner. Beam i points at `i * 2*pi / beams` (plus the robot's yaw), counter-clockwise from straight ahead."""
+    """A planar scanner. Beam i points at `i * 2*pi / beams` counter-clockwise from straight ahead."""
 
     beams: int = 360
     range: float = 3.5

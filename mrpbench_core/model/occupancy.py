@@ -33,4 +33,5 @@ class Occupancy:
 
     def centres(self, cells: Int) -> Float:
         """Centres f8[n,2] (x, y) of `cells` i8[n,2] (row, column)."""
-        return (np.atleast_2d(cells)[:, ::-1] + 0.5) * self.cell_size + np.asarray(self.origin)
+        centres: Float = (np.atleast_2d(cells)[:, ::-1] + 0.5) * self.cell_size + np.asarray(self.origin)
+        return centres

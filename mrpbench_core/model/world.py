@@ -1,4 +1,7 @@
-"""A place robots live in: walls, doors, obstacles and the navigation graph (metres, radians, x right, y up: ROS REP 103)."""
+"""A place robots live in: walls, doors, obstacles and the navigation graph.
+
+Metres, radians, x right, y up (ROS REP 103).
+"""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,0 +1,14 @@
+"""Fixtures that every test folder shares."""
+
+from pathlib import Path
+
+import pytest
+
+
+@pytest.fixture(scope="session")
+def shared_data() -> Path:
+    """Public maps and reference costs beside the checkout; tests that need them skip where they are absent."""
+    folder = Path(__file__).parent.parent / "shared" / "data"
+    if not folder.is_dir():
+        pytest.skip("the public reference data are not beside the checkout")
+    return folder

@@ -1,0 +1,143 @@
+"""Finds the conflicts of a plan by direct comparison of intervals; see `mrpbench_core.model.conflicts` for the rules."""
+
+from collections import defaultdict
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from mrpbench_core.model.conflicts import TOLERANCE
+from mrpbench_core.model.geometry import segment_distance
+from mrpbench_core.model.plan import Plan
+from mrpbench_core.model.problem import Feature, Problem
+
+FOREVER = np.iinfo(np.int64).max
+
+
+class Conflict(NamedTuple):
+    """Two robots in one another's way."""
+
+    kind: str
+    """vertex | swap | overtaking | following | footprint."""
+    robots: tuple[int, int]
+    where: tuple[int, int]
+    """Vertices where they meet: the two ends of the first robot's element (equal for a vertex)."""
+    tick: int
+
+    def __str__(self) -> str:
+        place = f"vertex {self.where[0]}" if self.where[0] == self.where[1] else f"edge {self.where[0]}-{self.where[1]}"
+        return f"{self.kind} conflict of robots {self.robots[0]} and {self.robots[1]} at {place}, tick {self.tick}"
+
+
+class Stay(NamedTuple):
+    """A robot's time on one element: at a vertex (`tail == head`, closed interval) or on an edge (open interval)."""
+
+    robot: int
+    tail: int
+    head: int
+    begin: int
+    end: int
+
+    @property
+    def moving(self) -> bool:
+        """True on an edge."""
+        return self.tail != self.head
+
+
+def find_conflicts(problem: Problem, plan: Plan, limit: int) -> list[Conflict]:
+    """The first `limit` conflicts between robots of a plan whose paths are sound, in order of time."""
+    stays = [stay for robot in range(len(problem)) for stay in _stays(problem, plan, robot)]
+    horizon = FOREVER if problem.horizon is None else problem.horizon
+    found = [conflict for conflict in _pairs(problem, stays) if conflict.tick <= horizon]
+    return sorted(set(found), key=lambda conflict: (conflict.tick, conflict))[:limit]
+
+
+def _stays(problem: Problem, plan: Plan, robot: int) -> Iterator[Stay]:
+    path = plan.paths[robot]
+    at = int(problem.start[robot])
+    since = 0
+    for edge, enter, leave in zip(path.edge.tolist(), path.enter.tolist(), path.leave.tolist(), strict=True):
+        if edge < 0:
+            continue
+        tail, head = (int(vertex) for vertex in problem.roadmap.edges[edge])
+        yield Stay(robot, at, at, since, enter)
+        yield Stay(robot, tail, head, enter, leave)
+        at, since = head, leave
+    last = int(path.leave[-1]) if len(path) else 0
+    yield Stay(robot, at, at, since, FOREVER if problem.rules.at_goal == "stay" else max(since, last))
+
+
+def _pairs(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
+    footprints = Feature.FOOTPRINTS in problem.features
+    following = problem.rules.following == "forbidden"
+    together: dict[tuple[int, ...], list[Stay]] = defaultdict(list)
+    for stay in stays:
+        together[tuple(sorted((stay.tail, stay.head)))].append(stay)
+    for group in together.values():
+        for one, other in _overlapping(group):
+            kind = _kind_on_one_element(one, other, following)
+            if kind:
+                yield _conflict(kind, one, other)
+    if following:
+        yield from _following(stays)
+    if footprints:
+        yield from _footprints(problem, stays)
+
+
+def _overlapping(group: list[Stay]) -> Iterator[tuple[Stay, Stay]]:
+    """Pairs of different robots whose closed intervals meet, the earlier first."""
+    active: list[Stay] = []
+    for stay in sorted(group, key=lambda stay: (stay.begin, stay.end)):
+        active = [earlier for earlier in active if earlier.end >= stay.begin]
+        yield from ((earlier, stay) for earlier in active if earlier.robot != stay.robot)
+        active.append(stay)
+
+
+def _open_overlap(one: Stay, other: Stay) -> bool:
+    return max(one.begin, other.begin) < min(one.end, other.end)
+
+
+def _kind_on_one_element(one: Stay, other: Stay, following: bool) -> str | None:
+    if not one.moving:
+        return "vertex"
+    if not _open_overlap(one, other):
+        return None
+    if one.tail != other.tail:
+        return "swap"
+    if one.begin == other.begin or other.end <= one.end:
+        return "overtaking"
+    return "following" if following else None
+
+
+def _following(stays: list[Stay]) -> Iterator[Conflict]:
+    around: dict[int, list[Stay]] = defaultdict(list)
+    for stay in stays:
+        if stay.moving:
+            around[stay.tail].append(stay)
+            around[stay.head].append(stay)
+    for vertex, group in around.items():
+        for one, other in _overlapping(group):
+            into_and_out = {one.head == vertex, other.head == vertex} == {True, False}
+            swap = one.tail == other.head and one.head == other.tail
+            if into_and_out and not swap and _open_overlap(one, other):
+                yield _conflict("following", one, other)
+
+
+def _footprints(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
+    """Rule 5 by brute force over pairs that overlap in time: slow and plain on purpose."""
+    position, level = problem.roadmap.position, problem.roadmap.level
+    for one, other in _overlapping(stays):
+        if (one.moving or other.moving) and not (one.begin < other.end and other.begin < one.end):
+            continue
+        if not {int(level[one.tail]), int(level[one.head])} & {int(level[other.tail]), int(level[other.head])}:
+            continue
+        a, b, c, d = (position[vertex] for vertex in (one.tail, one.head, other.tail, other.head))
+        reach = problem.radius[one.robot] + problem.radius[other.robot]
+        known = not one.moving and one.tail == other.tail and not other.moving  # rule 1 has named it
+        if segment_distance(a, b, c, d) < reach - TOLERANCE and not known:
+            yield _conflict("footprint", one, other)
+
+
+def _conflict(kind: str, one: Stay, other: Stay) -> Conflict:
+    first, second = (one, other) if one.robot < other.robot else (other, one)
+    return Conflict(kind, (first.robot, second.robot), (first.tail, first.head), max(one.begin, other.begin))
