@@ -1,0 +1,60 @@
+"""Reads a text file, or says in one line why it cannot."""
+
+import re
+from pathlib import Path
+
+from mrpbench_core.files.errors import InputError
+
+SIZE_LIMIT = 256 * 2**20
+"""Bytes. More than any map or record file, little enough that `/dev/zero` ends in a message."""
+
+_NOT_TEXT = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def read_bytes(path: Path | str) -> bytes:
+    """Return the content of a file.
+
+    Raises:
+        InputError: it is missing, a folder, unreadable or larger than `SIZE_LIMIT`.
+    """
+    try:
+        with Path(path).open("rb") as stream:
+            content = stream.read(SIZE_LIMIT + 1)
+    except FileNotFoundError:
+        raise InputError("no such file", file=path) from None
+    except IsADirectoryError:
+        raise InputError("is a folder, not a file", file=path) from None
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        raise InputError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=path) from None
+    if len(content) > SIZE_LIMIT:
+        raise InputError(f"is larger than {SIZE_LIMIT // 2**20} MiB", file=path)
+    return content
+
+
+def read_text(path: Path | str) -> str:
+    """Return the content of a UTF-8 file, without a byte order mark.
+
+    Raises:
+        InputError: it cannot be read, or is not UTF-8 (with line and column).
+    """
+    content = read_bytes(path)
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line, column = position(content[: error.start].decode("utf-8", "replace"), None)
+        raise InputError("is not UTF-8 text", file=path, line=line, column=column) from None
+
+
+def refuse_control_characters(text: str, file: Path | str | None) -> None:
+    """Raise an InputError at the first character that YAML does not allow in a file."""
+    if found := _NOT_TEXT.search(text):
+        line, column = position(text, found.start())
+        raise InputError(
+            f"character U+{ord(found[0]):04X} is not allowed in a text file", file=file, line=line, column=column
+        )
+
+
+def position(text: str, end: int | None) -> tuple[int, int]:
+    """Line and column, counted from 1, of the character at `end` (None = just after the text)."""
+    before = text[:end]
+    return before.count("\n") + 1, len(before) - before.rfind("\n")

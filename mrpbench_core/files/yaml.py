@@ -1,0 +1,267 @@
+"""Strict YAML 1.2 with line marks.
+
+Reads what JSON can say, plus comments, anchors and infinite numbers. Scalars follow the core schema of YAML 1.2.2 §10.3
+(`1e-3` is a number, `on` and `10:30` are text, `010` is ten), where PyYAML alone follows YAML 1.1. Keys are text as
+written. Tags, merge keys, duplicate keys and several documents are refused. Depth and alias expansion are bounded, and
+nothing here recurses, so that no input can exhaust stack or memory.
+"""
+
+import math
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import attrs
+import yaml
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.text import read_text, refuse_control_characters
+
+DEPTH_LIMIT = 100
+"""Nested sequences and mappings, aliases expanded."""
+ALIAS_LIMIT = 100_000
+"""Values that aliases add to a document."""
+
+Steps = tuple[str | int, ...]
+"""Keys and indices that lead from a document's root to a value."""
+
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_INT = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
+_FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
+_NAMED: dict[str, Any] = {
+    **dict.fromkeys(("", "~", "null", "Null", "NULL"), None),
+    **dict.fromkeys(("true", "True", "TRUE"), True),
+    **dict.fromkeys(("false", "False", "FALSE"), False),
+    **dict.fromkeys((".inf", ".Inf", ".INF", "+.inf", "+.Inf", "+.INF"), math.inf),
+    **dict.fromkeys(("-.inf", "-.Inf", "-.INF"), -math.inf),
+    **dict.fromkeys((".nan", ".NaN", ".NAN"), math.nan),
+}
+
+
+class _Place:
+    """Where a value stands, and everything inside it."""
+
+    __slots__ = ("column", "inside", "key", "line")
+
+    def __init__(self, mark: Any, key: Any = None) -> None:
+        self.line: int = mark.line + 1
+        self.column: int = mark.column + 1
+        self.key: _Place | None = key
+        self.inside: dict[str | int, _Place] = {}
+
+
+@attrs.frozen
+class Document:
+    """What a file says, and where it says it."""
+
+    data: Any
+    """dict (text keys), list, str, int, float, bool or None. Aliased values are one object."""
+    file: Path | None
+    _root: _Place = attrs.field(repr=False, eq=False)
+
+    def mark(self, steps: Steps = (), *, key: bool = False) -> tuple[int, int]:
+        """Line and column, from 1, of the value (or, with `key`, of its key) at `steps`.
+
+        Where the document has no such value, the place of the innermost one around it that exists.
+        """
+        place = self._root
+        for index, step in enumerate(steps):
+            inner = place.inside.get(step)
+            if inner is None:
+                break
+            place = inner
+            if key and index == len(steps) - 1 and place.key is not None:
+                place = place.key
+        return place.line, place.column
+
+    def error(self, message: str, steps: Steps = (), *, key: bool = False, hint: str | None = None) -> InputError:
+        """An InputError located at `steps`; see `mark`."""
+        line, column = self.mark(steps, key=key)
+        return InputError(message, file=self.file, line=line, column=column, hint=hint)
+
+
+def load(path: Path | str) -> Document:
+    """Read a file.
+
+    Raises:
+        InputError: it cannot be read or is not strict YAML; names file, line and column.
+    """
+    return loads(read_text(path), file=path)
+
+
+def loads(text: str, *, file: Path | str | None = None) -> Document:
+    """Read a text; `file` is named in errors."""
+    refuse_control_characters(text, file)
+    return _Reader(None if file is None else Path(file)).read(text)
+
+
+def scalar(text: str) -> Any:
+    """Return what a plain (unquoted) scalar means.
+
+    Raises:
+        ValueError: a number that Python cannot hold.
+    """
+    if text in _NAMED:
+        return _NAMED[text]
+    if _INT.fullmatch(text):
+        return int(text, {"0o": 8, "0x": 16}.get(text[:2], 10))
+    if _FLOAT.fullmatch(text):
+        number = float(text)
+        if math.isinf(number):
+            raise ValueError(text)
+        return number
+    return text
+
+
+class _Frame:
+    """A sequence or mapping being read."""
+
+    __slots__ = ("height", "key", "open", "place", "size", "value")
+
+    def __init__(self, value: Any, place: _Place) -> None:
+        self.value = value
+        self.place = place
+        self.key: Any = None  # event of the key whose value comes next
+        self.open = isinstance(value, dict | list)
+        self.size = 1  # values in it, aliases expanded
+        self.height = 1 if self.open else 0
+
+
+class _Reader:
+    def __init__(self, file: Path | None) -> None:
+        self.file = file
+        self.anchors: dict[str, _Frame] = {}
+        self.stack: list[_Frame] = []
+        self.root: _Frame | None = None
+        self.expanded = 0
+
+    def read(self, text: str) -> Document:
+        for event in self._events(text):
+            kind = type(event)
+            if kind is yaml.ScalarEvent:
+                self._scalar(event)
+            elif kind is yaml.MappingStartEvent:
+                self._open({}, event)
+            elif kind is yaml.SequenceStartEvent:
+                self._open([], event)
+            elif kind is yaml.MappingEndEvent or kind is yaml.SequenceEndEvent:
+                self._close()
+            elif kind is yaml.AliasEvent:
+                self._alias(event)
+            elif kind is yaml.DocumentStartEvent:
+                self._begin(event)
+        if self.root is None:
+            raise InputError("is empty", file=self.file)
+        return Document(self.root.value, self.file, self.root.place)
+
+    def _events(self, text: str) -> Iterator[Any]:
+        try:
+            yield from yaml.parse(text, Loader=_LOADER)
+        except yaml.MarkedYAMLError as error:
+            mark = error.problem_mark or error.context_mark
+            hint = error.context
+            if hint and error.context_mark and mark and error.context_mark.line != mark.line:
+                hint += f" that begins in line {error.context_mark.line + 1}"
+            raise self._error(error.problem or "is not YAML", mark, hint) from None
+        except (yaml.YAMLError, ValueError, OverflowError) as error:  # the last two: PyYAML without libyaml
+            raise self._error(f"is not YAML: {' '.join(str(error).split())}", None) from None
+
+    def _begin(self, event: Any) -> None:
+        if self.root is not None:
+            raise self._error("a second document begins here; only one is allowed", event.start_mark)
+        if event.version not in (None, (1, 2)):
+            raise self._error("only YAML 1.2 is read", event.start_mark)
+
+    def _scalar(self, event: Any) -> None:
+        self._check(event)
+        text = event.value
+        frame = self.stack[-1] if self.stack else None
+        if frame is not None and frame.key is None and type(frame.value) is dict:
+            if event.anchor:
+                self.anchors[event.anchor] = _Frame(text, _Place(event.start_mark))
+            self._key(frame, text, event)
+            return
+        value = text
+        if event.implicit[0]:
+            try:
+                value = scalar(text)
+            except ValueError:
+                raise self._error("this number is too large", event.start_mark) from None
+        leaf = _Frame(value, _Place(event.start_mark))
+        if event.anchor:
+            self.anchors[event.anchor] = leaf
+        self._put(leaf)
+
+    def _key(self, frame: _Frame, text: str, event: Any) -> None:
+        if text == "<<" and event.implicit[0]:
+            raise self._error("merge keys are not read; repeat the keys", event.start_mark)
+        if text in frame.value:
+            first = frame.place.inside[text].key
+            hint = None if first is None else f"first in line {first.line}"
+            raise self._error(f"duplicate key {text!r}", event.start_mark, hint)
+        frame.key = event
+
+    def _open(self, value: Any, event: Any) -> None:
+        self._check(event)
+        self._refuse_as_key(event)
+        frame = _Frame(value, _Place(event.start_mark))
+        if event.anchor:
+            self.anchors[event.anchor] = frame
+        self._check_depth(len(self.stack) + 1, event)
+        self.stack.append(frame)
+
+    def _close(self) -> None:
+        frame = self.stack.pop()
+        frame.open = False
+        self._put(frame)
+
+    def _alias(self, event: Any) -> None:
+        anchored = self.anchors.get(event.anchor)
+        if anchored is None:
+            raise self._error(f"alias '*{event.anchor}' names no anchor above it", event.start_mark)
+        if anchored.open:
+            raise self._error(f"alias '*{event.anchor}' contains itself", event.start_mark)
+        self._refuse_as_key(event)
+        self._check_depth(len(self.stack) + anchored.height, event)
+        self.expanded += anchored.size
+        if self.expanded > ALIAS_LIMIT:
+            raise self._error(f"aliases add more than {ALIAS_LIMIT} values", event.start_mark)
+        copy = _Frame(anchored.value, _Place(event.start_mark))
+        copy.open, copy.size, copy.height = False, anchored.size, anchored.height
+        copy.place.inside = anchored.place.inside
+        self._put(copy)
+
+    def _put(self, done: _Frame) -> None:
+        """Store a finished value in the container it stands in."""
+        if not self.stack:
+            self.root = done
+            return
+        frame = self.stack[-1]
+        frame.size += done.size
+        frame.height = max(frame.height, done.height + 1)
+        if type(frame.value) is dict:
+            key = frame.key
+            frame.key = None
+            done.place.key = _Place(key.start_mark)
+            frame.value[key.value] = done.value
+            frame.place.inside[key.value] = done.place
+        else:
+            frame.place.inside[len(frame.value)] = done.place
+            frame.value.append(done.value)
+
+    def _check(self, event: Any) -> None:
+        if event.tag is not None:
+            raise self._error(f"tags such as {event.tag!r} are not read", event.start_mark)
+
+    def _check_depth(self, depth: int, event: Any) -> None:
+        if depth > DEPTH_LIMIT:
+            raise self._error(f"is nested deeper than {DEPTH_LIMIT} levels", event.start_mark)
+
+    def _refuse_as_key(self, event: Any) -> None:
+        if self.stack and self.stack[-1].key is None and type(self.stack[-1].value) is dict:
+            raise self._error("a key must be plain text", event.start_mark)
+
+    def _error(self, message: str, mark: Any, hint: str | None = None) -> InputError:
+        where = {} if mark is None else {"line": mark.line + 1, "column": mark.column + 1}
+        return InputError(message, file=self.file, hint=hint, **where)
