@@ -1,0 +1,1 @@
+"""Worlds that need only the core's dependencies."""

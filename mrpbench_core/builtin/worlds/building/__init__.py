@@ -1,0 +1,1 @@
+"""The parts of a traffic editor file (`building.yaml`), one file each."""

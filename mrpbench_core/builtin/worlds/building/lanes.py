@@ -1,0 +1,105 @@
+"""The navigation graphs of a building file.
+
+A vertex becomes one world vertex for each graph whose lanes use it, in the order in which RMF publishes them: by graph
+index, inside a graph by first use, start before end. Random scenarios depend on that order.
+"""
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from mrpbench_core.builtin.worlds.building.node import Node
+from mrpbench_core.builtin.worlds.building.notes import Notes
+from mrpbench_core.builtin.worlds.building.parameters import Kind, read_parameters
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.geometry import segment_distance
+from mrpbench_core.model.world import Door, Lane, Vertex
+
+GRAPHS = range(9)
+"""The graphs that RMF exports; the editor also lets one draw a tenth, which nobody reads."""
+VERTEX: dict[str, Kind] = {
+    **dict.fromkeys(
+        ("is_parking_spot", "is_charger", "is_cleaning_zone", "is_holding_point", "is_passthrough_point"), bool
+    ),
+    **dict.fromkeys(("dock_name", "dropoff_ingestor", "pickup_dispenser", "spawn_robot_type", "spawn_robot_name"), str),
+    **dict.fromkeys(("human_goal_set_name", "mutex", "lift_cabin"), str),
+    "merge_radius": float,
+}
+LANE: dict[str, Kind] = {
+    "bidirectional": bool,
+    "graph_idx": int,
+    "orientation": str,
+    "speed_limit": float,
+    "mutex": str,
+    "demo_mock_floor_name": str,
+    "demo_mock_lift_name": str,
+}
+
+
+def read_graph(
+    level: Node, positions: Float, doors: Sequence[Door], notes: Notes
+) -> tuple[tuple[Vertex, ...], tuple[Lane, ...]]:
+    """The places that lanes use, and the lanes, both by graph index."""
+    places = [_place(node, xy, notes) for node, xy in zip(level.section("vertices"), positions, strict=True)]
+    drawn = [lane for node in level.section("lanes") if (lane := _lane(node, positions, doors, notes)) is not None]
+    vertices: list[Vertex] = []
+    lanes: list[Lane] = []
+    for graph in GRAPHS:
+        number: dict[int, int] = {}
+        for lane in drawn:
+            if lane.graph == graph:
+                for index in (lane.start, lane.end):
+                    if index not in number:
+                        number[index] = len(vertices)
+                        vertices.append(places[index])
+                lanes.append(attrs.evolve(lane, start=number[lane.start], end=number[lane.end]))
+    notes.add("lane of a graph above 8 is left out, as RMF does", len(drawn) - len(lanes))
+    return tuple(vertices), tuple(lanes)
+
+
+def _place(node: Node, position: Float, notes: Notes) -> Vertex:
+    items = node.items()
+    name = items[3].text() if len(items) > 3 else ""
+    parameters = read_parameters(items[4], VERTEX, "vertex", notes) if len(items) > 4 else {}
+    if parameters.get("lift_cabin"):
+        notes.add("vertex inside a lift: lifts are not understood yet")
+    return Vertex(name=name, x=float(position[0]), y=float(position[1]), parameters=parameters)
+
+
+def _lane(node: Node, positions: Float, doors: Sequence[Door], notes: Notes) -> Lane | None:
+    """The lane, with the level's vertex indices."""
+    first, second, *rest = node.items(least=2)
+    start, end = (item.index(len(positions), "lane") for item in (first, second))
+    parameters = read_parameters(rest[0], LANE, "lane", notes) if rest else {}
+    graph = parameters.get("graph_idx", 0)
+    if graph < 0:
+        raise node.error(f"lane of graph {graph}: graphs are counted from 0")
+    if start == end:
+        notes.add("lane from a vertex to itself is left out")
+        return None
+    orientation = parameters.get("orientation", "")
+    if orientation not in ("", "forward", "backward"):
+        notes.add(f"lane orientation {orientation!r} is not known and has no effect")
+        orientation = ""
+    if parameters.get("demo_mock_floor_name") or parameters.get("demo_mock_lift_name"):
+        notes.add("lane through a mock lift is taken for an ordinary lane")
+    return Lane(
+        start=start,
+        end=end,
+        bidirectional=parameters.get("bidirectional", False),
+        graph=graph,
+        speed_limit=max(0.0, parameters.get("speed_limit", 0.0)),
+        orientation=orientation,
+        mutex=parameters.get("mutex", ""),
+        door=_door_on(positions[start], positions[end], doors),
+    )
+
+
+def _door_on(start: Float, end: Float, doors: Sequence[Door]) -> str:
+    """The name of the first door that the lane passes."""
+    if not doors:
+        return ""
+    a, b = (np.array([side for side in sides]) for sides in ([d.start for d in doors], [d.end for d in doors]))
+    hit = np.flatnonzero(segment_distance(start, end, a, b) < 1e-9)
+    return doors[int(hit[0])].name if len(hit) else ""
