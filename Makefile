@@ -1,0 +1,61 @@
+# `make demo` and `make test` are all a newcomer needs; both install into .venv first.
+PYTHON ?= $(shell for name in python3.11 python3.12 python3.13 python3; do command -v $$name && break; done)
+VENV := .venv
+BIN := $(VENV)/bin
+UV := $(shell command -v uv)
+STAMP := $(VENV)/.installed
+NATIVE := $(wildcard native/CMakeLists.txt native/*/*.cpp native/*/*.hpp native/*/*/*.cpp native/*/*/*.hpp native/*/*/*.py native/*/*/*.pyi)
+INPUTS := pyproject.toml uv.lock requirements.txt constraints.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
+
+.PHONY: help install demo test lint types layers cpp python format lock clean
+
+help: ## this list
+	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
+
+install: $(STAMP) ## everything into .venv, with uv if there is one, else with pip
+
+$(STAMP): $(INPUTS)
+ifdef UV
+	UV_PYTHON_DOWNLOADS=never uv sync --locked --python $(PYTHON)
+else
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
+endif
+	@touch $@
+
+demo: install ## one small run, end to end: table, picture, bag
+	$(BIN)/mrpbench demo
+
+test: install lint types layers cpp python ## what CI runs
+
+lint: install
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/clang-format --dry-run --Werror $(filter %.cpp %.hpp,$(NATIVE))
+
+types: install
+	$(BIN)/mypy
+	$(BIN)/python scripts/check_plugin_types.py
+
+layers: install
+	$(BIN)/lint-imports
+
+cpp: install ## C++ tests, without Python
+	$(BIN)/cmake -S native -B build/native -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DCMAKE_BUILD_TYPE=Release
+	$(BIN)/cmake --build build/native
+	$(BIN)/ctest --test-dir build/native --output-on-failure
+
+python: install ## Python tests
+	$(BIN)/pytest
+
+format: install ## rewrite the sources in the house style
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+	$(BIN)/clang-format -i $(filter %.cpp %.hpp,$(NATIVE))
+
+lock: ## renew the pinned versions, for uv and for pip
+	uv lock --upgrade
+	uv export --quiet --locked --all-groups --no-emit-workspace --no-hashes --no-header --no-annotate --output-file constraints.txt
+
+clean: ## remove what builds made
+	rm -rf build dist $(VENV) native/build

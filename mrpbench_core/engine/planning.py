@@ -1,0 +1,88 @@
+"""Calls a planner, measures it, and holds its plan against what it promises."""
+
+import math
+import resource
+import time
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
+from mrpbench_core.model.problem import Problem
+
+STATUS = {
+    PlanStatus.TIMEOUT: "plan_timeout",
+    PlanStatus.OUT_OF_MEMORY: "out_of_memory",
+    PlanStatus.UNSOLVABLE: "plan_unsolvable",
+    PlanStatus.GAVE_UP: "plan_not_found",
+}
+"""A run's status for each way of having no plan."""
+
+
+def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[PlanResult, dict[str, Any]]:
+    """The planner's result, and the timing of the call alone: wall, CPU and peak memory of this process."""
+    _reset_peak()
+    before = _resident()
+    began, cpu = time.perf_counter(), time.process_time()
+    result = planner.plan(problem, budget)
+    timing = {
+        "planning_s": time.perf_counter() - began,
+        "planning_cpu_s": time.process_time() - cpu,
+        "planning_peak_bytes": max(0, _peak() - before),
+        "clock_bound": result.clock_bound,
+    }
+    return result, timing
+
+
+def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
+    """Count the plan's conflicts, and say which promise it breaks, or None.
+
+    Soundness of the paths is asked of every planner; freedom from conflicts, bounds and optimality of those that
+    promise them.
+    """
+    if result.plan is None:
+        return result, None if result.status != PlanStatus.SOLVED else "says it solved the problem but gives no plan"
+    report = check_plan(problem, result.plan)
+    if report.faults:
+        return result, report.faults[0]
+    statistics = {**result.statistics, "conflicts": float(len(report.conflicts))}
+    result = attrs.evolve(result, statistics=statistics)
+    if report.conflicts and Promise.CONFLICT_FREE in planner.promises:
+        return result, str(report.conflicts[0])
+    if not math.isnan(result.lower_bound):
+        factor = float(getattr(planner, "w", 1.0)) if Promise.BOUNDED in planner.promises else 1.0
+        held = {Promise.BOUNDED, Promise.OPTIMAL} & planner.promises
+        cost = result.plan.sum_of_costs
+        if held and not result.clock_bound and cost > factor * result.lower_bound + 1e-6:
+            return result, f"cost {cost} exceeds {factor:g} times its lower bound {result.lower_bound:g}"
+        if cost < result.lower_bound - 1e-6:
+            return result, f"cost {cost} is below its lower bound {result.lower_bound:g}"
+    return result, None
+
+
+def _reset_peak() -> None:
+    try:
+        Path("/proc/self/clear_refs").write_text("5")
+    except OSError:  # then the peak is that of the whole process so far: an upper bound
+        return
+
+
+def _status_bytes(key: str) -> int | None:
+    try:
+        for line in Path("/proc/self/status").read_text().splitlines():
+            if line.startswith(key):
+                return int(line.split()[1]) * 1024
+    except OSError:
+        pass
+    return None
+
+
+def _resident() -> int:
+    return _status_bytes("VmRSS:") or 0
+
+
+def _peak() -> int:
+    return _status_bytes("VmHWM:") or resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024

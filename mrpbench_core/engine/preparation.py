@@ -1,0 +1,115 @@
+"""Everything before planning: world, roadmap, fleet, scenario, assignment, problem."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.assigner import AssignmentError
+from mrpbench_core.checking.assignment import check_assignment
+from mrpbench_core.checking.scenario import check_scenario
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.costs import cost_matrix
+from mrpbench_core.engine.fleet import build_fleet
+from mrpbench_core.engine.problem import build_problem, goal_vertices
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.assignment import AssignmentProblem
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.world import World
+
+Announce = Callable[[str, dict[str, Any]], None]
+"""Told the name of each stage before it begins, with facts about the run so far."""
+
+
+class Ended(Exception):  # noqa: N818 - it is no error
+    """The run is over before its last stage, with a definite status."""
+
+    def __init__(self, status: str, stage: str, message: str) -> None:
+        super().__init__(message)
+        self.status = status
+        self.stage = stage
+
+
+@attrs.frozen(kw_only=True)
+class Setting:
+    """Where a run takes place and what is to be done."""
+
+    world: World
+    fleet: Fleet
+    roadmap: Roadmap
+    scenario: Scenario
+    start: np.ndarray
+    """i4[n] roadmap vertices."""
+    goals: list[tuple[int, ...]]
+    """Roadmap vertices of each task."""
+
+
+def set_scene(config: RunConfig, announce: Announce) -> Setting:
+    """Load, build and draw.
+
+    Raises:
+        InputError: something the user wrote does not fit.
+        Ended: the scenario cannot be solved by any planner.
+    """
+    announce("world", {})
+    world = config.world.load()
+    fleet = build_fleet(config, config.scenario.size())
+    announce("roadmap", {})
+    roadmap = config.roadmap.build(world, fleet)
+    announce("scenario", {})
+    scenario = config.scenario.draw(world, roadmap, fleet, config.seed)
+    if any(task.release > 0 for task in scenario.tasks) or len(scenario.tasks) > len(fleet):
+        raise InputError("scenario: tasks released over time, or more tasks than robots, cannot be executed yet")
+    start = roadmap.locate(scenario.start[:, :2], scenario.start_level)
+    return Setting(
+        world=world,
+        fleet=fleet,
+        roadmap=roadmap,
+        scenario=scenario,
+        start=start,
+        goals=goal_vertices(roadmap, scenario),
+    )
+
+
+def assign(config: RunConfig, setting: Setting, announce: Announce, timing: dict[str, Any]) -> tuple[int, ...]:
+    """The task of each robot, -1 = none.
+
+    Raises:
+        Ended: no assignment was found, or the assigner returned a wrong one.
+    """
+    announce("assignment", {"scenario_id": setting.scenario.id})
+    assigner = config.assigner
+    began = time.perf_counter()
+    if assigner.reads_costs:
+        costs = cost_matrix(assigner.cost, setting.roadmap, setting.fleet, setting.scenario)
+    else:
+        costs = np.zeros((len(setting.fleet), len(setting.scenario.tasks)))
+    timing["cost_matrix_s"] = time.perf_counter() - began
+    question = AssignmentProblem(costs=costs, tasks=setting.scenario.tasks)
+    began = time.perf_counter()
+    try:
+        assignment = assigner.assign(question)
+    except AssignmentError as error:
+        raise Ended("assignment_failed", "assignment", str(error)) from error
+    timing["assignment_s"] = time.perf_counter() - began
+    if faults := check_assignment(question, assignment):
+        raise Ended("assignment_failed", "assignment", f"{type(assigner).__name__} {faults[0]}")
+    return tuple(int(task) for task in assignment.task)
+
+
+def pose_problem(setting: Setting, assigned: tuple[int, ...]) -> Problem:
+    """The problem for the planner.
+
+    Raises:
+        Ended: robots stand on one another, or a goal is blocked, shared or unreachable.
+    """
+    goals = tuple(tuple((vertex,) for vertex in setting.goals[task]) if task >= 0 else () for task in assigned)
+    problem = build_problem(setting.roadmap, setting.fleet, setting.start, goals)
+    if faults := check_scenario(problem):
+        raise Ended("scenario_infeasible", "scenario", "; ".join(faults))
+    return problem

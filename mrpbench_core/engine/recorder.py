@@ -1,0 +1,103 @@
+"""Collects what happens during a mission and hands it on in chunks."""
+
+from collections import defaultdict
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from mrpbench_core.model.execution import Estimate, Event, Motion, Odometry, Orders, ScanBatch, State
+from mrpbench_core.model.recording import Chunk
+
+SAMPLES = 256
+"""Periodic samples per chunk."""
+
+IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
+    "contact_time": ("f8", ()),
+    "contact": ("i4", (2,)),
+    "event_time": ("f8", ()),
+    "event_kind": ("U1", ()),
+    "event_robot": ("i4", ()),
+    "event_detail": ("U1", ()),
+}
+"""Channels that may stay empty, which is not the same as missing."""
+
+
+class Recorder:
+    """Samples the periodic channels every `1 / rate` simulated seconds; contacts, scans and events as they come.
+
+    `sink` gets every chunk; memory does not grow with the run.
+    """
+
+    def __init__(self, rate: float, period: float, sink: Callable[[Chunk], None]) -> None:
+        self._every = max(1, round(1 / (rate * period)))
+        self._sink = sink
+        sink({name: np.empty((0, *shape), kind) for name, (kind, shape) in IRREGULAR.items()})
+        self._rows: dict[str, list[Any]] = defaultdict(list)
+
+    def sample(
+        self,
+        step: int,
+        now: float,
+        state: State,
+        estimate: Estimate,
+        odometry: Odometry,
+        orders: Orders,
+        motion: Motion,
+        last: bool,
+    ) -> None:
+        """Record one control period; the first, the last and every `rate`-th are sampled."""
+        if step % self._every and not last:
+            return
+        rows = self._rows
+        rows["time"].append(now)
+        rows["truth"].append(state.pose)
+        rows["truth_twist"].append(state.twist)
+        rows["level"].append(state.level)
+        rows["estimate"].append(estimate.pose)
+        rows["odometry"].append(np.column_stack([odometry.pose, odometry.twist]))
+        rows["command"].append(motion.twist)
+        rows["released"].append(orders.released)
+        rows["reached"].append(motion.reached)
+        rows["cleared"].append(motion.cleared)
+        rows["mode"].append(motion.mode)
+        if len(rows["time"]) >= SAMPLES:
+            self.flush()
+
+    def contacts(self, now: float, state: State) -> None:
+        """Record who touched whom during the period that ends `now`."""
+        for pair in state.contacts:
+            self._rows["contact_time"].append(now)
+            self._rows["contact"].append(pair)
+
+    def scans(self, batches: Sequence[ScanBatch]) -> None:
+        """Record scans, one row per robot; rows of unlike lidars are padded with NaN."""
+        for batch in batches:
+            for robot, ranges in zip(batch.robot, batch.ranges, strict=True):
+                self._rows["scan_time"].append(batch.stamp)
+                self._rows["scan_robot"].append(robot)
+                self._rows["scan_ranges"].append(ranges)
+
+    def events(self, events: Sequence[Event]) -> None:
+        """Record events."""
+        for event in events:
+            self._rows["event_time"].append(event.stamp)
+            self._rows["event_kind"].append(event.kind)
+            self._rows["event_robot"].append(event.robot)
+            self._rows["event_detail"].append(event.detail)
+
+    def flush(self) -> None:
+        """Hand on what has been collected."""
+        if self._rows:
+            self._sink({name: _stack(name, rows) for name, rows in self._rows.items()})
+            self._rows.clear()
+
+
+def _stack(name: str, rows: list[Any]) -> np.ndarray:
+    if name == "scan_ranges":
+        beams = max(len(row) for row in rows)
+        padded = np.full((len(rows), beams), np.nan, "f4")
+        for index, row in enumerate(rows):
+            padded[index, : len(row)] = row
+        return padded
+    return np.array(rows, dtype={"contact": "i4", "scan_robot": "i4", "event_robot": "i4"}.get(name))

@@ -1,0 +1,42 @@
+"""Model objects to JSON and back; arrays travel beside it as `.npy`."""
+
+from collections.abc import Callable
+from enum import Enum
+from typing import Any, TypeVar, get_origin
+
+import attrs
+import cattrs
+import numpy as np
+from numpy.typing import NDArray
+
+Kept = TypeVar("Kept")
+
+
+def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
+    """JSON-able form of an attrs object; `keep` stores an array and returns its name."""
+    if isinstance(value, np.ndarray):
+        return {"array": keep(value)}
+    if isinstance(value, Enum):
+        return value.value
+    if isinstance(value, np.generic):
+        return value.item()
+    if attrs.has(type(value)):
+        return {field.name: encode(getattr(value, field.name), keep) for field in attrs.fields(type(value))}
+    if isinstance(value, dict):
+        return {str(key): encode(item, keep) for key, item in value.items()}
+    if isinstance(value, frozenset):
+        return sorted(encode(item, keep) for item in value)
+    if isinstance(value, tuple | list):
+        return [encode(item, keep) for item in value]
+    return value
+
+
+def decode(data: Any, kind: type[Kept], fetch: Callable[[str], NDArray[Any]]) -> Kept:
+    """The object of class `kind` that `encode` gave `data` for; `fetch` loads an array by name."""
+    converter = cattrs.Converter()
+    converter.register_structure_hook_func(
+        lambda wanted: wanted is np.ndarray or get_origin(wanted) is np.ndarray,
+        lambda entry, _: fetch(entry["array"]),
+    )
+    converter.register_structure_hook(float, lambda number, _: float(number))
+    return converter.structure(data, kind)

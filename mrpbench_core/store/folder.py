@@ -1,0 +1,82 @@
+"""The layout of a results folder.
+
+```
+study.yaml                    configuration of the latest invocation
+invocations/<id>.yaml         configuration, versions, machine and metric columns of each
+runs/<id>.jsonl               records, one file per invocation
+recordings/<run_id>.zip       exports/<run_id>/      logs/<run_id>.txt
+```
+Merging two folders is copying the files of one into the other.
+"""
+
+import secrets
+import shutil
+from datetime import UTC, datetime
+from pathlib import Path
+
+import attrs
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.store.paths import RunPaths
+
+PARTS = ("invocations", "runs", "recordings", "exports", "logs")
+
+
+@attrs.frozen
+class ResultsFolder:
+    """Paths inside a results folder, all absolute."""
+
+    path: Path = attrs.field(converter=lambda path: Path(path).resolve())
+
+    @property
+    def study(self) -> Path:
+        """Configuration of the latest invocation."""
+        return self.path / "study.yaml"
+
+    def invocation(self, invocation: str) -> Path:
+        """What was run, with what, and where."""
+        return self.path / "invocations" / f"{invocation}.yaml"
+
+    def shard(self, invocation: str) -> Path:
+        """The records of an invocation."""
+        return self.path / "runs" / f"{invocation}.jsonl"
+
+    def shards(self) -> list[Path]:
+        """All files of records, oldest first."""
+        return sorted((self.path / "runs").glob("*.jsonl"))
+
+    def run(self, run_id: str) -> RunPaths:
+        """Files of a run."""
+        return RunPaths(recording=self.path / "recordings" / f"{run_id}.zip", exports=self.path / "exports" / run_id)
+
+    def log(self, run_id: str) -> Path:
+        """What the plugins of a run printed."""
+        return self.path / "logs" / f"{run_id}.txt"
+
+    def create(self) -> None:
+        """Make the folder and its parts.
+
+        Raises:
+            InputError: it cannot be made, or it holds something else.
+        """
+        try:
+            if self.path.is_dir() and not (self.path / "runs").is_dir() and any(self.path.iterdir()):
+                raise InputError("is not empty and is no results folder", file=self.path, hint="choose another --out")
+            for part in PARTS:
+                (self.path / part).mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise InputError(f"cannot be made: {error.strerror}", file=error.filename or self.path) from error
+
+    def sweep(self) -> None:
+        """Remove unfinished files of an invocation that was killed; only under the lock."""
+        for part in ("recordings", "exports"):
+            for partial in (self.path / part).rglob(".*.partial"):
+                if partial.is_dir():
+                    shutil.rmtree(partial)
+                else:
+                    partial.unlink(missing_ok=True)
+
+
+def new_invocation() -> str:
+    """A name that sorts by time and that no other invocation has, on any machine."""
+    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{secrets.token_hex(4)}"

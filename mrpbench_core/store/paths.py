@@ -1,0 +1,16 @@
+"""Where the files of one run go."""
+
+from pathlib import Path
+
+import attrs
+
+
+@attrs.frozen(kw_only=True)
+class RunPaths:
+    """Files of one run. Writers use a temporary name beside the final one and rename before the run's record is kept."""
+
+    recording: Path
+    """`recordings/<run_id>.zip`."""
+    exports: Path
+    """Folder `exports/<run_id>/`."""
+    picture: Path | None = None

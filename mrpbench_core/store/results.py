@@ -1,0 +1,123 @@
+"""The records of a results folder: for each run, the one of its highest attempt."""
+
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.jsonl import line
+from mrpbench_core.store.folder import ResultsFolder
+from mrpbench_core.store.shards import read_at, read_shard
+
+
+@attrs.frozen
+class Entry:
+    """Where a run's record stands, and what decides whether the run is done again."""
+
+    attempt: int
+    status: str
+    origin: str
+    """Versions and source hashes it was made with, as one text."""
+    shard: Path
+    offset: int
+
+
+class Results:
+    """Records of finished runs, in the order in which they were stored.
+
+    Records are read from disk as they are asked for: a folder of 10^5 runs costs tens of megabytes, not gigabytes.
+    """
+
+    def __init__(self, folder: ResultsFolder, only: Iterable[str] | None = None) -> None:
+        self.folder = folder
+        self._entries: dict[str, Entry] = {}
+        wanted = None if only is None else frozenset(only)
+        origins: dict[str, str] = {}  # equal texts become one object
+        for shard in folder.shards():
+            for offset, record in read_shard(shard):
+                run_id = record["run_id"]
+                known = self._entries.get(run_id)
+                attempt = record.get("attempt", 1)
+                if (wanted is not None and run_id not in wanted) or (known is not None and known.attempt >= attempt):
+                    continue
+                text = origin(record.get("provenance") or {})
+                text = origins.setdefault(text, text)
+                self._entries[run_id] = Entry(attempt, record["status"], text, shard, offset)
+
+    def __len__(self) -> int:
+        return len(self._entries)
+
+    def __contains__(self, run_id: object) -> bool:
+        return run_id in self._entries
+
+    def __iter__(self) -> Iterator[dict[str, Any]]:
+        places = {(entry.shard, entry.offset) for entry in self._entries.values()}
+        for shard in dict.fromkeys(sorted(entry.shard for entry in self._entries.values())):
+            for offset, record in read_shard(shard):
+                if (shard, offset) in places:
+                    yield record
+
+    def __getitem__(self, run_id: str) -> dict[str, Any]:
+        """The record of a run by its id, or by a beginning of it that no other run has.
+
+        Raises:
+            KeyError: no run, or several runs.
+        """
+        entry = self._entries.get(run_id)
+        if entry is None:
+            found = [known for known in self._entries if known.startswith(run_id)]
+            if len(found) != 1:
+                raise KeyError(f"{len(found) or 'no'} runs begin with {run_id!r}")
+            entry = self._entries[found[0]]
+        return read_at(entry.shard, entry.offset)
+
+    def entry(self, run_id: str) -> Entry | None:
+        """Facts about a run's record without reading it, or None."""
+        return self._entries.get(run_id)
+
+    def statuses(self) -> dict[str, int]:
+        """How many runs ended in each status."""
+        counts: dict[str, int] = {}
+        for entry in self._entries.values():
+            counts[entry.status] = counts.get(entry.status, 0) + 1
+        return counts
+
+    def to_rows(self) -> list[dict[str, Any]]:
+        """One flat dict per run, for `pandas.DataFrame`: options, metrics and timing become dotted keys."""
+        return [flatten(record) for record in self]
+
+
+def origin(provenance: dict[str, Any]) -> str:
+    """The part of a record's provenance that can change its numbers, as text to compare."""
+    return line({key: provenance.get(key) for key in ("components", "versions")})
+
+
+def flatten(record: dict[str, Any]) -> dict[str, Any]:
+    """Dotted keys instead of nested objects; `metrics` keeps its own keys, lists stay as they are."""
+    flat: dict[str, Any] = {}
+
+    def walk(prefix: str, value: Any) -> None:
+        if isinstance(value, dict) and (value or not prefix):
+            for key, item in value.items():
+                walk(f"{prefix}.{key}" if prefix else key, item)
+        else:
+            flat[prefix] = value
+
+    walk("", {key: value for key, value in record.items() if key != "metrics"})
+    for key, value in (record.get("metrics") or {}).items():
+        flat[key] = value
+    return flat
+
+
+def load(folder: Path | str) -> Results:
+    """The results in a folder.
+
+    Raises:
+        InputError: it is no results folder.
+    """
+    results = ResultsFolder(Path(folder))
+    if not (results.path / "runs").is_dir():
+        raise InputError("is no results folder", file=folder, hint="give the folder that `mrpbench run` wrote")
+    return Results(results)
