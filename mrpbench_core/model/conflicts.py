@@ -48,8 +48,9 @@ def exclusions(roadmap: Roadmap, distance: float) -> Exclusions:
     start = np.concatenate([vertices, roadmap.edges[:, 0]]).astype(np.int64)
     end = np.concatenate([vertices, roadmap.edges[:, 1]]).astype(np.int64)
     left, right = _near_boxes(roadmap.position[start], roadmap.position[end], distance)
-    level = roadmap.level
-    shared = (level[start[left]] == level[start[right]]) | (level[end[left]] == level[end[right]])
+    low, high = roadmap.level[start], roadmap.level[end]
+    shared = (low[left] == low[right]) | (high[left] == high[right])
+    shared |= (low[left] == high[right]) | (high[left] == low[right])
     left, right = left[shared], right[shared]
     a, b, c, d = (roadmap.position[ends] for ends in (start[left], end[left], start[right], end[right]))
     gap = segment_distance(a, b, c, d)

@@ -1,0 +1,81 @@
+"""A planner is held to what it promises, and only to that."""
+
+from typing import ClassVar
+
+import attrs
+import pytest
+
+from mrpbench_core.api import Planner, Promise
+from mrpbench_core.engine.planning import call_planner, judge
+from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus
+
+BUDGET = Budget(wall_s=1.0, memory_bytes=1 << 30)
+COLLIDING = Plan(paths=(Path(edge=[0], enter=[0], leave=[1]), Path(edge=[-1, 2], enter=[0, 2], leave=[2, 3])))
+
+
+@attrs.frozen(kw_only=True)
+class Fixed(Planner):
+    """Returns what it is given."""
+
+    result: PlanResult
+    promises: ClassVar[frozenset[Promise]] = frozenset()
+
+    def plan(self, problem, budget):
+        return self.result
+
+
+class Careful(Fixed):
+    promises = frozenset({Promise.CONFLICT_FREE})
+
+
+class Optimal(Fixed):
+    promises = frozenset({Promise.CONFLICT_FREE, Promise.OPTIMAL})
+
+
+class Bounded(Fixed):
+    promises = frozenset({Promise.CONFLICT_FREE, Promise.BOUNDED})
+    w = 1.5
+
+
+def judged(planner_class, problem, result):
+    planner = planner_class(result=result)
+    return judge(planner, problem, call_planner(planner, problem, BUDGET)[0])
+
+
+def test_conflicts_are_counted_for_a_planner_that_promises_nothing(run_context):
+    result, fault = judged(Fixed, run_context.problem, PlanResult(status=PlanStatus.SOLVED, plan=COLLIDING))
+    assert fault is None
+    assert result.statistics["conflicts"] == 1
+
+
+def test_conflicts_break_the_promise_of_a_planner_that_makes_it(run_context):
+    _, fault = judged(Careful, run_context.problem, PlanResult(status=PlanStatus.SOLVED, plan=COLLIDING))
+    assert fault is not None
+    assert "vertex conflict of robots 0 and 1" in fault
+
+
+def test_an_unsound_path_is_a_fault_of_every_planner(run_context):
+    jump = Plan(paths=(Path(edge=[2], enter=[0], leave=[1]), COLLIDING.paths[1]))
+    _, fault = judged(Fixed, run_context.problem, PlanResult(status=PlanStatus.SOLVED, plan=jump))
+    assert fault == "robot 0: starts at vertex 1 instead of 0"
+
+
+@pytest.mark.parametrize(
+    ("planner", "bound", "holds"),
+    [(Optimal, 3.0, True), (Optimal, 2.0, False), (Bounded, 2.0, True), (Bounded, 1.5, False), (Careful, 4.0, False)],
+)
+def test_costs_are_held_against_the_lower_bound(run_context, planner, bound, holds):
+    result = attrs.evolve(run_context.result, lower_bound=bound)
+    _, fault = judged(planner, run_context.problem, result)
+    assert (fault is None) is holds
+
+
+def test_solved_without_a_plan_is_a_fault(run_context):
+    _, fault = judged(Careful, run_context.problem, PlanResult(status=PlanStatus.SOLVED))
+    assert fault == "says it solved the problem but gives no plan"
+
+
+def test_timing_is_that_of_the_call(run_context):
+    _, timing = call_planner(Careful(result=run_context.result), run_context.problem, BUDGET)
+    assert timing["planning_s"] < 1
+    assert timing["planning_peak_bytes"] >= 0

@@ -1,0 +1,41 @@
+"""Recordings come back as they were written."""
+
+import attrs
+import numpy as np
+import pytest
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.store.recording import Recording, RecordingWriter
+
+
+def test_context_and_channels_come_back_equal(tmp_path, run_context):
+    writer = RecordingWriter(tmp_path / "a.zip", run_context)
+    writer.write({"time": np.arange(3.0), "event_kind": np.array(["spin"])})
+    writer.write({"time": np.arange(3.0, 5.0), "event_kind": np.array(["back_up"])})
+    writer.close()
+    recording = Recording(tmp_path / "a.zip")
+    context = recording.context()
+    for field in attrs.fields(type(run_context)):
+        if field.name != "goal":  # holds NaN, which equals nothing
+            assert getattr(context, field.name) == getattr(run_context, field.name), field.name
+    np.testing.assert_array_equal(context.goal, run_context.goal)
+    assert recording.channel("time").tolist() == [0, 1, 2, 3, 4]
+    assert recording.channel("event_kind").tolist() == ["spin", "back_up"]
+    assert [len(chunk["time"]) for chunk in recording.chunks()] == [3, 2]
+    recording.close()
+
+
+def test_nothing_stands_under_the_final_name_before_close(tmp_path, run_context):
+    writer = RecordingWriter(tmp_path / "a.zip", run_context)
+    writer.write({"time": np.arange(3.0)})
+    assert not (tmp_path / "a.zip").exists()
+    writer.discard()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_missing_or_foreign_file_is_named(tmp_path):
+    with pytest.raises(InputError, match="no recording here"):
+        Recording(tmp_path / "none.zip")
+    (tmp_path / "foreign.zip").write_text("hello")
+    with pytest.raises(InputError, match="not a recording"):
+        Recording(tmp_path / "foreign.zip")
