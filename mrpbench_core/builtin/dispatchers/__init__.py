@@ -1,0 +1,1 @@
+"""Dispatchers: how a plan is released to robots that do not keep its times."""
