@@ -100,6 +100,6 @@ def _door_on(start: Float, end: Float, doors: Sequence[Door]) -> str:
     """The name of the first door that the lane passes."""
     if not doors:
         return ""
-    a, b = (np.array([side for side in sides]) for sides in ([d.start for d in doors], [d.end for d in doors]))
+    a, b = (np.array(list(sides)) for sides in ([d.start for d in doors], [d.end for d in doors]))
     hit = np.flatnonzero(segment_distance(start, end, a, b) < 1e-9)
     return doors[int(hit[0])].name if len(hit) else ""

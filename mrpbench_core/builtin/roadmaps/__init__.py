@@ -1,0 +1,1 @@
+"""Roadmaps: rasters of the free space or of the lanes, and the navigation graph itself."""

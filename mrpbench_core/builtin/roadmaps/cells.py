@@ -1,0 +1,146 @@
+"""A roadmap whose vertices are cells of a raster and whose edges join 4-neighbours; what `grid` and `lanes` share."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.components import components
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.roadmap import Grid, Roadmap
+from mrpbench_core.model.world import Level, World
+
+LIMIT = 50_000_000
+"""Cells beyond which a raster is refused: the cell size is surely a slip."""
+
+_AROUND = np.array([(0, 0), *((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column)])
+
+
+@attrs.frozen
+class Cells:
+    """Free cells and the undirected edges between neighbours."""
+
+    raster: Occupancy
+    cell: Int
+    """i8[V,2]: row and column, in row-major order."""
+    edges: Int
+    """i8[E,2]: each pair once, lower vertex first."""
+
+    @property
+    def centre(self) -> Float:
+        """f8[V,2] metres."""
+        return self.raster.centres(self.cell)
+
+    def only(self, kept: Bool) -> "Cells":
+        """Without the vertices that are not `kept` bool[V]."""
+        number = np.cumsum(kept) - 1
+        edges = self.edges[kept[self.edges].all(axis=1)]
+        return Cells(self.raster, self.cell[kept], number[edges])
+
+
+def empty_raster(low: Float, high: Float, cell_size: float) -> Occupancy:
+    """A raster of blocked cells that covers the box from `low` to `high`, starting at `low`.
+
+    Raises:
+        InputError: it would have too many cells.
+    """
+    columns, rows = (int(count) for count in np.maximum(1, np.ceil((high - low) / cell_size - 1e-9)))
+    if rows * columns > LIMIT:
+        raise InputError(f"cell_size {cell_size:g} m makes {rows} × {columns} cells", hint="choose a larger cell_size")
+    origin = (float(low[0]), float(low[1]))
+    return Occupancy(blocked=np.ones((rows, columns), bool), cell_size=cell_size, origin=origin)
+
+
+def connect(raster: Occupancy) -> Cells:
+    """All free cells of `raster` and the edges between 4-neighbours, walls not considered."""
+    free = ~raster.blocked
+    number = np.where(free, np.cumsum(free).reshape(free.shape) - 1, -1)
+    right = np.stack([number[:, :-1].ravel(), number[:, 1:].ravel()], axis=1)
+    up = np.stack([number[:-1].ravel(), number[1:].ravel()], axis=1)
+    edges = np.concatenate([right, up])
+    return Cells(raster, np.argwhere(free), edges[(edges >= 0).all(axis=1)])
+
+
+def without_contacts(cells: Cells, level: Level, radius: float) -> Cells:
+    """Without cells in which, and edges along which, a disc of `radius` metres touches something solid."""
+    centre = cells.centre
+    cells = cells.only(keeps_clear(level, centre, centre, radius))
+    centre = cells.centre
+    clear = keeps_clear(level, centre[cells.edges[:, 0]], centre[cells.edges[:, 1]], radius)
+    return Cells(cells.raster, cells.cell, cells.edges[clear])
+
+
+def places(cells: Cells, world: World) -> Int:
+    """The cell i8[len(world.vertices)] that stands for each place, -1 = none.
+
+    It is the place's own cell or, failing that, the nearest of the eight around it; and never one behind a wall.
+    """
+    rows, columns = cells.raster.shape
+    number = np.full((rows + 2, columns + 2), -1)  # with a margin, so that neighbours need no bounds check
+    number[cells.cell[:, 0] + 1, cells.cell[:, 1] + 1] = np.arange(len(cells.cell))
+    point = np.array([(vertex.x, vertex.y) for vertex in world.vertices]).reshape(-1, 2)
+    around = cells.raster.cells(point)[:, None] + _AROUND
+    known = ((around >= -1) & (around <= (rows, columns))).all(axis=2)
+    row, column = np.where(known[..., None], around + 1, 0).transpose(2, 0, 1)
+    candidate = np.where(known, number[row, column], -1)
+    upstairs = np.array([vertex.level != 0 for vertex in world.vertices], bool)
+    candidate[upstairs] = -1
+    centre = cells.raster.centres(around.reshape(-1, 2))
+    far = np.hypot(*(centre - np.repeat(point, len(_AROUND), axis=0)).T).reshape(candidate.shape)
+    far[:, 0] = -1.0  # the own cell first
+    place, k = np.where(candidate >= 0)
+    behind = ~keeps_clear(world.levels[0], point[place], cells.raster.centres(around[place, k]), 0.0)
+    candidate[place[behind], k[behind]] = -1
+    best = np.where(candidate >= 0, far, np.inf).argmin(axis=1) if len(point) else np.empty(0, np.int64)
+    return candidate[np.arange(len(point)), best]
+
+
+def only_reachable(cells: Cells, place: Int) -> tuple[Cells, Int]:
+    """The cells connected with a place (without places: the largest connected part), and the places' new numbers."""
+    label = components(len(cells.cell), cells.edges)
+    found = place[place >= 0]
+    if len(found):
+        kept = np.isin(label, label[found])
+    else:
+        kept = label == np.bincount(label).argmax() if len(label) else np.empty(0, bool)
+    number = np.cumsum(kept) - 1
+    return cells.only(kept), np.where(place >= 0, number[np.maximum(place, 0)] if len(kept) else -1, -1)
+
+
+def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: list[str]) -> Roadmap:
+    """The roadmap: two directed edges per pair, sorted by start; every edge takes one tick.
+
+    A tick is the time in which the slowest robot crosses a cell.
+
+    Raises:
+        InputError: there are no cells.
+    """
+    if not len(cells.cell):
+        raise InputError(f"world {world.name!r} has no cell that a robot fits in", hint="try a smaller cell_size")
+    lost = [_called(world, index) for index in np.flatnonzero(place < 0)]
+    if lost:
+        notes = [*notes, f"No robot can stand at {', '.join(lost)}."]
+    edges = np.concatenate([cells.edges, cells.edges[:, ::-1]])
+    edges = edges[np.lexsort((edges[:, 1], edges[:, 0]))]
+    profiles, _ = fleet.profiles
+    slowest = min(robot.max_speed for robot in profiles)
+    count = len(cells.cell)
+    raster = cells.raster
+    return Roadmap(
+        position=cells.centre,
+        level=np.zeros(count),
+        heading=np.full(count, np.nan),
+        edges=edges,
+        duration=np.ones((len(profiles), len(edges))),
+        tick=raster.cell_size / slowest,
+        grid=Grid(shape=raster.shape, cell_size=raster.cell_size, origin=raster.origin, cell=cells.cell),
+        place=place,
+        notes=tuple(notes),
+    )
+
+
+def _called(world: World, index: int) -> str:
+    vertex = world.vertices[index]
+    return vertex.name or f"({vertex.x:.2f}, {vertex.y:.2f})"

@@ -1,0 +1,71 @@
+"""The roadmap `grid`: an occupancy raster of the free space, inflated by the robots' radius."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.roadmap import RoadmapBuilder
+from mrpbench_core.builtin.roadmaps.cells import (
+    cell_roadmap,
+    connect,
+    empty_raster,
+    only_reachable,
+    places,
+    without_contacts,
+)
+from mrpbench_core.checking.clearance import solids
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.world import World
+
+DEFAULT_CELL_SIZE = 0.4
+
+
+@attrs.frozen(kw_only=True)
+class GridRoadmap(RoadmapBuilder):
+    """Cells in which the largest robot touches nothing, joined where it touches nothing on the way.
+
+    Only what can be reached from the world's places is kept, so that robots stay inside the building; in a world without
+    places, the largest connected part. A world that is a raster by nature is taken cell by cell if `cell_size` is its
+    own and the robots fit into a cell: then every free cell is kept, as in the MAPF benchmarks.
+    """
+
+    cell_size: float | None = option(
+        None,
+        help="Side of a cell; by default that of the world's own raster, else 0.4 m.",
+        unit="m",
+        validator=attrs.validators.optional(attrs.validators.gt(0)),
+    )
+
+    def build(self, world: World, fleet: Fleet) -> Roadmap:
+        """Rasterise level 0 of `world`."""
+        level = world.levels[0]
+        radius = float(fleet.radii.max())
+        own = level.occupancy
+        if own is not None and self.cell_size in (None, own.cell_size):
+            cells = connect(own)
+            if 2 * radius <= own.cell_size and not solids(
+                level
+            ):  # moving between neighbours never leaves the two cells
+                return cell_roadmap(cells, places(cells, world), world, fleet, [])
+        else:
+            cells = connect(_open_raster(world, self.cell_size or DEFAULT_CELL_SIZE))
+        cells = without_contacts(cells, level, radius)
+        cells, place = only_reachable(cells, places(cells, world))
+        return cell_roadmap(cells, place, world, fleet, [])
+
+
+def _open_raster(world: World, cell_size: float) -> Occupancy:
+    """A raster of free cells over everything there is on level 0."""
+    level = world.levels[0]
+    corners = [*solids(level), np.array([(v.x, v.y) for v in world.vertices if v.level == 0]).reshape(-1, 2)]
+    if level.occupancy is not None:
+        rows, columns = level.occupancy.shape
+        corners.append(level.occupancy.centres(np.array([(-0.5, -0.5), (rows - 0.5, columns - 0.5)])))
+    points = np.concatenate(corners)
+    if not len(points):
+        raise InputError(f"world {world.name!r} is empty: no walls, no raster, no places")
+    raster = empty_raster(points.min(axis=0), points.max(axis=0), cell_size)
+    return attrs.evolve(raster, blocked=np.zeros(raster.shape, bool))

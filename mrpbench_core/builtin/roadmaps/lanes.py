@@ -1,0 +1,126 @@
+"""The roadmap `lanes`: a raster of roads, two cells wide, along the lanes of the navigation graph."""
+
+from typing import Literal
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.roadmap import RoadmapBuilder
+from mrpbench_core.builtin.roadmaps.cells import (
+    cell_roadmap,
+    connect,
+    empty_raster,
+    only_reachable,
+    places,
+    without_contacts,
+)
+from mrpbench_core.builtin.roadmaps.mrp_bench import mrp_bench_raster
+from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.components import components
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.world import World
+
+_ROUNDING = 1e-6
+"""metres."""
+
+
+@attrs.frozen(kw_only=True)
+class Lanes(RoadmapBuilder):
+    """Roads along the lanes, wide enough for two robots to pass.
+
+    A cell belongs to a road when its centre lies within one cell of a lane: on the lane's right up to, on its left up to
+    and including one cell, so that a straight road is two cells wide however it lies on the raster. Cells and edges on
+    which the largest robot would touch something solid are left out; what that cuts off stands in `Roadmap.notes`.
+    Directions of one-way lanes are ignored, as a raster has room for both.
+
+    `compatible: mrp_bench` is the raster of Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex
+    and Cluttered Environments", ICRA 2023, with every quirk of its code; it knows no walls.
+    """
+
+    cell_size: float = option(0.4, help="Side of a cell.", unit="m", validator=attrs.validators.gt(0))
+    compatible: Literal["mrp_bench"] | None = option(
+        None,
+        help="`mrp_bench`: exactly the raster of the original benchmark.",
+        validator=attrs.validators.optional(attrs.validators.in_(["mrp_bench"])),
+    )
+
+    def build(self, world: World, fleet: Fleet) -> Roadmap:
+        """Rasterise the lanes on level 0 of `world`."""
+        if not world.lanes:
+            raise InputError(f"world {world.name!r} has no lanes", hint="try roadmap: grid")
+        radius = float(fleet.radii.max())
+        if self.compatible is not None:
+            cells = connect(mrp_bench_raster(world, self.cell_size))
+            place = _own_cells(cells.cell, cells.raster, world)
+            left = without_contacts(cells, world.levels[0], radius)
+            return cell_roadmap(cells, place, world, fleet, _contacts(len(cells.edges) - len(left.edges), "kept"))
+        wide = connect(_roads(world, self.cell_size))
+        clear = without_contacts(wide, world.levels[0], radius)
+        place = places(clear, world)
+        notes = [
+            *_contacts(len(wide.edges) - len(clear.edges), "left out"),
+            *_broken(world, place, components(len(clear.cell), clear.edges), radius),
+        ]
+        cells, place = only_reachable(clear, place)
+        return cell_roadmap(cells, place, world, fleet, notes)
+
+
+def _roads(world: World, size: float) -> Occupancy:
+    """The cells near lanes. The lowest and leftmost vertices lie in the middle of their cells."""
+    point = np.array([(vertex.x, vertex.y) for vertex in world.vertices])
+    margin = 2.5 * size
+    raster = empty_raster(point.min(axis=0) - margin, point.max(axis=0) + margin, size)
+    blocked = raster.blocked.copy()
+    for lane in world.lanes:
+        _open_road(blocked, raster, point[lane.start], point[lane.end])
+    return attrs.evolve(raster, blocked=blocked)
+
+
+def _open_road(
+    blocked: "np.ndarray[tuple[int, int], np.dtype[np.bool_]]", raster: Occupancy, a: Float, b: Float
+) -> None:
+    size = raster.cell_size
+    start, end = (a, b) if tuple(a) <= tuple(b) else (b, a)  # one side for both directions
+    length = float(np.hypot(*(end - start)))
+    ahead = (end - start) / length if length > 0 else np.array([1.0, 0.0])
+    first = raster.cells(np.minimum(a, b) - 2 * size)[0]
+    last = raster.cells(np.maximum(a, b) + 2 * size)[0]
+    rows, columns = np.arange(first[0], last[0] + 1), np.arange(first[1], last[1] + 1)
+    x = (columns[None, :] + 0.5) * size + raster.origin[0] - start[0]
+    y = (rows[:, None] + 0.5) * size + raster.origin[1] - start[1]
+    along, left = x * ahead[0] + y * ahead[1], y * ahead[0] - x * ahead[1]
+    reach = size / np.sqrt(2) + _ROUNDING  # so that the cell of each end always belongs to the road
+    near = (left > -size + _ROUNDING) & (left <= size + _ROUNDING) & (along >= -reach) & (along <= length + reach)
+    blocked[first[0] : last[0] + 1, first[1] : last[1] + 1] &= ~near
+
+
+def _own_cells(cell: Int, raster: Occupancy, world: World) -> Int:
+    """The original's places: a vertex is the cell it lies in, wherever the walls are."""
+    number = np.full(raster.shape, -1)
+    number[cell[:, 0], cell[:, 1]] = np.arange(len(cell))
+    row, column = raster.cells(np.array([(vertex.x, vertex.y) for vertex in world.vertices])).T
+    place: Int = number[row, column]
+    return place
+
+
+def _contacts(edges: int, fate: str) -> list[str]:
+    return [f"{edges} of the raster's edges on which a robot would touch a wall are {fate}."] if edges else []
+
+
+def _broken(world: World, place: Int, label: Int, radius: float) -> list[str]:
+    """Name the lanes whose ends are no longer connected."""
+    notes = []
+    for lane in world.lanes:
+        start, end = place[lane.start], place[lane.end]
+        if start < 0 or end < 0 or label[start] != label[end]:
+            a, b = world.vertices[lane.start], world.vertices[lane.end]
+            p, q = np.array([(a.x, a.y)]), np.array([(b.x, b.y)])
+            clear = keeps_clear(world.levels[0], p, q, radius)[0]
+            reason = "no two cells of the raster fit through" if clear else f"walls are nearer than {radius:.3f} m"
+            notes.append(f"Lane {a.name or p[0]} – {b.name or q[0]} is cut: {reason}.")
+    return notes

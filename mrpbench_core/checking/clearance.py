@@ -1,0 +1,107 @@
+"""Whether robots, as discs, keep clear of everything solid on a level: walls, obstacles and blocked raster cells.
+
+Solid things are closed polygons. A disc of radius r that moves straight from p to q keeps clear of one when p is outside
+and no side of the polygon is nearer than r to the segment p-q; touching at exactly r is allowed.
+"""
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.model.geometry import segment_distance
+from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.world import Level
+
+TOLERANCE = 1e-9
+"""metres by which a disc may reach into something solid: rounding, not contact."""
+
+
+def wall_boxes(level: Level) -> Float:
+    """Outlines f8[W,4,2] of the walls, counter-clockwise: boxes that reach half a thickness beyond both ends."""
+    start, end = level.walls[:, :2], level.walls[:, 2:]
+    along = end - start
+    length = np.hypot(along[:, 0], along[:, 1])[:, None]
+    unit = np.where(length > 0, along / np.where(length > 0, length, 1.0), (1.0, 0.0))
+    half = level.wall_thickness / 2
+    ahead, left = half * unit, half * unit[:, ::-1] * (-1, 1)
+    return np.stack([start - ahead - left, end + ahead - left, end + ahead + left, start - ahead + left], axis=1)
+
+
+def solids(level: Level) -> list[Float]:
+    """Outlines f8[k,2] of walls and obstacles; blocked raster cells are not among them."""
+    return [*wall_boxes(level), *(obstacle.polygon for obstacle in level.obstacles)]
+
+
+def keeps_clear(level: Level, start: Float, end: Float, radius: float) -> Bool:
+    """Tell bool[k] whether a disc of `radius` metres moving straight from `start` to `end` f8[k,2] touches nothing."""
+    start, end = np.asarray(start, float).reshape(-1, 2), np.asarray(end, float).reshape(-1, 2)
+    clear = np.ones(len(start), bool)
+    order = np.argsort(np.minimum(start[:, 0], end[:, 0]), kind="stable")
+    p, q = start[order], end[order]
+    low, high = np.minimum(p, q) - radius, np.maximum(p, q) + radius
+    widest = float((high - low)[:, 0].max(initial=0.0))
+    for outline in solids(level):
+        least, most = outline.min(axis=0), outline.max(axis=0)
+        first, last = np.searchsorted(low[:, 0], (least[0] - widest, most[0] + TOLERANCE))
+        window = slice(first, last)
+        near = (high[window] >= least).all(axis=1) & (low[window] <= most).all(axis=1)
+        chosen = first + np.flatnonzero(near)
+        chosen = chosen[clear[order[chosen]]]
+        if len(chosen):
+            clear[order[chosen]] = ~_touches(outline[None], p[chosen], q[chosen], radius)
+    if level.occupancy is not None:
+        left = np.flatnonzero(clear)
+        clear[left] = _clear_of_cells(level.occupancy, start[left], end[left], radius)
+    return clear
+
+
+def _touches(outline: Float, start: Float, end: Float, radius: float) -> Bool:
+    """bool[k] for outlines f8[k or 1,sides,2]: does the swept disc meet the polygon?"""
+    after = np.roll(outline, -1, axis=1)
+    gap = segment_distance(outline, after, start[:, None], end[:, None]).min(axis=1)
+    # even-odd rule: a ray to the right from an inner point crosses the outline an odd number of times
+    x, y = start[:, None, 0], start[:, None, 1]
+    straddles = (outline[..., 1] > y) != (after[..., 1] > y)
+    rise = after[..., 1] - outline[..., 1]
+    share = (y - outline[..., 1]) / np.where(rise != 0, rise, 1.0)
+    crossing = outline[..., 0] + share * (after[..., 0] - outline[..., 0])
+    inside = (straddles & (x < crossing)).sum(axis=1) % 2 == 1
+    touching: Bool = inside | (gap <= max(radius - TOLERANCE, 0.0))
+    return touching
+
+
+def _clear_of_cells(occupancy: Occupancy, start: Float, end: Float, radius: float) -> Bool:
+    """The same for the blocked cells of a raster; long sweeps are cut into pieces so that their boxes stay small."""
+    size = occupancy.cell_size
+    pieces = np.maximum(1, np.ceil(np.hypot(*(end - start).T) / (4 * size))).astype(np.int64)
+    sweep = np.repeat(np.arange(len(start)), pieces)
+    part = np.arange(len(sweep)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    step = ((end - start) / pieces[:, None])[sweep]
+    p = start[sweep] + part[:, None] * step
+    clear = np.ones(len(start), bool)
+    clear[sweep[_pieces_touch(occupancy, p, p + step, radius)]] = False
+    return clear
+
+
+def _pieces_touch(occupancy: Occupancy, start: Float, end: Float, radius: float) -> Bool:
+    touching = np.zeros(len(start), bool)
+    if not len(start):
+        return touching
+    first = occupancy.cells(np.minimum(start, end) - radius)
+    span = occupancy.cells(np.maximum(start, end) + radius) - first
+    square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]) * occupancy.cell_size
+    for row in range(int(span[:, 0].max()) + 1):
+        for column in range(int(span[:, 1].max()) + 1):
+            cell = first + (row, column)
+            there = (span >= (row, column)).all(axis=1) & ~touching & _blocked(occupancy, cell)
+            chosen = np.flatnonzero(there)
+            corner = cell[chosen][:, ::-1] * occupancy.cell_size + np.asarray(occupancy.origin)
+            touching[chosen] = _touches(corner[:, None] + square, start[chosen], end[chosen], radius)
+    return touching
+
+
+def _blocked(occupancy: Occupancy, cells: Int) -> Bool:
+    """bool[k]; beyond the raster nothing is blocked."""
+    inside = ((cells >= 0) & (cells < occupancy.shape)).all(axis=1)
+    row, column = np.where(inside[:, None], cells, 0).T
+    result: Bool = inside & occupancy.blocked[row, column]
+    return result
