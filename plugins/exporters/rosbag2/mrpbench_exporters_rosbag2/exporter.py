@@ -1,0 +1,132 @@
+"""The exporter `rosbag2`: what is written, and in which order."""
+
+from collections.abc import Iterator
+from itertools import chain
+from operator import itemgetter
+from pathlib import Path
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.exporter import Exporter, ExporterSession
+from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.run import RunContext
+from mrpbench_exporters_rosbag2 import markers, motion
+from mrpbench_exporters_rosbag2.bag import Bag, Storage, Version
+from mrpbench_exporters_rosbag2.blocks import AXES, Blocks
+from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS, contacts, events
+from mrpbench_exporters_rosbag2.frames import frames
+from mrpbench_exporters_rosbag2.messages import Topic, message, nanoseconds, time
+from mrpbench_exporters_rosbag2.scans import scan
+from mrpbench_exporters_rosbag2.source import Rows, Source
+from mrpbench_exporters_rosbag2.start import opening
+from mrpbench_exporters_rosbag2.template import STAMP, Template
+from mrpbench_exporters_rosbag2.topics import check_patterns, selected
+
+LATEST_START = 2_140_000_000.0
+"""seconds; ROS 2 counts them in 32 bits."""
+POSES_PER_BLOCK = 16_384
+"""What is held in memory at a time: some 30 MB."""
+
+
+@attrs.frozen(kw_only=True)
+class Rosbag2(Exporter):
+    """A rosbag2 with the topics and frames that RViz, Foxglove and Nav2 expect."""
+
+    storage: Storage = option("mcap", help="`mcap` (compressed with zstd) or `sqlite3`")
+    version: Version = option(9, help="of the bag's metadata: 9 for Jazzy and later, 8 for Humble and Iron")
+    start_time: float = option(
+        0.0,
+        help="what the bag's clock shows when the run begins",
+        unit="s",
+        validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(LATEST_START)),
+    )
+    topics: tuple[str, ...] = option(
+        ("*",), help="patterns of the topics to write, e.g. `/tf*` or `/robot_*/odom`", validator=check_patterns
+    )
+    map_cell_size: float = option(
+        0.05,
+        help="of `/map`; a world that is a raster keeps its own",
+        unit="m",
+        validator=attrs.validators.gt(0),
+    )
+
+    def open(self, context: RunContext, destination: Path) -> "Rosbag2Session":
+        """Begin the bag `destination`, a folder, with what is known before the run."""
+        return Rosbag2Session(self, context, destination)
+
+
+class Rosbag2Session(ExporterSession):
+    """Writes one bag."""
+
+    def __init__(self, recipe: Rosbag2, context: RunContext, destination: Path) -> None:
+        self.names = context.fleet.names
+        self.patterns = recipe.topics
+        self.start = int(nanoseconds(recipe.start_time))
+        self.sources = [source for source in sources(context) if self._wanted(source.topic)]
+        self.blocks = Blocks(max(1, POSES_PER_BLOCK // max(1, len(context.fleet))))
+        latched = [said for said in opening(context, self.start, recipe.map_cell_size) if self._wanted(said[0])]
+        self.bag: Bag | None = Bag(destination, recipe.storage, recipe.version)
+        self.bag.describe("mrpbench_run_id", context.run_id)
+        for topic, data in latched:
+            self.bag.write(topic, self.start, data)
+
+    def write(self, chunk: Chunk) -> None:
+        """Append what happened since the last chunk."""
+        self._write(self.blocks.push(chunk))
+
+    def close(self) -> None:
+        """Write what was held back and give the bag its name. Does nothing after a failure or a second time."""
+        if self.bag is not None:
+            self._write(self.blocks.finish())
+            self.bag.close()
+            self.bag = None
+
+    def _write(self, blocks: Iterator[Chunk]) -> None:
+        assert self.bag is not None, "closed"
+        try:
+            for block in blocks:
+                for stamp, topic, data in sorted(self._messages(block), key=itemgetter(0)):  # stable
+                    self.bag.write(topic, stamp, data)
+        except BaseException:
+            self.bag.abandon()
+            self.bag = None
+            raise
+
+    def _messages(self, block: Chunk) -> Iterator[tuple[int, Topic, bytes]]:
+        """Everything in a block, topic by topic."""
+        said = [(source.topic, source.messages(block, self.start)) for source in self.sources]
+        said.append((CONTACTS, contacts(block, self.names, self.start)))
+        said.append((EVENTS, events(block, self.names, self.start)))
+        return chain.from_iterable(
+            ((stamp, topic, data) for stamp, data in found) for topic, found in said if self._wanted(topic)
+        )
+
+    def _wanted(self, topic: Topic) -> bool:
+        return selected(topic.name, self.patterns)
+
+
+def sources(context: RunContext) -> Iterator[Source]:
+    """Every periodic topic, in the order of writing at one instant: the clock, frames before what stands in them."""
+    robots = list(zip(context.fleet.names, context.fleet.robots, strict=True))
+    yield clock()
+    yield frames(context.fleet.names, context.world)
+    for index, (name, _) in enumerate(robots):
+        yield motion.odometry(index, name)
+        yield motion.ground_truth(index, name, context.world)
+        yield motion.command(index, name)
+    yield markers.robots(context)
+    for index, (name, robot) in enumerate(robots):
+        if robot.lidar:
+            yield scan(index, name, robot.lidar)
+
+
+def clock() -> Source:
+    """The simulated time of everything else."""
+
+    def rows(block: Chunk) -> Rows:
+        return np.unique(np.concatenate([block[axis] for axis in AXES if axis in block] or [np.empty(0)])), {}
+
+    topic = Topic("/clock", "rosgraph_msgs/Clock")
+    return Source(topic, Template(topic.type, message(topic.type, clock=time(STAMP)), {}), rows)
