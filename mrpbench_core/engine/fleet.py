@@ -1,29 +1,42 @@
 """The fleet of a run: robot models by name or file, shared out over the scenario's robots."""
 
-from itertools import cycle
+import attrs
 
-from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.config.settings import FleetEntry, RunConfig
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet, RobotModel
+from mrpbench_core.files.robot import load_robot
+from mrpbench_core.model.fleet import Fleet, Lidar, RobotModel
 
 
 def build_fleet(config: RunConfig, size: int) -> Fleet:
-    """Robots in the order of the entries: those with a count first in their place, the others take turns for the rest.
+    """Robots in the order of the entries; entries without a count share what the others leave, as evenly as can be.
 
     Raises:
-        InputError: unknown robot, no robots, or counts that do not add up to `size`.
+        InputError: unknown robot, or counts that do not add up to `size`.
     """
-    if size < 1:
-        raise InputError("scenario: needs at least one robot")
-    fixed = sum(entry.count or 0 for entry in config.fleet)
-    open_entries = [entry for entry in config.fleet if entry.count is None]
-    if fixed > size or (fixed < size and not open_entries):
-        raise InputError(f"fleet: the counts add up to {fixed}, the scenario has {size} robots")
-    models = {entry: _model(entry) for entry in config.fleet}
-    rest: dict[object, list[RobotModel]] = {entry: [] for entry in open_entries}
-    for _, entry in zip(range(size - fixed), cycle(open_entries or [None]), strict=False):
-        rest[entry].append(models[entry])
+    rest = size - sum(entry.count or 0 for entry in config.fleet)
+    sharing = sum(entry.count is None for entry in config.fleet)
+    if rest < 0 or (rest > 0 and not sharing):
+        raise InputError(f"fleet: the counts add up to {size - rest}, the scenario has {size} robots")
     robots: list[RobotModel] = []
     for entry in config.fleet:
-        robots += rest[entry] if entry.count is None else [models[entry]] * entry.count
+        count = entry.count
+        if count is None:
+            count = -(-rest // sharing)
+            rest, sharing = rest - count, sharing - 1
+        robots += [robot_model(entry)] * count
     return Fleet(robots=tuple(robots))
+
+
+def robot_model(entry: FleetEntry) -> RobotModel:
+    """The model that an entry names, with its changes to the lidar."""
+    model = load_robot(str(entry.robot))
+    if entry.lidar is None:
+        return model
+    if entry.lidar == "none":
+        return attrs.evolve(model, lidar=None)
+    changes = {name: value for name, value in attrs.asdict(entry.lidar).items() if value is not None}
+    lidar = attrs.evolve(model.lidar or Lidar(), **changes)
+    if lidar.min_range >= lidar.range:
+        raise InputError(f"fleet: lidar of {model.name}: min_range {lidar.min_range:g} m is not below range {lidar.range:g} m")
+    return attrs.evolve(model, lidar=lidar)
