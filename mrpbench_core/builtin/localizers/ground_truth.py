@@ -1,0 +1,29 @@
+"""Robots that know exactly where they are."""
+
+from collections.abc import Sequence
+from typing import ClassVar
+
+import attrs
+
+from mrpbench_core.api import Localizer, LocalizerSession
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Estimate, Odometry, ScanBatch
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.world import World
+
+
+class _Session(LocalizerSession):
+    def update(self, now: float, odometry: Odometry, scans: Sequence[ScanBatch], truth: Float | None) -> Estimate:  # noqa: ARG002
+        assert truth is not None, "the engine hands the truth to a localizer that declares needs_truth"
+        return Estimate(pose=truth)
+
+
+@attrs.frozen(kw_only=True)
+class GroundTruth(Localizer):
+    """The estimate is the truth."""
+
+    needs_truth: ClassVar[bool] = True
+
+    def start(self, fleet: Fleet, world: World, placements: Float, seed: int) -> LocalizerSession:  # noqa: ARG002
+        """Begin; nothing needs to be known."""
+        return _Session()

@@ -1,0 +1,1 @@
+"""How robots follow what is released to them."""

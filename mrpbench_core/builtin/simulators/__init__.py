@@ -1,0 +1,1 @@
+"""The simulator that needs only NumPy."""

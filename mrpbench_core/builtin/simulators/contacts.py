@@ -1,0 +1,111 @@
+"""Discs that push each other, and are pushed out of what is solid."""
+
+import numpy as np
+
+from mrpbench_core.builtin.simulators.nearby import Nearby
+from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.model.geometry import point_segment_distance
+
+TOLERANCE = 1e-4
+"""metres: discs never overlap anything solid, nor each other, by more than this."""
+_ROUNDS = 20
+_TOUCH = 1e-9
+
+
+class Discs:
+    """Robots (the first of the radii) and movers, which push but cannot be pushed."""
+
+    def __init__(self, radii: Float, robots: int, segments: Float, stride: float) -> None:
+        self._radii = radii
+        self._robots = robots
+        self._nearby = Nearby(segments, float(radii.max(initial=0.0)) + stride)
+        first, second = np.triu_indices(len(radii), 1)
+        pushable = first < robots
+        self._first, self._second = first[pushable], second[pushable]
+        self._both = self._second < robots
+        self._spacing = radii[self._first] + radii[self._second]
+
+    def separate(self, before: Float, after: Float) -> tuple[Float, set[tuple[int, int]]]:
+        """Resolve overlaps of discs that moved from `before` to `after`, f8[n,2] each and at most `stride` apart.
+
+        Returns where they end up, and the contacts: (robot, robot of higher index, or -1 for anything else).
+        """
+        owner, walls = self._walls(after)
+        centres = after
+        contacts: set[tuple[int, int]] = set()
+        for _ in range(_ROUNDS):
+            pushed, overlaps = self._push(centres, owner, walls)
+            contacts |= overlaps
+            if pushed is None:
+                return centres, contacts
+            centres = pushed
+        return self._take_back(before, centres, owner, walls), contacts
+
+    def _walls(self, centres: Float) -> tuple[Int, Float]:
+        """Robots i8[k] and the segments f8[k,4] each could touch."""
+        near = [self._nearby(x, y) for x, y in centres[: self._robots].tolist()]
+        owner = np.repeat(np.arange(self._robots), [len(segments) for segments in near])
+        return owner, np.concatenate(near) if near else np.empty((0, 4))
+
+    def _push(self, centres: Float, owner: Int, walls: Float) -> tuple[Float | None, set[tuple[int, int]]]:
+        """Where one round of pushing leads (None when nothing overlaps), and what overlapped."""
+        contacts: set[tuple[int, int]] = set()
+        shift = np.zeros_like(centres)
+        offset = centres[self._second] - centres[self._first]
+        distance = np.hypot(offset[:, 0], offset[:, 1])
+        close = np.flatnonzero(distance < self._spacing - _TOUCH)
+        for pair in close.tolist():
+            first, second, both = int(self._first[pair]), int(self._second[pair]), bool(self._both[pair])
+            contacts.add((first, second if both else -1))
+            direction = offset[pair] / distance[pair] if distance[pair] > 0 else np.array([1.0, 0.0])
+            push = direction * (self._spacing[pair] - distance[pair])
+            shift[first] -= push / 2 if both else push
+            if both:
+                shift[second] += push / 2
+        deep = _overlap(centres, self._radii, owner, walls)
+        inside = np.flatnonzero(deep > _TOUCH)
+        # Of all walls a robot is in, it is pushed out of the one it is deepest in; rounds see to the others.
+        for row in inside[np.argsort(deep[inside], kind="stable")].tolist():
+            robot = int(owner[row])
+            contacts.add((robot, -1))
+            shift[robot] = _away(centres[robot], walls[row]) * deep[row]
+        return (centres + shift if contacts else None), contacts
+
+    def _take_back(self, before: Float, after: Float, owner: Int, walls: Float) -> Float:
+        """Undo the motion of robots that still overlap by too much, and of those that this leaves no room for."""
+        centres = after.copy()
+        back = np.zeros(len(centres), bool)
+        while True:
+            stuck = self._stuck(centres, owner, walls) & ~back
+            if not stuck.any():
+                return centres
+            back |= stuck
+            centres[stuck] = before[stuck]
+
+    def _stuck(self, centres: Float, owner: Int, walls: Float) -> Bool:
+        stuck = np.zeros(len(centres), bool)
+        offset = centres[self._second] - centres[self._first]
+        tight = np.hypot(offset[:, 0], offset[:, 1]) < self._spacing - TOLERANCE
+        stuck[self._first[tight]] = True
+        stuck[self._second[tight & self._both]] = True
+        stuck[owner[_overlap(centres, self._radii, owner, walls) > TOLERANCE]] = True
+        return stuck
+
+
+def _overlap(centres: Float, radii: Float, owner: Int, walls: Float) -> Float:
+    """How deep f8[k] each robot is in the segment it is paired with, metres; negative = apart."""
+    overlap: Float = radii[owner] - point_segment_distance(centres[owner], walls[:, :2], walls[:, 2:])
+    return overlap
+
+
+def _away(centre: Float, wall: Float) -> Float:
+    """The direction f8[2] that leads from a segment, solid on its left, straight to a point; never into the solid."""
+    along = wall[2:] - wall[:2]
+    offset = centre - wall[:2]
+    share = min(max(float((offset * along).sum() / max(float((along * along).sum()), 1e-300)), 0.0), 1.0)
+    gap = offset - share * along
+    distance = float(np.hypot(gap[0], gap[1]))
+    if distance > 0:
+        return gap / distance
+    right: Float = np.array([along[1], -along[0]])
+    return right / max(float(np.hypot(right[0], right[1])), 1e-300)

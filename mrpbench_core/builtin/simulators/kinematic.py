@@ -1,0 +1,118 @@
+"""The simulator that needs only NumPy: unicycles with limits, discs that touch, a lidar in closed form.
+
+A robot is the disc of its circumscribed radius, the one that planners reason about and that lidars see. Its speed
+follows the command as fast as its limits allow; over each sub-step it drives the arc of its mean speeds, exactly.
+"""
+
+import math
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import Simulation, Simulator
+from mrpbench_core.builtin.simulators.contacts import Discs
+from mrpbench_core.builtin.simulators.lidar import scan
+from mrpbench_core.builtin.simulators.nearby import Nearby
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Inputs, ScanBatch, State
+from mrpbench_core.model.fleet import Fleet, Lidar
+from mrpbench_core.model.solids import segments
+from mrpbench_core.model.world import World
+
+
+@attrs.frozen(kw_only=True)
+class Kinematic(Simulator):
+    """Unicycles and discs in the plane; level 0 of the world."""
+
+    def open(
+        self, world: World, fleet: Fleet, placements: Float, seed: int, period: float, movers: Sequence[float] = ()
+    ) -> Simulation:
+        """Place the robots; nothing here is random."""
+        del seed
+        return _Plane(segments(world), fleet, placements, period, movers)
+
+
+class _Plane(Simulation):
+    def __init__(
+        self, solids: Float, fleet: Fleet, placements: Float, period: float, movers: Sequence[float] = ()
+    ) -> None:
+        robots = fleet.robots
+        self._radii = np.concatenate([fleet.radii, np.asarray(movers, float)])
+        self._limit = np.array([(robot.max_speed, robot.max_turn_rate) for robot in robots])
+        self._acceleration = np.array([(robot.acceleration, robot.turn_acceleration) for robot in robots])
+        # In a sub-step nothing moves farther than a quarter of the smallest radius: nothing passes through anything.
+        stride = float(self._radii.min(initial=1.0)) / 4
+        self._substeps = max(1, math.ceil(period * float(self._limit[:, 0].max(initial=0.0)) / stride))
+        self._discs = Discs(self._radii, len(robots), solids, stride)
+        self._period, self._periods = period, 0
+        self._lidars: dict[Lidar, list[int]] = {}
+        for index, robot in enumerate(robots):
+            if robot.lidar is not None:
+                self._lidars.setdefault(robot.lidar, []).append(index)
+        self._visible = {lidar: Nearby(solids, lidar.range + math.hypot(*lidar.mount[:2])) for lidar in self._lidars}
+        self._movers = np.full((len(movers), 2), np.inf)
+        self._pose, self._twist = np.array(placements, float).reshape(-1, 3), np.zeros((len(robots), 2))
+        self._level = np.zeros(len(robots), np.int16)
+        self._scans = self._take_scans()
+        self._state = State(pose=self._pose, twist=self._twist, level=self._level, contacts=np.empty((0, 2), np.int32))
+
+    @property
+    def state(self) -> State:
+        return self._state
+
+    def step(self, inputs: Inputs) -> State:
+        command = np.clip(inputs.twist, -self._limit, self._limit)
+        if inputs.movers is not None:
+            self._movers = inputs.movers[:, :2]
+        contacts: set[tuple[int, int]] = set()
+        for _ in range(self._substeps):
+            contacts |= self._advance(command, self._period / self._substeps)
+        self._periods += 1
+        self._scans += self._take_scans()
+        pairs = np.array(sorted(contacts), np.int32)
+        self._state = State(pose=self._pose, twist=self._twist, level=self._level, contacts=pairs)
+        return self._state
+
+    def _advance(self, command: Float, dt: float) -> set[tuple[int, int]]:
+        change = command - self._twist
+        reached = np.clip(change, -self._acceleration * dt, self._acceleration * dt)
+        # Mean over dt of a speed that changes at full acceleration until it is reached, and then stays.
+        mean = self._twist + reached - reached * np.abs(reached) / (2 * self._acceleration * dt)
+        speed, turn = mean[:, 0], mean[:, 1] * dt
+        heading = self._pose[:, 2] + turn / 2
+        chord = speed * dt * np.sinc(turn / (2 * np.pi))
+        direction = np.stack([np.cos(heading), np.sin(heading)], axis=1)
+        before = np.concatenate([self._pose[:, :2], self._movers])
+        free = np.concatenate([self._pose[:, :2] + direction * chord[:, None], self._movers])
+        after, contacts = self._discs.separate(before, free)
+        self._twist = self._twist + reached
+        for robot in np.flatnonzero((after != free).any(axis=1)).tolist():
+            if robot < len(self._twist):  # what was pushed is as fast as it really went
+                self._twist[robot, 0] = ((after[robot] - before[robot]) * direction[robot]).sum() / dt
+        yaw = np.remainder(self._pose[:, 2] + turn + np.pi, 2 * np.pi) - np.pi
+        self._pose = np.column_stack([after[: len(yaw)], yaw])
+        return contacts
+
+    def scans(self) -> tuple[ScanBatch, ...]:
+        taken, self._scans = self._scans, ()
+        return taken
+
+    def _take_scans(self) -> tuple[ScanBatch, ...]:
+        """Scans due now; robots take turns, so that no period has all the work."""
+        batches = []
+        for lidar, robots in self._lidars.items():
+            every = max(1, round(1 / (lidar.rate * self._period)))
+            due = [robot for robot in robots if (self._periods + robot) % every == 0]
+            if due:
+                ranges = np.array([self._scan(lidar, robot) for robot in due])
+                batches.append(ScanBatch(stamp=self._periods * self._period, robot=np.array(due), ranges=ranges))
+        return tuple(batches)
+
+    def _scan(self, lidar: Lidar, robot: int) -> Float:
+        pose = self._pose[robot]
+        others = np.concatenate([np.delete(self._pose[:, :2], robot, axis=0), self._movers])
+        return scan(lidar, pose, self._visible[lidar](pose[0], pose[1]), others, np.delete(self._radii, robot))
+
+    def close(self) -> None:
+        """Nothing is held."""

@@ -1,0 +1,30 @@
+"""Finds the segments near a point without looking at all of them."""
+
+import math
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.geometry import point_segment_distance
+
+_CELL = 1.0
+"""metres."""
+
+
+class Nearby:
+    """Segments f8[S,4] by square cells of the plane, each listed when it is first asked for."""
+
+    def __init__(self, segments: Float, reach: float) -> None:
+        self._segments = segments
+        self._reach = reach + _CELL * math.sqrt(0.5)
+        self._cells: dict[tuple[int, int], Float] = {}
+
+    def __call__(self, x: float, y: float) -> Float:
+        """All segments f8[k,4] within `reach` of a point (and some that are farther), in their order."""
+        cell = math.floor(x / _CELL), math.floor(y / _CELL)
+        found = self._cells.get(cell)
+        if found is None:
+            centre = np.array([(cell[0] + 0.5) * _CELL, (cell[1] + 0.5) * _CELL])
+            distance = point_segment_distance(centre, self._segments[:, :2], self._segments[:, 2:])
+            found = self._cells[cell] = self._segments[distance <= self._reach]
+        return found

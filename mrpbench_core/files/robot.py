@@ -1,0 +1,120 @@
+"""Robots as data: `robots/*.yaml` of this package, or a file of the user's own in the same form."""
+
+import difflib
+import math
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import attrs
+import numpy as np
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.yaml import Document, Steps, load
+from mrpbench_core.model.fleet import Lidar, RobotModel
+
+_ROBOTS = Path(str(resources.files("mrpbench_core"))) / "robots"
+_MAY_BE_ZERO = {"min_range"}
+
+
+def robot_names() -> tuple[str, ...]:
+    """The robots that this package describes."""
+    return tuple(sorted(file.stem for file in _ROBOTS.glob("*.yaml")))
+
+
+def robot_file(name_or_path: str, folder: Path | None = None) -> Path:
+    """The file that describes a robot; anything that ends in `.yaml` is a path, relative to `folder`.
+
+    Raises:
+        InputError: no robot has that name.
+    """
+    if name_or_path.endswith((".yaml", ".yml")):
+        return (folder or Path()) / name_or_path
+    if name_or_path not in robot_names():
+        close = difflib.get_close_matches(name_or_path, robot_names(), n=1)
+        hint = f"did you mean {close[0]!r}?" if close else f"there are {', '.join(robot_names())}; or name a .yaml file"
+        raise InputError(f"no robot is named {name_or_path!r}", hint=hint)
+    return _ROBOTS / f"{name_or_path}.yaml"
+
+
+def load_robot(name_or_path: str, folder: Path | None = None) -> RobotModel:
+    """Read a robot by name, or from a file relative to `folder`.
+
+    The keys are the fields of `RobotModel` and, under `lidar`, of `Lidar`; all lengths in metres, SI units throughout.
+
+    Raises:
+        InputError: unknown name, unreadable file, or a key that is unknown, missing or wrong; names file and line.
+    """
+    document = load(robot_file(name_or_path, folder))
+    values = _fields(document, RobotModel, ())
+    values["name"] = _name(document)
+    values["footprint"] = _footprint(document, values["footprint"])
+    if isinstance(values.get("lidar"), dict):
+        values["lidar"] = _lidar(document)
+    elif values.get("lidar") is not None:
+        raise document.error("must be a mapping of the lidar's properties", ("lidar",))
+    return RobotModel(**values)
+
+
+def _lidar(document: Document) -> Lidar:
+    values = _fields(document, Lidar, ("lidar",))
+    mount = values.get("mount", [0, 0, 0])
+    if not (isinstance(mount, list) and len(mount) == 3 and all(_is_number(value) for value in mount)):
+        raise document.error("must be three numbers: x, y, z in metres", ("lidar", "mount"))
+    if "mount" in values:
+        values["mount"] = tuple(float(value) for value in mount)
+    if not isinstance(values.get("beams", 1), int):
+        raise document.error("must be a whole number", ("lidar", "beams"))
+    lidar = Lidar(**values)
+    if lidar.min_range >= lidar.range:
+        raise document.error("must be less than the range", ("lidar", "min_range"))
+    return lidar
+
+
+def _fields(document: Document, kind: type[attrs.AttrsInstance], steps: Steps) -> dict[str, Any]:
+    """The mapping at `steps`, whose keys are fields of `kind`; plain numbers are checked."""
+    data = document.data[steps[0]] if steps else document.data
+    if not isinstance(data, dict):
+        raise document.error("must be a mapping of a robot's properties", steps)
+    known = {field.name: field for field in attrs.fields(kind)}
+    for key, value in data.items():
+        if key not in known:
+            close = difflib.get_close_matches(key, known, n=1)
+            hint = f"did you mean {close[0]!r}?" if close else f"known keys: {', '.join(known)}"
+            raise document.error(f"unknown key {key!r}", (*steps, key), key=True, hint=hint)
+        if known[key].type not in (float, int):
+            continue
+        if not _is_number(value):
+            raise document.error(f"{key} must be a number", (*steps, key))
+        if value < 0 or (value == 0 and key not in _MAY_BE_ZERO):
+            raise document.error(f"{key} must be positive", (*steps, key))
+    for name, field in known.items():
+        if field.default is attrs.NOTHING and name not in data:
+            raise document.error(f"{name} is missing", steps)
+    return dict(data)
+
+
+def _name(document: Document) -> str:
+    name = document.data["name"]
+    if not (isinstance(name, str) and name):
+        raise document.error("must be a text", ("name",))
+    return name
+
+
+def _footprint(document: Document, points: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """The polygon, counter-clockwise."""
+    if not (isinstance(points, list) and len(points) >= 3):
+        raise document.error("must be a polygon: at least three points [x, y] in metres", ("footprint",))
+    for index, point in enumerate(points):
+        if not (isinstance(point, list) and len(point) == 2 and all(_is_number(value) for value in point)):
+            raise document.error("must be two numbers: x, y in metres", ("footprint", index))
+    polygon = np.array(points, float)
+    ahead = np.roll(polygon, -1, axis=0)
+    area = (polygon[:, 0] * ahead[:, 1] - polygon[:, 1] * ahead[:, 0]).sum() / 2
+    if abs(area) < 1e-6:
+        raise document.error("encloses no area", ("footprint",))
+    return polygon if area > 0 else polygon[::-1]
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
