@@ -1,7 +1,7 @@
 """Whether robots, as discs, keep clear of everything solid on a level: walls, obstacles and blocked raster cells.
 
-Solid things are closed polygons. A disc of radius r that moves straight from p to q keeps clear of one when p is outside
-and no side of the polygon is nearer than r to the segment p-q; touching at exactly r is allowed.
+Solid things are closed polygons. A disc of radius r that moves straight from p to q keeps clear of one when p is
+outside and no side of the polygon is nearer than r to the segment p-q; touching at exactly r is allowed.
 """
 
 import numpy as np
@@ -101,7 +101,7 @@ def _pieces_touch(occupancy: Occupancy, start: Float, end: Float, radius: float)
 
 def _blocked(occupancy: Occupancy, cells: Int) -> Bool:
     """bool[k]; beyond the raster nothing is blocked."""
-    inside = ((cells >= 0) & (cells < occupancy.shape)).all(axis=1)
+    inside: Bool = ((cells >= 0) & (cells < occupancy.shape)).all(axis=1)
     row, column = np.where(inside[:, None], cells, 0).T
     result: Bool = inside & occupancy.blocked[row, column]
     return result

@@ -94,7 +94,8 @@ def places(cells: Cells, world: World) -> Int:
     behind = ~keeps_clear(world.levels[0], point[place], cells.raster.centres(around[place, k]), 0.0)
     candidate[place[behind], k[behind]] = -1
     best = np.where(candidate >= 0, far, np.inf).argmin(axis=1) if len(point) else np.empty(0, np.int64)
-    return candidate[np.arange(len(point)), best]
+    chosen: Int = candidate[np.arange(len(point)), best]
+    return chosen
 
 
 def only_reachable(cells: Cells, place: Int) -> tuple[Cells, Int]:
@@ -119,7 +120,7 @@ def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: li
     """
     if not len(cells.cell):
         raise InputError(f"world {world.name!r} has no cell that a robot fits in", hint="try a smaller cell_size")
-    lost = [_called(world, index) for index in np.flatnonzero(place < 0)]
+    lost = [_called(world, int(index)) for index in np.flatnonzero(place < 0)]
     if lost:
         notes = [*notes, f"No robot can stand at {', '.join(lost)}."]
     edges = np.concatenate([cells.edges, cells.edges[:, ::-1]])
@@ -130,13 +131,15 @@ def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: li
     raster = cells.raster
     return Roadmap(
         position=cells.centre,
-        level=np.zeros(count),
+        level=np.zeros(count, np.int16),
         heading=np.full(count, np.nan),
         edges=edges,
-        duration=np.ones((len(profiles), len(edges))),
+        duration=np.ones((len(profiles), len(edges)), np.int32),
         tick=raster.cell_size / slowest,
-        grid=Grid(shape=raster.shape, cell_size=raster.cell_size, origin=raster.origin, cell=cells.cell),
-        place=place,
+        grid=Grid(
+            shape=raster.shape, cell_size=raster.cell_size, origin=raster.origin, cell=cells.cell.astype(np.int32)
+        ),
+        place=place.astype(np.int32),
         notes=tuple(notes),
     )
 

@@ -27,9 +27,9 @@ DEFAULT_CELL_SIZE = 0.4
 class GridRoadmap(RoadmapBuilder):
     """Cells in which the largest robot touches nothing, joined where it touches nothing on the way.
 
-    Only what can be reached from the world's places is kept, so that robots stay inside the building; in a world without
-    places, the largest connected part. A world that is a raster by nature is taken cell by cell if `cell_size` is its
-    own and the robots fit into a cell: then every free cell is kept, as in the MAPF benchmarks.
+    Only what can be reached from the world's places is kept, so that robots stay inside the building; in a world
+    without places, the largest connected part. A world that is a raster by nature is taken cell by cell if `cell_size`
+    is its own and the robots fit into a cell: then every free cell is kept, as in the MAPF benchmarks.
     """
 
     cell_size: float | None = option(

@@ -19,7 +19,7 @@ from mrpbench_core.builtin.roadmaps.mrp_bench import mrp_bench_raster
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.components import components
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.roadmap import Roadmap
@@ -33,13 +33,13 @@ _ROUNDING = 1e-6
 class Lanes(RoadmapBuilder):
     """Roads along the lanes, wide enough for two robots to pass.
 
-    A cell belongs to a road when its centre lies within one cell of a lane: on the lane's right up to, on its left up to
-    and including one cell, so that a straight road is two cells wide however it lies on the raster. Cells and edges on
-    which the largest robot would touch something solid are left out; what that cuts off stands in `Roadmap.notes`.
+    A cell belongs to a road when its centre lies within one cell of a lane: on the lane's right up to, on its left up
+    to and including one cell, so that a straight road is two cells wide however it lies on the raster. Cells and edges
+    on which the largest robot would touch something solid are left out; what that cuts off stands in `Roadmap.notes`.
     Directions of one-way lanes are ignored, as a raster has room for both.
 
-    `compatible: mrp_bench` is the raster of Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex
-    and Cluttered Environments", ICRA 2023, with every quirk of its code; it knows no walls.
+    `compatible: mrp_bench` is the raster of Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic,
+    Complex and Cluttered Environments", ICRA 2023, with every quirk of its code; it knows no walls.
     """
 
     cell_size: float = option(0.4, help="Side of a cell.", unit="m", validator=attrs.validators.gt(0))
@@ -81,9 +81,7 @@ def _roads(world: World, size: float) -> Occupancy:
     return attrs.evolve(raster, blocked=blocked)
 
 
-def _open_road(
-    blocked: "np.ndarray[tuple[int, int], np.dtype[np.bool_]]", raster: Occupancy, a: Float, b: Float
-) -> None:
+def _open_road(blocked: Bool, raster: Occupancy, a: Float, b: Float) -> None:
     size = raster.cell_size
     start, end = (a, b) if tuple(a) <= tuple(b) else (b, a)  # one side for both directions
     length = float(np.hypot(*(end - start)))

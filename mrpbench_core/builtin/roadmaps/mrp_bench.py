@@ -1,14 +1,15 @@
 """The raster of the original benchmark, quirk by quirk, so that its Table I can be reproduced.
 
 Schaefer, Palmieri, Heuer, Dillmann, Koenig, Kleiner, "A Benchmark for Multi-Robot Planning in Realistic, Complex and
-Cluttered Environments", ICRA 2023. What differs from a clean raster: the walk between two cells compares only the first
-two of its candidates, and depends on the direction; roads are widened where fewer than three of the *diagonal* neighbours
-are open; and two passes along the lower and left border look at the neighbours of the opposite border.
+Cluttered Environments", ICRA 2023. What differs from a clean raster: the walk between two cells compares only the
+first two of its candidates, and depends on the direction; roads are widened where fewer than three of the *diagonal*
+neighbours are open; and two passes along the lower and left border look at the neighbours of the opposite border.
 """
 
 import math
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mrpbench_core.builtin.roadmaps.cells import empty_raster
 from mrpbench_core.model.occupancy import Occupancy
@@ -16,7 +17,7 @@ from mrpbench_core.model.world import World
 
 _BLOCKED, _ROAD, _VERTEX = 0, 1, 2
 _STEPS = ((0, 1), (1, 0), (0, -1), (-1, 0))  # north, east, south, west
-_Kinds = "np.ndarray[tuple[int, int], np.dtype[np.int8]]"
+_Kinds = NDArray[np.int8]
 
 
 def unique_edges(world: World) -> list[tuple[int, int]]:
@@ -85,7 +86,7 @@ def _is_narrow(kind: _Kinds, column: int, row: int) -> bool:
     rows, columns = kind.shape
     sides = [(row + dy, column + dx) for dy in (-1, 1) for dx in (-1, 1)]
     clamped = [(min(max(y, 0), rows - 1), min(max(x, 0), columns - 1)) for y, x in sides]
-    return sum(kind[cell] != _BLOCKED for cell in clamped) < 3
+    return sum(int(kind[cell] != _BLOCKED) for cell in clamped) < 3
 
 
 def _open(kind: _Kinds, column: int, row: int) -> None:

@@ -1,0 +1,111 @@
+"""The roadmap `graph`: the navigation graph itself, with durations from length and speed."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.roadmap import RoadmapBuilder
+from mrpbench_core.builtin.roadmaps.junctions import Pieces, cut_at_junctions
+from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.arrays import Bool, Int
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.world import Lane, World
+
+
+@attrs.frozen(kw_only=True)
+class Graph(RoadmapBuilder):
+    """Places and junctions of lanes as vertices, lanes as edges; the lanes of all RMF graphs together.
+
+    An edge takes its length over the lesser of its lane's speed limit and the robot's top speed, rounded up to ticks.
+    Half a second is 0.1 m at the speed of a small robot: fine enough that rounding matters little on lanes of a metre,
+    coarse enough that a plan of minutes has some hundred ticks.
+    """
+
+    tick: float = option(0.5, help="Time step of durations.", unit="s", validator=attrs.validators.gt(0))
+    tolerance: float = option(
+        0.2,
+        help="A lane that passes a vertex nearer than this leads through it; vertices nearer to one another are one.",
+        unit="m",
+        validator=attrs.validators.gt(0),
+    )
+
+    def build(self, world: World, fleet: Fleet) -> Roadmap:
+        """Cut the lanes on level 0 at their junctions and drop what robots cannot drive on."""
+        if not world.lanes:
+            raise InputError(f"world {world.name!r} has no lanes", hint="try roadmap: grid")
+        point = np.array([(vertex.x, vertex.y) for vertex in world.vertices])
+        drawn = np.array([(lane.start, lane.end) for lane in world.lanes], np.int64)
+        pieces = cut_at_junctions(point, drawn, self.tolerance)
+        profiles, _ = fleet.profiles
+        smallest = min(robot.radius for robot in profiles)
+        stands = keeps_clear(world.levels[0], pieces.position, pieces.position, smallest)
+        duration = np.stack([_ticks(world, pieces, robot.radius, robot.max_speed, self.tick) for robot in profiles])
+        drivable: Bool = (duration >= 0).any(axis=0) & stands[pieces.ends].all(axis=1)
+        edges, duration = _directed(pieces, world.lanes, duration, drivable)
+        if not len(edges):
+            raise InputError(f"world {world.name!r} has no lane that a robot fits on")
+        number = np.where(stands, np.cumsum(stands) - 1, -1)
+        return Roadmap(
+            position=pieces.position[stands],
+            level=np.zeros(stands.sum(), np.int16),
+            heading=np.full(stands.sum(), np.nan),
+            edges=number[edges],
+            duration=duration.astype(np.int32),
+            tick=self.tick,
+            place=number[pieces.vertex],
+            notes=(*_notes(world, pieces, drivable), *_lost(world, number[pieces.vertex] < 0)),
+        )
+
+
+def _ticks(world: World, pieces: Pieces, radius: float, max_speed: float, tick: float) -> Int:
+    """Duration i8[m] of each piece for one kind of robot, -1 where it would touch something solid."""
+    start, end = pieces.position[pieces.ends[:, 0]], pieces.position[pieces.ends[:, 1]]
+    limit = np.array([lane.speed_limit or np.inf for lane in world.lanes])[pieces.lane]
+    length = np.hypot(*(end - start).T)
+    ticks = np.maximum(1, np.ceil(length / np.minimum(limit, max_speed) / tick - 1e-9)).astype(np.int64)
+    clear = keeps_clear(world.levels[0], start, end, radius)
+    return np.where(clear, ticks, -1)
+
+
+def _directed(pieces: Pieces, lanes: tuple[Lane, ...], duration: Int, drivable: Bool) -> tuple[Int, Int]:
+    """Edges i8[E,2] sorted by start, two per two-way piece, and their durations; of parallel edges the fastest."""
+    both = np.array([lane.bidirectional for lane in lanes])[pieces.lane] & drivable
+    edges = np.concatenate([pieces.ends[drivable], pieces.ends[both][:, ::-1]])
+    duration = np.concatenate([duration[:, drivable], duration[:, both]], axis=1)
+    slow = np.where(duration < 0, np.iinfo(np.int64).max, duration)
+    unique, group = np.unique(edges, axis=0, return_inverse=True)
+    fastest = np.full((len(duration), len(unique)), np.iinfo(np.int64).max)
+    for row, ticks in zip(fastest, slow, strict=True):
+        np.minimum.at(row, group.ravel(), ticks)
+    return unique, np.where(fastest == np.iinfo(np.int64).max, -1, fastest)
+
+
+def _notes(world: World, pieces: Pieces, drivable: Bool) -> list[str]:
+    notes = []
+    cut = int((np.bincount(pieces.lane, minlength=1) > 1).sum())
+    if cut:
+        made = len(pieces.position) - len(np.unique(pieces.vertex))
+        notes.append(f"{cut} lanes are cut where they meet others; {made} junctions without a vertex got one.")
+    for index in np.unique(pieces.lane[~drivable]):
+        lane = world.lanes[index]
+        ends = " – ".join(_called(world, vertex) for vertex in (lane.start, lane.end))
+        notes.append(f"Lane {ends} is left out where a robot on it would touch a wall.")
+    oriented = sum(bool(lane.orientation) for lane in world.lanes)
+    if oriented:
+        notes.append(f"{oriented} lanes prescribe an orientation, which has no effect.")
+    exclusive = sum(bool(lane.mutex) for lane in world.lanes)
+    if exclusive:
+        notes.append(f"{exclusive} lanes belong to a mutex, which has no effect.")
+    return notes
+
+
+def _lost(world: World, lost: Bool) -> list[str]:
+    names = [_called(world, int(index)) for index in np.flatnonzero(lost)]
+    return [f"No robot can stand at {', '.join(names)}."] if names else []
+
+
+def _called(world: World, index: int) -> str:
+    vertex = world.vertices[index]
+    return vertex.name or f"({vertex.x:.2f}, {vertex.y:.2f})"
