@@ -1,0 +1,85 @@
+"""The dispatcher `adg`: an action dependency graph keeps the plan's order and forgets its times.
+
+Hönig, Kiesel, Tinka, Durham and Ayanian, "Persistent and Robust Execution of MAPF Schedules in Warehouses", RA-L 2019.
+A robot may go on to its next move as soon as the robots that the plan lets pass first have passed, however late they
+all are, so no delay makes two robots meet and none makes them wait for one another for ever.
+"""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
+from mrpbench_core.builtin.dispatchers.gates import REACHED, Gates
+from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.model.arrays import Int32
+from mrpbench_core.model.execution import FleetView, Orders
+from mrpbench_core.model.plan import Plan
+from mrpbench_core.model.problem import Feature, Problem
+
+
+@attrs.frozen(kw_only=True)
+class Adg(Dispatcher):
+    """Releases each move once those that precede it in the plan are out of its way."""
+
+    group_margin: float = option(
+        0.0,
+        help="room beyond their radii that two robots need to be released together in a ring of moves",
+        unit="m",
+        validator=attrs.validators.ge(0),
+    )
+
+    def start(self, problem: Problem, plan: Plan) -> "AdgSession":
+        """Begin to release a plan.
+
+        Raises:
+            DispatchError: the plan has faults or conflicts; or robots wait for one another in a cycle that is no ring,
+                or a ring that their footprints do not allow; or the roadmap has doors, lifts or mutexes.
+        """
+        return AdgSession(self.group_margin, problem, plan)
+
+
+class AdgSession(DispatcherSession):
+    """Releases one plan after another."""
+
+    def __init__(self, group_margin: float, problem: Problem, plan: Plan) -> None:
+        self.group_margin = group_margin
+        self.seen = np.zeros((2, len(problem)), np.int64)
+        self.released: Int32 = np.zeros(len(problem), np.int32)
+        self.plan = plan
+        self.adopt(problem, plan)
+
+    def adopt(self, problem: Problem, plan: Plan) -> None:
+        """Continue with `plan`; what was released stays so.
+
+        Raises:
+            DispatchError: as `Adg.start`; or the plan takes back what was released; or it sends a robot first where
+                another is on its way already. The session then continues with its old plan.
+        """
+        _check(problem, plan)
+        for robot, count in enumerate(self.released.tolist()):
+            if not np.array_equal(plan.paths[robot].edge[:count], self.plan.paths[robot].edge[:count]):
+                raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
+        committed: Int32 = np.maximum(self.released, [len(path) for path in problem.commitments] or 0)
+        gates = Gates(problem, plan, self.group_margin)
+        gates.look(self.seen, np.arange(len(problem)))
+        gates.check_committed(committed)
+        self.plan, self.gates = plan, gates
+        self.released = np.maximum(committed, gates.released)
+
+    def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - order is all that counts, not time
+        """Release what the robots' progress has opened: work is done only for robots that got further."""
+        seen = np.maximum(self.seen, [view.reached, view.cleared])
+        changed = np.flatnonzero((seen != self.seen).any(axis=0))
+        self.seen = seen
+        if len(changed):
+            self.gates.look(seen, changed)
+            self.released = np.maximum(self.released, self.gates.released)
+        return Orders(released=self.released, replan=self.gates.exhausted(seen[REACHED]))
+
+
+def _check(problem: Problem, plan: Plan) -> None:
+    if Feature.RESOURCES in problem.features:
+        raise DispatchError("adg does not ask for doors, lifts or mutexes yet, and this roadmap has some")
+    report = check_plan(problem, plan, conflict_limit=3)
+    if not report.valid:
+        raise DispatchError("; ".join(map(str, report.faults[:3] + report.conflicts)))

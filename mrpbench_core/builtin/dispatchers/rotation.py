@@ -1,0 +1,87 @@
+"""Cycles of moves that wait for one another: robots that turn on the spot like beads on a ring.
+
+Rule 1 of `mrpbench_core.model.conflicts` lets robots follow one another closely, so that a whole ring of them may move
+at once. Then each waits for the next to clear its vertex, nobody can be first, and they can only start together.
+"""
+
+from itertools import combinations
+
+import numpy as np
+
+from mrpbench_core.api.dispatcher import DispatchError
+from mrpbench_core.builtin.dispatchers.precedence import Moves, Precedence
+from mrpbench_core.builtin.dispatchers.strong_components import strong_components
+from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.conflicts import TOLERANCE
+from mrpbench_core.model.problem import Problem
+
+
+def rotations(problem: Problem, moves: Moves, order: Precedence, margin: float) -> list[tuple[int, ...]]:
+    """Groups of moves that must start together, none in two groups.
+
+    Raises:
+        DispatchError: moves wait for one another that do not form one ring, or whose robots would come closer than the
+            sum of their radii and `margin` metres although they move in step.
+    """
+    before, after = _suspects(problem, moves, order)
+    groups = strong_components(before.tolist(), after.tolist())
+    for group in groups:
+        robots = moves.robot[list(group)]
+        inside = np.isin(order.before, group) & np.isin(order.after, group)
+        if order.completed[inside].any() or len(np.unique(robots)) < len(robots):
+            raise DispatchError(f"{_who_and_where(moves, group)} wait for one another: the plan relies on its timing")
+        _check_distances(problem, moves, group, margin)
+    return groups
+
+
+def _suspects(problem: Problem, moves: Moves, order: Precedence) -> tuple[Int, Int]:
+    """The arcs, also those along paths, that can be part of a cycle.
+
+    A cycle comes back to the time it left, so arcs that do not go forward in the plan's time cover all of it.
+    """
+    along = np.flatnonzero(moves.robot[1:] == moves.robot[:-1])
+    before, after = np.concatenate([order.before, along]), np.concatenate([order.after, along + 1])
+    back = moves.enter[before] >= moves.enter[after]
+    low, high = moves.enter[after[back]], moves.enter[before[back]]
+    low, high = low[np.argsort(low)], np.maximum.accumulate(high[np.argsort(low)])
+    opens = np.append(True, low[1:] > high[:-1])[: len(low)]
+    closes = np.append(opens[1:], True)[: len(low)]
+    low, high = low[opens], high[closes]
+    span = np.searchsorted(low, moves.enter, side="right") - 1
+    span = np.where((span >= 0) & (moves.enter <= np.append(high, -1)[span]), span, -1)
+    if problem.horizon is not None:
+        span = np.where(moves.leave <= problem.horizon, span, -1)
+    kept = (span[before] >= 0) & (span[before] == span[after])
+    return before[kept], after[kept]
+
+
+def _check_distances(problem: Problem, moves: Moves, group: tuple[int, ...], margin: float) -> None:
+    position, level = problem.roadmap.position, problem.roadmap.level
+    for one, other in combinations(group, 2):
+        ends = moves.tail[one], moves.head[one], moves.tail[other], moves.head[other]
+        if not set(level[list(ends[:2])]) & set(level[list(ends[2:])]):
+            continue
+        gap = distance_in_step(*(position[end] for end in ends))
+        needed = float(problem.radius[moves.robot[one]] + problem.radius[moves.robot[other]]) + margin
+        if gap < needed - TOLERANCE:
+            raise DispatchError(
+                f"{_who_and_where(moves, group)} move round in a ring at once, in which robots {moves.robot[one]} and "
+                f"{moves.robot[other]} would come within {gap:.3f} m of one another and need {needed:.3f} m"
+            )
+
+
+def distance_in_step(a: Float, b: Float, c: Float, d: Float) -> float:
+    """Least distance in metres of two points that move from `a` to `b` and from `c` to `d` at equal shares of progress.
+
+    Seen from one, the other moves along a straight segment too.
+    """
+    apart, change = c - a, (d - c) - (b - a)
+    squared = float(change @ change)
+    share = min(max(-float(apart @ change) / squared, 0.0), 1.0) if squared > 0 else 0.0
+    return float(np.hypot(*(apart + share * change)))
+
+
+def _who_and_where(moves: Moves, group: tuple[int, ...]) -> str:
+    robots = ", ".join(str(robot) for robot in np.unique(moves.robot[list(group)]))
+    vertices = ", ".join(str(vertex) for vertex in np.unique(moves.head[list(group)]))
+    return f"robots {robots} at vertices {vertices}"
