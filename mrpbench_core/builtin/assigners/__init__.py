@@ -1,0 +1,1 @@
+"""Assigners that need only the core's dependencies."""

@@ -1,0 +1,22 @@
+"""The assigner for scenarios that already say which robot goes where."""
+
+from typing import ClassVar
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.assigner import Assigner
+from mrpbench_core.model.assignment import Assignment, AssignmentProblem
+
+
+@attrs.frozen(kw_only=True)
+class Identity(Assigner):
+    """Gives task i to robot i; where there are fewer tasks than robots, the last robots get none."""
+
+    reads_costs: ClassVar[bool] = False
+
+    def assign(self, problem: AssignmentProblem) -> Assignment:
+        """Return the assignment; its cost is NaN, since nothing was minimised."""
+        robots, tasks = problem.costs.shape
+        index = np.arange(robots)
+        return Assignment(task=np.where(index < tasks, index, -1), cost=float("nan"))

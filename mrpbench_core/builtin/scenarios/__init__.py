@@ -1,0 +1,1 @@
+"""Sources of starts and goals that need only the core's dependencies."""

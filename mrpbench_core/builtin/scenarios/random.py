@@ -1,0 +1,101 @@
+"""Random starts and goals."""
+
+import random
+from typing import Literal
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.scenario import ScenarioSource
+from mrpbench_core.builtin.scenarios.places import Places, places_of_roadmap, places_of_world
+from mrpbench_core.checking.reachability import components
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.arrays import Int
+from mrpbench_core.model.conflicts import TOLERANCE
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.world import World
+
+STARTS, GOALS = 0, 1
+"""Keys of the two random streams of a seed."""
+
+
+@attrs.frozen(kw_only=True)
+class Random(ScenarioSource):
+    """Draws starts, and independently goals, without replacement: from the world's named places if it has any, else
+    from all vertices of the roadmap.
+
+    Only places that are on the roadmap, on distinct vertices, far enough apart for the robots to stand side by side,
+    and among which every robot can drive there and back, are drawn. The order of the places is that of
+    `Generator(PCG64(SeedSequence([seed modulo 2**64, 0]))).random(places)` for starts (key 1 for goals), sorted; so the
+    first robots of a larger fleet on the same seed start and end where those of a smaller one do.
+    """
+
+    robots: int = option(help="number of robots", validator=attrs.validators.ge(1))
+    compatible: Literal["mrp_bench"] | None = option(
+        None,
+        help="mrp_bench: the draw of the original, random.sample after random.seed(seed) for starts and seed + 1 for "
+        "goals, over all vertices in order of publication; may place two robots on one cell",
+    )
+
+    def size(self) -> int:
+        """Return the option `robots`."""
+        return self.robots
+
+    def draw(self, world: World, roadmap: Roadmap, fleet: Fleet, seed: int) -> Scenario:
+        """Return the scenario of `seed`."""
+        if self.compatible == "mrp_bench":
+            return self._original_draw(world, seed)
+        places = places_of_world(world, roadmap) if world.vertices else places_of_roadmap(roadmap)
+        places = places[_connected(roadmap, places.vertex)]
+        room = 2 * float(fleet.radii.max())
+        return places.scenario(
+            _separate(places, _shuffled(len(places), seed, STARTS), room, self.robots, "start"),
+            _separate(places, _shuffled(len(places), seed, GOALS), room, self.robots, "end"),
+        )
+
+    def _original_draw(self, world: World, seed: int) -> Scenario:
+        """Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered Environments"
+        (2023), as its code does it.
+        """
+        count = len(world.vertices)
+        if count < self.robots:
+            raise InputError(f"{self.robots} robots do not fit: world {world.name} has {count} navigation vertices")
+        starts = random.Random(seed).sample(range(count), self.robots)  # noqa: S311 - the published draw
+        goals = random.Random(seed + 1).sample(range(count), self.robots)  # noqa: S311
+        return places_of_world(world).scenario(np.array(starts), np.array(goals))
+
+
+def _connected(roadmap: Roadmap, vertex: Int) -> Int:
+    """Indices of the largest group of places among which every motion profile can drive there and back."""
+    labels = [components(roadmap, profile)[vertex] for profile in range(len(roadmap.duration))]
+    if not labels or not len(vertex):
+        return np.arange(len(vertex))
+    _, group, sizes = np.unique(np.stack(labels), axis=1, return_inverse=True, return_counts=True)
+    return np.flatnonzero(group.ravel() == sizes.argmax())
+
+
+def _shuffled(count: int, seed: int, stream: int) -> Int:
+    """Indices of places in random order; doubles keep their value across NumPy versions, `permutation` need not."""
+    generator = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed % 2**64, stream])))
+    return np.argsort(generator.random(count), kind="stable")
+
+
+def _separate(places: Places, order: Int, room: float, wanted: int, verb: str) -> Int:
+    """The first `wanted` places of `order` that lie at least `room` metres from those already taken."""
+    taken = np.empty(wanted, np.int64)
+    count = 0
+    for index in order:
+        here = taken[:count]
+        gap = np.hypot(*(places.position[here] - places.position[index]).T)
+        if ((gap >= room - TOLERANCE) | (places.level[here] != places.level[index])).all():
+            taken[count] = index
+            count += 1
+            if count == wanted:
+                return taken
+    raise InputError(
+        f"{wanted} robots do not fit: world and roadmap have {len(order)} places that connect with one another, "
+        f"at which {count} robots can {verb} {room:.2f} m apart"
+    )

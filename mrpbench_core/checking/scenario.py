@@ -1,0 +1,119 @@
+"""Finds what makes a scenario impossible for every planner, before any is asked."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from mrpbench_core.checking.reachability import components, reachable
+from mrpbench_core.model.arrays import Bool, Int
+from mrpbench_core.model.conflicts import TOLERANCE
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.roadmap import Roadmap
+
+
+def check_scenario(problem: Problem, start_names: Sequence[str] = (), goal_names: Sequence[str] = ()) -> list[str]:
+    """What is wrong with starts and goals, one sentence each, naming robots and places.
+
+    Two robots that start on one vertex or (with the feature `footprints`) closer than the sum of their radii; the same
+    for final goals where robots stay; places that are not on the roadmap (vertex -1); goals that a robot's motion
+    profile cannot reach from its start in order.
+
+    Args:
+        problem: may hold -1 for a start or goal that is not on the roadmap.
+        start_names: names of the robots' starts, in order; where missing or empty, coordinates are shown.
+        goal_names: names of the robots' final goals, likewise.
+    """
+    final = np.array([_final(problem, robot) for robot in range(len(problem))], np.int64)
+    starts = _Places(problem.roadmap, problem.start.astype(np.int64), start_names)
+    goals = _Places(problem.roadmap, final, goal_names)
+    faults = [
+        f"robot {robot} starts at {starts[robot]}, which is not on the roadmap"
+        for robot in np.flatnonzero(problem.start < 0).tolist()
+    ]
+    faults += _crowding(problem, starts, "both start at", "start at")
+    if problem.rules.at_goal == "stay":
+        faults += _crowding(problem, goals, "share the goal", "have the goals")
+    return [*faults, *_unreachable(problem, starts, goals)]
+
+
+class _Places:
+    """Names for the vertices of a list."""
+
+    def __init__(self, roadmap: Roadmap, vertex: Int, names: Sequence[str]) -> None:
+        self._roadmap, self.vertex, self._names = roadmap, vertex, names
+
+    def __getitem__(self, index: int) -> str:
+        if index < len(self._names) and self._names[index]:
+            return self._names[index]
+        vertex = self.vertex[index]
+        if vertex < 0:
+            return "a place"
+        x, y = self._roadmap.position[vertex]
+        return f"({x:.2f}, {y:.2f})"
+
+
+def _final(problem: Problem, robot: int) -> int:
+    """The one vertex at which a robot must end, -1 if it has a choice."""
+    sequence = problem.goals[robot]
+    return sequence[-1][0] if sequence and len(sequence[-1]) == 1 else -1
+
+
+def _crowding(problem: Problem, places: _Places, same: str, near: str) -> Iterator[str]:
+    """Pairs of robots that stand on one vertex, or whose discs overlap."""
+    known = np.flatnonzero(places.vertex >= 0)
+    vertex = places.vertex[known]
+    position, level = problem.roadmap.position[vertex], problem.roadmap.level[vertex]
+    footprints = Feature.FOOTPRINTS in problem.features
+    for index, robot in enumerate(known.tolist()):
+        gap = np.hypot(*(position - position[index]).T)
+        reach = problem.radius[known] + problem.radius[robot]
+        together = vertex == vertex[index]
+        close = footprints & (gap < reach - TOLERANCE) & (level == level[index])
+        for later in (index + 1 + np.flatnonzero((together | close)[index + 1 :])).tolist():
+            other = int(known[later])
+            if together[later]:
+                yield f"robots {robot} and {other} {same} {places[robot]}"
+            else:
+                where = f"{places[robot]} and {places[other]}"
+                yield (
+                    f"robots {robot} and {other} {near} {where}, "
+                    f"{gap[later]:.2f} m apart, and need {reach[later]:.2f} m"
+                )
+
+
+def _unreachable(problem: Problem, starts: _Places, goals: _Places) -> Iterator[str]:
+    reach = _Reach(problem.roadmap)
+    for robot, sequence in enumerate(problem.goals):
+        profile = int(problem.profile[robot])
+        here = {int(problem.start[robot])} - {-1}
+        for index, goal_set in enumerate(sequence):
+            last = index == len(sequence) - 1
+            goal = f"its goal {goals[robot]}" if last else f"goal {index} of its sequence"
+            candidates = set(goal_set) - {-1}
+            if not candidates:
+                yield f"robot {robot} is to reach {goal}, which is not on the roadmap"
+                break
+            there = {vertex for vertex in candidates if any(reach(profile, source, vertex) for source in here)}
+            if here and not there:
+                yield f"robot {robot} cannot reach {goal} from its start {starts[robot]}"
+                break
+            here = there
+
+
+class _Reach:
+    """Answers who can get where; searches only where driving there does not imply driving back."""
+
+    def __init__(self, roadmap: Roadmap) -> None:
+        self._roadmap = roadmap
+        self._label: dict[int, Int] = {}
+        self._seen: dict[tuple[int, int], Bool] = {}
+
+    def __call__(self, profile: int, source: int, target: int) -> bool:
+        if profile not in self._label:
+            self._label[profile] = components(self._roadmap, profile)
+        label = int(self._label[profile][source])
+        if label == self._label[profile][target]:
+            return True
+        if (profile, label) not in self._seen:
+            self._seen[profile, label] = reachable(self._roadmap, profile, source)
+        return bool(self._seen[profile, label][target])
