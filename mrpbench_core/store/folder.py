@@ -22,11 +22,15 @@ from mrpbench_core.store.paths import RunPaths
 PARTS = ("invocations", "runs", "recordings", "exports", "logs")
 
 
+def _absolute(path: Path) -> Path:
+    return Path(path).resolve()
+
+
 @attrs.frozen
 class ResultsFolder:
     """Paths inside a results folder, all absolute."""
 
-    path: Path = attrs.field(converter=lambda path: Path(path).resolve())
+    path: Path = attrs.field(converter=_absolute)
 
     @property
     def study(self) -> Path:

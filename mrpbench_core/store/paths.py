@@ -7,7 +7,7 @@ import attrs
 
 @attrs.frozen(kw_only=True)
 class RunPaths:
-    """Files of one run. Writers use a temporary name beside the final one and rename before the run's record is kept."""
+    """Files of one run. Writers use the name `.<name>.partial` and rename before the run's record is kept."""
 
     recording: Path
     """`recordings/<run_id>.zip`."""

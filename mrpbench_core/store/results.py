@@ -106,9 +106,7 @@ def flatten(record: dict[str, Any]) -> dict[str, Any]:
             flat[prefix] = value
 
     walk("", {key: value for key, value in record.items() if key != "metrics"})
-    for key, value in (record.get("metrics") or {}).items():
-        flat[key] = value
-    return flat
+    return flat | (record.get("metrics") or {})
 
 
 def load(folder: Path | str) -> Results:

@@ -1,0 +1,40 @@
+"""What an invocation of a study leaves beside its records: what was run, with which versions, on which machine."""
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from mrpbench_core.files.yaml import scalar
+
+
+class _Dumper(yaml.SafeDumper):
+    """Writes YAML 1.2: PyYAML leaves text such as `1e-3` bare, which is text only in YAML 1.1."""
+
+    def ignore_aliases(self, data: Any) -> bool:  # noqa: ARG002 - repeated values are written out
+        return True
+
+
+def _text(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
+    try:
+        bare = scalar(text) == text
+    except ValueError:
+        bare = False
+    return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=None if bare else '"')
+
+
+_Dumper.add_representer(str, _text)
+
+
+def dumps(data: Any) -> str:
+    """YAML that `mrpbench_core.files.yaml` reads back as it was."""
+    return yaml.dump(data, Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=120)
+
+
+def write_document(file: Path, data: Mapping[str, Any]) -> None:
+    """Write a YAML file at once: a reader sees the old one or the new one, never half."""
+    partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
+    partial.write_text(dumps(data), encoding="utf-8")
+    partial.replace(file)

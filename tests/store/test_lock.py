@@ -1,0 +1,31 @@
+"""One invocation at a time."""
+
+import signal
+import subprocess
+import sys
+
+import pytest
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.store.lock import locked
+
+HOLD = "import sys, time; from pathlib import Path; from mrpbench_core.store.lock import locked\n"
+HOLD += "with locked(Path(sys.argv[1])): print('held', flush=True); time.sleep(60)"
+
+
+def test_a_second_holder_is_told_who_the_first_is(tmp_path):
+    with subprocess.Popen([sys.executable, "-c", HOLD, tmp_path], stdout=subprocess.PIPE) as holder:
+        assert holder.stdout.readline() == b"held\n"
+        told = f"another invocation is working in this folder .process {holder.pid} on"
+        with pytest.raises(InputError, match=told), locked(tmp_path):
+            pass
+        holder.send_signal(signal.SIGKILL)
+    with locked(tmp_path):
+        pass
+
+
+def test_the_lock_is_free_again_after_an_error(tmp_path):
+    with pytest.raises(ZeroDivisionError), locked(tmp_path):
+        raise ZeroDivisionError
+    with locked(tmp_path):
+        pass

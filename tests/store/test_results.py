@@ -1,0 +1,102 @@
+"""Records on disk: attempts, cut lines, merging."""
+
+import json
+
+import pytest
+
+from mrpbench_core import load
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.jsonl import Writer
+from mrpbench_core.store.folder import ResultsFolder
+
+
+@pytest.fixture
+def folder(tmp_path):
+    made = ResultsFolder(tmp_path / "results")
+    made.create()
+    return made
+
+
+def record(run_id, attempt=1, status="succeeded", **more):
+    return {"run_id": run_id, "attempt": attempt, "status": status, "metrics": {}, "config": {}} | more
+
+
+def store(folder, shard, *records):
+    with Writer(folder.shard(shard), exclusive=True) as writer:
+        for entry in records:
+            writer.write(entry)
+
+
+def test_the_highest_attempt_wins_whichever_file_it_is_in(folder):
+    store(folder, "2", record("aa", 1, "crashed"), record("bb", 3, "skipped"))
+    store(folder, "1", record("aa", 2), record("bb", 2))
+    results = load(folder.path)
+    assert {entry["run_id"]: (entry["attempt"], entry["status"]) for entry in results} == {
+        "aa": (2, "succeeded"),
+        "bb": (3, "skipped"),
+    }
+    assert len(results) == 2
+    assert results.statuses() == {"succeeded": 1, "skipped": 1}
+
+
+def test_a_line_cut_off_by_a_crash_is_as_if_it_were_not_there(folder):
+    store(folder, "1", record("aa"), record("bb"))
+    file = folder.shard("1")
+    whole = file.read_bytes()
+    for length in range(len(whole)):
+        file.write_bytes(whole[:length])
+        assert [entry["run_id"] for entry in load(folder.path)] == ["aa", "bb"][: whole[:length].count(b"\n")]
+
+
+def test_a_corrupt_record_is_named(folder):
+    folder.shard("1").write_text(json.dumps(record("aa")) + "\n{]\n")
+    with pytest.raises(InputError, match=r"1\.jsonl:2: is not a record"):
+        load(folder.path)
+
+
+def test_copying_files_merges_folders_and_the_same_run_counts_once(folder, tmp_path):
+    other = ResultsFolder(tmp_path / "other")
+    other.create()
+    store(folder, "1", record("aa"), record("bb"))
+    store(other, "2", record("bb"), record("cc"))
+    folder.shard("2").write_bytes(other.shard("2").read_bytes())
+    assert [entry["run_id"] for entry in load(folder.path)] == ["aa", "bb", "cc"]
+
+
+def test_a_run_is_found_by_the_beginning_of_its_id(folder):
+    store(folder, "1", record("abc1"), record("abd2"))
+    results = load(folder.path)
+    assert results["abd"]["run_id"] == "abd2"
+    with pytest.raises(KeyError, match="2 runs begin with 'ab'"):
+        results["ab"]
+    with pytest.raises(KeyError, match="no runs begin with 'x'"):
+        results["x"]
+
+
+def test_rows_are_flat(folder):
+    store(folder, "1", record("aa", metrics={"planning.solved": 1}, config={"planner": {"plugin": "cbs"}, "seed": 3}))
+    (row,) = load(folder.path).to_rows()
+    assert row["planning.solved"] == 1
+    assert row["config.planner.plugin"] == "cbs"
+    assert row["config.seed"] == 3
+
+
+def test_a_folder_of_something_else_is_refused(tmp_path):
+    with pytest.raises(InputError, match="is no results folder"):
+        load(tmp_path)
+    (tmp_path / "thesis.tex").write_text("precious")
+    with pytest.raises(InputError, match="is not empty"):
+        ResultsFolder(tmp_path).create()
+
+
+def test_unfinished_files_are_swept_and_finished_ones_kept(folder):
+    unfinished = folder.run("aa").recording.with_name(".aa.zip.partial")
+    unfinished.write_bytes(b"half")
+    bag = folder.run("bb").exports / ".bag.partial"
+    bag.mkdir(parents=True)
+    finished = folder.run("cc").recording
+    finished.write_bytes(b"whole")
+    folder.sweep()
+    assert not unfinished.exists()
+    assert not bag.exists()
+    assert finished.read_bytes() == b"whole"
