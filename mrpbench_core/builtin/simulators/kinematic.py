@@ -17,6 +17,7 @@ from mrpbench_core.builtin.simulators.nearby import Nearby
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
 from mrpbench_core.model.fleet import Fleet, Lidar
+from mrpbench_core.model.scan_schedule import ScanSchedule
 from mrpbench_core.model.solids import segments
 from mrpbench_core.model.world import World
 
@@ -46,11 +47,10 @@ class _Plane(Simulation):
         self._substeps = max(1, math.ceil(period * float(self._limit[:, 0].max(initial=0.0)) / stride))
         self._discs = Discs(self._radii, len(robots), solids, stride)
         self._period, self._periods = period, 0
-        self._lidars: dict[Lidar, list[int]] = {}
-        for index, robot in enumerate(robots):
-            if robot.lidar is not None:
-                self._lidars.setdefault(robot.lidar, []).append(index)
-        self._visible = {lidar: Nearby(solids, lidar.range + math.hypot(*lidar.mount[:2])) for lidar in self._lidars}
+        self._schedule = ScanSchedule(fleet, period)
+        self._visible = {
+            lidar: Nearby(solids, lidar.range + math.hypot(*lidar.mount[:2])) for lidar in self._schedule.lidars
+        }
         self._movers = np.full((len(movers), 2), np.inf)
         self._pose, self._twist = np.array(placements, float).reshape(-1, 3), np.zeros((len(robots), 2))
         self._level = np.zeros(len(robots), np.int16)
@@ -99,15 +99,14 @@ class _Plane(Simulation):
         return taken
 
     def _take_scans(self) -> tuple[ScanBatch, ...]:
-        """Scans due now; robots take turns, so that no period has all the work."""
-        batches = []
-        for lidar, robots in self._lidars.items():
-            every = max(1, round(1 / (lidar.rate * self._period)))
-            due = [robot for robot in robots if (self._periods + robot) % every == 0]
-            if due:
-                ranges = np.array([self._scan(lidar, robot) for robot in due])
-                batches.append(ScanBatch(stamp=self._periods * self._period, robot=np.array(due), ranges=ranges))
-        return tuple(batches)
+        """Scans due now."""
+        stamp = self._periods * self._period
+        return tuple(
+            ScanBatch(
+                stamp=stamp, robot=np.array(robots), ranges=np.array([self._scan(lidar, robot) for robot in robots])
+            )
+            for lidar, robots in self._schedule.due(self._periods)
+        )
 
     def _scan(self, lidar: Lidar, robot: int) -> Float:
         pose = self._pose[robot]
