@@ -1,0 +1,103 @@
+"""A run as plain data: complete, and readable without the plugins; what records keep and what travels to a worker.
+
+Defaults are filled in, quantities are SI numbers, files are their name relative to the configuration's folder with the
+hash of their content, and what is absent is the word `none`.
+"""
+
+import enum
+import math
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.config.content import content_hash
+from mrpbench_core.config.settings import NOT_IDENTIFYING, RunConfig
+from mrpbench_core.plugins.local import source_of
+from mrpbench_core.plugins.provenance import components_in, kind_class
+from mrpbench_core.plugins.registry import Registry
+
+
+def canonical(config: RunConfig, folder: Path) -> dict[str, Any]:
+    """The whole of a configuration whose files lie in `folder`; `structure` turns it back into an equal one."""
+    plain: dict[str, Any] = _plain(config, folder)
+    return plain
+
+
+def sources(config: RunConfig, folder: Path) -> dict[str, str]:
+    """Texts of the local plugins that `config` uses, by their files' names relative to `folder`."""
+    found = {}
+    for component in components_in(config):
+        if source := source_of(type(component)):
+            found[relative(source.path, folder)] = source.text
+    return found
+
+
+def same_work(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    """Tell whether two canonical configurations describe the same work: what is not identifying may differ."""
+    return bool(_work(one) == _work(other))
+
+
+def plugin_name(component: Component, folder: Path) -> str:
+    """The name by which a configuration in `folder` chooses a component."""
+    return Registry(kind_class(type(component))).name_of(type(component), folder)
+
+
+def relative(path: Path, folder: Path) -> str:
+    """A file's name as a configuration in `folder` writes it."""
+    return Path(os.path.relpath(path, folder)).as_posix()
+
+
+def _plain(value: Any, folder: Path) -> Any:
+    if isinstance(value, Path):
+        return {"path": relative(value, folder), "sha256": content_hash(value)}
+    if attrs.has(type(value)):
+        named = {"plugin": plugin_name(value, folder)} if isinstance(value, Component) else {}
+        return named | {field.alias: _field(value, field, folder) for field in attrs.fields(type(value)) if field.init}
+    if isinstance(value, Mapping):
+        if value and all(isinstance(inner, Component) for inner in value.values()):
+            return [_plain(inner, folder) for inner in value.values()]
+        return {key: _plain(inner, folder) for key, inner in value.items()}
+    if isinstance(value, frozenset):
+        return sorted((_plain(inner, folder) for inner in value), key=repr)
+    if isinstance(value, tuple | list):
+        return [_plain(inner, folder) for inner in value]
+    return scalar(value)
+
+
+def _field(owner: Any, field: Any, folder: Path) -> Any:
+    value = getattr(owner, field.name)
+    if "written_default" in field.metadata:
+        if value is None:
+            return "none"
+        if not value:
+            return []
+    return _plain(value, folder)
+
+
+def scalar(value: Any) -> Any:
+    """A scalar as JSON can say it."""
+    if isinstance(value, enum.Enum):
+        return value.value
+    if isinstance(value, float) and math.isinf(value):
+        return ".inf" if value > 0 else "-.inf"
+    return value
+
+
+def _work(plain: Mapping[str, Any]) -> Any:
+    kept = {key: _by_content(value) for key, value in plain.items() if key not in NOT_IDENTIFYING}
+    for group, _, option in (key.partition(".") for key in NOT_IDENTIFYING):
+        if option and isinstance(kept.get(group), dict):
+            kept[group] = {key: value for key, value in kept[group].items() if key != option}
+    return kept
+
+
+def _by_content(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        if set(value) == {"path", "sha256"}:
+            return value["sha256"]
+        return {key: _by_content(inner) for key, inner in value.items()}
+    return [_by_content(inner) for inner in value] if isinstance(value, list | tuple) else value

@@ -1,0 +1,79 @@
+"""A run's identity: the hash of what was chosen, so that results are found again and nothing is run twice.
+
+Only options that differ from their defaults count: writing a default changes nothing, and neither does an option that a
+later version of a plugin adds. Files count by content. `NOT_IDENTIFYING` keys do not count.
+"""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.config.canonical import plugin_name, scalar
+from mrpbench_core.config.content import content_hash
+from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING, RunConfig
+from mrpbench_core.model.problem import Feature
+
+LENGTH = 16
+"""Hexadecimal digits of a run id."""
+
+
+def run_id(config: RunConfig, folder: Path) -> str:
+    """The identity of a run whose files lie in `folder`."""
+    text = json.dumps(choices(config, folder), sort_keys=True, ensure_ascii=False, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
+
+
+def choices(config: RunConfig, folder: Path) -> dict[str, Any]:
+    """What identifies a run, as plain data."""
+    chosen = {}
+    for field in attrs.fields(RunConfig):
+        if field.name not in _ignored(config) and _differs(config, field):
+            chosen[field.name] = _chosen(getattr(config, field.name), folder, field.name)
+    return {name: value for name, value in chosen.items() if not _is_default_plugin(name, value)}
+
+
+def _ignored(config: RunConfig) -> set[str]:
+    ignored = set(NOT_IDENTIFYING)
+    if getattr(config.planner, "assign", False) is True and Feature.GOAL_SETS in config.planner.supports:
+        ignored.add("assigner")  # the planner chooses among all goals itself
+    if config.simulator is None:
+        ignored |= {name for name in EXECUTION if getattr(config, name) is None}
+    return ignored
+
+
+def _is_default_plugin(name: str, value: Any) -> bool:
+    default = attrs.fields_dict(RunConfig)[name].metadata.get("written_default")
+    return isinstance(default, str) and value == {"plugin": default}
+
+
+def _chosen(value: Any, folder: Path, key: str) -> Any:
+    if isinstance(value, Path):
+        return content_hash(value)
+    if attrs.has(type(value)):
+        named = {"plugin": plugin_name(value, folder)} if isinstance(value, Component) else {}
+        return named | {
+            field.alias: _chosen(getattr(value, field.name), folder, f"{key}.{field.alias}")
+            for field in attrs.fields(type(value))
+            if field.init and f"{key}.{field.alias}" not in NOT_IDENTIFYING and _differs(value, field)
+        }
+    if isinstance(value, Mapping):
+        return {name: _chosen(inner, folder, key) for name, inner in value.items()}
+    if isinstance(value, frozenset):
+        return sorted((_chosen(inner, folder, key) for inner in value), key=repr)
+    if isinstance(value, tuple | list):
+        return [_chosen(inner, folder, key) for inner in value]
+    return scalar(value)
+
+
+def _differs(owner: Any, field: Any) -> bool:
+    default = field.default
+    if default is attrs.NOTHING:
+        return True
+    if isinstance(default, attrs.Factory):  # type: ignore[arg-type]
+        default = default.factory(owner) if default.takes_self else default.factory()
+    return bool(getattr(owner, field.name) != default)

@@ -1,0 +1,240 @@
+"""The `matrix` of a study: what varies, and how it is put together into single configurations.
+
+    matrix:
+      planner: [astar, {plugin: ecbs, w: 1.2}]     # a whole key replaces
+      scenario.robots: [5, 9]                      # a dotted key patches one option
+      seed: 0..53                                  # both ends included
+      "noise.lidar, noise.odometry": [[0, 0], [0.01, 0.02]]    # several names are zipped
+      exclude: [{planner: astar, scenario.robots: 9}]          # points that match all of an entry are left out
+      include: [{planner: cbs, seed: 0..3}]                    # further points, beside the product
+
+Points come in reading order, the last axis varying fastest, included ones last.
+"""
+
+import itertools
+import math
+import re
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import attrs
+
+from mrpbench_core.config.items import Item, look_up, main_key, patch, steps_of
+from mrpbench_core.config.mistakes import Mistakes, did_you_mean
+from mrpbench_core.config.settings import NOT_IDENTIFYING, RunConfig
+from mrpbench_core.files.errors import InputError
+
+POINT_LIMIT = 1_000_000
+_RANGE = re.compile(r"(-?[0-9]{1,18})\.\.(-?[0-9]{1,18})")
+
+
+@attrs.frozen
+class Axis:
+    """Values of one key, or of several that vary together."""
+
+    names: tuple[str, ...]
+    rows: Sequence[tuple[Item, ...]]
+
+
+@attrs.frozen
+class Point:
+    """One configuration of a study, not yet structured."""
+
+    root: Item
+    axes: dict[str, Any]
+    """Plain value of every key that varies."""
+
+    @property
+    def label(self) -> str:
+        """The point in a few words."""
+        return ", ".join(f"{name}={_brief(value)}" for name, value in self.axes.items()) or "the only run"
+
+
+@attrs.frozen
+class Matrix:
+    """A parsed `matrix` block."""
+
+    axes: tuple[Axis, ...] = ()
+    include: tuple[tuple[Axis, ...], ...] = ()
+    exclude: tuple[Item, ...] = ()
+
+    def replaced(self, overrides: Sequence[Axis]) -> "Matrix":
+        """This matrix without the axes (or columns of zipped axes) that overrides name."""
+        given = {name for axis in overrides for name in axis.names}
+        axes = (_without(axis, given) for axis in self.axes)
+        include = (tuple(axis for axis in entry if not given & set(axis.names)) for entry in self.include)
+        return Matrix(tuple(axis for axis in axes if axis.names), tuple(include), self.exclude)
+
+    def points(self, root: Item, overrides: Sequence[Axis] = ()) -> Iterator[Point]:
+        """Every point of the matrix over the configuration `root`, with `overrides` as further axes.
+
+        Raises:
+            Mistakes: there are none, or too many, or a key leads nowhere.
+        """
+        matrix = self.replaced(overrides)
+        blocks = [matrix.axes] if matrix.axes or not matrix.include else []
+        blocks += matrix.include
+        size = sum(math.prod(len(axis.rows) for axis in (*block, *overrides)) for block in blocks)
+        if size > POINT_LIMIT:
+            raise Mistakes(root.where.error("matrix", f"describes {size} runs; at most {POINT_LIMIT} are allowed"))
+        for block in blocks:
+            for point in _product(root, (*block, *overrides)):
+                if not any(matches(point.root, entry) for entry in self.exclude):
+                    yield point
+
+
+def parse_matrix(item: Item) -> Matrix:
+    """Read a `matrix` block.
+
+    Raises:
+        Mistakes: all that is wrong with it.
+    """
+    if not isinstance(item.value, dict):
+        raise Mistakes(item.where.error("matrix", "expected a block of keys and lists of their values"))
+    axes: list[Axis] = []
+    include: list[tuple[Axis, ...]] = []
+    exclude: list[Item] = []
+    errors: list[InputError] = []
+    for name, inner in item.value.items():
+        try:
+            if name == "include":
+                include = [_included(entry) for entry in _entries(inner, name)]
+            elif name == "exclude":
+                exclude = _entries(inner, name)
+            else:
+                axes.append(_axis(name, inner, {known for axis in axes for known in axis.names}))
+        except Mistakes as mistakes:
+            errors += mistakes.errors
+    if errors:
+        raise Mistakes(*errors)
+    return Matrix(tuple(axes), tuple(include), tuple(exclude))
+
+
+def integers(text: Any) -> range | None:
+    """The integers of a range `a..b`, both included, or None if it is none."""
+    found = _RANGE.fullmatch(text) if isinstance(text, str) else None
+    return range(int(found[1]), int(found[2]) + 1) if found else None
+
+
+def rows_of(item: Item, name: str) -> Sequence[tuple[Item, ...]] | None:
+    """The values that a range gives to one key, or None if `item` is no range.
+
+    Raises:
+        Mistakes: the range is empty or too long.
+    """
+    numbers = integers(item.value)
+    if numbers is None:
+        return None
+    if not numbers:
+        raise Mistakes(item.where.error(name, f"the range {item.value} is empty"))
+    if len(numbers) > POINT_LIMIT:
+        raise Mistakes(item.where.error(name, f"the range {item.value} has more than {POINT_LIMIT} values"))
+    return [(attrs.evolve(item, value=number),) for number in numbers]
+
+
+def check_name(item: Item, name: str) -> None:
+    """Refuse to vary what does not tell runs apart, or does not exist.
+
+    Raises:
+        Mistakes: located at the key.
+    """
+    first = steps_of(name)[0]
+    if first not in attrs.fields_dict(RunConfig):
+        raise Mistakes(item.key.error(name, "unknown key", did_you_mean(first, attrs.fields_dict(RunConfig))))
+    if any(name == fixed or name.startswith(fixed + ".") for fixed in NOT_IDENTIFYING):
+        raise Mistakes(item.key.error(name, "cannot vary: it does not change what a run does"))
+
+
+def matches(root: Item, entry: Item) -> bool:
+    """Tell whether a configuration has all the values of an `exclude` entry."""
+    return all(_has(root, name, wanted) for name, wanted in entry.value.items())
+
+
+def _axis(name: str, item: Item, taken: set[str]) -> Axis:
+    names = tuple(part.strip() for part in name.split(","))
+    for part in names:
+        check_name(item, part)
+        if part in taken or names.count(part) > 1:
+            raise Mistakes(item.key.error(part, "varies twice"))
+    if len(names) == 1 and (rows := rows_of(item, name)) is not None:
+        return Axis(names, rows)
+    if not isinstance(item.value, list) or not item.value:
+        raise Mistakes(item.where.error(name, "expected a list of values, or a range a..b of integers"))
+    if len(names) == 1:
+        return Axis(names, [(_keyed(value, item),) for value in item.value])
+    for row in item.value:
+        if not isinstance(row.value, list) or len(row.value) != len(names):
+            raise Mistakes(row.where.error(name, f"expected a list of {len(names)} values, one for each name"))
+    return Axis(names, [tuple(_keyed(value, item) for value in row.value) for row in item.value])
+
+
+def _entries(item: Item, name: str) -> list[Item]:
+    entries = item.value if isinstance(item.value, list) else [item]
+    errors = []
+    for entry in entries:
+        if not isinstance(entry.value, dict) or not entry.value:
+            errors.append(entry.where.error(f"matrix.{name}", "expected a list of blocks of keys and values"))
+            continue
+        for key, inner in entry.value.items():
+            try:
+                check_name(inner, key)
+            except Mistakes as mistakes:
+                errors += mistakes.errors
+    if errors:
+        raise Mistakes(*errors)
+    return list(entries)
+
+
+def _included(entry: Item) -> tuple[Axis, ...]:
+    return tuple(Axis((name,), rows_of(inner, name) or [(inner,)]) for name, inner in entry.value.items())
+
+
+def _keyed(value: Item, axis: Item) -> Item:
+    """A value of an axis: an error about its key stands at the axis."""
+    return attrs.evolve(value, key=axis.key)
+
+
+def _without(axis: Axis, given: set[str]) -> Axis:
+    kept = [index for index, name in enumerate(axis.names) if name not in given]
+    if len(kept) == len(axis.names):
+        return axis
+    return Axis(tuple(axis.names[i] for i in kept), [tuple(row[i] for i in kept) for row in axis.rows])
+
+
+def _product(root: Item, axes: Sequence[Axis]) -> Iterator[Point]:
+    names = [name for axis in axes for name in axis.names]
+    # A whole block is put in place before its options are patched, whatever the reading order.
+    order = sorted(range(len(names)), key=lambda index: len(steps_of(names[index])))
+    varying = {name for axis in axes if len(axis.rows) > 1 for name in axis.names}
+    for rows in itertools.product(*(axis.rows for axis in axes)):
+        values = [item for row in rows for item in row]
+        patched = root
+        for index in order:
+            try:
+                patched = patch(patched, names[index], values[index])
+            except InputError as error:
+                raise Mistakes(error) from None
+        yield Point(patched, {name: item.data for name, item in zip(names, values, strict=True) if name in varying})
+
+
+def _has(root: Item, name: str, wanted: Item) -> bool:
+    found = look_up(root, name)
+    if found is None:
+        return False
+    numbers = integers(wanted.value)
+    if numbers is not None:
+        return type(found.value) is int and found.value in numbers
+    main = main_key(steps_of(name))
+    one, other = _block(found.data, main), _block(wanted.data, main)
+    return bool(one == other and isinstance(one, bool) == isinstance(other, bool))
+
+
+def _block(data: Any, main: str) -> Any:
+    """A bare word as the block it stands for, at any key: only equality is asked."""
+    return {main: data} if isinstance(data, str) else data
+
+
+def _brief(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{key}: {_brief(inner)}" for key, inner in value.items()) + "}"
+    return str(value)

@@ -1,0 +1,66 @@
+"""`key=value` on the command line: the same dotted paths as in a matrix, above everything the file says."""
+
+from collections.abc import Sequence
+
+import attrs
+
+from mrpbench_core.config.items import COMMAND_LINE, Where, from_data
+from mrpbench_core.config.matrix import Axis, Matrix, check_name, rows_of
+from mrpbench_core.config.mistakes import Mistakes
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.yaml import loads
+
+LISTS = {"fleet", "metrics", "export"}
+"""Settings whose value is itself a list."""
+
+
+def parse_overrides(texts: Sequence[str], matrix: Matrix) -> tuple[Axis, ...]:
+    """Each override as an axis, of one value unless it is a range or a list of values for a key.
+
+    A list gives values to vary where the file has an axis of that name or the key takes no list, as in
+    `planner=[cbs, ecbs]`; anywhere else it is the value.
+
+    Raises:
+        Mistakes: all that is wrong with them, located `command line`.
+    """
+    varied = {name for axis in matrix.axes for name in axis.names}
+    axes: list[Axis] = []
+    errors: list[InputError] = []
+    for text in texts:
+        try:
+            axis = _parse(text, varied)
+            if any(axis.names == other.names for other in axes):
+                raise Mistakes(Where(COMMAND_LINE).error(axis.names[0], "given twice"))
+            axes.append(axis)
+        except Mistakes as mistakes:
+            errors += mistakes.errors
+    if errors:
+        raise Mistakes(*errors)
+    return tuple(axes)
+
+
+def _parse(text: str, varied: set[str]) -> Axis:
+    where = Where(COMMAND_LINE)
+    name, equals, written = text.partition("=")
+    name = name.strip()
+    if not equals or not name:
+        raise Mistakes(where.error("", f"expected key=value, got {text!r}"))
+    try:
+        item = from_data(loads(written).data if written.strip() else "", where)
+    except InputError as error:
+        raise Mistakes(where.error(name, error.message, error.hint)) from None
+    if name.partition(".")[0] == "matrix":
+        raise Mistakes(where.error(name, "cannot be overridden", "override the keys that it varies"))
+    rows = rows_of(item, name)
+    if rows is None and isinstance(item.value, list) and item.value and (name in varied or _takes_no_list(name)):
+        rows = [(value,) for value in item.value]
+    if rows is None:
+        rows = [(item,)]
+    if len(rows) > 1:
+        check_name(item, name)
+    return Axis((name,), rows)
+
+
+def _takes_no_list(name: str) -> bool:
+    return name in attrs.fields_dict(RunConfig) and name not in LISTS

@@ -1,0 +1,140 @@
+"""One complete configuration. Its fields are the keys of the file; their help, units and defaults are its reference."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+import attrs
+from attrs import validators
+
+from mrpbench_core.api import (
+    Assigner,
+    Controller,
+    Dispatcher,
+    Exporter,
+    Localizer,
+    Metric,
+    Navigator,
+    Planner,
+    RoadmapBuilder,
+    ScenarioSource,
+    Simulator,
+    WorldSource,
+    option,
+)
+from mrpbench_core.files.robot import robot_file
+
+ROBOT = "turtlebot3_burger"
+
+
+def block(plugin: Any = attrs.NOTHING, *, help: str) -> Any:
+    """A field whose default, as the file would write it, is `plugin`: looked up only when a run needs it."""
+    return attrs.field(metadata={"help": help, "unit": None, "written_default": plugin})
+
+
+@attrs.frozen(kw_only=True)
+class LidarOptions:
+    """What differs from the robot's own lidar; None = as the robot has it."""
+
+    beams: int | None = option(None, help="beams per turn", validator=validators.optional(validators.ge(1)))
+    range: float | None = option(None, help="reach", unit="m", validator=validators.optional(validators.gt(0)))
+    min_range: float | None = option(
+        None, help="nearest distance seen", unit="m", validator=validators.optional(validators.ge(0))
+    )
+    rate: float | None = option(
+        None, help="scans per simulated second", unit="Hz", validator=validators.optional(validators.gt(0))
+    )
+    mount: tuple[float, float, float] | None = option(None, help="x, y, z in the robot's base frame, metres")
+
+
+def _is_robot(_: Any, __: "attrs.Attribute[str | Path]", value: str | Path) -> None:
+    if isinstance(value, str):
+        robot_file(value)
+
+
+@attrs.frozen(kw_only=True)
+class FleetEntry:
+    """Robots of one model."""
+
+    robot: str | Path = option(ROBOT, help="name of a robot, or a robot's .yaml file", validator=_is_robot)
+    lidar: LidarOptions | Literal["none"] | None = option(None, help="changes to its lidar; `none` takes it off")
+    count: int | None = option(
+        None,
+        help="how many; entries without a count share the scenario's remaining robots",
+        validator=validators.optional(validators.ge(1)),
+    )
+
+
+@attrs.frozen(kw_only=True)
+class Noise:
+    """What the engine adds to the simulator's exact output; standard deviations."""
+
+    lidar: float = option(0.0, help="of each range", unit="m", validator=validators.ge(0))
+    odometry: float = option(0.0, help="relative to the distance and angle driven", validator=validators.ge(0))
+    start_jitter: float = option(0.0, help="of start positions", unit="m", validator=validators.ge(0))
+
+
+@attrs.frozen(kw_only=True)
+class Recording:
+    """What is kept of an execution."""
+
+    keep: Literal["all", "failed", "none"] = option("all", help="of which runs the recording is kept")
+    rate: float = option(10.0, help="samples per simulated second", unit="Hz", validator=validators.gt(0))
+    scans: bool = option(False, help="keep laser scans, which are large")
+
+
+@attrs.frozen(kw_only=True)
+class Limits:
+    """When a stage is ended."""
+
+    planning: float = option(60.0, help="wall time of one call of the planner", unit="s", validator=validators.gt(0))
+    memory: int = option(4 * 2**30, help="resident memory of a run", unit="B", validator=validators.ge(1))
+    execution: float = option(300.0, help="simulated time", unit="s", validator=validators.gt(0))
+    wall: float = option(1800.0, help="wall time of a run", unit="s", validator=validators.gt(0))
+
+
+@attrs.frozen(kw_only=True)
+class Replanning:
+    """What a new plan costs during execution."""
+
+    latency: float = option(0.0, help="simulated time until it takes effect", unit="s", validator=validators.ge(0))
+
+
+def _is_folder_name(_: Any, field: "attrs.Attribute[str]", value: str) -> None:
+    if not value or value.startswith(".") or set(value) & set('/\\\0\n\r\t:*?"<>|'):
+        raise ValueError(f"{field.name!r} must be usable as a folder's name, got {value!r}")
+
+
+@attrs.frozen(kw_only=True)
+class RunConfig:
+    """One run: what is chosen for every stage, and the seed."""
+
+    name: str = option(help="names the results' folder; by default the file's name", validator=_is_folder_name)
+    world: WorldSource = block(help="walls, doors, floors and navigation graph")
+    roadmap: RoadmapBuilder = block("lanes", help="the graph that planners search")
+    scenario: ScenarioSource = block("random", help="starts and goals")
+    fleet: tuple[FleetEntry, ...] = option(
+        (FleetEntry(),), help="the robots: a name, or a list of entries", validator=validators.min_len(1)
+    )
+    assigner: Assigner = block("ortools_mip", help="decides which robot does which task")
+    planner: Planner = block(help="turns the problem into one timed path per robot")
+    dispatcher: Dispatcher | None = block("adg", help="decides how far along its path each robot may go")
+    navigator: Navigator | None = block("waypoints", help="drives robots along what is released")
+    controller: Controller | None = block("pure_pursuit", help="turns a path into wheel commands")
+    simulator: Simulator | None = block("kinematic", help="moves the robots; `none` ends the run after planning")
+    localizer: Localizer | None = block("ground_truth", help="tells robots where they are")
+    noise: Noise = option(Noise(), help="what is added to the simulator's exact output")
+    metrics: Mapping[str, Metric] = block(("planning", "execution"), help="what is measured")
+    export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")
+    recording: Recording = option(Recording(), help="what is kept of an execution")
+    limits: Limits = option(Limits(), help="when a stage is ended")
+    replanning: Replanning = option(Replanning(), help="what a new plan costs during execution")
+    seed: int = option(0, help="of scenario and planner", validator=validators.ge(0))
+    repeat: int = option(0, help="of the noise: the same scenario again", validator=validators.ge(0))
+
+
+EXECUTION = ("dispatcher", "navigator", "controller", "localizer")
+"""Without a simulator these are None unless the file names them."""
+
+NOT_IDENTIFYING = ("name", "metrics", "export", "recording", "limits.wall")
+"""Keys that do not change what a run does."""

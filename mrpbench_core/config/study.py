@@ -1,0 +1,172 @@
+"""From a configuration file, or a dict, to the runs it describes."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.config.canonical import canonical, sources
+from mrpbench_core.config.identity import run_id
+from mrpbench_core.config.items import COMMAND_LINE, Item, Where, from_data, from_document
+from mrpbench_core.config.matrix import Matrix, Point, parse_matrix
+from mrpbench_core.config.mistakes import Mistakes, in_reading_order
+from mrpbench_core.config.overrides import parse_overrides
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.config.structure import Structure, structure
+from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.yaml import load
+
+NAMED_POINTS = 5
+"""How many points an error names."""
+
+
+@attrs.frozen(kw_only=True)
+class RunPoint:
+    """One run of a study."""
+
+    run_id: str
+    config: RunConfig
+    canonical: dict[str, Any] = attrs.field(repr=False)
+    """The configuration as plain data, for records."""
+    axes: dict[str, Any]
+    """Plain values of what varies in the study, by dotted key."""
+    folder: Path
+    sources: dict[str, str] = attrs.field(repr=False, factory=dict)
+
+    @property
+    def parcel(self) -> dict[str, Any]:
+        """Plain data from which another process makes the same configuration; see `unpack`."""
+        return {"config": self.canonical, "folder": str(self.folder), "sources": self.sources}
+
+
+@attrs.frozen(kw_only=True)
+class Study:
+    """The runs that one configuration describes, each once."""
+
+    name: str
+    file: Path | None
+    folder: Path
+    """Of the configuration; its files lie relative to it."""
+    runs: tuple[RunPoint, ...]
+    errors: tuple[InputError, ...] = ()
+    """What is wrong with points that cannot be run, in reading order."""
+    invalid: int = 0
+    """How many those are."""
+    document: Any = None
+    """What the file says, as plain data."""
+
+
+def load_study(source: Path | str | Mapping[str, Any], overrides: Sequence[str] = ()) -> Study:
+    """Read a configuration and put its runs together.
+
+    Args:
+        source: a file, or its content as a dict; files that a dict names lie relative to the working directory.
+        overrides: `key=value`, as on the command line.
+
+    Raises:
+        InputError: the file cannot be read.
+        InputErrors: everything that is wrong, in reading order: with the file as a whole, with an override, or with
+            every single point. Where some points are right, what is wrong with the others is in `Study.errors`.
+    """
+    if isinstance(source, Mapping):
+        file, folder, root = None, Path.cwd(), from_data(source, Where())
+    else:
+        file = Path(source)
+        folder = Path.cwd() / file.parent
+        root = from_document(load(file))
+    try:
+        return _study(root, file, folder, overrides)
+    except Mistakes as mistakes:
+        raise InputErrors(in_reading_order(mistakes.errors)) from None
+
+
+def load_studies(files: Iterable[Path | str], overrides: Sequence[str] = ()) -> list[Study]:
+    """Several configurations; the mistakes of all of them at once."""
+    studies, errors = [], []
+    for file in files:
+        try:
+            studies.append(load_study(file, overrides))
+        except InputError as error:
+            errors.append(error)
+        except InputErrors as several:
+            errors += several.errors
+    if errors:
+        raise InputErrors(list({str(error): error for error in errors}.values()))
+    return studies
+
+
+def unpack(parcel: Mapping[str, Any], *, verify: bool = True) -> RunConfig:
+    """The configuration that `RunPoint.parcel` describes, in any process that sees the same files.
+
+    Raises:
+        InputErrors: a plugin is missing here, or a file is missing or (with `verify`) has changed.
+    """
+    return structure(parcel["config"], Path(parcel["folder"]), parcel["sources"], verify=verify)
+
+
+def _study(root: Item, file: Path | None, folder: Path, overrides: Sequence[str]) -> Study:
+    if not isinstance(root.value, dict):
+        raise Mistakes(root.where.error("", "expected a block of settings such as `planner: cbs`"))
+    settings = {key: inner for key, inner in root.value.items() if key != "matrix"}
+    name = file.stem if file else "study"
+    settings.setdefault("name", from_data(name, attrs.evolve(root.where, line=None, column=None)))
+    matrix = parse_matrix(root.value["matrix"]) if "matrix" in root.value else Matrix()
+    points = list(matrix.points(attrs.evolve(root, value=settings), parse_overrides(overrides, matrix)))
+    if not points:
+        raise Mistakes(root.value["matrix"].where.error("matrix", "excludes every point"))
+    runs, faults = _structure(points, folder)
+    errors = _explain(faults, len(points))
+    if not runs or any(error.file == COMMAND_LINE for error in errors):
+        raise Mistakes(*errors)
+    return Study(
+        name=next(iter(runs.values())).config.name,
+        file=file,
+        folder=folder,
+        runs=tuple(runs.values()),
+        errors=tuple(errors),
+        invalid=len({id(point) for _, broken in faults.values() for point in broken}),
+        document=root.data,
+    )
+
+
+def _structure(
+    points: Sequence[Point], folder: Path
+) -> tuple[dict[str, RunPoint], dict[str, tuple[InputError, list[Point]]]]:
+    """The runs by id, and each error with the points it spoils."""
+    structurer = Structure(folder)
+    runs: dict[str, RunPoint] = {}
+    faults: dict[str, tuple[InputError, list[Point]]] = {}
+    for point in points:
+        try:
+            config = structurer.run(point.root)
+        except Mistakes as mistakes:
+            for error in mistakes.errors:
+                faults.setdefault(str(error), (error, []))[1].append(point)
+            continue
+        identity = run_id(config, folder)
+        if identity not in runs:
+            runs[identity] = RunPoint(
+                run_id=identity,
+                config=config,
+                canonical=canonical(config, folder),
+                axes=point.axes,
+                folder=folder,
+                sources=sources(config, folder),
+            )
+    return runs, faults
+
+
+def _explain(faults: Mapping[str, tuple[InputError, list[Point]]], size: int) -> list[InputError]:
+    """The errors in reading order; those that spoil only some points name them."""
+    explained = []
+    for error, points in faults.values():
+        if len(points) < size:
+            names = "; ".join(dict.fromkeys(point.label for point in points[:NAMED_POINTS]))
+            more = f" and {len(points) - NAMED_POINTS} more" if len(points) > NAMED_POINTS else ""
+            hint = f"{error.hint}; " if error.hint else ""
+            error = InputError(
+                error.message, file=error.file, line=error.line, column=error.column, hint=f"{hint}in {names}{more}"
+            )
+        explained.append(error)
+    return in_reading_order(explained)

@@ -1,0 +1,53 @@
+"""What a class must keep to be a component; checked when it is chosen."""
+
+import inspect
+import typing
+from typing import Any, ClassVar
+
+import attrs
+
+from mrpbench_core.api.component import Component
+
+
+def breach(cls: Any, base: type[Component]) -> str | None:
+    """Why `cls` is no component of the kind `base`, as the end of a sentence that begins with its name; or None."""
+    if not isinstance(cls, type) or not issubclass(cls, base):
+        return f"is not a subclass of {base.__name__}"
+    if inspect.isabstract(cls):
+        return f"lacks the methods {', '.join(sorted(cls.__abstractmethods__))}"
+    if "__attrs_attrs__" not in vars(cls) or not _frozen(cls):
+        return "is not decorated @attrs.frozen(kw_only=True)"
+    try:
+        attrs.resolve_types(cls)  # type: ignore[type-var]
+    except Exception as error:  # noqa: BLE001 - annotations are code, so anything may be raised
+        return f"has an option whose type cannot be resolved: {error}"
+    if strays := _stray_annotations(cls):
+        return f"has annotated public names that are no options: {', '.join(strays)} (write `name: type = option(...)`)"
+    return None
+
+
+def _frozen(cls: type[Component]) -> bool:
+    probe = object.__new__(cls)
+    try:
+        probe.probe = None  # type: ignore[attr-defined]
+    except attrs.exceptions.FrozenInstanceError:
+        return True
+    except AttributeError:
+        return False
+    return False
+
+
+def _stray_annotations(cls: type[Component]) -> list[str]:
+    fields = {field.name for field in attrs.fields(cls)}  # type: ignore[arg-type]
+    strays = []
+    for owner in cls.__mro__:
+        for name, annotation in inspect.get_annotations(owner).items():
+            if not name.startswith("_") and name not in fields and not _is_class_variable(annotation):
+                strays.append(name)
+    return strays
+
+
+def _is_class_variable(annotation: Any) -> bool:
+    if isinstance(annotation, str):  # from __future__ import annotations
+        return annotation.removeprefix("typing.").removeprefix("t.").startswith("ClassVar")
+    return annotation is ClassVar or typing.get_origin(annotation) is ClassVar

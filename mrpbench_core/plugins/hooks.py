@@ -1,0 +1,119 @@
+"""Lifecycle hooks behind a guard: one that raises is logged once and dropped; no result can depend on it."""
+
+import copy
+import difflib
+import importlib
+import logging
+import os
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+import attrs
+import pluggy
+from packaging.utils import canonicalize_name
+
+from mrpbench_core.api import hooks as specifications
+from mrpbench_core.plugins.installed import Provider, providers
+from mrpbench_core.plugins.kinds import HOOKS
+from mrpbench_core.plugins.local import one_line
+
+LOG = logging.getLogger("mrpbench.hooks")
+DISABLE = "MRPBENCH_DISABLE_PLUGINS"
+"""Environment variable: names of hook plugins, or of their distributions, that are not loaded; separated by commas."""
+
+
+@attrs.frozen
+class _Implementation:
+    plugin: str
+    function: Callable[..., Any]
+    arguments: tuple[str, ...]
+
+
+class Hooks:
+    """The hook plugins of one process."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, list[_Implementation]] = {}
+        self._off: set[str] = set()
+        self.refused: list[str] = []
+        """Plugins that could not be registered."""
+
+    @property
+    def switched_off(self) -> tuple[str, ...]:
+        """Plugins that raised since the last `switch_on`, and those that were refused."""
+        return (*self.refused, *sorted(self._off))
+
+    def switch_on(self) -> None:
+        """Begin a new run: give implementations that raised another chance."""
+        self._off.clear()
+
+    def register(self, plugin: object, name: str) -> None:
+        """Add a plugin's implementations; one with unknown hooks or wrong arguments is refused as a whole."""
+        manager = pluggy.PluginManager("mrpbench")
+        manager.add_hookspecs(specifications)
+        try:
+            manager.register(plugin, name)
+            callers = manager.get_hookcallers(plugin) or []
+        except Exception as error:  # noqa: BLE001 - a plugin's attributes may raise anything
+            self._refuse(name, " ".join(str(error).split()))
+            return
+        for caller in callers:
+            if not caller.has_spec():
+                close = difflib.get_close_matches(caller.name, vars(manager.hook), n=1)
+                close = [found for found in close if found != caller.name]
+                self._refuse(name, f"there is no hook {caller.name}" + (f"; did you mean {close[0]}?" if close else ""))
+                return
+            if any(found.hookwrapper or found.wrapper for found in caller.get_hookimpls()):
+                self._refuse(name, f"{caller.name} is a wrapper; hooks only watch")
+                return
+        if not callers:
+            self._refuse(name, "it implements no hook; mark functions with mrpbench_core.api.hookimpl")
+        for caller in callers:
+            for found in caller.get_hookimpls():
+                implementation = _Implementation(name, found.function, tuple(found.argnames))
+                self._known.setdefault(caller.name, []).append(implementation)
+
+    def load(self, provider: Provider) -> None:
+        """Import and register an installed plugin."""
+        if provider.problem:
+            self._refuse(provider.name, f"{provider.distribution} {provider.problem}")
+            return
+        module, _, path = provider.value.partition(":")
+        try:
+            plugin: Any = importlib.import_module(module)
+            for attribute in filter(None, path.split(".")):
+                plugin = getattr(plugin, attribute)
+        except (Exception, SystemExit) as error:  # noqa: BLE001 - importing a plugin runs its code
+            self._refuse(provider.name, f"it cannot be imported: {one_line(error)}")
+            return
+        self.register(plugin, provider.name)
+
+    def call(self, hook: str, **arguments: Any) -> None:
+        """Tell every implementation of `hook`. Mappings are copied, so that nobody can write into a record."""
+        for found in self._known.get(hook, ()):
+            if found.plugin in self._off:
+                continue
+            try:
+                found.function(**{name: _own(arguments[name]) for name in found.arguments})
+            except (Exception, SystemExit) as error:  # noqa: BLE001 - calling a plugin runs its code
+                self._off.add(found.plugin)
+                LOG.warning("hook plugin %r is switched off for this run: %s: %s", found.plugin, hook, one_line(error))
+
+    def _refuse(self, name: str, reason: str) -> None:
+        self.refused.append(name)
+        LOG.warning("hook plugin %r is not used: %s", name, reason)
+
+
+def load_hooks(disabled: Iterable[str] | None = None) -> Hooks:
+    """The installed hook plugins, less the `disabled` (default: those that `MRPBENCH_DISABLE_PLUGINS` lists)."""
+    listed = os.environ.get(DISABLE, "").split(",") if disabled is None else disabled
+    names = {canonicalize_name(name.strip()) for name in listed}
+    hooks = Hooks()
+    for provider in providers(HOOKS):
+        if names.isdisjoint({canonicalize_name(provider.name), canonicalize_name(provider.distribution)}):
+            hooks.load(provider)
+    return hooks
+
+
+def _own(value: Any) -> Any:
+    return copy.deepcopy(value) if isinstance(value, Mapping) else value

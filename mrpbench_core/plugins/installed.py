@@ -1,0 +1,110 @@
+"""What is installed, read from the metadata of distributions; nothing is imported."""
+
+import functools
+import importlib
+import sys
+from collections.abc import Iterable
+from email.message import Message
+from importlib import metadata
+from typing import cast
+
+import attrs
+from packaging.markers import UndefinedEnvironmentName
+from packaging.requirements import InvalidRequirement, Requirement
+from packaging.utils import canonicalize_name
+
+from mrpbench_core.plugins.kinds import PREFIX, kind_of
+
+CORE = "mrpbench-core"
+
+
+@attrs.frozen
+class Provider:
+    """One name that one distribution offers."""
+
+    name: str
+    kind: str
+    group: str
+    distribution: str
+    version: str
+    value: str
+    """`package.module:Class`."""
+    problem: str | None = None
+    """Why it cannot work with this core, or None; known before anything is imported."""
+
+    @property
+    def origin(self) -> str:
+        """Distribution and version, as errors name it."""
+        return f"{self.distribution} {self.version}"
+
+
+def installed() -> tuple[Provider, ...]:
+    """Every component and hook that installed distributions offer, by kind and name."""
+    return tuple(provider for group in sorted(_scan(_path())) for provider in _scan(_path())[group])
+
+
+def providers(group: str) -> tuple[Provider, ...]:
+    """Those of one group, by name."""
+    return _scan(_path()).get(group, ())
+
+
+def refresh() -> None:
+    """Look again: for a process in which something is installed while it runs."""
+    importlib.invalidate_caches()
+    _scan.cache_clear()
+
+
+def distribution(name: str) -> metadata.Distribution:
+    """The distribution that `Provider.distribution` names."""
+    return metadata.distribution(name)
+
+
+def entry_points() -> list[metadata.EntryPoint]:
+    """The entry points, in groups of ours, of every distribution."""
+    found = metadata.entry_points()
+    return [entry for group in found.groups if group.startswith(PREFIX) for entry in found.select(group=group)]
+
+
+def _path() -> tuple[str, ...]:
+    return tuple(sys.path)
+
+
+@functools.lru_cache(maxsize=4)
+def _scan(_: tuple[str, ...]) -> dict[str, tuple[Provider, ...]]:
+    found: dict[str, set[Provider]] = {}
+    for entry in entry_points():
+        if entry.dist is not None:
+            found.setdefault(entry.group, set()).add(_provider(entry, entry.dist))
+
+    def order(provider: Provider) -> tuple[str, str, str]:
+        return provider.name, provider.distribution, provider.value
+
+    return {group: tuple(sorted(offers, key=order)) for group, offers in found.items()}
+
+
+def _provider(entry: metadata.EntryPoint, owner: metadata.Distribution) -> Provider:
+    facts = cast("Message", owner.metadata)  # which is one, whatever its declared type says
+    return Provider(
+        name=entry.name,
+        kind=kind_of(entry.group),
+        group=entry.group,
+        distribution=facts.get("Name") or "unknown",
+        version=facts.get("Version") or "unknown",
+        value=entry.value,
+        problem=incompatibility(owner.requires or ()),
+    )
+
+
+def incompatibility(requires: Iterable[str]) -> str | None:
+    """Why a distribution with these requirements does not work with this core, or None."""
+    for text in requires:
+        try:
+            requirement = Requirement(text)
+            applies = requirement.marker is None or requirement.marker.evaluate({"extra": ""})
+        except (InvalidRequirement, UndefinedEnvironmentName):
+            continue  # of some other package, or pip would have refused it
+        if applies and canonicalize_name(requirement.name) == CORE:
+            version = metadata.version(CORE)
+            if not requirement.specifier.contains(version, prereleases=True):
+                return f"needs {CORE}{requirement.specifier}, this is {version}"
+    return None

@@ -1,0 +1,36 @@
+"""The kinds by name, without importing their contracts: listing plugins must not wait for NumPy.
+
+A test keeps this table in step with `mrpbench_core.api.KINDS`.
+"""
+
+GROUPS = {
+    "world": "mrpbench.worlds",
+    "roadmap": "mrpbench.roadmaps",
+    "scenario": "mrpbench.scenarios",
+    "assigner": "mrpbench.assigners",
+    "planner": "mrpbench.planners",
+    "dispatcher": "mrpbench.dispatchers",
+    "navigator": "mrpbench.navigators",
+    "controller": "mrpbench.controllers",
+    "localizer": "mrpbench.localizers",
+    "simulator": "mrpbench.simulators",
+    "crowd": "mrpbench.crowds",
+    "metric": "mrpbench.metrics",
+    "exporter": "mrpbench.exporters",
+    "executor": "mrpbench.executors",
+}
+"""Entry-point group of each kind."""
+
+PREFIX = "mrpbench."
+HOOKS = "mrpbench.hooks"
+"""Group of the lifecycle hooks, which are no components."""
+
+
+def kind_of(group: str) -> str:
+    """The one word for a group: `planner` for `mrpbench.planners`, `critic` for a plugin's own `mrpbench.critics`."""
+    return group.removeprefix(PREFIX).removesuffix("s")
+
+
+def group_of(kind: str) -> str:
+    """The inverse of `kind_of`; also accepts the plural."""
+    return GROUPS.get(kind, PREFIX + kind.removesuffix("s") + "s")

@@ -1,0 +1,104 @@
+"""Components without packaging: `./my_planner.py:MyPlanner`, beside the configuration; `package.module:Class`."""
+
+import hashlib
+import importlib
+import importlib.util
+import linecache
+import os
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import attrs
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.text import read_text
+
+_PREFIX = "mrpbench_local_"
+
+
+@attrs.frozen
+class Source:
+    """The text of a local plugin."""
+
+    path: Path
+    text: str
+
+    @property
+    def sha256(self) -> str:
+        """Hash of the text."""
+        return hashlib.sha256(self.text.encode()).hexdigest()
+
+
+def is_local(name: str) -> bool:
+    """Tell whether a plugin's name is not looked up among the installed ones."""
+    return ":" in name
+
+
+def load_local(name: str, folder: Path, sources: Mapping[str, str] | None = None) -> Any:
+    """Import what `name` names.
+
+    Args:
+        name: `file.py:Class`, the file relative to `folder`, or `package.module:Class`.
+        folder: the configuration's folder.
+        sources: texts by file as written in `name`, to be used instead of what the file says now.
+
+    Raises:
+        InputError: there is no such file, module or class, or importing it fails.
+    """
+    where, _, attribute = name.partition(":")
+    if not where or not attribute.isidentifier():
+        raise InputError(f"{name!r} names no class", hint="write ./file.py:Class or package.module:Class")
+    if where.endswith(".py"):
+        path = Path(os.path.normpath(folder / where))
+        text = (sources or {}).get(where)
+        module = _import_source(Source(path, read_text(path) if text is None else text))
+    else:
+        module = _import_module(where)
+    found = getattr(module, attribute, None)
+    if found is None:
+        raise InputError(f"{where} has no {attribute!r}")
+    return found
+
+
+def source_of(cls: type) -> Source | None:
+    """The source of a class that came from a local file, or None."""
+    module = sys.modules.get(cls.__module__)
+    return getattr(module, "__mrpbench_source__", None) if cls.__module__.startswith(_PREFIX) else None
+
+
+def one_line(error: BaseException) -> str:
+    """Type and first words of an exception."""
+    text = " ".join(str(error).split())
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+
+
+def _import_module(name: str) -> ModuleType:
+    try:
+        return importlib.import_module(name)
+    except (Exception, SystemExit) as error:
+        raise InputError(f"{name} cannot be imported: {one_line(error)}") from error
+
+
+def _import_source(source: Source) -> ModuleType:
+    # The name holds path and content, so that an edited file is another module and an unedited one the same.
+    digest = hashlib.sha256(f"{source.path}\0{source.text}".encode()).hexdigest()
+    name = _PREFIX + digest[:24]
+    if name in sys.modules:
+        return sys.modules[name]
+    module = ModuleType(name)
+    module.__file__ = str(source.path)
+    module.__mrpbench_source__ = source  # type: ignore[attr-defined]
+    sys.modules[name] = module  # attrs and pickle look classes up there
+    linecache.cache[module.__file__] = (len(source.text), None, source.text.splitlines(keepends=True), module.__file__)
+    try:
+        exec(compile(source.text, module.__file__, "exec"), vars(module))  # noqa: S102 - running it is what was asked
+    except SyntaxError as error:
+        del sys.modules[name]
+        raise InputError(error.msg, file=source.path, line=error.lineno, column=error.offset) from error
+    except (Exception, SystemExit) as error:
+        del sys.modules[name]
+        raise InputError(f"{source.path} cannot be imported: {one_line(error)}") from error
+    return module

@@ -1,0 +1,65 @@
+"""Where a component came from: what a record keeps about the code that made it."""
+
+import functools
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.plugins.installed import distribution
+from mrpbench_core.plugins.local import source_of
+from mrpbench_core.plugins.registry import Registry
+
+
+def components_in(value: Any) -> Iterator[Component]:
+    """Every component in a value: fields of attrs classes, tuples and mappings, recursively, outermost first."""
+    if isinstance(value, Component):
+        yield value
+    if attrs.has(type(value)):
+        for field in attrs.fields(type(value)):
+            yield from components_in(getattr(value, field.name))
+    elif isinstance(value, dict):
+        for inner in value.values():
+            yield from components_in(inner)
+    elif isinstance(value, tuple | list):
+        for inner in value:
+            yield from components_in(inner)
+
+
+def provenance(value: Any, folder: Path | None = None) -> list[dict[str, Any]]:
+    """For each class of component in `value`, once: kind, name, and distribution, version, direct_url or file, sha256.
+
+    `direct_url` (PEP 610) stands only with an editable or version-controlled installation, not with a release.
+    """
+    classes = dict.fromkeys(type(component) for component in components_in(value))
+    return [origin(cls, folder) for cls in classes]
+
+
+def origin(cls: type[Component], folder: Path | None = None) -> dict[str, Any]:
+    """Where one class came from."""
+    registry = Registry(kind_class(cls))
+    found: dict[str, Any] = {"kind": registry.kind, "name": registry.name_of(cls, folder)}
+    if source := source_of(cls):
+        return found | {"file": found["name"].partition(":")[0], "sha256": source.sha256}
+    if provider := registry.provider_of(cls):
+        found |= {"distribution": provider.distribution, "version": provider.version}
+        if url := _direct_url(provider.distribution):
+            found["direct_url"] = url
+    return found
+
+
+def kind_class(cls: type[Component]) -> type[Component]:
+    """The class that defines the group `cls` belongs to."""
+    return next(owner for owner in cls.__mro__ if "group" in vars(owner))
+
+
+@functools.cache
+def _direct_url(name: str) -> Any:
+    text = distribution(name).read_text("direct_url.json")
+    try:
+        return json.loads(text) if text else None
+    except ValueError:
+        return None

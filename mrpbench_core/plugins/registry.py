@@ -1,0 +1,127 @@
+"""Finds components by name; imports only the one that is chosen."""
+
+import difflib
+import functools
+import importlib
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, Generic, TypeVar, cast
+
+import attrs
+from packaging.utils import canonicalize_name
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.contract import breach
+from mrpbench_core.plugins.installed import Provider, providers
+from mrpbench_core.plugins.kinds import kind_of
+from mrpbench_core.plugins.local import is_local, load_local, one_line, source_of
+
+C = TypeVar("C", bound=Component)
+
+
+@attrs.frozen
+class Registry(Generic[C]):
+    """The components of one kind: any subclass of `Component` with its own `group`, also one that a plugin defines."""
+
+    base: type[C]
+
+    @property
+    def group(self) -> str:
+        """Entry-point group."""
+        return self.base.group
+
+    @property
+    def kind(self) -> str:
+        """The kind's one word."""
+        return kind_of(self.group)
+
+    def __iter__(self) -> Iterator[Provider]:
+        """Everything installed, by name; imports nothing."""
+        return iter(providers(self.group))
+
+    def find(self, name: str) -> Provider:
+        """The one installed component called `name` (or `name@distribution`); imports nothing.
+
+        Raises:
+            InputError: there is none, there are several, or it needs another core.
+        """
+        wanted, _, owner = name.partition("@")
+        named = [provider for provider in self if provider.name == wanted]
+        if not named:
+            raise self._unknown(name, wanted, [provider.name for provider in self])
+        if owner:
+            owners = [provider.distribution for provider in named]
+            named = [entry for entry in named if canonicalize_name(entry.distribution) == canonicalize_name(owner)]
+            if not named:
+                raise self._unknown(name, owner, owners)
+        if len(named) > 1:
+            origins = " and ".join(provider.origin for provider in named)
+            choice = " or ".join(f"{wanted}@{provider.distribution}" for provider in named)
+            raise InputError(f"{self.kind} {wanted!r} is offered by {origins}", hint=f"write {choice}")
+        if named[0].problem:
+            raise InputError(f"{self.kind} {wanted!r} of {named[0].origin} {named[0].problem}")
+        return named[0]
+
+    def get(self, name: str, folder: Path | None = None, sources: Mapping[str, str] | None = None) -> type[C]:
+        """Import the component called `name`, a local one relative to `folder`; see `load_local` for `sources`.
+
+        Raises:
+            InputError: see `find`; or importing it fails, or it breaks the contract of its kind.
+        """
+        if is_local(name):
+            return self._accept(load_local(name, folder or Path.cwd(), sources), f"{self.kind} {name!r}")
+        provider = self.find(name)
+        return self._accept(_load(provider), f"{self.kind} {provider.name!r} of {provider.origin}")
+
+    def name_of(self, cls: type[Component], folder: Path | None = None) -> str:
+        """The name by which `get` finds `cls`: of several the first; for a local file, relative to `folder`."""
+        if source := source_of(cls):
+            written = Path(os.path.relpath(source.path, folder or Path.cwd())).as_posix()
+            return f"{written}:{cls.__qualname__}"
+        if provider := self.provider_of(cls):
+            clash = sum(other.name == provider.name for other in self) > 1
+            return f"{provider.name}@{provider.distribution}" if clash else provider.name
+        return f"{cls.__module__}:{cls.__qualname__}"
+
+    def provider_of(self, cls: type[Component]) -> Provider | None:
+        """Who offers `cls`, or None for a local component."""
+        return next((provider for provider in self if _offers(provider, cls)), None)
+
+    def _accept(self, cls: Any, who: str) -> type[C]:
+        if fault := breach(cls, self.base):
+            raise InputError(f"{who}: {getattr(cls, '__name__', cls)} {fault}")
+        return cast("type[C]", cls)
+
+    def _unknown(self, name: str, part: str, known: list[str]) -> InputError:
+        close = difflib.get_close_matches(part, known, n=1)
+        hint = f"did you mean {name.replace(part, close[0])!r}? " if close else ""
+        listed = f"`mrpbench plugins` lists what is installed: {', '.join(sorted(set(known))) or 'none'}"
+        return InputError(f"no {self.kind} is called {name!r}", hint=hint + listed)
+
+
+@functools.cache
+def _load(provider: Provider) -> Any:
+    module, _, path = provider.value.partition("[")[0].strip().partition(":")
+    try:
+        found: Any = importlib.import_module(module.strip())
+        for attribute in path.strip().split("."):
+            found = getattr(found, attribute)
+    except (Exception, SystemExit) as error:
+        raise InputError(
+            f"{provider.kind} {provider.name!r} of {provider.origin} cannot be imported: {one_line(error)}"
+        ) from error
+    return found
+
+
+@functools.cache
+def _offers(provider: Provider, cls: type[Component]) -> bool:
+    if provider.value == f"{cls.__module__}:{cls.__qualname__}":
+        return True
+    if provider.value.partition(".")[0].partition(":")[0] != cls.__module__.partition(".")[0] or provider.problem:
+        return False
+    try:
+        return _load(provider) is cls  # offered under a shorter path than where it is defined
+    except InputError:
+        return False
