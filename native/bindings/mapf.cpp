@@ -1,0 +1,222 @@
+// Python bindings: arrays in, arrays out. The only file that knows Python; nothing here decides anything.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/string.h>
+
+#include <map>
+#include <stdexcept>
+#include <string>
+
+#include "mrpbench_mapf/astar.hpp"
+#include "mrpbench_mapf/cbs.hpp"
+#include "mrpbench_mapf/prioritized.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using namespace mrpbench::mapf;
+
+namespace {
+
+template <class T>
+using Vector = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+template <class T, int columns>
+using Matrix = nb::ndarray<const T, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
+template <class T>
+using Output = nb::ndarray<nb::numpy, const T, nb::ndim<1>>;
+
+template <class T, class Array>
+std::vector<T> copy(const Array& array) {
+  return {array.data(), array.data() + array.size()};
+}
+
+/// A read-only view; as the value of a property it keeps its owner alive.
+template <class T>
+Output<T> view(const std::vector<T>& values) {
+  return Output<T>(values.data(), {values.size()});
+}
+
+Tick tick(std::int64_t value) {
+  if (value < -1 || value >= kForever / 4) throw std::invalid_argument("times must be below 2^28 ticks");
+  return static_cast<Tick>(value);
+}
+
+/// Rows [first[i], first[i+1]) of lists that are stored one after another.
+void require_rows(const Vector<std::int64_t>& first, std::size_t rows, std::size_t size, const char* name) {
+  bool sound =
+      first.size() == rows + 1 && first.data()[0] == 0 && first.data()[rows] == static_cast<std::int64_t>(size);
+  for (std::size_t i = 0; sound && i < rows; ++i) sound = first.data()[i] <= first.data()[i + 1];
+  if (!sound) throw std::invalid_argument(std::string(name) + " does not fit");
+}
+
+void require_size(std::size_t size, std::size_t wanted, const char* name) {
+  if (size != wanted) throw std::invalid_argument(std::string(name) + " has the wrong length");
+}
+
+Roadmap make_roadmap(const Matrix<double, 2>& position, const Matrix<std::int32_t, 2>& edges,
+                     const nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>& duration) {
+  require_size(duration.shape(1), edges.shape(0), "duration");
+  std::vector<int> tail, head;
+  for (std::size_t e = 0; e < edges.shape(0); ++e) {
+    tail.push_back(edges.data()[2 * e]);
+    head.push_back(edges.data()[2 * e + 1]);
+  }
+  std::vector<Point> points;
+  for (std::size_t v = 0; v < position.shape(0); ++v) {
+    points.push_back({position.data()[2 * v], position.data()[2 * v + 1]});
+  }
+  return Roadmap(static_cast<int>(position.shape(0)), std::move(tail), std::move(head), copy<Tick>(duration),
+                 std::move(points));
+}
+
+void construct(Instance* self, const Matrix<double, 2>& position, const Matrix<std::int32_t, 2>& edges,
+               const nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>& duration,
+               const Vector<std::int32_t>& profile, const Vector<double>& radius, const Vector<std::int32_t>& start,
+               const Vector<std::int64_t>& ready, const Vector<std::int64_t>& goal_first,
+               const Vector<std::int32_t>& goal, const Vector<std::int64_t>& committed_first,
+               const Vector<std::int32_t>& committed_edge, const Vector<std::int64_t>& committed_enter,
+               const Vector<std::int64_t>& committed_leave, const Vector<std::int64_t>& exclusion_first,
+               const Vector<std::int32_t>& exclusion_element, const Vector<double>& exclusion_distance,
+               bool following_forbidden, bool disappear_at_goal) {
+  const std::size_t count = start.size();
+  require_size(profile.size(), count, "profile");
+  require_size(radius.size(), count, "radius");
+  require_size(ready.size(), count, "ready");
+  require_rows(goal_first, count, goal.size(), "goal_first");
+  require_rows(committed_first, count, committed_edge.size(), "committed_first");
+  require_size(committed_enter.size(), committed_edge.size(), "committed_enter");
+  require_size(committed_leave.size(), committed_edge.size(), "committed_leave");
+  std::vector<Robot> robots(count);
+  for (std::size_t r = 0; r < count; ++r) {
+    robots[r].profile = profile.data()[r];
+    robots[r].radius = radius.data()[r];
+    robots[r].start = start.data()[r];
+    robots[r].ready = tick(ready.data()[r]);
+    robots[r].goals.assign(goal.data() + goal_first.data()[r], goal.data() + goal_first.data()[r + 1]);
+    for (auto k = committed_first.data()[r]; k < committed_first.data()[r + 1]; ++k) {
+      robots[r].committed.push_back(
+          {committed_edge.data()[k], tick(committed_enter.data()[k]), tick(committed_leave.data()[k])});
+    }
+  }
+  new (self) Instance(
+      make_roadmap(position, edges, duration), std::move(robots), {following_forbidden, disappear_at_goal},
+      {copy<std::int64_t>(exclusion_first), copy<std::int32_t>(exclusion_element), copy<double>(exclusion_distance)});
+}
+
+/// A result as Python sees it.
+struct Answer {
+  Result result;
+  std::vector<std::int64_t> first{0}, enter, leave;
+  std::vector<std::int32_t> edge;
+
+  Answer(const Instance& instance, Result solved) : result(std::move(solved)) {
+    for (std::size_t robot = 0; robot < result.paths.size(); ++robot) {
+      for (const Segment& segment : segments(instance, static_cast<int>(robot), result.paths[robot])) {
+        edge.push_back(segment.edge);
+        enter.push_back(segment.enter);
+        leave.push_back(segment.leave);
+      }
+      first.push_back(static_cast<std::int64_t>(edge.size()));
+    }
+  }
+
+  const char* status() const {
+    switch (result.status) {
+      case Status::solved:
+        return "solved";
+      case Status::timeout:
+        return "timeout";
+      case Status::out_of_memory:
+        return "out_of_memory";
+      case Status::unsolvable:
+        return "unsolvable";
+      case Status::gave_up:
+        break;
+    }
+    return "gave_up";
+  }
+
+  nb::dict statistics() const {
+    const Statistics& it = result.statistics;
+    nb::dict values;
+    values["expansions"] = it.expansions;
+    values["generated"] = it.generated;
+    values["low_level_expansions"] = it.low_level_expansions;
+    values["low_level_generated"] = it.low_level_generated;
+    values["restarts"] = it.restarts;
+    values["failed_robot"] = it.failed_robot;
+    return values;
+  }
+};
+
+template <class T>
+T choose(const std::map<std::string, T>& choices, const std::string& name) {
+  const auto place = choices.find(name);
+  if (place == choices.end()) throw std::invalid_argument("no such choice: " + name);
+  return place->second;
+}
+
+Answer astar(const Instance& instance, const std::string& heuristic, double wall_s, std::int64_t memory_bytes) {
+  static const std::map<std::string, Heuristic> choices{{"exact", Heuristic::exact},
+                                                        {"zero", Heuristic::zero},
+                                                        {"manhattan", Heuristic::manhattan},
+                                                        {"octile", Heuristic::octile},
+                                                        {"euclidean", Heuristic::euclidean}};
+  const Heuristic choice = choose(choices, heuristic);
+  nb::gil_scoped_release without_python;
+  Limits limits(wall_s, memory_bytes);
+  return {instance, solve_astar(instance, choice, limits)};
+}
+
+Answer prioritized(const Instance& instance, const std::string& order, int restarts, std::uint64_t seed, double wall_s,
+                   std::int64_t memory_bytes) {
+  static const std::map<std::string, Order> choices{{"index", Order::index},
+                                                    {"longest_first", Order::longest_first},
+                                                    {"shortest_first", Order::shortest_first},
+                                                    {"random", Order::random}};
+  const PrioritizedOptions options{choose(choices, order), restarts, seed};
+  nb::gil_scoped_release without_python;
+  Limits limits(wall_s, memory_bytes);
+  return {instance, solve_prioritized(instance, options, limits)};
+}
+
+Answer cbs(const Instance& instance, double wall_s, std::int64_t memory_bytes) {
+  nb::gil_scoped_release without_python;
+  Limits limits(wall_s, memory_bytes);
+  return {instance, solve_cbs(instance, limits)};
+}
+
+}  // namespace
+
+NB_MODULE(mapf, module) {
+  module.doc() = "Multi-agent path finding in C++. Plain arrays in, plain arrays out.";
+
+  nb::class_<Instance>(
+      module, "Instance",
+      "Robots on a roadmap. Raises ValueError for data that make no sense. Lists of several robots are "
+      "stored one after another: those of robot r are [first[r], first[r + 1]).")
+      .def("__init__", &construct, nb::kw_only(), "position"_a, "edges"_a, "duration"_a, "profile"_a, "radius"_a,
+           "start"_a, "ready"_a, "goal_first"_a, "goal"_a, "committed_first"_a, "committed_edge"_a, "committed_enter"_a,
+           "committed_leave"_a, "exclusion_first"_a, "exclusion_element"_a, "exclusion_distance"_a,
+           "following_forbidden"_a, "disappear_at_goal"_a);
+
+  nb::class_<Answer>(module, "Answer", "How a solver ended. The segments of robot r are [first[r], first[r + 1]).")
+      .def_prop_ro("status", &Answer::status, "solved, timeout, out_of_memory, unsolvable or gave_up.")
+      .def_prop_ro(
+          "lower_bound", [](const Answer& it) { return it.result.lower_bound; },
+          "Proved lower bound on the sum of arrival times in ticks, NaN if none.")
+      .def_prop_ro("statistics", &Answer::statistics, "Counters; failed_robot is -1 where no robot is to blame.")
+      .def_prop_ro(
+          "first", [](const Answer& it) { return view(it.first); }, "i8[n+1], or [0] without a plan.")
+      .def_prop_ro(
+          "edge", [](const Answer& it) { return view(it.edge); }, "i4[...], -1 = wait.")
+      .def_prop_ro(
+          "enter", [](const Answer& it) { return view(it.enter); }, "i8[...] ticks.")
+      .def_prop_ro("leave", [](const Answer& it) { return view(it.leave); }, "i8[...] ticks.");
+
+  module.def("astar", &astar, "instance"_a, nb::kw_only(), "heuristic"_a, "wall_s"_a, "memory_bytes"_a,
+             "Every robot alone: shortest paths that may conflict.");
+  module.def("prioritized", &prioritized, "instance"_a, nb::kw_only(), "order"_a, "restarts"_a, "seed"_a, "wall_s"_a,
+             "memory_bytes"_a, "One robot after another by safe interval path planning.");
+  module.def("cbs", &cbs, "instance"_a, nb::kw_only(), "wall_s"_a, "memory_bytes"_a,
+             "The least sum of arrival times, by conflict-based search.");
+}

@@ -1,0 +1,56 @@
+// True distances to a set of goals by one backward search that runs only as far as it is asked: the heuristic of
+// Silver, "Cooperative Pathfinding", AIIDE 2005 (reverse resumable A*), here without a heuristic of its own so that one
+// table serves every robot with the same goals and motion profile.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mrpbench_mapf/instance.hpp"
+#include "mrpbench_mapf/limits.hpp"
+
+namespace mrpbench::mapf {
+
+class DistanceTable {
+ public:
+  DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits);
+
+  /// Ticks from `vertex` to the nearest goal, kForever if there is no way.
+  Tick operator()(int vertex) {
+    while (distance_[vertex] > final_) advance();
+    return distance_[vertex];
+  }
+
+ private:
+  struct Entry {
+    Tick distance;
+    std::int32_t vertex;
+    bool operator>(const Entry& other) const {
+      return distance != other.distance ? distance > other.distance : vertex > other.vertex;
+    }
+  };
+  void advance();
+
+  const Roadmap& roadmap_;
+  Limits& limits_;
+  std::span<const Tick> duration_;
+  Tick shortest_ = kForever;  // least and greatest duration of an edge
+  Tick longest_ = 0;
+  std::vector<Tick> distance_;
+  std::vector<Entry> queue_;  // first in, first out from `next_` if all edges take equally long, else a heap
+  std::size_t next_ = 0;
+  Tick final_ = 0;  // distances up to this one are final
+};
+
+/// One table per robot, shared between robots with equal goals and profile.
+class DistanceTables {
+ public:
+  DistanceTables(const Instance& instance, Limits& limits);
+  DistanceTable& operator[](int robot) { return *tables_[of_robot_[robot]]; }
+
+ private:
+  std::vector<std::unique_ptr<DistanceTable>> tables_;
+  std::vector<int> of_robot_;
+};
+
+}  // namespace mrpbench::mapf

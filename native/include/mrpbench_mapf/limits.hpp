@@ -1,0 +1,54 @@
+// A deadline and a memory limit that every loop of a solver asks.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+
+#include "mrpbench_mapf/result.hpp"
+
+namespace mrpbench::mapf {
+
+/// Thrown by `Limits`, caught by the solver's entry point.
+struct LimitReached {
+  Status status;
+};
+
+class Limits {
+ public:
+  /// The clock starts now. `memory_bytes` bounds what the solver itself counts.
+  Limits(double wall_s, std::int64_t memory_bytes) : memory_left_(memory_bytes) {
+    using Duration = std::chrono::duration<double>;
+    limited_ = wall_s < 1e9;
+    if (limited_) end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(Duration(wall_s > 0 ? wall_s : 0));
+  }
+
+  /// Call once per step of a loop whose steps take microseconds at most; reads the clock every 64th time.
+  void check() {
+    if ((++calls_ & 63) == 0) check_clock();
+  }
+  void check_clock() const {
+    if (limited_ && Clock::now() >= end_) throw LimitReached{Status::timeout};
+  }
+  /// Count memory that lives until the solver ends.
+  void charge(std::size_t bytes) {
+    memory_left_ -= static_cast<std::int64_t>(bytes);
+    if (memory_left_ < 0) throw LimitReached{Status::out_of_memory};
+  }
+  /// Count how far a growing container exceeds what was counted for it before.
+  void charge_growth(std::size_t& counted, std::size_t bytes) {
+    if (bytes <= counted) return;
+    const std::size_t growth = bytes - counted;
+    counted = bytes;
+    charge(growth);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool limited_;
+  Clock::time_point end_;
+  std::int64_t memory_left_;
+  std::uint32_t calls_ = 0;
+};
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,46 @@
+// Which elements of the roadmap exclude one another, by the rules of `mrpbench_core.model.conflicts`:
+//   1 vertex, 2 swap, 4 following (optional), 5 footprint (optional): not at the same time;
+//   3 overtaking: on one lane at the same time only in the order of entry.
+// Definitions: Stern et al., "Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks", SoCS 2019; footprints as
+// in Li et al., "Multi-Agent Path Finding for Large Agents", AAAI 2019.
+#pragma once
+
+#include <vector>
+
+#include "mrpbench_mapf/instance.hpp"
+#include "mrpbench_mapf/limits.hpp"
+
+namespace mrpbench::mapf {
+
+enum class Relation { none, ordered, exclusive };
+
+/// Element `element` excludes robots whose reach is greater than `distance`; otherwise it may still be the same lane.
+struct Near {
+  std::int32_t element;
+  bool same_lane;
+  double distance;  // metres; -1: always exclusive
+
+  Relation relation(double reach) const {
+    if (distance < reach) return Relation::exclusive;
+    return same_lane ? Relation::ordered : Relation::none;
+  }
+};
+
+class Relations {
+ public:
+  Relations(const Instance& instance, Limits& limits);
+
+  /// Elements related to `element`, sorted; with itself where it is related to itself.
+  std::span<const Near> row(int element) const {
+    return {near_.data() + first_[element], near_.data() + first_[element + 1]};
+  }
+  Relation between(int one, int other, double reach) const;
+
+ private:
+  void add_lane_rules(const Instance& instance, int edge, std::vector<Near>& row) const;
+
+  std::vector<std::size_t> first_;
+  std::vector<Near> near_;
+};
+
+}  // namespace mrpbench::mapf

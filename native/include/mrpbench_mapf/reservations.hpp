@@ -1,0 +1,60 @@
+// Occupations of planned robots, listed by element of the roadmap: the reservation table of Silver, "Cooperative
+// Pathfinding", AIIDE 2005, with intervals instead of cells of space-time.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mrpbench_mapf/obstacles.hpp"
+#include "mrpbench_mapf/relations.hpp"
+
+namespace mrpbench::mapf {
+
+class Reservations {
+ public:
+  Reservations(const Instance& instance, const Relations& relations, Limits& limits);
+
+  void add(int robot, std::span<const Occupation> occupations);
+  void clear();
+  bool empty() const { return entries_.empty(); }
+
+  /// What the occupations of all robots but `robot` mean for it.
+  void at_vertex(int robot, int vertex, std::vector<Range>& halves) const;
+  void on_edge(int robot, int edge, Tick duration, std::vector<Range>& departures) const;
+
+ private:
+  struct Entry {
+    std::int32_t robot;
+    Half begin, end;
+    std::int32_t next;
+  };
+
+  const Instance& instance_;
+  const Relations& relations_;
+  Limits& limits_;
+  std::vector<std::int32_t> head_;  // by element, -1 = none
+  std::vector<Entry> entries_;
+  std::vector<std::int32_t> touched_;
+  std::size_t counted_ = 0;
+};
+
+/// The reservations as one robot sees them.
+class Others final : public Obstacles {
+ public:
+  Others(const Reservations& reservations, int robot) : reservations_(reservations), robot_(robot) {}
+  void at_vertex(int vertex, std::vector<Range>& halves) const override {
+    reservations_.at_vertex(robot_, vertex, halves);
+  }
+  void on_edge(int edge, Tick duration, std::vector<Range>& departures) const override {
+    reservations_.on_edge(robot_, edge, duration, departures);
+  }
+
+ private:
+  const Reservations& reservations_;
+  int robot_;
+};
+
+/// Reserve what every robot does for certain (standing at its start at tick 0 alone binds nobody).
+void reserve_beginnings(const Instance& instance, Reservations& reservations);
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,39 @@
+// How a solver ended, and with what.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "mrpbench_mapf/instance.hpp"
+
+namespace mrpbench::mapf {
+
+enum class Status { solved, timeout, out_of_memory, unsolvable, gave_up };
+
+struct Statistics {
+  std::int64_t expansions = 0;            // nodes of the upper search; without one, searches for a single robot
+  std::int64_t generated = 0;             // nodes of the upper search that were created
+  std::int64_t low_level_expansions = 0;  // states expanded in searches for a single robot
+  std::int64_t low_level_generated = 0;
+  std::int64_t restarts = 0;  // further priority orders that were tried
+  int failed_robot = -1;      // the robot for which no path was found, -1 = none
+};
+
+using Path = std::vector<Occupation>;
+
+struct Result {
+  Status status = Status::gave_up;
+  std::vector<Path> paths;  // one per robot if solved
+  double lower_bound = std::numeric_limits<double>::quiet_NaN();
+  Statistics statistics;
+};
+
+/// Tick at which the last move ends, 0 if the robot never moves.
+inline Tick arrival(std::span<const Occupation> path) {
+  return path.back().begin / 2;
+}
+
+/// The timed path of `robot` as segments, beginning with its committed ones literally.
+std::vector<Segment> segments(const Instance& instance, int robot, const Path& path);
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,71 @@
+// Safe interval path planning: the earliest path of one robot among moving obstacles. A state is a vertex with one of
+// its safe intervals; within it only the earliest arrival matters.
+// Phillips and Likhachev, "SIPP: Safe Interval Path Planning for Dynamic Environments", ICRA 2011.
+#pragma once
+
+#include <vector>
+
+#include "mrpbench_mapf/distance_table.hpp"
+#include "mrpbench_mapf/obstacles.hpp"
+
+namespace mrpbench::mapf {
+
+class Sipp {
+ public:
+  Sipp(const Instance& instance, Limits& limits, Statistics& statistics);
+
+  /// Find the path of `robot` with the earliest arrival at a goal (for good, unless robots disappear there) that avoids
+  /// `obstacles`. Writes `path` and returns true, or false if there is none.
+  bool search(int robot, DistanceTable& distance, const Obstacles& obstacles, Path& path);
+
+ private:
+  struct State {
+    Tick first, last;  // the safe interval
+    Tick arrival;      // earliest so far
+    std::int32_t vertex;
+    std::int32_t parent;  // state, -1 = none
+    std::int32_t edge;    // by which it was reached
+  };
+  struct Open {
+    Tick f, h;
+    Tick arrival;
+    std::int32_t state;
+    bool operator>(const Open& other) const {
+      if (f != other.f) return f > other.f;
+      if (h != other.h) return h > other.h;
+      return state < other.state;
+    }
+  };
+  struct Slot {
+    std::uint32_t epoch = 0;  // valid for the current search if equal to `epoch_`
+    std::int32_t first = 0;
+    std::int32_t count = 0;
+  };
+
+  void begin(const Robot& robot, const Obstacles& obstacles);
+  Slot states_of(int vertex);
+  Tick next_departure(int edge, Tick departure);
+  Tick earliest_stay(const Robot& robot);
+  void expand(int state);
+  void push(int state);
+  void trace(int robot, int state, Path& path) const;
+
+  const Instance& instance_;
+  const Roadmap& roadmap_;
+  Limits& limits_;
+  Statistics& statistics_;
+  // the current search
+  const Obstacles* obstacles_ = nullptr;
+  DistanceTable* distance_ = nullptr;
+  std::span<const Tick> duration_;
+  Tick least_cost_ = 0;
+  std::uint32_t epoch_ = 0;
+  std::vector<Slot> vertex_slot_, edge_slot_;
+  std::vector<State> states_;
+  std::vector<Range> departures_;  // forbidden ones of all edges touched so far
+  std::vector<Open> open_;
+  std::vector<Range> scratch_;
+  std::size_t counted_ = 0;
+};
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,18 @@
+// Quick proofs that an instance has no solution at all.
+#pragma once
+
+#include <optional>
+
+#include "mrpbench_mapf/distance_table.hpp"
+#include "mrpbench_mapf/relations.hpp"
+
+namespace mrpbench::mapf {
+
+/// A robot that cannot reach any of its goals even alone, or nothing.
+std::optional<int> find_cut_off_robot(const Instance& instance, DistanceTables& tables, Limits& limits);
+
+/// A robot whose start (or committed beginning) or goals exclude those of another, or nothing. Robots that stay at
+/// their goals also need distinct ones.
+std::optional<int> find_clash(const Instance& instance, const Relations& relations, Limits& limits);
+
+}  // namespace mrpbench::mapf

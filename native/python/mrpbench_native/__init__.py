@@ -1,0 +1,1 @@
+"""Solvers of mrpbench in C++. `mrpbench_native.mapf`: multi-agent path finding."""

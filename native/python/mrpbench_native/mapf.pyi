@@ -1,0 +1,82 @@
+"""Multi-agent path finding in C++. Plain arrays in, plain arrays out."""
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+class Instance:
+    """Robots on a roadmap. Raises ValueError for data that make no sense.
+
+    Lists of several robots are stored one after another: those of robot r are [first[r], first[r + 1]).
+    """
+
+    def __init__(
+        self,
+        *,
+        position: NDArray[np.float64],
+        edges: NDArray[np.int32],
+        duration: NDArray[np.int32],
+        profile: NDArray[np.int32],
+        radius: NDArray[np.float64],
+        start: NDArray[np.int32],
+        ready: NDArray[np.int64],
+        goal_first: NDArray[np.int64],
+        goal: NDArray[np.int32],
+        committed_first: NDArray[np.int64],
+        committed_edge: NDArray[np.int32],
+        committed_enter: NDArray[np.int64],
+        committed_leave: NDArray[np.int64],
+        exclusion_first: NDArray[np.int64],
+        exclusion_element: NDArray[np.int32],
+        exclusion_distance: NDArray[np.float64],
+        following_forbidden: bool,
+        disappear_at_goal: bool,
+    ) -> None: ...
+
+class Answer:
+    """How a solver ended. The segments of robot r are [first[r], first[r + 1])."""
+
+    @property
+    def status(self) -> Literal["solved", "timeout", "out_of_memory", "unsolvable", "gave_up"]: ...
+    @property
+    def lower_bound(self) -> float:
+        """Proved lower bound on the sum of arrival times in ticks, NaN if none."""
+    @property
+    def statistics(self) -> dict[str, int]:
+        """Counters; failed_robot is -1 where no robot is to blame."""
+    @property
+    def first(self) -> NDArray[np.int64]:
+        """i8[n+1], or [0] without a plan."""
+    @property
+    def edge(self) -> NDArray[np.int32]:
+        """i4[...], -1 = wait."""
+    @property
+    def enter(self) -> NDArray[np.int64]:
+        """i8[...] ticks."""
+    @property
+    def leave(self) -> NDArray[np.int64]:
+        """i8[...] ticks."""
+
+def astar(
+    instance: Instance,
+    *,
+    heuristic: str,
+    wall_s: float,
+    memory_bytes: int,
+) -> Answer:
+    """Every robot alone: shortest paths that may conflict."""
+
+def prioritized(
+    instance: Instance,
+    *,
+    order: str,
+    restarts: int,
+    seed: int,
+    wall_s: float,
+    memory_bytes: int,
+) -> Answer:
+    """One robot after another by safe interval path planning."""
+
+def cbs(instance: Instance, *, wall_s: float, memory_bytes: int) -> Answer:
+    """The least sum of arrival times, by conflict-based search."""

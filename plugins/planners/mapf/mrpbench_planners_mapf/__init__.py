@@ -1,0 +1,1 @@
+"""Native planners: `astar` (each robot alone), `prioritized` (SIPP) and `cbs` (optimal)."""

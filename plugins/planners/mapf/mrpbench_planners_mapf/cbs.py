@@ -1,0 +1,34 @@
+"""Conflict-based search: optimal plans."""
+
+from typing import ClassVar
+
+import attrs
+from mrpbench_native import mapf
+
+from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.model.plan import Budget, PlanResult
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_planners_mapf.native import SUPPORTED, solve
+
+
+@attrs.frozen(kw_only=True)
+class Cbs(Planner):
+    """Plain conflict-based search (Sharon et al., AIJ 2015): the least sum of costs.
+
+    Optimal among plans in which every edge is crossed in exactly its duration, so robots wait at vertices only. On
+    timeout `lower_bound` is what was proved until then. An instance without a solution that is not seen at once (say, a
+    swap in a dead end) runs until the budget is spent.
+    """
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    promises: ClassVar[frozenset[Promise]] = frozenset(
+        {Promise.CONFLICT_FREE, Promise.OPTIMAL, Promise.COMPLETE, Promise.DETERMINISTIC}
+    )
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """See `Planner.plan`."""
+        return solve(
+            problem,
+            budget,
+            lambda instance, wall_s, memory_bytes: mapf.cbs(instance, wall_s=wall_s, memory_bytes=memory_bytes),
+        )

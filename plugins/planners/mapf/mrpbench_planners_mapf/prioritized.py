@@ -1,0 +1,49 @@
+"""Cooperative planning in priority order by safe interval path planning."""
+
+from typing import ClassVar
+
+import attrs
+from mrpbench_native import mapf
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.model.plan import Budget, PlanResult
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_planners_mapf.native import SUPPORTED, solve
+
+
+@attrs.frozen(kw_only=True)
+class Prioritized(Planner):
+    """One robot after another, each on its earliest path around those before it.
+
+    Fast, but incomplete: when some robot finds no path, the robot goes to the front and all are planned again, up to
+    `restarts` times (an order that was tried before is shuffled). Then the planner gives up, and
+    `statistics["failed_robot"]` names the robot.
+    """
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
+
+    order: str = option(
+        "longest_first",
+        help="Who plans first: index (the order of the fleet), longest_first or shortest_first (by the distance to "
+        "the goal), random.",
+        validator=attrs.validators.in_(("index", "longest_first", "shortest_first", "random")),
+    )
+    restarts: int = option(20, help="Further orders to try after a failure.", validator=attrs.validators.ge(0))
+    seed: int = option(0, help="Seed of random orders.", validator=attrs.validators.ge(0))
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """See `Planner.plan`."""
+        return solve(
+            problem,
+            budget,
+            lambda instance, wall_s, memory_bytes: mapf.prioritized(
+                instance,
+                order=self.order,
+                restarts=self.restarts,
+                seed=self.seed,
+                wall_s=wall_s,
+                memory_bytes=memory_bytes,
+            ),
+        )

@@ -1,0 +1,87 @@
+"""Small problems for the tests: grids, drawn graphs, and the MovingAI benchmark."""
+
+from pathlib import Path as File
+
+import numpy as np
+
+from mrpbench_core.model.problem import Feature, Problem, Rules, features_of
+from mrpbench_core.model.roadmap import Roadmap
+
+STEPS = ((0, 1), (1, 0), (0, -1), (-1, 0))
+
+
+def roadmap(position, edges, duration) -> Roadmap:
+    count = len(position)
+    return Roadmap(
+        position=position,
+        level=np.zeros(count),
+        heading=np.full(count, np.nan),
+        edges=edges,
+        duration=np.atleast_2d(duration),
+        tick=1.0,
+    )
+
+
+def grid(rows: list[str]) -> Roadmap:
+    """4-connected unit grid of the cells that are `.`, vertices in reading order."""
+    cells = [(y, x) for y, row in enumerate(rows) for x, cell in enumerate(row) if cell == "."]
+    index = {cell: vertex for vertex, cell in enumerate(cells)}
+    edges = [
+        (vertex, index[y + dy, x + dx])
+        for (y, x), vertex in index.items()
+        for dy, dx in STEPS
+        if (y + dy, x + dx) in index
+    ]
+    return roadmap([(x, -y) for y, x in cells], np.array(edges, "i4").reshape(-1, 2), np.ones(len(edges)))
+
+
+def problem(road: Roadmap, starts, goals, *, radius=None, **fields) -> Problem:
+    """`goals`: one vertex or a tuple of vertices per robot; a radius makes footprints count."""
+    count = len(starts)
+    sets = tuple(((goal,) if isinstance(goal, int) else tuple(goal),) for goal in goals)
+    given = {
+        "roadmap": road,
+        "profile": fields.pop("profile", np.zeros(count)),
+        "radius": np.zeros(count) if radius is None else np.broadcast_to(radius, count),
+        "start": starts,
+        "ready": fields.pop("ready", np.zeros(count)),
+        "goals": sets,
+        "rules": Rules(following=fields.pop("following", "allowed"), at_goal=fields.pop("at_goal", "stay")),
+        **fields,
+    }
+    footprints = frozenset() if radius is None else frozenset({Feature.FOOTPRINTS})
+    return Problem(**given, features=features_of(Problem(**given)) | footprints)
+
+
+def random_grid_problem(random: np.random.Generator, robots: int, size: int = 4, **fields) -> Problem:
+    rows = ["".join("#" if random.random() < 0.2 else "." for _ in range(size)) for _ in range(size)]
+    road = grid(rows)
+    if len(road.position) < robots:
+        return random_grid_problem(random, robots, size, **fields)
+    vertices = len(road.position)
+    starts = random.choice(vertices, robots, replace=False)
+    goals = [int(goal) for goal in random.choice(vertices, robots, replace=False)]
+    return problem(road, starts, goals, **fields)
+
+
+def random_graph(random: np.random.Generator, vertices: int, longest: int, profiles: int = 1) -> Roadmap:
+    """A connected graph of two-way and some one-way lanes between random points."""
+    position = random.integers(0, 5, (vertices, 2)) + random.random((vertices, 2)) * 0.2
+    pairs = {(v, int(random.integers(v))) for v in range(1, vertices)}
+    pairs |= {(b, a) for a, b in pairs}
+    for _ in range(vertices):
+        a, b = (int(v) for v in random.choice(vertices, 2, replace=False))
+        pairs |= {(a, b)} if random.random() < 0.4 else {(a, b), (b, a)}
+    edges = sorted(pairs)
+    return roadmap(position, edges, random.integers(1, longest + 1, (profiles, len(edges))))
+
+
+def movingai(data: File, name: str, scen: str, robots: int) -> Problem:
+    lines = (data / "movingai" / "maps" / f"{name}.map").read_text().splitlines()[4:]
+    rows = ["".join("." if cell in ".G" else "#" for cell in line) for line in lines]
+    road = grid(rows)
+    index = {(int(x), int(-y)): vertex for vertex, (x, y) in enumerate(road.position)}
+    table = (data / "movingai" / "scens" / f"{name}-{scen}.scen").read_text().splitlines()[1 : robots + 1]
+    tasks = [[int(value) for value in line.split()[4:8]] for line in table]
+    assert len(tasks) == robots
+    return problem(road, [index[x, y] for x, y, _, _ in tasks], [index[x, y] for _, _, x, y in tasks])
