@@ -1,0 +1,65 @@
+"""Lidars by Bullet's ray tests.
+
+The world a lidar sees is vertical: walls, and each robot as the disc of its circumscribed radius (the one planners
+reason about), whatever the height of the sensor. These discs are bodies of their own that nothing can touch, set in
+place just before a scan; the scanning robot's own is put away meanwhile.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.fleet import Fleet, Lidar
+from mrpbench_simulators_pybullet.bullet import SEEN, Bullet, Group
+
+_BATCH = 16_383
+"""Rays per call: with one more, PyBullet returns nothing."""
+_HEIGHT = 2.0
+_AWAY = (0.0, 0.0, -100.0)
+_UPRIGHT = (0.0, 0.0, 0.0, 1.0)
+
+
+class Lidars:
+    """Takes the scans of a fleet."""
+
+    def __init__(self, bullet: Bullet, fleet: Fleet) -> None:
+        self._bullet = bullet
+        self._discs = [
+            bullet.body(
+                Group.SILHOUETTES,
+                bullet.createCollisionShape(bullet.module.GEOM_CYLINDER, radius=robot.radius, height=_HEIGHT),
+                _AWAY,
+            )
+            for robot in fleet.robots
+        ]
+
+    def scan(self, lidar: Lidar, robots: Sequence[int], pose: Float) -> Float:
+        """Ranges f8[k,beams] of `robots`, while all stand at `pose` f8[n,3]; inf = no return."""
+        for disc, (x, y, _) in zip(self._discs, pose.tolist(), strict=True):
+            self._place(disc, (x, y, 0.0))
+        ranges = np.empty((len(robots), lidar.beams))
+        for row, robot in enumerate(robots):
+            self._place(self._discs[robot], _AWAY)
+            ranges[row] = self._cast(lidar, pose[robot])
+            self._place(self._discs[robot], (pose[robot, 0], pose[robot, 1], 0.0))
+        ranges[(ranges < lidar.min_range) | (ranges > lidar.range)] = np.inf
+        return ranges
+
+    def _cast(self, lidar: Lidar, pose: Float) -> Float:
+        cosine, sine = np.cos(pose[2]), np.sin(pose[2])
+        forward, leftward, height = lidar.mount
+        angle = pose[2] + np.arange(lidar.beams) * (2 * np.pi / lidar.beams)
+        start = np.empty((lidar.beams, 3))
+        start[:] = pose[0] + cosine * forward - sine * leftward, pose[1] + sine * forward + cosine * leftward, height
+        end = start + lidar.range * np.column_stack([np.cos(angle), np.sin(angle), np.zeros(lidar.beams)])
+        hits = []
+        for first in range(0, lidar.beams, _BATCH):
+            part = slice(first, first + _BATCH)
+            hits += self._bullet.rayTestBatch(start[part], end[part], collisionFilterMask=int(SEEN))
+        share = np.fromiter((hit[2] if hit[0] >= 0 else np.inf for hit in hits), float, lidar.beams)
+        ranges: Float = share * lidar.range
+        return ranges
+
+    def _place(self, disc: int, position: tuple[float, float, float]) -> None:
+        self._bullet.resetBasePositionAndOrientation(disc, position, _UPRIGHT)

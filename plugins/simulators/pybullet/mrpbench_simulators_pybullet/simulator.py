@@ -1,0 +1,34 @@
+"""The recipe: PyBullet as the reference for how rigid bodies with wheels move."""
+
+from collections.abc import Sequence
+
+import attrs
+from attrs.validators import ge, gt
+
+from mrpbench_core.api import Simulation, Simulator, option
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.world import World
+
+
+@attrs.frozen(kw_only=True)
+class PyBullet(Simulator):
+    """Rigid bodies with driven wheels among vertical walls; level 0 of the world."""
+
+    timestep: float = option(
+        1 / 240, help="physics step; shortened so that a whole number fills a control period", unit="s", validator=gt(0)
+    )
+    iterations: int = option(50, help="iterations of the constraint solver in each step", validator=ge(1))
+
+    def open(
+        self, world: World, fleet: Fleet, placements: Float, seed: int, period: float, movers: Sequence[float] = ()
+    ) -> Simulation:
+        """Place the robots; nothing here is random.
+
+        Raises:
+            InputError: PyBullet is not installed.
+        """
+        del seed
+        from mrpbench_simulators_pybullet.simulation import BulletSimulation
+
+        return BulletSimulation(self, world, fleet, placements, period, movers)
