@@ -1,4 +1,4 @@
-"""Finds the conflicts of a plan by direct comparison of intervals; see `mrpbench_core.model.conflicts` for the rules."""
+"""Finds the conflicts of a plan by direct comparison of intervals; `mrpbench_core.model.conflicts` has the rules."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mrpbench_core.model.arrays import Int
 from mrpbench_core.model.conflicts import TOLERANCE
 from mrpbench_core.model.geometry import segment_distance
 from mrpbench_core.model.plan import Plan
@@ -124,18 +125,39 @@ def _following(stays: list[Stay]) -> Iterator[Conflict]:
 
 
 def _footprints(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
-    """Rule 5 by brute force over pairs that overlap in time: slow and plain on purpose."""
+    """Rule 5 by brute force over pairs that overlap in time: plain on purpose."""
+    stays = sorted(stays, key=lambda stay: (stay.begin, stay.end))
+    robot, tail, head, begin, end = np.array(stays, np.int64).reshape(-1, 5).T
+    moving = tail != head
     position, level = problem.roadmap.position, problem.roadmap.level
-    for one, other in _overlapping(stays):
-        if (one.moving or other.moving) and not (one.begin < other.end and other.begin < one.end):
-            continue
-        if not {int(level[one.tail]), int(level[one.head])} & {int(level[other.tail]), int(level[other.head])}:
-            continue
-        a, b, c, d = (position[vertex] for vertex in (one.tail, one.head, other.tail, other.head))
-        reach = problem.radius[one.robot] + problem.radius[other.robot]
-        known = not one.moving and one.tail == other.tail and not other.moving  # rule 1 has named it
-        if segment_distance(a, b, c, d) < reach - TOLERANCE and not known:
-            yield _conflict("footprint", one, other)
+    for one, other in _together(begin, end):
+        kept = robot[one] != robot[other]
+        # Standing robots meet at a single tick too, moving ones only while both are on their way.
+        kept &= ~(moving[one] | moving[other]) | ((begin[one] < end[other]) & (begin[other] < end[one]))
+        kept &= moving[one] | moving[other] | (tail[one] != tail[other])  # rule 1 has named it
+        one, other = one[kept], other[kept]
+        levels = [level[ends[pair]] for pair in (one, other) for ends in (tail, head)]
+        shared = (
+            (levels[0] == levels[2]) | (levels[0] == levels[3]) | (levels[1] == levels[2]) | (levels[1] == levels[3])
+        )
+        one, other = one[shared], other[shared]
+        a, b, c, d = (position[ends[pair]] for pair in (one, other) for ends in (tail, head))
+        reach = problem.radius[robot[one]] + problem.radius[robot[other]]
+        for index in np.flatnonzero(segment_distance(a, b, c, d) < reach - TOLERANCE).tolist():
+            yield _conflict("footprint", stays[one[index]], stays[other[index]])
+
+
+def _together(begin: Int, end: Int, chunk: int = 1 << 18) -> Iterator[tuple[Int, Int]]:
+    """Pairs of intervals, sorted by `begin`, that meet (closed), the earlier first, about `chunk` pairs at a time."""
+    count = np.searchsorted(begin, end, side="right") - np.arange(len(begin)) - 1
+    total = np.cumsum(count)
+    row = 0
+    while row < len(begin):
+        until = max(row + 1, int(np.searchsorted(total, total[row] - count[row] + chunk, side="right")))
+        size = count[row:until]
+        one = np.repeat(np.arange(row, until), size)
+        yield one, one + 1 + np.arange(len(one)) - np.repeat(np.cumsum(size) - size, size)
+        row = until
 
 
 def _conflict(kind: str, one: Stay, other: Stay) -> Conflict:

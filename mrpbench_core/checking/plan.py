@@ -41,11 +41,9 @@ def path_fault(problem: Problem, robot: int, path: Path) -> str | None:
     """The first thing wrong with one path, or None."""
     if not len(path.edge) == len(path.enter) == len(path.leave):
         return "edge, enter and leave differ in length"
-    if not len(path):
-        return _goal_fault(problem, robot, np.array([problem.start[robot]]))
     if ((path.edge < -1) | (path.edge >= len(problem.roadmap.edges))).any():
         return "uses an edge that does not exist"
-    if path.enter[0] != 0:
+    if len(path) and path.enter[0] != 0:
         return f"begins at tick {path.enter[0]} instead of 0"
     if (path.enter[1:] != path.leave[:-1]).any():
         segment = int(np.flatnonzero(path.enter[1:] != path.leave[:-1])[0])
@@ -91,6 +89,6 @@ def _goal_fault(problem: Problem, robot: int, vertices: np.ndarray) -> str | Non
         return f"ends at vertex {vertices[-1]} instead of its goal {' or '.join(map(str, sequence[-1]))}"
     position = 0
     for vertex in vertices:
-        if position < len(sequence) and vertex in sequence[position]:
+        while position < len(sequence) and vertex in sequence[position]:  # one visit serves equal goals in a row
             position += 1
     return None if position == len(sequence) else f"does not visit goal {position} of its sequence in order"
