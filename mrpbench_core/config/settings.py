@@ -27,9 +27,9 @@ from mrpbench_core.files.robot import robot_file
 ROBOT = "turtlebot3_burger"
 
 
-def block(plugin: Any = attrs.NOTHING, *, help: str) -> Any:
+def block(plugin: Any = attrs.NOTHING, *, help: str, validator: Any = None) -> Any:
     """A field whose default, as the file would write it, is `plugin`: looked up only when a run needs it."""
-    return attrs.field(metadata={"help": help, "unit": None, "written_default": plugin})
+    return attrs.field(validator=validator, metadata={"help": help, "unit": None, "written_default": plugin})
 
 
 @attrs.frozen(kw_only=True)
@@ -105,6 +105,11 @@ def _is_folder_name(_: Any, field: "attrs.Attribute[str]", value: str) -> None:
         raise ValueError(f"{field.name!r} must be usable as a folder's name, got {value!r}")
 
 
+def _drives(config: "RunConfig", _: "attrs.Attribute[Any]", value: Any) -> None:
+    if value is None and config.simulator is not None:
+        raise ValueError("cannot be none while there is a simulator")
+
+
 @attrs.frozen(kw_only=True)
 class RunConfig:
     """One run: what is chosen for every stage, and the seed."""
@@ -118,11 +123,13 @@ class RunConfig:
     )
     assigner: Assigner = block("ortools_mip", help="decides which robot does which task")
     planner: Planner = block(help="turns the problem into one timed path per robot")
-    dispatcher: Dispatcher | None = block("adg", help="decides how far along its path each robot may go")
-    navigator: Navigator | None = block("waypoints", help="drives robots along what is released")
-    controller: Controller | None = block("pure_pursuit", help="turns a path into wheel commands")
+    dispatcher: Dispatcher | None = block(
+        "adg", help="decides how far along its path each robot may go", validator=_drives
+    )
+    navigator: Navigator | None = block("waypoints", help="drives robots along what is released", validator=_drives)
+    controller: Controller | None = block("pure_pursuit", help="turns a path into wheel commands", validator=_drives)
     simulator: Simulator | None = block("kinematic", help="moves the robots; `none` ends the run after planning")
-    localizer: Localizer | None = block("ground_truth", help="tells robots where they are")
+    localizer: Localizer | None = block("ground_truth", help="tells robots where they are", validator=_drives)
     noise: Noise = option(Noise(), help="what is added to the simulator's exact output")
     metrics: Mapping[str, Metric] = block(("planning", "execution"), help="what is measured")
     export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")

@@ -41,3 +41,9 @@ class InputErrors(Exception):  # noqa: N818 - it is several of them
     def __init__(self, errors: list[InputError]) -> None:
         self.errors = errors
         super().__init__("\n".join(str(error) for error in errors))
+
+
+def one_line(error: BaseException) -> str:
+    """Type and words of an exception that somebody else's code raised."""
+    text = " ".join(str(error).split())
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__

@@ -49,5 +49,5 @@ def _stray_annotations(cls: type[Component]) -> list[str]:
 
 def _is_class_variable(annotation: Any) -> bool:
     if isinstance(annotation, str):  # from __future__ import annotations
-        return annotation.removeprefix("typing.").removeprefix("t.").startswith("ClassVar")
+        return annotation.strip("'\"").removeprefix("typing.").removeprefix("t.").startswith("ClassVar")
     return annotation is ClassVar or typing.get_origin(annotation) is ClassVar

@@ -2,7 +2,6 @@
 
 import copy
 import difflib
-import importlib
 import logging
 import os
 from collections.abc import Callable, Iterable, Mapping
@@ -13,13 +12,16 @@ import pluggy
 from packaging.utils import canonicalize_name
 
 from mrpbench_core.api import hooks as specifications
-from mrpbench_core.plugins.installed import Provider, providers
+from mrpbench_core.files.errors import InputError, one_line
+from mrpbench_core.plugins.installed import Provider, load, providers
 from mrpbench_core.plugins.kinds import HOOKS
-from mrpbench_core.plugins.local import one_line
 
 LOG = logging.getLogger("mrpbench.hooks")
 DISABLE = "MRPBENCH_DISABLE_PLUGINS"
 """Environment variable: names of hook plugins, or of their distributions, that are not loaded; separated by commas."""
+
+
+_SPECIFIED = tuple(name for name in vars(specifications) if name.startswith("mrpbench_"))
 
 
 @attrs.frozen
@@ -59,8 +61,7 @@ class Hooks:
             return
         for caller in callers:
             if not caller.has_spec():
-                close = difflib.get_close_matches(caller.name, vars(manager.hook), n=1)
-                close = [found for found in close if found != caller.name]
+                close = difflib.get_close_matches(caller.name, _SPECIFIED, n=1)
                 self._refuse(name, f"there is no hook {caller.name}" + (f"; did you mean {close[0]}?" if close else ""))
                 return
             if any(found.hookwrapper or found.wrapper for found in caller.get_hookimpls()):
@@ -76,17 +77,12 @@ class Hooks:
     def load(self, provider: Provider) -> None:
         """Import and register an installed plugin."""
         if provider.problem:
-            self._refuse(provider.name, f"{provider.distribution} {provider.problem}")
+            self._refuse(provider.name, f"{provider.origin} {provider.problem}")
             return
-        module, _, path = provider.value.partition(":")
         try:
-            plugin: Any = importlib.import_module(module)
-            for attribute in filter(None, path.split(".")):
-                plugin = getattr(plugin, attribute)
-        except (Exception, SystemExit) as error:  # noqa: BLE001 - importing a plugin runs its code
-            self._refuse(provider.name, f"it cannot be imported: {one_line(error)}")
-            return
-        self.register(plugin, provider.name)
+            self.register(load(provider), provider.name)
+        except InputError as error:
+            self._refuse(provider.name, str(error))
 
     def call(self, hook: str, **arguments: Any) -> None:
         """Tell every implementation of `hook`. Mappings are copied, so that nobody can write into a record."""

@@ -6,13 +6,14 @@ import sys
 from collections.abc import Iterable
 from email.message import Message
 from importlib import metadata
-from typing import cast
+from typing import Any, cast
 
 import attrs
 from packaging.markers import UndefinedEnvironmentName
 from packaging.requirements import InvalidRequirement, Requirement
 from packaging.utils import canonicalize_name
 
+from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.plugins.kinds import PREFIX, kind_of
 
 CORE = "mrpbench-core"
@@ -48,10 +49,29 @@ def providers(group: str) -> tuple[Provider, ...]:
     return _scan(_path()).get(group, ())
 
 
+@functools.cache
+def load(provider: Provider) -> Any:
+    """Import what a provider offers.
+
+    Raises:
+        InputError: that fails; names distribution, version and cause.
+    """
+    module, _, path = provider.value.partition("[")[0].partition(":")
+    try:
+        found: Any = importlib.import_module(module.strip())
+        for attribute in filter(None, path.strip().split(".")):
+            found = getattr(found, attribute)
+    except (Exception, SystemExit) as error:
+        who = f"{provider.kind} {provider.name!r} of {provider.origin}"
+        raise InputError(f"{who} cannot be imported: {one_line(error)}") from error
+    return found
+
+
 def refresh() -> None:
     """Look again: for a process in which something is installed while it runs."""
     importlib.invalidate_caches()
     _scan.cache_clear()
+    load.cache_clear()
 
 
 def distribution(name: str) -> metadata.Distribution:

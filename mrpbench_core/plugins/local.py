@@ -13,7 +13,7 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.files.text import read_text
 
 _PREFIX = "mrpbench_local_"
@@ -67,12 +67,6 @@ def source_of(cls: type) -> Source | None:
     """The source of a class that came from a local file, or None."""
     module = sys.modules.get(cls.__module__)
     return getattr(module, "__mrpbench_source__", None) if cls.__module__.startswith(_PREFIX) else None
-
-
-def one_line(error: BaseException) -> str:
-    """Type and first words of an exception."""
-    text = " ".join(str(error).split())
-    return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
 def _import_module(name: str) -> ModuleType:

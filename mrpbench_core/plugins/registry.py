@@ -2,7 +2,6 @@
 
 import difflib
 import functools
-import importlib
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -14,9 +13,9 @@ from packaging.utils import canonicalize_name
 from mrpbench_core.api.component import Component
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.contract import breach
-from mrpbench_core.plugins.installed import Provider, providers
+from mrpbench_core.plugins.installed import Provider, load, providers
 from mrpbench_core.plugins.kinds import kind_of
-from mrpbench_core.plugins.local import is_local, load_local, one_line, source_of
+from mrpbench_core.plugins.local import is_local, load_local, source_of
 
 C = TypeVar("C", bound=Component)
 
@@ -73,7 +72,7 @@ class Registry(Generic[C]):
         if is_local(name):
             return self._accept(load_local(name, folder or Path.cwd(), sources), f"{self.kind} {name!r}")
         provider = self.find(name)
-        return self._accept(_load(provider), f"{self.kind} {provider.name!r} of {provider.origin}")
+        return self._accept(load(provider), f"{self.kind} {provider.name!r} of {provider.origin}")
 
     def name_of(self, cls: type[Component], folder: Path | None = None) -> str:
         """The name by which `get` finds `cls`: of several the first; for a local file, relative to `folder`."""
@@ -102,26 +101,12 @@ class Registry(Generic[C]):
 
 
 @functools.cache
-def _load(provider: Provider) -> Any:
-    module, _, path = provider.value.partition("[")[0].strip().partition(":")
-    try:
-        found: Any = importlib.import_module(module.strip())
-        for attribute in path.strip().split("."):
-            found = getattr(found, attribute)
-    except (Exception, SystemExit) as error:
-        raise InputError(
-            f"{provider.kind} {provider.name!r} of {provider.origin} cannot be imported: {one_line(error)}"
-        ) from error
-    return found
-
-
-@functools.cache
 def _offers(provider: Provider, cls: type[Component]) -> bool:
     if provider.value == f"{cls.__module__}:{cls.__qualname__}":
         return True
     if provider.value.partition(".")[0].partition(":")[0] != cls.__module__.partition(".")[0] or provider.problem:
         return False
     try:
-        return _load(provider) is cls  # offered under a shorter path than where it is defined
+        return load(provider) is cls  # offered under a shorter path than where it is defined
     except InputError:
         return False

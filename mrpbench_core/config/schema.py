@@ -1,0 +1,163 @@
+"""JSON Schema of a configuration file, with the options of the plugins that are installed now, for editors.
+
+Options that are required are not demanded here, because a matrix may give them; `mrpbench run` says what is missing.
+"""
+
+import enum
+import typing
+from collections.abc import Mapping
+from pathlib import Path
+from types import NoneType, UnionType
+from typing import Any, Literal
+
+import attrs
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.config.canonical import scalar
+from mrpbench_core.config.settings import FleetEntry, RunConfig
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.robot import robot_names
+from mrpbench_core.model.units import sizes
+from mrpbench_core.plugins.registry import Registry
+
+RANGE = {"type": "string", "pattern": r"^-?[0-9]+\.\.-?[0-9]+$"}
+LOCAL = {"type": "string", "pattern": ":", "description": "./file.py:Class or package.module:Class"}
+_SCALARS = {bool: "boolean", int: "integer", float: "number", str: "string", Path: "string"}
+
+
+def schema() -> dict[str, Any]:
+    """The schema; plugins that cannot be loaded are left out."""
+    return _Schema().whole()
+
+
+class _Schema:
+    def __init__(self) -> None:
+        self.definitions: dict[str, Any] = {}
+
+    def whole(self) -> dict[str, Any]:
+        settings = self.options(RunConfig)
+        point = {"type": "object", "description": "values by key, dotted keys for single options"}
+        axes = {"anyOf": [{"type": "array", "minItems": 1}, RANGE]}
+        points = {"anyOf": [{"type": "array", "items": point}, point]}
+        matrix = {
+            "type": "object",
+            "description": "what varies: a list of values, or a range of integers, by key",
+            "properties": {"include": points, "exclude": points},
+            "additionalProperties": axes,
+        }
+        return {
+            "$schema": "https://json-schema.org/draft/2020-12/schema",
+            "title": "mrpbench configuration",
+            "type": "object",
+            "properties": {**settings, "matrix": matrix},
+            "additionalProperties": False,
+            "anyOf": [{"required": ["world", "planner"]}, {"required": ["matrix"]}],
+            "$defs": self.definitions,
+        }
+
+    def options(self, cls: type[Any]) -> dict[str, Any]:
+        """Schema of every option of a class, by name."""
+        return {field.alias: self._option(field) for field in attrs.fields(cls) if field.init}
+
+    def _option(self, field: Any) -> dict[str, Any]:
+        written = field.metadata.get("written_default", attrs.NOTHING)
+        found = self.value(field.type, field.metadata.get("unit"), written if isinstance(written, str) else None)
+        if field.metadata.get("help"):
+            found = {**found, "description": field.metadata["help"]}
+        default = written if written is not attrs.NOTHING else field.default
+        if isinstance(default, bool | int | float | str | enum.Enum):
+            found = {**found, "default": scalar(default)}
+        return found
+
+    def value(self, kind: Any, unit: str | None = None, default: str | None = None) -> dict[str, Any]:
+        """Schema of a value of type `kind`; `default` is the plugin of a block that names none."""
+        origin, arguments = typing.get_origin(kind), typing.get_args(kind)
+        if origin in (typing.Union, UnionType):
+            nothing = [{"enum": [None, "none"]}] if NoneType in arguments else []
+            members = [self.value(member, unit, default) for member in arguments if member is not NoneType]
+            return {"anyOf": [*members, *nothing]}
+        if origin is Literal:
+            return {"enum": list(arguments)}
+        if origin in (tuple, frozenset, set):
+            return self._sequence(arguments, fixed=origin is tuple and arguments[-1:] != (...,), unit=unit)
+        if origin in (dict, Mapping):
+            return self._mapping(arguments[1])
+        if kind in (int, float) and unit is not None:
+            units = "|".join(sorted(sizes(unit), key=len, reverse=True)).replace("^", r"\^")
+            text = {"type": "string", "pattern": rf"^[-+.0-9eE]+(/[0-9]+)?( ?({units}))?$"}
+            return {"anyOf": [{"type": _SCALARS[kind]}, text], "examples": [f"1 {unit}"]}
+        if kind in _SCALARS:
+            return {"type": _SCALARS[kind]}
+        if isinstance(kind, type) and issubclass(kind, enum.Enum):
+            return {"enum": [member.value for member in kind]}
+        if isinstance(kind, type) and issubclass(kind, Component):
+            return self._component(kind, default)
+        if attrs.has(kind):
+            block = {"type": "object", "properties": self.options(kind), "additionalProperties": False}
+            robots = {"anyOf": [{"enum": list(robot_names())}, {"type": "string", "pattern": r"\.ya?ml$"}]}
+            return {"anyOf": [robots, block]} if kind is FleetEntry else block
+        return {}
+
+    def _sequence(self, arguments: tuple[Any, ...], *, fixed: bool, unit: str | None) -> dict[str, Any]:
+        if fixed:
+            entries = [self.value(entry, unit) for entry in arguments]
+            return {"type": "array", "prefixItems": entries, "minItems": len(entries), "maxItems": len(entries)}
+        entry = self.value(arguments[0], unit)
+        several = {"type": "array", "items": entry}
+        kind = arguments[0]
+        single = isinstance(kind, type) and (issubclass(kind, Component) or attrs.has(kind))
+        return {"anyOf": [several, entry]} if single else several
+
+    def _mapping(self, kind: Any) -> dict[str, Any]:
+        if isinstance(kind, type) and issubclass(kind, Component):
+            return self._sequence((kind,), fixed=False, unit=None)
+        return {"type": "object", "additionalProperties": self.value(kind)}
+
+    def _component(self, kind: type[Component], default: str | None) -> dict[str, Any]:
+        name = kind.group + (f":{kind.__qualname__}" if "group" not in vars(kind) else "")
+        if name not in self.definitions:
+            self.definitions[name] = {}  # so that a plugin that holds its own kind ends here
+            self.definitions[name] = self._choice(kind)
+        reference = {"$ref": f"#/$defs/{name}"}
+        classes = _classes(kind)
+        if default not in classes:
+            return reference
+        unnamed = {
+            "type": "object",
+            "properties": self.options(classes[default]),
+            "additionalProperties": False,
+            "title": f"options of {default}",
+        }
+        return {"anyOf": [reference, unnamed]}
+
+    def _choice(self, kind: type[Component]) -> dict[str, Any]:
+        """A plugin's name, or a block with its name and options."""
+        classes = _classes(kind)
+        blocks = [
+            {
+                "type": "object",
+                "title": name,
+                "description": (cls.__doc__ or "").partition("\n")[0],
+                "properties": {"plugin": {"const": name}, **self.options(cls)},
+                "required": ["plugin"],
+                "additionalProperties": False,
+            }
+            for name, cls in classes.items()
+        ]
+        local = {"type": "object", "properties": {"plugin": LOCAL}, "required": ["plugin"]}
+        return {"oneOf": [{"enum": list(classes)}, LOCAL, *blocks, local]}
+
+
+def _classes(kind: type[Component]) -> dict[str, type[Component]]:
+    """The installed components of a kind that can be loaded."""
+    registry = Registry(kind)
+    names = [provider.name for provider in registry]
+    found = {}
+    for provider in registry:
+        clash = names.count(provider.name) > 1
+        name = f"{provider.name}@{provider.distribution}" if clash else provider.name
+        try:
+            found[name] = registry.get(name)
+        except InputError:
+            continue
+    return found

@@ -1,0 +1,68 @@
+"""Where components came from."""
+
+import hashlib
+import json
+
+import attrs
+
+from mrpbench_core.api import Planner
+from mrpbench_core.plugins.provenance import provenance
+from mrpbench_core.plugins.registry import Registry
+
+CODE = """
+from typing import ClassVar
+import attrs
+from mrpbench_core.api import Component, Planner, option
+
+class Critic(Component):
+    group: ClassVar[str] = "mrpbench.critics"
+
+@attrs.frozen(kw_only=True)
+class Obstacle(Critic):
+    scale: float = option(1.0, help="weight")
+
+@attrs.frozen(kw_only=True)
+class Good(Planner):
+    critics: tuple[Critic, ...] = option((), help="critics")
+    def plan(self, problem, budget): ...
+"""
+NAMES = {"mrpbench.planners": {"good": "{module}:Good"}, "mrpbench.critics": {"obstacle": "{module}:Obstacle"}}
+
+
+@attrs.frozen
+class Holder:
+    planners: dict
+    seed: int = 0
+
+
+def test_each_class_used_is_listed_once_with_its_distribution(install):
+    url = {"url": "file:///home/me/acme", "dir_info": {"editable": True}}
+    install("acme-mapf", NAMES, CODE, version="0.3.1", files={"direct_url.json": json.dumps(url)})
+    good = Registry(Planner).get("good")
+    import acme_mapf
+
+    obstacle = acme_mapf.Obstacle
+    value = Holder({"a": good(critics=(obstacle(scale=1), obstacle(scale=2))), "b": good()})
+    origin = {"distribution": "acme-mapf", "version": "0.3.1", "direct_url": url}
+    assert provenance(value) == [
+        {"kind": "planner", "name": "good", **origin},
+        {"kind": "critic", "name": "obstacle", **origin},
+    ]
+
+
+def test_a_release_has_no_direct_url(install):
+    install("acme-other", NAMES, CODE)
+    (found,) = provenance(Registry(Planner).get("good")())
+    assert "direct_url" not in found
+
+
+def test_a_local_component_is_listed_with_file_and_hash(tmp_path, install):
+    (tmp_path / "mine.py").write_text(CODE)
+    assert provenance(Registry(Planner).get("./mine.py:Good", tmp_path)(), tmp_path) == [
+        {
+            "kind": "planner",
+            "name": "mine.py:Good",
+            "file": "mine.py",
+            "sha256": hashlib.sha256(CODE.encode()).hexdigest(),
+        }
+    ]
