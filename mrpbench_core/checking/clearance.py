@@ -1,5 +1,6 @@
-"""Whether robots, as discs, keep clear of everything solid on a level: walls, obstacles and blocked raster cells.
+"""Whether robots, as discs, keep clear of everything solid on a level.
 
+That is walls, obstacles and, where the level is a raster, all but its free cells.
 Solid things are closed polygons. A disc of radius r that moves straight from p to q keeps clear of one when p is
 outside and no side of the polygon is nearer than r to the segment p-q; touching at exactly r is allowed.
 """
@@ -9,26 +10,17 @@ import numpy as np
 from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.geometry import segment_distance
 from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.solids import wall_boxes
 from mrpbench_core.model.world import Level
 
 TOLERANCE = 1e-9
 """metres by which a disc may reach into something solid: rounding, not contact."""
 
 
-def wall_boxes(level: Level) -> Float:
-    """Outlines f8[W,4,2] of the walls, counter-clockwise: boxes that reach half a thickness beyond both ends."""
-    start, end = level.walls[:, :2], level.walls[:, 2:]
-    along = end - start
-    length = np.hypot(along[:, 0], along[:, 1])[:, None]
-    unit = np.where(length > 0, along / np.where(length > 0, length, 1.0), (1.0, 0.0))
-    half = level.wall_thickness / 2
-    ahead, left = half * unit, half * unit[:, ::-1] * (-1, 1)
-    return np.stack([start - ahead - left, end + ahead - left, end + ahead + left, start - ahead + left], axis=1)
-
-
 def solids(level: Level) -> list[Float]:
-    """Outlines f8[k,2] of walls and obstacles; blocked raster cells are not among them."""
-    return [*wall_boxes(level), *(obstacle.polygon for obstacle in level.obstacles)]
+    """Outlines f8[k,2] of walls and obstacles; a raster is not among them."""
+    boxes = wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4)[:, :, :2]
+    return [*boxes, *(obstacle.polygon for obstacle in level.obstacles)]
 
 
 def keeps_clear(level: Level, start: Float, end: Float, radius: float) -> Bool:
@@ -100,8 +92,9 @@ def _pieces_touch(occupancy: Occupancy, start: Float, end: Float, radius: float)
 
 
 def _blocked(occupancy: Occupancy, cells: Int) -> Bool:
-    """bool[k]; beyond the raster nothing is blocked."""
-    inside: Bool = ((cells >= 0) & (cells < occupancy.shape)).all(axis=1)
-    row, column = np.where(inside[:, None], cells, 0).T
-    result: Bool = inside & occupancy.blocked[row, column]
-    return result
+    """bool[k]; all cells beyond the raster are."""
+    rows, columns = occupancy.shape
+    row, column = cells[:, 0], cells[:, 1]
+    inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)
+    blocked: Bool = ~inside | occupancy.blocked[np.where(inside, row, 0), np.where(inside, column, 0)]
+    return blocked

@@ -42,7 +42,7 @@ class Graph(RoadmapBuilder):
         smallest = min(robot.radius for robot in profiles)
         stands = keeps_clear(world.levels[0], pieces.position, pieces.position, smallest)
         duration = np.stack([_ticks(world, pieces, robot.radius, robot.max_speed, self.tick) for robot in profiles])
-        drivable: Bool = (duration >= 0).any(axis=0) & stands[pieces.ends].all(axis=1)
+        drivable = (duration >= 0).any(axis=0) & stands[pieces.ends[:, 0]] & stands[pieces.ends[:, 1]]
         edges, duration = _directed(pieces, world.lanes, duration, drivable)
         if not len(edges):
             raise InputError(f"world {world.name!r} has no lane that a robot fits on")

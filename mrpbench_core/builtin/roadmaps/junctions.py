@@ -69,7 +69,7 @@ def _merge(points: Float, tolerance: float) -> tuple[Float, Int]:
 
 
 def _crossings(start: Float, end: Float, tolerance: float) -> Float:
-    """Points f8[c,2] where the interiors of two lanes cross; where an end lies on the other lane, that is cut anyway."""
+    """Points f8[c,2] where the interiors of two lanes cross; not where one ends on the other: it is cut there."""
     i, j = _overlapping(np.minimum(start, end)[:, 0], np.maximum(start, end)[:, 0])
     a, b, c, d = start[i], end[i], start[j], end[j]
     proper = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)

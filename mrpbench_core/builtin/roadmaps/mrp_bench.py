@@ -12,20 +12,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.builtin.roadmaps.cells import empty_raster
+from mrpbench_core.checking.navigation import unique_edges
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.world import World
 
 _BLOCKED, _ROAD, _VERTEX = 0, 1, 2
 _STEPS = ((0, 1), (1, 0), (0, -1), (-1, 0))  # north, east, south, west
 _Kinds = NDArray[np.int8]
-
-
-def unique_edges(world: World) -> list[tuple[int, int]]:
-    """The lanes as pairs of vertices, lower first; of vertices in one position the last stands for all."""
-    last = {(vertex.x, vertex.y): index for index, vertex in enumerate(world.vertices)}
-    number = [last[vertex.x, vertex.y] for vertex in world.vertices]
-    pairs = {(number[lane.start], number[lane.end]) for lane in world.lanes}
-    return sorted({(min(pair), max(pair)) for pair in pairs})
 
 
 def mrp_bench_raster(world: World, cell_size: float) -> Occupancy:

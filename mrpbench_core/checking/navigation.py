@@ -1,0 +1,58 @@
+"""The navigation graph as it is drawn: its edges, and where it fails to connect what seems connected."""
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.geometry import point_segment_distance, side
+from mrpbench_core.model.world import World
+
+TOLERANCE = 0.05
+"""metres: a vertex nearer than this to a lane looks as if it lay on it."""
+
+Pair = tuple[int, int]
+
+
+def unique_edges(world: World) -> list[Pair]:
+    """The lanes as sorted pairs of vertices, each once; of vertices in one position the last stands for all."""
+    last = {(vertex.x, vertex.y, vertex.level): index for index, vertex in enumerate(world.vertices)}
+    number = [last[vertex.x, vertex.y, vertex.level] for vertex in world.vertices]
+    pairs = {(number[lane.start], number[lane.end]) for lane in world.lanes}
+    return sorted({(min(pair), max(pair)) for pair in pairs})
+
+
+def duplicates(world: World) -> list[tuple[int, ...]]:
+    """Groups of vertices in one position."""
+    groups: dict[tuple[float, float, int], list[int]] = {}
+    for index, vertex in enumerate(world.vertices):
+        groups.setdefault((vertex.x, vertex.y, vertex.level), []).append(index)
+    return [tuple(group) for group in groups.values() if len(group) > 1]
+
+
+def vertices_on_lanes(world: World) -> list[tuple[int, Pair]]:
+    """Vertices that lie on an edge of which they are not an end, with that edge."""
+    point, level = _positions(world)
+    found = []
+    for a, b in unique_edges(world):
+        near = (point_segment_distance(point, point[a], point[b]) < TOLERANCE) & (level == level[a])
+        ends = np.minimum(np.hypot(*(point - point[a]).T), np.hypot(*(point - point[b]).T))
+        found += [(vertex, (a, b)) for vertex in np.flatnonzero(near & (ends >= TOLERANCE)).tolist()]
+    return found
+
+
+def crossings(world: World) -> list[tuple[Pair, Pair]]:
+    """Edges that cross without a common vertex."""
+    point, level = _positions(world)
+    edges = np.array(unique_edges(world), np.int64).reshape(-1, 2)
+    found: list[tuple[Pair, Pair]] = []
+    for index, (a, b) in enumerate(edges.tolist()):
+        c, d = edges[index + 1 :].T
+        apart = side(point[a], point[b], point[c]) * side(point[a], point[b], point[d]) < 0
+        apart &= side(point[c], point[d], point[a]) * side(point[c], point[d], point[b]) < 0
+        later = np.flatnonzero(apart & (level[c] == level[a]))
+        found += [((a, b), (int(c[other]), int(d[other]))) for other in later.tolist()]
+    return found
+
+
+def _positions(world: World) -> tuple[Float, Float]:
+    values = np.array([(vertex.x, vertex.y, vertex.level) for vertex in world.vertices]).reshape(-1, 3)
+    return values[:, :2], values[:, 2]

@@ -1,0 +1,117 @@
+"""`mrpbench world FILE|NAME`: facts and checks of a map, and its picture."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.files.errors import InputError
+
+if TYPE_CHECKING:
+    from mrpbench_core.api.roadmap import RoadmapBuilder
+    from mrpbench_core.api.world import WorldSource
+    from mrpbench_core.checking.world import WorldFacts
+    from mrpbench_core.model.world import World
+
+SHOWN = 20
+"""Faults and notes that a table lists."""
+LOADERS = {".map": "movingai", ".yaml": "rmf", ".yml": "rmf"}
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("world", metavar="FILE|NAME", help="a .building.yaml or .map file, or a built-in world")
+    parser.add_argument("--level", help="level of a building; default: its reference level, else the first")
+    parser.add_argument("--roadmap", metavar="NAME", help="lanes (default where there are lanes), grid or graph")
+    parser.add_argument("--cell-size", type=float, metavar="M", help="of lanes and grid; default: 0.4 m")
+    parser.add_argument("--compatible", choices=["mrp_bench"], help="the raster of the original benchmark")
+    parser.add_argument("--robot", default="turtlebot3_burger", help="the robot to fit in (default: %(default)s)")
+    parser.add_argument("--render", type=Path, metavar="PNG", help="draw the world and its roadmap")
+    parser.add_argument("--json", action="store_true", help="print as JSON")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Load, check, print, draw."""
+    from mrpbench_core.checking.world import check_world
+    from mrpbench_core.files.robot import load_robot
+    from mrpbench_core.model.fleet import Fleet
+
+    fleet = Fleet(robots=(load_robot(arguments.robot),))
+    world = _source(arguments.world, arguments.level).load()
+    roadmap = _builder(arguments, world).build(world, fleet)
+    facts = check_world(world, roadmap, fleet.robots[0].radius)
+    if arguments.render is not None:
+        from mrpbench_core.report.picture import draw_world
+
+        draw_world(world, roadmap=roadmap, file=arguments.render)
+    if arguments.json:
+        import attrs
+
+        print_json(attrs.asdict(facts))
+    else:
+        _print(facts)
+    return 0
+
+
+def _source(name: str, level: str | None) -> "WorldSource":
+    from mrpbench_core.api.world import WorldSource
+    from mrpbench_core.plugins.registry import Registry
+
+    loader = LOADERS.get(Path(name).suffix)
+    options: dict[str, Any] = {"file": Path(name)} if loader else {}
+    if level is not None:
+        options["level"] = level
+    source: WorldSource = _make(Registry(WorldSource).get(loader or name), loader or name, options)  # type: ignore[type-abstract]
+    return source
+
+
+def _builder(arguments: argparse.Namespace, world: "World") -> "RoadmapBuilder":
+    from mrpbench_core.api.roadmap import RoadmapBuilder
+    from mrpbench_core.plugins.registry import Registry
+
+    name = arguments.roadmap or ("lanes" if world.lanes or arguments.compatible else "grid")
+    given = {"cell_size": arguments.cell_size, "compatible": arguments.compatible}
+    options = {key: value for key, value in given.items() if value is not None}
+    builder: RoadmapBuilder = _make(Registry(RoadmapBuilder).get(name), name, options)  # type: ignore[type-abstract]
+    return builder
+
+
+def _make(component: Any, name: str, options: dict[str, Any]) -> Any:
+    import attrs
+
+    fields = {field.name: field for field in attrs.fields(component)}
+    for key in options:
+        if key not in fields:
+            raise InputError(f"{name} has no option {key!r}", hint=f"options: {', '.join(fields) or 'none'}")
+    missing = [key for key, field in fields.items() if field.default is attrs.NOTHING and key not in options]
+    if missing:
+        raise InputError(f"{name} needs {', '.join(missing)}", hint="name the file itself")
+    try:
+        return component(**options)
+    except (TypeError, ValueError) as error:
+        raise InputError(f"{name}: {error.args[0]}") from None
+
+
+def _print(facts: "WorldFacts") -> None:
+    rows: list[tuple[str, Any]] = [
+        ("size", f"{facts.width:.2f} × {facts.height:.2f} m"),
+        ("walls, doors", f"{facts.walls}, {facts.doors}"),
+        ("vertices", facts.vertices),
+        ("edges", facts.edges),
+        ("components", facts.components),
+        ("cells", facts.cells),
+        ("free", facts.free),
+        ("blocked", facts.blocked),
+        (
+            "roadmap",
+            f"{facts.roadmap_vertices} vertices, {facts.roadmap_edges} edges, {facts.roadmap_components} parts",
+        ),
+    ]
+    print_table(["fact", "value"], rows, facts.name)
+    for title, sentences in (("faults", facts.faults), ("notes", facts.notes)):
+        if sentences:
+            print(f"{title}:")
+            for sentence in sentences[:SHOWN]:
+                print(f"  {sentence}")
+            if len(sentences) > SHOWN:
+                print(f"  … {len(sentences) - SHOWN} more; --json lists all")

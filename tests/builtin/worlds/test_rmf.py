@@ -1,0 +1,203 @@
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mrpbench_core.builtin.worlds.rmf import Rmf
+from mrpbench_core.files.errors import InputError
+
+BUILDING = """\
+name: hut
+levels:
+  L1:
+    elevation: 0
+    measurements:
+      - [0, 1, {distance: [3, 5]}]
+    vertices:
+      - [0, 0, 0, ""]
+      - [100, 0, 0, ""]
+      - [0, 100, 0, north, {is_charger: [4, true]}]
+      - [50, 100, 0, 12]
+      - [60, 40, 0, ""]
+      - [60, 20, 0, ""]
+    walls:
+      - [0, 1, {alpha: [3, 1]}]
+    doors:
+      - [4, 5, {name: [1, gate], type: [1, hinged]}]
+    lanes:
+      - [3, 2, {bidirectional: [4, true], graph_idx: [2, 1], speed_limit: [3, 0.4]}]
+      - [2, 3, {graph_idx: [2, 0], orientation: [1, forward], mutex: [1, m]}]
+      - [3, 1, {graph_idx: [2, 0]}]
+"""
+
+
+def write(tmp_path: Path, text: str = BUILDING) -> Path:
+    file = tmp_path / "hut.building.yaml"
+    file.write_text(text)
+    return file
+
+
+def load(tmp_path, text=BUILDING, **options):
+    return Rmf(file=write(tmp_path, text), **options).load()
+
+
+def failure(tmp_path, old, new, text=BUILDING, **options) -> str:
+    assert old in text
+    with pytest.raises(InputError) as caught:
+        load(tmp_path, text.replace(old, new), **options)
+    return str(caught.value).removeprefix(f"{tmp_path}/")
+
+
+def test_pixels_become_metres_with_y_up(tmp_path):
+    world = load(tmp_path)
+    assert world.levels[0].walls.tolist() == [[0, 0, 5, 0]]
+    assert [(vertex.x, vertex.y) for vertex in world.vertices[:2]] == [(0, -5), (2.5, -5)]
+
+
+def test_scale_is_the_mean_over_measurements(tmp_path):
+    text = BUILDING.replace("distance: [3, 5]}]", "distance: [3, 5]}]\n      - [0, 2, {distance: [3, 15]}]")
+    world = load(tmp_path, text)
+    assert world.levels[0].walls.tolist() == [[0, 0, 10, 0]]
+    assert any("measurements disagree" in note for note in world.notes)
+
+
+def test_cartesian_meters_are_taken_as_they_stand(tmp_path):
+    text = "coordinate_system: cartesian_meters\n" + BUILDING
+    assert (load(tmp_path, text).vertices[0].x, load(tmp_path, text).vertices[0].y) == (0, 100)
+
+
+def test_vertices_come_graph_by_graph_in_order_of_first_use(tmp_path):
+    world = load(tmp_path)
+    assert [vertex.name for vertex in world.vertices] == ["north", "12", "", "12", "north"]
+    assert [(lane.start, lane.end, lane.graph) for lane in world.lanes] == [(0, 1, 0), (1, 2, 0), (3, 4, 1)]
+
+
+def test_lanes_keep_their_parameters(tmp_path):
+    one_way, _, two_way = load(tmp_path).lanes
+    assert (one_way.bidirectional, one_way.orientation, one_way.mutex, one_way.speed_limit) == (
+        False,
+        "forward",
+        "m",
+        0,
+    )
+    assert (two_way.bidirectional, two_way.speed_limit) == (True, 0.4)
+
+
+def test_vertex_parameters_are_kept(tmp_path):
+    assert load(tmp_path).vertices[0].parameters == {"is_charger": True}
+
+
+def test_a_lane_names_the_door_it_passes(tmp_path):
+    world = load(tmp_path, BUILDING.replace("[3, 1, {", "[3, 5, {"))
+    assert world.levels[0].doors[0].name == "gate"
+    assert world.levels[0].doors[0].motion == "hinged"
+    assert [lane.door for lane in world.lanes] == ["", "gate", ""]
+
+
+def test_what_is_not_understood_is_noted(tmp_path):
+    text = BUILDING.replace("alpha: [3, 1]", "alpha: [3, 1], colour: [1, red], odd: [9, 1]") + (
+        "    models: [{name: chair}, {name: desk}]\n    floors: [{}]\n    smell: 1\n  L2: {}\nlifts: {lift: {}}\n"
+    )
+    notes = load(tmp_path, text).notes
+    for part in ("'colour'", "unknown type 9", "models (furniture)", ": 2 left out", "'smell'", "'L2'", "lifts"):
+        assert any(part in note for note in notes), part
+
+
+def test_a_map_that_is_understood_has_no_notes(tmp_path):
+    assert load(tmp_path).notes == ()
+
+
+def test_the_level_can_be_chosen(tmp_path):
+    text = BUILDING.replace("  L1:", "  L0: {}\n  L1:")
+    assert load(tmp_path, text).levels[0].name == "L0"
+    assert load(tmp_path, text, level="L1").levels[0].name == "L1"
+    assert load(tmp_path, text + "reference_level_name: L1\n").levels[0].name == "L1"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("[3, 1, {", "[3, 77, {", "hut.building.yaml:21:13: lane to vertex 77, but the level's vertices are 0 to 5"),
+        ("- [0, 1, {alpha", "- [0, -1, {alpha", "hut.building.yaml:15:13: wall to vertex -1"),
+        ("- [4, 5, {name", "- [4, 6, {name", "hut.building.yaml:17:13: door to vertex 6"),
+        ("- [3, 1, {graph_idx: [2, 0]}]", "- [3]", "hut.building.yaml:21:9: should have at least 2 values"),
+        ("[100, 0, 0", "[wide, 0, 0", "hut.building.yaml:9:10: should be a number, not 'wide'"),
+        ("[100, 0, 0", "[.nan, 0, 0", "hut.building.yaml:9:10: should be a number"),
+        ("[3, 0.4]", "[3, fast]", "'speed_limit' should be a double [3, …], not 'fast'"),
+        ("[4, true], graph", "[4, maybe], graph", "'bidirectional' should be a bool [4, …]"),
+        ("[3, 0.4]", "0.4", "should be a sequence, not 0.4"),
+        ("[3, 0.4]", "[3]", "lane parameter 'speed_limit' should be [type, value]"),
+        ("graph_idx: [2, 1]", "graph_idx: [2, -1]", "hut.building.yaml:19:9: lane of graph -1"),
+        ("[0, 1, {distance", "[0, 0, {distance", "hut.building.yaml:6:9: measurement of zero length"),
+        ("distance: [3, 5]", "distance: [3, 0]", "hut.building.yaml:6:9: measurement without a positive distance"),
+        ("      - [0, 1, {distance: [3, 5]}]\n", "      []\n", "hut.building.yaml:3:3: the level has no measurements"),
+        ("name: hut", "coordinate_system: wgs84", "hut.building.yaml:1:20: coordinate_system 'wgs84' is not supported"),
+        ("name: hut", "coordinate_system: web_mercator", "'web_mercator' is not supported"),
+        ("name: hut", "coordinate_system: polar", "'polar' is not known"),
+        ("name: hut", "reference_level_name: L7", "hut.building.yaml:1:23: no level 'L7' (levels: L1)"),
+        ("levels:", "floors:", "hut.building.yaml:1:1: has no levels"),
+    ],
+)
+def test_a_mistake_is_named_with_its_line(tmp_path, old, new, message):
+    assert message in failure(tmp_path, old, new)
+
+
+def test_an_unknown_level_lists_those_there_are(tmp_path):
+    message = failure(tmp_path, "name: hut", "name: hut", level="L9")
+    assert message == "hut.building.yaml:2:1: no level 'L9' (levels: L1)"
+
+
+@pytest.mark.parametrize(
+    "text", ["[]", "levels: 3", "levels: {L1: [2]}", "levels: {L1: {vertices: 5}}", "x", "levels:"]
+)
+def test_what_is_no_building_is_refused(tmp_path, text):
+    with pytest.raises(InputError):
+        load(tmp_path, text)
+
+
+def test_a_level_without_lanes_or_vertices_loads(tmp_path):
+    world = load(tmp_path, "levels: {L1: {}}")
+    assert (world.vertices, world.lanes, len(world.levels[0].walls)) == ((), (), 0)
+
+
+@pytest.mark.parametrize(
+    ("name", "vertices", "lanes", "walls", "doors"),
+    [
+        ("mrp_bench/office", 29, 32, 31, 0),
+        ("mrp_bench/office_crowdsim", 25, 28, 31, 0),
+        ("mrp_bench/warehouse", 54, 40, 34, 0),
+        ("mrp_bench/airport_terminal", 210, 223, 464, 5),
+        ("rmf_demos/battle_royale", 21, 20, 32, 0),
+        ("rmf_demos/office", 29, 30, 33, 3),
+        ("rmf_demos/triple_H", 23, 22, 28, 0),
+    ],
+)
+def test_public_maps_load_whole_and_fast(shared_data, name, vertices, lanes, walls, doors):
+    begin = time.perf_counter()
+    world = Rmf(file=shared_data / f"rmf/{name}.building.yaml").load()
+    assert time.perf_counter() - begin < 1
+    level = world.levels[0]
+    assert (len(world.vertices), len(world.lanes), len(level.walls), len(level.doors)) == (
+        vertices,
+        lanes,
+        walls,
+        doors,
+    )
+
+
+def test_vertices_of_the_original_office_come_in_publication_order(shared_data):
+    world = Rmf(file=shared_data / "rmf/mrp_bench/office.building.yaml").load()
+    import random
+
+    names = [vertex.name for vertex in world.vertices]
+    random.seed(3000)
+    assert random.sample(names, 5) == ["puffin", "pantry", "dugong", "monkey", "woodpecker"]
+    random.seed(3001)
+    assert random.sample(names, 5) == ["dugong", "mayfly", "frog", "pantry", "blue_whale"]
+
+
+def test_walls_of_the_original_office_span_the_published_width(shared_data):
+    walls = Rmf(file=shared_data / "rmf/mrp_bench/office.building.yaml").load().levels[0].walls.reshape(-1, 2)
+    width, _ = np.ptp(walls, axis=0)
+    assert width + 0.1 == pytest.approx(21.53, abs=0.03)
