@@ -1,0 +1,41 @@
+"""Arguments that several commands share."""
+
+import argparse
+import re
+from collections.abc import Sequence
+from typing import Any
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.yaml import loads
+
+_OVERRIDE = re.compile(r"[A-Za-z_][\w.,\- ]*=")
+
+
+def add_configuration(parser: argparse.ArgumentParser) -> None:
+    """`CONFIG… [key=value…]`, in any order among the options."""
+    parser.add_argument(
+        "words",
+        nargs="+",
+        metavar="CONFIG… [KEY=VALUE…]",
+        help="configuration files, and dotted options that replace what they say, e.g. planner.w=1.5 seed=0..9",
+    )
+
+
+def split_words(words: Sequence[str]) -> tuple[list[str], list[str]]:
+    """Files and overrides."""
+    overrides = [word for word in words if _OVERRIDE.match(word)]
+    files = [word for word in words if not _OVERRIDE.match(word)]
+    if not files:
+        raise InputError("no configuration file is named", hint="`mrpbench init` writes one")
+    return files, overrides
+
+
+def read_options(words: Sequence[str], what: str) -> dict[str, Any]:
+    """`KEY=VALUE` words as options, values as YAML."""
+    options = {}
+    for word in words:
+        key, equals, text = word.partition("=")
+        if not equals or not key.isidentifier():
+            raise InputError(f"{what} {word}: not KEY=VALUE")
+        options[key] = loads(text or '""').data
+    return options

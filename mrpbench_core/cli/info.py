@@ -1,0 +1,36 @@
+"""`mrpbench info`: facts for a bug report."""
+
+import argparse
+import sys
+from typing import Any
+
+from mrpbench_core import __version__
+from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.engine.machine import machine
+from mrpbench_core.plugins.installed import distribution, installed
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("--json", action="store_true", help="print as JSON")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the facts."""
+    owners = sorted({(provider.distribution, provider.version) for provider in installed()})
+    facts: dict[str, Any] = {
+        "mrpbench": __version__,
+        "executable": sys.executable,
+        **machine(),
+        "distributions": [
+            {"name": name, "version": version, "folder": str(distribution(name).locate_file(""))}
+            for name, version in owners
+        ],
+    }
+    if arguments.json:
+        print_json(facts)
+        return 0
+    print_table(["fact", "value"], [[key, str(value)] for key, value in facts.items() if key != "distributions"])
+    rows = [[entry["name"], entry["version"], entry["folder"]] for entry in facts["distributions"]]
+    print_table(["distribution", "version", "folder"], rows)
+    return 0

@@ -1,0 +1,66 @@
+"""`mrpbench init [NAME]`."""
+
+import argparse
+from pathlib import Path
+
+from mrpbench_core.files.errors import InputError
+
+TEMPLATE = """\
+# A study: every key has a default except world and planner; `mrpbench plugins` lists what can be chosen,
+# `mrpbench plugins show NAME` the options of each. Run it with `mrpbench run {file}`.
+name: {name}
+
+world: office                    # built in; or {{plugin: rmf, file: my.building.yaml}}
+roadmap: {{plugin: lanes}}         # the graph that planners search: lanes, grid or graph
+scenario: {{plugin: random, robots: 3}}
+fleet: turtlebot3_burger
+
+assigner: {assigner}
+planner: {planner}
+dispatcher: adg                  # robots wait for those that the plan lets pass first
+controller: {controller}
+simulator: kinematic             # `none` ends a run after planning; pybullet simulates physics
+
+limits: {{planning: 10 s, execution: 5 min}}
+seed: 0                          # draws the scenario
+
+matrix:                          # one run for each combination
+  scenario.robots: [2, 3]
+  seed: 0..2
+"""
+PREFERRED = {
+    "planner": ("cbs", "example"),
+    "assigner": ("ortools_mip", "identity"),
+    "controller": ("pure_pursuit",),
+}
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("name", nargs="?", default="study", metavar="NAME", help="of the study (default: study)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write NAME.yaml."""
+    name = arguments.name.removesuffix(".yaml")
+    file = Path(f"{name}.yaml")
+    if file.name != str(file) or not name or name.startswith("."):
+        raise InputError(f"{arguments.name!r} is not a name", hint="the file is written to the working directory")
+    choices = {kind: _first_installed(kind, names) for kind, names in PREFERRED.items()}
+    try:
+        with file.open("x", encoding="utf-8") as stream:
+            stream.write(TEMPLATE.format(file=file, name=name, **choices))
+    except FileExistsError:
+        raise InputError("exists already", file=file, hint="choose another NAME") from None
+    except OSError as error:
+        raise InputError(f"cannot be written: {error.strerror}", file=file) from error
+    print(f"wrote {file}; run it with `mrpbench run {file}`")
+    return 0
+
+
+def _first_installed(kind: str, names: tuple[str, ...]) -> str:
+    from mrpbench_core.plugins.installed import providers
+    from mrpbench_core.plugins.kinds import group_of
+
+    offered = [provider.name for provider in providers(group_of(kind)) if not provider.problem]
+    return next((name for name in (*names, *offered) if name in offered), names[0])

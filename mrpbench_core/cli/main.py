@@ -1,0 +1,116 @@
+"""The command `mrpbench`. Each command is a module of this package, imported only when it is named.
+
+A command's module has `configure(parser)`, which declares its arguments, and `run(arguments) -> int`, which returns the
+exit code. Mistakes of the user are raised as `InputError` and printed here, one line each.
+"""
+
+import argparse
+import importlib
+import logging
+import os
+import sys
+import tempfile
+import traceback
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NoReturn
+
+from mrpbench_core import __version__
+from mrpbench_core.files.errors import InputError, InputErrors
+
+COMMANDS = {
+    "demo": "a small office run, end to end, in under a minute",
+    "init": "write a commented configuration that runs",
+    "run": "run what a study still lacks",
+    "report": "print tables of results",
+    "export": "write a stored run in another format",
+    "scenario": "freeze the instances a study draws, for publication",
+    "world": "facts and checks of a map",
+    "plugins": "list what is installed, or show one plugin's options",
+    "schema": "print the JSON Schema of configurations, for editors",
+    "info": "facts about this machine and installation, for bug reports",
+}
+INTERRUPTED = 130
+
+
+class Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the line and exit."""
+        sys.stderr.write(f"{self.prog}: {message} (`{self.prog} --help` lists what there is)\n")
+        raise SystemExit(2)
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one command and return its exit code."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    logging.basicConfig(format="%(message)s", level=logging.WARNING)
+    try:
+        code = _dispatch(words)
+        sys.stdout.flush()
+    except InputErrors as several:
+        code = _mistakes(several.errors)
+    except InputError as error:
+        code = _mistakes([error])
+    except KeyboardInterrupt:
+        sys.stderr.write("mrpbench: interrupted\n")
+        code = INTERRUPTED
+    except BrokenPipeError:  # `| head` has seen enough; keep Python from flushing into it at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = 0
+    except Exception as error:  # noqa: BLE001 - the last resort: one line, and the rest where it can be found
+        code = _defect(error)
+    return code
+
+
+def _dispatch(words: list[str]) -> int:
+    top = Parser(
+        prog="mrpbench",
+        description="Benchmark for multi-robot planning: from task assignment to what the robots then do.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog="commands:\n"
+        + "\n".join(f"  {name:<10} {text}" for name, text in COMMANDS.items())
+        + "\n\n`mrpbench COMMAND --help` says more about each.",
+        usage="mrpbench [-h] [--version] COMMAND …",
+    )
+    top.add_argument("--version", action="version", version=f"mrpbench {__version__}")
+    if not words or words[0].startswith("-"):
+        top.parse_args(words)
+        top.print_help()
+        return 0 if words else 2
+    name = words[0]
+    if name not in COMMANDS:
+        import difflib
+
+        close = difflib.get_close_matches(name, COMMANDS, n=1)
+        raise InputError(
+            f"no command is called {name!r}", hint=f"did you mean {close[0]!r}?" if close else "see --help"
+        )
+    command = importlib.import_module(f"mrpbench_core.cli.{name}")
+    parser = Parser(prog=f"mrpbench {name}", description=COMMANDS[name][0].upper() + COMMANDS[name][1:] + ".")
+    command.configure(parser)
+    code: int = command.run(parser.parse_intermixed_args(words[1:]))
+    return code
+
+
+def _mistakes(errors: Sequence[InputError]) -> int:
+    for line in dict.fromkeys(str(error) for error in errors):
+        sys.stderr.write(f"{line}\n")
+    return 2
+
+
+def _defect(error: Exception) -> int:
+    """Say in one line that mrpbench itself failed."""
+    if os.environ.get("MRPBENCH_TRACEBACK"):
+        traceback.print_exception(error)
+        return 1
+    with tempfile.NamedTemporaryFile("w", prefix="mrpbench-", suffix=".txt", delete=False) as log:
+        traceback.print_exception(error, file=log)
+    what = " ".join(f"{type(error).__name__}: {error}".split())[:200]
+    sys.stderr.write(f"mrpbench: internal error: {what} (details in {Path(log.name)}; please report it)\n")
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

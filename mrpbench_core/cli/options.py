@@ -1,0 +1,85 @@
+"""`mrpbench plugins show NAME`: what a plugin is, where it is from, and its options."""
+
+import inspect
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.api import KINDS
+from mrpbench_core.api.component import Component
+from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.installed import installed
+from mrpbench_core.plugins.provenance import origin
+from mrpbench_core.plugins.registry import Registry
+
+
+def show(name: str, as_json: bool) -> None:
+    """Print a plugin, named `NAME` or, where several kinds have one of that name, `KIND:NAME`."""
+    cls = _find(name)
+    facts: dict[str, Any] = origin(cls) | {"description": inspect.getdoc(cls) or ""} | _traits(cls)
+    facts["options"] = [_option(field) for field in _fields(cls)]
+    if as_json:
+        print_json(facts)
+        return
+    print(f"{facts['kind']} {facts['name']}, from {facts['distribution']} {facts['version']}")
+    print(facts["description"])
+    for key in ("supports", "promises", "requires"):
+        if key in facts:
+            print(f"{key}: {', '.join(facts[key]) or 'nothing'}")
+    print()
+    if not facts["options"]:
+        print("It has no options.")
+        return
+    keys = ("name", "default", "unit", "type", "help")
+    print_table(["option", *keys[1:]], [[entry[key] for key in keys] for entry in facts["options"]])
+
+
+def _find(name: str) -> type[Component]:
+    kind, _, rest = name.rpartition(":")
+    kinds = dict.fromkeys(entry.kind for entry in installed() if entry.name == rest.partition("@")[0])
+    if kind:
+        kinds = dict.fromkeys(found for found in kinds if found == kind.removesuffix("s"))
+    known = [found for found in kinds if found in KINDS]
+    if len(known) > 1:
+        choice = " or ".join(f"{found}:{rest}" for found in known)
+        raise InputError(f"{name!r} is a plugin of several kinds", hint=f"write {choice}")
+    if not known:
+        import difflib
+
+        close = difflib.get_close_matches(rest, {entry.name for entry in installed()}, n=1)
+        hint = f"did you mean {close[0]!r}?" if close else "`mrpbench plugins` lists what is installed"
+        raise InputError(f"no plugin is called {name!r}", hint=hint)
+    return Registry(KINDS[known[0]]).get(rest, Path.cwd())
+
+
+def _fields(cls: Any) -> list[Any]:
+    return [field for field in attrs.fields(attrs.resolve_types(cls)) if field.init]
+
+
+def _option(field: Any) -> dict[str, Any]:
+    default = field.default
+    if isinstance(default, attrs.Factory):  # type: ignore[arg-type]
+        default = "computed" if default.takes_self else default.factory()
+    return {
+        "name": field.alias,
+        "default": "required" if default is attrs.NOTHING else _text(default),
+        "unit": field.metadata.get("unit") or "",
+        "type": inspect.formatannotation(field.type).replace("pathlib.", "").replace("typing.", ""),
+        "help": field.metadata.get("help", ""),
+    }
+
+
+def _text(default: Any) -> str:
+    return "none" if default is None else str(getattr(default, "value", default))
+
+
+def _traits(cls: type[Component]) -> dict[str, list[str]]:
+    """What a planner or metric says about itself."""
+    found = {}
+    for key in ("supports", "promises", "requires"):
+        value = getattr(cls, key, None)
+        if isinstance(value, frozenset):
+            found[key] = sorted(str(getattr(entry, "value", entry)) for entry in value)
+    return found

@@ -1,0 +1,52 @@
+"""`mrpbench plugins [show NAME]`. Listing imports none of them."""
+
+import argparse
+from typing import Any
+
+from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.installed import Provider, installed
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.usage = "mrpbench plugins [-h] [--json] [KIND | show NAME]"
+    parser.add_argument("words", nargs="*", help="a kind, e.g. planner; or `show` and a plugin's name or KIND:NAME")
+    parser.add_argument("--json", action="store_true", help="print as JSON")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """List or show."""
+    words = arguments.words
+    if words[:1] == ["show"]:
+        if len(words) != 2:
+            raise InputError("name one plugin to show, e.g. `mrpbench plugins show lanes`")
+        from mrpbench_core.cli.options import show
+
+        show(words[1], arguments.json)
+        return 0
+    if len(words) > 1:
+        raise InputError(f"plugins {' '.join(words)}: expected one kind, or `show NAME`")
+    found = list(installed())
+    if words:
+        found = [provider for provider in found if provider.kind == words[0].removesuffix("s")]
+        if not found:
+            kinds = dict.fromkeys(provider.kind for provider in installed())
+            raise InputError(f"no plugin is a {words[0]!r}", hint="there are " + ", ".join(kinds))
+    if arguments.json:
+        print_json([_facts(provider) for provider in found])
+        return 0
+    rows = [[entry.kind, entry.name, entry.distribution, entry.version, entry.problem or ""] for entry in found]
+    print_table(["kind", "name", "distribution", "version", ""], rows)
+    return 0
+
+
+def _facts(provider: Provider) -> dict[str, Any]:
+    return {
+        "kind": provider.kind,
+        "name": provider.name,
+        "distribution": provider.distribution,
+        "version": provider.version,
+        "class": provider.value,
+        "problem": provider.problem,
+    }

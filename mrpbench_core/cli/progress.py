@@ -1,0 +1,102 @@
+"""What `mrpbench run` prints while it runs: a live line on a terminal, one line per finished run elsewhere."""
+
+import sys
+import time
+from collections import Counter
+from typing import Any
+
+from mrpbench_core.config.study import RunPoint
+from mrpbench_core.engine.selection import Selection
+from mrpbench_core.engine.study import Progress
+from mrpbench_core.store.results import Results
+
+SHORT = 12
+"""Characters of a run id that are printed; any beginning that is unique names the run."""
+REFRESH_S = 0.1
+
+
+class Printed(Progress):
+    """Prints to standard output."""
+
+    def __init__(self) -> None:
+        self._live = sys.stdout.isatty()
+        self._total = 0
+        self._going: dict[str, RunPoint] = {}
+        self._counts: Counter[str] = Counter()
+        self._began = self._drawn = time.monotonic()
+
+    def selected(self, selection: Selection, results: Results) -> None:
+        """Say how much there is to do."""
+        self._total = len(selection.todo)
+        recorded = sum(run_id in results for run_id in selection.chosen)
+        print(f"{results.folder.path}: {self._total} of {len(selection.chosen)} runs to do, {recorded} recorded")
+        if selection.changed:
+            print(
+                f"{len(selection.changed)} recorded runs were made with other versions or sources of plugins"
+                " (`--rerun changed` does them again)"
+            )
+        sys.stdout.flush()
+
+    def started(self, point: RunPoint) -> None:
+        """Remember it for the live line."""
+        self._going[point.run_id] = point
+        self._draw()
+
+    def finished(self, record: dict[str, Any]) -> None:
+        """Count it; on a terminal only what went wrong gets a line of its own."""
+        self._end(record["run_id"], record["status"], (record.get("error") or {}).get("message", ""))
+
+    def lost(self, run_id: str, reason: str) -> None:
+        """Say so."""
+        self._going.pop(run_id)
+        print(("\r\x1b[K" if self._live else "") + f"{run_id[:SHORT]} is done again: {reason}", flush=True)
+
+    def refused(self, run_id: str, mistake: str) -> None:
+        """Count it; the caller prints each mistake once."""
+        self._end(run_id, "not run", mistake)
+
+    def close(self) -> None:
+        """Remove the live line."""
+        if self._live:
+            print("\r\x1b[K", end="", flush=True)
+
+    def _end(self, run_id: str, status: str, message: str) -> None:
+        point = self._going.pop(run_id)
+        self._counts[status] += 1
+        if not self._live or status in ("crashed", "out_of_memory", "wall_timeout", "not run"):
+            done = f"[{self._counts.total()}/{self._total}]"
+            axes = " ".join(f"{key}={word(value)}" for key, value in point.axes.items())
+            line = (
+                f"{done} {run_id[:SHORT]} {status}" + (f" {axes}" if axes else "") + (f": {message}" if message else "")
+            )
+            print(("\r\x1b[K" if self._live else "") + line, flush=True)
+        self._draw()
+
+    def _draw(self) -> None:
+        now = time.monotonic()
+        if not self._live or now - self._drawn < REFRESH_S:
+            return
+        self._drawn = now
+        done = self._counts.total()
+        counts = ", ".join(f"{count} {status}" for status, count in self._counts.most_common())
+        left = (now - self._began) / done * (self._total - done) if done else 0.0
+        eta = f" · {_clock(left)} left" if done else ""
+        going = " ".join(run_id[:SHORT] for run_id in self._going)
+        print(f"\r\x1b[K[{done}/{self._total}] {counts}{eta} · {going}"[:118], end="", flush=True)
+
+
+def word(value: Any) -> str:
+    """One axis value in few characters: a block by its plugin and options."""
+    if isinstance(value, dict):
+        options = ",".join(f"{key}={word(item)}" for key, item in value.items() if key not in ("plugin", "robot"))
+        name = str(value.get("plugin", value.get("robot", "")))
+        return f"{name}[{options}]" if options else name
+    if isinstance(value, list | tuple):
+        return "[" + ",".join(map(word, value)) + "]"
+    return str(value)
+
+
+def _clock(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

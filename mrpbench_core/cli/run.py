@@ -1,0 +1,130 @@
+"""`mrpbench run CONFIG… [key=value…]`."""
+
+import argparse
+import signal
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+from mrpbench_core.cli.arguments import add_configuration, read_options, split_words
+from mrpbench_core.cli.progress import SHORT, Printed, word
+from mrpbench_core.cli.report import print_report
+from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.config.study import Study, load_studies
+from mrpbench_core.engine.invoke import prepare
+from mrpbench_core.engine.record import code_of
+from mrpbench_core.engine.study import Done, Request, choose, run_study
+
+GROUPS_SHOWN = 20
+"""Rows of the table at the end."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.epilog = (
+        "Runs that have a record are not done again. Exit code: 0 every run has a definite status, 1 some crashed or"
+        " could not be run, 2 the configuration is wrong, 130 interrupted (the same command goes on from there)."
+    )
+    add_configuration(parser)
+    parser.add_argument("--out", metavar="DIR", help="results folder (default: results/NAME of the configuration)")
+    parser.add_argument("--workers", type=int, default=1, metavar="N", help="runs at once (default: 1)")
+    parser.add_argument("--executor", default="processes", metavar="NAME", help="where runs execute")
+    parser.add_argument("--executor-option", action="append", default=[], metavar="K=V", help="an option of it")
+    parser.add_argument("--shard", metavar="i/n", help="only part i of n, counted from 0; give each its own --out")
+    parser.add_argument(
+        "--rerun",
+        choices=("failed", "changed", "all"),
+        help="also do again: runs that crashed, ran out of memory or wall time, or broke a contract; "
+        "those made with other versions; or all",
+    )
+    parser.add_argument("--dry-run", action="store_true", help="list what would be done, and stop")
+    parser.add_argument("--json", action="store_true", help="with --dry-run: as JSON")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do the runs."""
+    files, overrides = split_words(arguments.words)
+    options = read_options(arguments.executor_option, "--executor-option")
+    studies = load_studies(files, overrides)
+    requests = [
+        prepare(
+            study,
+            overrides,
+            out=arguments.out,
+            workers=arguments.workers,
+            executor=arguments.executor,
+            executor_options=options,
+            shard=arguments.shard,
+            rerun=arguments.rerun,
+            progress=Printed(),
+        )
+        for study in studies
+    ]
+    for error in (error for study in studies for error in study.errors):
+        sys.stderr.write(f"{error}\n")
+    if arguments.dry_run:
+        _list(studies, requests, arguments.json)
+        return int(any(study.errors for study in studies))
+    print(_plugins_line(studies), flush=True)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs so
+    return max(_run_one(study, request) for study, request in zip(studies, requests, strict=True))
+
+
+def _run_one(study: Study, request: Request) -> int:
+    try:
+        done = run_study(study, request)
+    except KeyboardInterrupt:
+        sys.stderr.write(
+            f"interrupted; what is finished is kept in {request.out}, the same command goes on from there\n"
+        )
+        raise SystemExit(130) from None
+    for mistake in dict.fromkeys(line for text in done.mistakes.values() for line in text.splitlines()):
+        sys.stderr.write(f"{mistake}\n")
+    if done.mistakes and not len(done.results):
+        return 2
+    _summarize(done, request)
+    return int("crashed" in done.results.statuses() or bool(done.mistakes or study.errors))
+
+
+def _list(studies: Sequence[Study], requests: Sequence[Request], as_json: bool) -> None:
+    found: list[dict[str, Any]] = []
+    for study, request in zip(studies, requests, strict=True):
+        selection, _ = choose(study, request)
+        found += [
+            {"run_id": point.run_id, "attempt": attempt, "out": str(request.out), "axes": point.axes}
+            | {"config": point.canonical}
+            for point, attempt in selection.todo
+        ]
+    if as_json:
+        print_json(found)
+        return
+    axes = list(dict.fromkeys(key for entry in found for key in entry["axes"]))
+    rows = [
+        [entry["run_id"][:SHORT], entry["attempt"], *(word(entry["axes"].get(key)) for key in axes)] for entry in found
+    ]
+    print_table(
+        ["run", "attempt", *axes], rows, f"{len(rows)} of {sum(len(study.runs) for study in studies)} runs to do"
+    )
+
+
+def _plugins_line(studies: Sequence[Study]) -> str:
+    """Whose code runs, with versions."""
+    offered: dict[str, list[str]] = {}
+    for entry in {
+        id(part): part for study in studies for point in study.runs for part in code_of(point)["components"]
+    }.values():
+        owner = f"{entry['distribution']} {entry['version']}" if "distribution" in entry else "local"
+        names = offered.setdefault(owner, [])
+        if entry["name"] not in names:
+            names.append(entry["name"])
+    return "plugins: " + "; ".join(f"{owner}: {', '.join(names)}" for owner, names in sorted(offered.items()))
+
+
+def _summarize(done: Done, request: Request) -> None:
+    results = done.results
+    print_report([results], limit=GROUPS_SHOWN)
+    statuses = sorted(results.statuses().items(), key=lambda item: -item[1])
+    counts = ", ".join(f"{count} {status}" for status, count in statuses)
+    print(f"{len(results)} runs: {counts}; results in {request.out}")
+    if results.statuses().get("crashed"):
+        print(f"why runs crashed is in {request.out}/logs; `--rerun failed` does them again")

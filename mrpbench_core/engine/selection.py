@@ -1,0 +1,74 @@
+"""Which runs of a study are to be done now, and as which attempt."""
+
+import hashlib
+from collections.abc import Callable, Iterable
+from typing import Literal
+
+import attrs
+
+from mrpbench_core.config.study import RunPoint
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.store.results import Results
+
+Rerun = Literal["failed", "changed", "all"]
+
+FAILED = frozenset({"crashed", "out_of_memory", "wall_timeout", "plan_invalid", "assignment_failed"})
+"""What `--rerun failed` does again: runs that say more about a defect or the machine than about the method.
+
+A plan timeout or a missed goal is a result; doing only those again would favour luck.
+"""
+
+
+@attrs.frozen(kw_only=True)
+class Selection:
+    """Runs to do, each with its attempt, and what is known of the others."""
+
+    todo: tuple[tuple[RunPoint, int], ...]
+    chosen: tuple[str, ...]
+    """Ids of every run of the study in this shard."""
+    changed: tuple[str, ...]
+    """Ids of recorded runs that would now be made with other versions or sources, and are not done again."""
+
+
+def select(
+    points: Iterable[RunPoint],
+    results: Results,
+    rerun: Rerun | None,
+    shard: tuple[int, int] | None,
+    origin_now: Callable[[RunPoint], str],
+) -> Selection:
+    """Choose the runs without a record, and those that `rerun` names."""
+    chosen = {point.run_id: point for point in points if shard is None or in_shard(point.run_id, shard)}
+    todo = []
+    changed = []
+    for run_id, point in chosen.items():
+        entry = results.entry(run_id)
+        if entry is None:
+            todo.append((point, 1))
+            continue
+        differs = origin_now(point) != entry.origin
+        again = {"all": True, "changed": differs, "failed": entry.status in FAILED, None: False}[rerun]
+        if again:
+            todo.append((point, entry.attempt + 1))
+        elif differs:
+            changed.append(run_id)
+    return Selection(todo=tuple(todo), chosen=tuple(chosen), changed=tuple(changed))
+
+
+def in_shard(run_id: str, shard: tuple[int, int]) -> bool:
+    """Tell whether a run belongs to shard i of n; depends on its id alone, so that shards agree on any machine."""
+    index, count = shard
+    number = int.from_bytes(hashlib.sha256(run_id.encode()).digest()[:8])
+    return number % count == index
+
+
+def read_shard_option(text: str) -> tuple[int, int]:
+    """`i/n` with 0 <= i < n.
+
+    Raises:
+        InputError: it is not.
+    """
+    index, slash, count = text.partition("/")
+    if slash and index.isdecimal() and count.isdecimal() and int(index) < int(count):
+        return int(index), int(count)
+    raise InputError(f"--shard {text}: not i/n", hint="with n shards, i is 0 … n-1, e.g. 0/4, 1/4, 2/4 and 3/4")

@@ -1,0 +1,118 @@
+"""A worker slot: one long-lived child process that executes one run after another.
+
+Whatever a plugin does, a run ends with an outcome: the slot ends a child that passes a limit, and replaces one that
+died.
+"""
+
+import signal
+import threading
+from typing import Any
+
+import attrs
+
+from mrpbench_core.engine.child import SAMPLING_S, Child, Died
+from mrpbench_core.engine.job import Job, Outcome
+from mrpbench_core.engine.limits import Watch
+from mrpbench_core.engine.machine import oom_kills
+
+START_S = 120.0
+"""Seconds a child may take to import the core."""
+SPARE = 4
+"""A child that keeps more than this fraction (1 / SPARE) of the memory limit after a run is replaced."""
+
+
+OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
+"""Signals that people and batch systems send, and defects do not raise."""
+
+
+class Stopped(Exception):  # noqa: N818 - not an error
+    """The slot was stopped while it executed a run."""
+
+
+class Slot:
+    """Executes runs one at a time; `stop` may be called from another thread."""
+
+    def __init__(self) -> None:
+        self._child: Child | None = None
+        self._machine: dict[str, Any] | None = None
+        self._stopped = False
+        self._lock = threading.Lock()
+
+    def run(self, job: Job) -> Outcome:
+        """Execute a run.
+
+        Raises:
+            Stopped: the slot was stopped.
+        """
+        watch = Watch(job)
+        oom_before = oom_kills()
+        try:
+            child = self._ready(job)
+            watch = Watch(job)  # a child's start is no part of the run
+            outcome = self._follow(child, job, watch)
+            if self._child is not None and not child.is_tidy(job.memory_bytes // SPARE):
+                self._discard()
+            return attrs.evolve(outcome, machine=self._machine)
+        except Died as death:
+            self._discard()
+            if death.signal == signal.SIGKILL and oom_kills() > oom_before:
+                failure = watch.failure("out_of_memory", "the machine ran out of memory, and the kernel ended the run")
+                return Outcome(run_id=job.run_id, failure=failure)
+            if death.signal in OUTSIDE:
+                return Outcome(run_id=job.run_id, lost=str(death))
+            return Outcome(run_id=job.run_id, failure=watch.failure("crashed", str(death)))
+        finally:
+            if self._stopped:
+                self._discard()
+                raise Stopped
+
+    def stop(self) -> None:
+        """End the child, and with it the run it executes."""
+        with self._lock:
+            self._stopped = True
+            if self._child is not None:
+                self._child.kill()
+
+    def close(self) -> None:
+        """End an idle child."""
+        self._discard()
+
+    def _follow(self, child: Child, job: Job, watch: Watch) -> Outcome:
+        child.send(job.message())
+        while True:
+            message = child.receive(min(SAMPLING_S, watch.patience()))
+            if message is None:
+                memory = child.memory()
+                failure = watch.overrun() or (None if memory is None else watch.overweight(memory))
+                if failure is not None:
+                    self._discard()
+                    return Outcome(run_id=job.run_id, failure=failure)
+            elif "stage" in message:
+                watch.enter(message["stage"], message.get("limit_s"), message.get("scenario_id"))
+            elif "record" in message:
+                return Outcome(run_id=job.run_id, record=message["record"])
+            elif "mistake" in message:
+                return Outcome(run_id=job.run_id, mistake=message["mistake"])
+            else:
+                return Outcome(run_id=job.run_id, failure=watch.failure(message["status"], message["message"]))
+
+    def _ready(self, job: Job) -> Child:
+        """An idle child: the one at hand, or a new one."""
+        if self._child is not None and not self._child.is_alive():
+            self._discard()
+        if self._child is None:
+            with self._lock:
+                if self._stopped:
+                    raise Stopped
+                self._child = Child(job.log)
+            greeting = self._child.receive(START_S)
+            if greeting is None:
+                raise Died(f"the worker process did not start within {START_S:g} s")
+            self._machine = greeting["machine"]
+        return self._child
+
+    def _discard(self) -> None:
+        with self._lock:
+            child, self._child = self._child, None
+        if child is not None:
+            child.close()

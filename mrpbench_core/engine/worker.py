@@ -1,0 +1,124 @@
+"""The child process of a worker slot: `python -m mrpbench_core.engine.worker JOBS MESSAGES LIFELINE` (descriptors).
+
+Reads one job a line and executes it, announcing each stage. What plugins print, in Python or in native code, goes to
+the run's log.
+"""
+
+import ctypes
+import errno
+import faulthandler
+import json
+import os
+import resource
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import psutil
+
+from mrpbench_core.engine.lifeline import hold
+from mrpbench_core.engine.machine import machine
+from mrpbench_core.engine.plain import plain
+from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.store.paths import RunPaths
+
+Say = Callable[[dict[str, Any]], None]
+
+
+def main(jobs: int, messages: int, lifeline: int) -> None:
+    """Execute jobs until the slot closes its end."""
+    hold(lifeline)
+    for descriptor in (jobs, messages):  # programs that a plugin starts must not keep them open
+        os.set_inheritable(descriptor, False)
+    Path("/proc/self/oom_score_adj").write_text("500")  # the kernel is to end a worker, never the invoker
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(line_buffering=True, errors="backslashreplace")  # type: ignore[union-attr]
+    faulthandler.enable()
+    with os.fdopen(jobs, "rb") as requests, os.fdopen(messages, "wb", buffering=0) as replies:
+
+        def say(message: dict[str, Any]) -> None:
+            replies.write(json.dumps(message).encode() + b"\n")
+
+        import mrpbench_core.engine.pipeline  # noqa: F401 - before the first run's clock starts
+
+        say({"ready": True, "machine": machine()})
+        for line in requests:
+            job = json.loads(line)
+            _redirect(job["log"])
+            _backstop(job["memory_bytes"])
+            answer = _execute(job, say)
+            _flush()
+            _redirect(os.devnull)
+            if not Path(job["log"]).stat().st_size:
+                Path(job["log"]).unlink()
+            say(answer)
+
+
+def _execute(job: dict[str, Any], say: Say) -> dict[str, Any]:
+    from mrpbench_core.config.study import unpack
+    from mrpbench_core.engine.pipeline import execute
+
+    def announce(name: str, facts: dict[str, Any]) -> None:
+        say({"stage": name, **plain(facts)})
+
+    paths = RunPaths(
+        recording=Path(job["recording"]),
+        exports=Path(job["exports"]),
+        picture=None if job["picture"] is None else Path(job["picture"]),
+    )
+    try:
+        record = plain(execute(unpack(job["parcel"]), job["run_id"], paths, announce))
+    except (InputError, InputErrors) as error:
+        return {"mistake": str(error)}
+    except OSError as error:
+        traceback.print_exc()
+        if error.errno in (errno.ENOSPC, errno.EDQUOT):
+            return {"mistake": f"{error.strerror}: {error.filename or job['recording']}"}
+        return {"status": "crashed", "message": describe(error)}
+    except MemoryError as error:
+        traceback.print_exc()
+        return {"status": "out_of_memory", "message": str(error) or "no memory left"}
+    except BaseException as error:  # noqa: BLE001 - a plugin may raise anything, even SystemExit
+        traceback.print_exc()
+        return {"status": "crashed", "message": describe(error)}
+    return {"record": record}
+
+
+def describe(error: BaseException) -> str:
+    """One line: what was raised, and the innermost place outside the core."""
+    text = " ".join(str(error).split())[:300]
+    frames = traceback.extract_tb(error.__traceback__)
+    own = str(Path(__file__).parent)
+    place = next((frame for frame in reversed(frames) if not frame.filename.startswith(own)), None)
+    where = "" if place is None else f" ({Path(place.filename).name}:{place.lineno})"
+    return f"{type(error).__name__}{': ' + text if text else ''}{where}"
+
+
+def _redirect(file: str) -> None:
+    target = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND, 0o644)
+    os.dup2(target, 1)
+    os.dup2(target, 2)
+    os.close(target)
+
+
+def _flush() -> None:
+    """Empty Python's and the C library's buffers, so that each run's output is in its own log."""
+    for stream in (sys.stdout, sys.stderr):
+        stream.flush()
+    ctypes.CDLL(None).fflush(None)
+
+
+def _backstop(memory_bytes: int) -> None:
+    """Refuse one enormous allocation, which sampling would see too late.
+
+    Far above the limit: address space is much more than memory where threads and mapped files are.
+    """
+    limit = psutil.Process().memory_info().vms + 4 * memory_bytes + 8 * 2**30
+    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
+    resource.setrlimit(resource.RLIMIT_AS, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:]))

@@ -1,0 +1,156 @@
+"""`kill -9` of any process: nothing lost, nothing doubled, nobody left working, and the records as if undisturbed."""
+
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+from mrpbench_core import load, run
+from mrpbench_core.store.invocation import write_document
+
+RUNS = 8
+
+
+@pytest.fixture
+def slow_study(study):
+    """Runs of 0.15 s each, in a file."""
+    study["planner"]["does"] = "slow"
+    write_document(Path("odd.yaml"), study | {"matrix": {"seed": f"0..{RUNS - 1}"}})
+    return study
+
+
+def invoke(*words):
+    command = [sys.executable, "-m", "mrpbench_core.cli.main", "run", "odd.yaml", "--out", "out", *words]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+
+def finish(process, timeout=30):
+    """Exit code and what it wrote."""
+    output, errors = process.communicate(timeout=timeout)
+    return process.returncode, output, errors
+
+
+def children(process):
+    return psutil.Process(process.pid).children(recursive=True)
+
+
+def wait_for_records(count, deadline_s=30):
+    deadline = time.monotonic() + deadline_s
+    while sum(file.read_bytes().count(b"\n") for file in Path("out/runs").glob("*.jsonl")) < count:
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+
+
+def essence(folder):
+    """Records without what may differ between two executions of the same study."""
+    return {
+        record["run_id"]: {
+            key: value for key, value in record.items() if key not in ("timing", "provenance", "attempt")
+        }
+        for record in load(folder)
+    }
+
+
+def assert_as_undisturbed(study):
+    run("odd.yaml", out="undisturbed", workers=2)
+    assert essence("out") == essence("undisturbed")
+    assert len(load("out")) == RUNS
+
+
+def gone(processes):
+    return not [process for process in psutil.wait_procs(processes, timeout=5)[1] if process.is_running()]
+
+
+def test_a_killed_invoker_leaves_no_orphan_and_is_resumed(slow_study):
+    process = invoke("--workers", "2")
+    wait_for_records(3)
+    workers = children(process)
+    assert len(workers) == 2
+    process.kill()
+    finish(process)
+    assert gone(workers)
+    kept = essence("out")
+    assert 3 <= len(kept) < RUNS
+    code, output, _ = finish(invoke())
+    assert code == 0
+    assert f"{RUNS - len(kept)} of {RUNS} runs to do, {len(kept)} recorded" in output
+    assert_as_undisturbed(slow_study)
+    assert {record["attempt"] for record in load("out")} == {1}
+
+
+def test_a_killed_invoker_leaves_no_orphan_even_in_native_code_with_helpers(study):
+    write_document(
+        Path("odd.yaml"), study | {"limits": {}, "matrix": {"planner.does": ["hang_with_gil", "hang_with_helper"]}}
+    )
+    process = invoke("--workers", "2")
+    deadline = time.monotonic() + 30
+    while len(children(process)) < 3 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    workers = children(process)
+    assert len(workers) == 3
+    time.sleep(0.3)
+    process.kill()
+    finish(process)
+    assert gone(workers)
+
+
+def test_runs_whose_worker_was_killed_are_done_again_and_it_is_said(slow_study):
+    process = invoke("--workers", "2")
+    chance = random.Random(1)
+    for count in (1, 3, 5):
+        wait_for_records(count)
+        chance.choice(children(process)).kill()
+    code, output, errors = finish(process)
+    assert (code, errors) == (0, "")
+    assert output.count("is done again: the worker process was ended by SIGKILL") >= 1
+    assert_as_undisturbed(slow_study)
+    assert sum(record["attempt"] - 1 for record in load("out")) == output.count("is done again")
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_study_keeps_what_is_finished_and_goes_on(slow_study, number):
+    process = invoke("--workers", "2")
+    wait_for_records(3)
+    workers = children(process)
+    process.send_signal(number)
+    code, _, errors = finish(process)
+    assert code == 130
+    assert errors == "interrupted; what is finished is kept in out, the same command goes on from there\n"
+    assert gone(workers)
+    kept = len(load("out"))
+    assert 3 <= kept < RUNS
+    assert finish(invoke("--workers", "2"))[0] == 0
+    assert_as_undisturbed(slow_study)
+
+
+def test_two_invocations_on_one_folder(slow_study):
+    first = invoke()
+    wait_for_records(1)
+    code, _, errors = finish(invoke())
+    assert code == 2
+    assert errors.count("\n") == 1
+    assert f"another invocation is working in this folder (process {first.pid} on {os.uname().nodename})" in errors
+    assert finish(first)[0] == 0
+    assert_as_undisturbed(slow_study)
+
+
+def test_a_full_disk_ends_in_one_line_and_is_resumed(slow_study):
+    limited = (
+        "import resource, signal, sys; from mrpbench_core.cli.main import main\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (5000, 5000))\n"
+        "sys.exit(main(['run', 'odd.yaml', '--out', 'out']))"
+    )
+    process = subprocess.run([sys.executable, "-c", limited], capture_output=True, text=True, timeout=30)
+    assert process.returncode == 2
+    assert process.stderr.count("\n") == 1
+    assert "cannot be written: File too large" in process.stderr
+    assert 1 <= len(load("out")) < RUNS
+    assert finish(invoke())[0] == 0
+    assert_as_undisturbed(slow_study)
