@@ -42,7 +42,7 @@ class Gates:
         self.robot: list[int] = moves.robot.tolist()
         self.first, self.last = moves.first[:-1].tolist(), moves.first[1:].tolist()
         self.limit = _limit(problem, moves).tolist()
-        self.cut = [robot for robot, limit in enumerate(self.limit) if limit < self.last[robot]]
+        self.cut = self.limit != self.last
         self.lengths = [len(path) for path in plan.paths]
         self.frontier = list(self.first)
         """The first move of each robot that is not released."""
@@ -97,10 +97,9 @@ class Gates:
         return next(waits) % len(self.frontier)
 
     def exhausted(self, reached: Int) -> str | None:
-        """Why a new plan is wanted: some robot has `reached` i8[n] what the horizon lets it do, but not its end."""
-        for robot in self.cut:
-            if self.frontier[robot] == self.limit[robot] and reached[robot] >= self.released[robot]:
-                return f"robot {robot} has come to the plan's horizon"
+        """Why a new plan is wanted: the robots have `reached` i8[n] all that the horizon allows, which is not all."""
+        if self.cut and (reached >= self.released).all():
+            return "the robots have come to the plan's horizon"
         return None
 
 
