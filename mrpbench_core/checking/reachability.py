@@ -26,8 +26,8 @@ def components(roadmap: Roadmap, profile: int) -> Int:
     """Label i8[V] of each vertex: equal where robots of a motion profile can drive there *and back*."""
     edges = _usable(roadmap, profile)
     count = len(roadmap.position)
-    forth = np.unique(edges[:, 0].astype(np.int64) * count + edges[:, 1])
-    back = np.unique(edges[:, 1].astype(np.int64) * count + edges[:, 0])
+    forth = np.sort(edges[:, 0].astype(np.int64) * count + edges[:, 1])
+    back = np.sort(edges[:, 1].astype(np.int64) * count + edges[:, 0])
     if np.array_equal(forth, back):
         return _undirected_components(count, edges)
     return _directed_components(count, edges)

@@ -45,8 +45,8 @@ def _search(roadmap: Roadmap, profile: int, targets: Int) -> Float:
     times = [0]
     while times:
         now = heapq.heappop(times)
-        states = np.unique(np.concatenate(buckets.pop(now)))
-        states = states[ticks[states] == now]
+        states = np.sort(np.concatenate(buckets.pop(now)))
+        states = states[(ticks[states] == now) & np.append(True, states[1:] != states[:-1])]
         vertex = states % count
         degree = first[vertex + 1] - first[vertex]
         edge = np.repeat(first[vertex] - np.cumsum(degree) + degree, degree) + np.arange(degree.sum())
@@ -54,9 +54,12 @@ def _search(roadmap: Roadmap, profile: int, targets: Int) -> Float:
         arrival = now + spent[edge]
         sooner = arrival < ticks[before]
         before, arrival = before[sooner], arrival[sooner]
-        np.minimum.at(ticks, before, arrival)
-        for time in np.unique(arrival).tolist():
+        order = np.argsort(arrival, kind="stable")
+        groups = np.split(order, np.flatnonzero(np.diff(arrival[order])) + 1) if len(order) else []
+        for alike in reversed(groups):  # latest first, so that the soonest arrival is the one that remains
+            time = int(arrival[alike[0]])
+            ticks[before[alike]] = time
             if time not in buckets:
                 heapq.heappush(times, time)
-            buckets[time].append(before[arrival == time])
+            buckets[time].append(before[alike])
     return ticks.reshape(len(targets), count)

@@ -1,0 +1,28 @@
+"""Scenarios written out: frozen instances that anyone can run again."""
+
+from pathlib import Path
+
+import attrs
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.scenario import ScenarioSource
+from mrpbench_core.files.scenario import read_scenario
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.world import World
+
+
+@attrs.frozen(kw_only=True)
+class FromFile(ScenarioSource):
+    """Reads a scenario in mrpbench's own format, as `mrpbench scenario CONFIG --write FILE` writes it."""
+
+    file: Path = option(help="the scenario file")
+
+    def size(self) -> int:
+        """Return the number of robots in the file."""
+        return len(read_scenario(self.file).start)
+
+    def draw(self, world: World, roadmap: Roadmap, fleet: Fleet, seed: int) -> Scenario:  # noqa: ARG002
+        """Return the scenario, which is the same for every seed."""
+        return read_scenario(self.file)
