@@ -12,12 +12,13 @@ from mrpbench_core.api.component import option
 from mrpbench_core.api.exporter import Exporter, ExporterSession
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import RunContext
-from mrpbench_exporters_rosbag2 import markers, motion
+from mrpbench_exporters_rosbag2 import motion
 from mrpbench_exporters_rosbag2.bag import Bag, Storage, Version
 from mrpbench_exporters_rosbag2.blocks import AXES, Blocks
 from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS, contacts, events
 from mrpbench_exporters_rosbag2.frames import frames
 from mrpbench_exporters_rosbag2.messages import Topic, message, nanoseconds, time
+from mrpbench_exporters_rosbag2.robots import robot_markers
 from mrpbench_exporters_rosbag2.scans import scan
 from mrpbench_exporters_rosbag2.source import Rows, Source
 from mrpbench_exporters_rosbag2.start import opening
@@ -116,7 +117,7 @@ def sources(context: RunContext) -> Iterator[Source]:
         yield motion.odometry(index, name)
         yield motion.ground_truth(index, name, context.world)
         yield motion.command(index, name)
-    yield markers.robots(context)
+    yield robot_markers(context)
     for index, (name, robot) in enumerate(robots):
         if robot.lidar:
             yield scan(index, name, robot.lidar)

@@ -4,7 +4,18 @@ from collections.abc import Sequence
 from fnmatch import fnmatchcase
 from typing import Any
 
-FLEET = ("/clock", "/contacts", "/events", "/map", "/robots", "/run", "/tf", "/tf_static")
+FLEET = (
+    "/clock",
+    "/contacts",
+    "/events",
+    "/goals",
+    "/map",
+    "/navigation_graph",
+    "/robots",
+    "/run",
+    "/tf",
+    "/tf_static",
+)
 """Once per bag; further levels have `/map_1`, `/map_2`, ..."""
 ROBOT = ("cmd_vel", "goal_pose", "ground_truth", "odom", "plan", "scan")
 """Once per robot: `/robot_0/odom`."""

@@ -15,7 +15,7 @@ from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.run import RunContext
 from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.model.world import Level, Obstacle, World
+from mrpbench_core.model.world import Lane, Level, Obstacle, Vertex, World
 
 SECONDS = 4
 PERIODIC_RATE, SCAN_RATE = 20, 5
@@ -26,7 +26,12 @@ NAN = float("nan")
 def context() -> RunContext:
     walls = [[0, 0, 6, 0], [6, 0, 6, 4], [6, 4, 0, 4], [0, 4, 0, 0], [3, 0, 3, 1]]
     crate = Obstacle(name="crate", polygon=[[4.0, 2.0], [5.0, 2.0], [4.5, 3.0]])
-    world = World(name="room", levels=(Level(name="L1", elevation=0.5, walls=walls, obstacles=(crate,)),))
+    world = World(
+        name="room",
+        levels=(Level(name="L1", elevation=0.5, walls=walls, obstacles=(crate,)),),
+        vertices=(Vertex(name="dock", x=1, y=1), Vertex(name="", x=1, y=3), Vertex(name="shelf", x=2, y=3)),
+        lanes=(Lane(start=0, end=1), Lane(start=1, end=2, bidirectional=False)),
+    )
     footprint = [[-0.1, -0.08], [0.1, -0.08], [0.1, 0.08], [-0.1, 0.08]]
     robot = RobotModel(
         name="cart",

@@ -1,4 +1,5 @@
 import math
+import tracemalloc
 from collections import Counter
 
 import numpy as np
@@ -7,6 +8,7 @@ from mcap.reader import make_reader
 from mrpbench_exporters_rosbag2 import Rosbag2
 
 ROBOTS = ("robot_0", "robot_1")
+LATCHED = ("/run", "/map", "/navigation_graph", "/tf_static", "/goals")
 CHANNEL_AXES = {"time": "time", "scan": "scan_time", "contact": "contact_time", "event": "event_time"}
 
 
@@ -56,7 +58,8 @@ def test_holds_every_topic_as_often_as_recorded(bag, recording):
     counts = {topic: len(messages) for topic, messages in bag.items()}
     samples, scans = len(recording["time"]), len(recording["scan_time"]) // 2
     instants = len({*recording["time"], *recording["scan_time"], *recording["event_time"], *recording["contact_time"]})
-    expected = {"/run": 1, "/map": 1, "/tf_static": 1, "/clock": instants, "/tf": samples, "/events": 3, "/contacts": 3}
+    expected = dict.fromkeys(LATCHED, 1)
+    expected |= {"/clock": instants, "/tf": samples, "/events": 3, "/contacts": 3}
     expected["/robots"] = 41  # 4 s at 10 Hz and the start
     for name in ROBOTS:
         expected |= {f"/{name}/{topic}": samples for topic in ("odom", "ground_truth", "cmd_vel")}
@@ -219,6 +222,20 @@ def test_a_scan_that_comes_before_the_pose_of_its_instant_is_written_after_it(co
     assert [stamp for stamp, _ in split["/robot_0/scan"]] == [stamp for stamp, _ in whole["/robot_0/scan"]]
 
 
+def test_memory_does_not_grow_with_the_run(context, recording, tmp_path):
+    session = Rosbag2().open(context, tmp_path / "bag")
+    held = []
+    tracemalloc.start()
+    for turn in range(40):
+        later = {name: values + 4.05 * turn if name.endswith("time") else values for name, values in recording.items()}
+        session.write(later)
+        held.append(tracemalloc.get_traced_memory()[0])
+    tracemalloc.stop()
+    session.close()
+    assert (tmp_path / "bag" / "bag.mcap").stat().st_size > 2**20
+    assert max(held[20:]) < max(held[:20]) + 2**17
+
+
 def test_writes_only_what_is_asked_for(context, recording, tmp_path, read):
     topics = ("/tf*", "/robot_1/odom", "/events")
     bag = read(export(context, [recording], tmp_path / "bag", topics=topics))
@@ -227,7 +244,7 @@ def test_writes_only_what_is_asked_for(context, recording, tmp_path, read):
 
 def test_a_run_that_ended_after_planning_has_its_plan(context, tmp_path, read):
     bag = read(export(context, [], tmp_path / "bag"))
-    assert set(bag) == {"/run", "/map", "/tf_static"} | {f"/{n}/{t}" for n in ROBOTS for t in ("plan", "goal_pose")}
+    assert set(bag) == set(LATCHED) | {f"/{n}/{t}" for n in ROBOTS for t in ("plan", "goal_pose")}
 
 
 def test_channels_that_were_not_recorded_leave_their_topics_out(context, recording, tmp_path, read):

@@ -5,7 +5,7 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_exporters_rosbag2 import Rosbag2
-from mrpbench_exporters_rosbag2.start import facing
+from mrpbench_exporters_rosbag2.plans import facing
 
 from mrpbench_core.model.plan import PlanResult, PlanStatus
 
@@ -76,10 +76,33 @@ def test_goals_take_the_heading_of_arrival_where_theirs_is_open(bag):
         assert (goal.pose.position.x, goal.pose.position.y, yaw(goal.pose)) == pytest.approx(expected)
 
 
+def test_goals_are_drawn_in_the_colours_of_their_robots(bag):
+    arrows = only(bag["/goals"]).markers
+    for index, (arrow, expected) in enumerate(zip(arrows, [(1, 3, math.pi / 2), (2, 3, 1.0)], strict=True)):
+        assert (arrow.ns, arrow.id, arrow.type, arrow.header.frame_id) == ("goals", index, 0, "map")
+        assert (arrow.pose.position.x, arrow.pose.position.y, yaw(arrow.pose)) == pytest.approx(expected)
+    assert arrows[0].color.r != arrows[1].color.r
+
+
+def test_the_navigation_graph_is_drawn_with_its_names(bag):
+    lanes, *names = only(bag["/navigation_graph"]).markers
+    assert (lanes.ns, lanes.type) == ("lanes", 5)
+    assert [(point.x, point.y, point.z) for point in lanes.points] == [
+        (1, 1, 0.5),
+        (1, 3, 0.5),
+        (1, 3, 0.5),
+        (2, 3, 0.5),
+    ]
+    assert [(mark.text, mark.pose.position.x, mark.pose.position.y) for mark in names] == [
+        ("dock", 1, 1),
+        ("shelf", 2, 3),
+    ]
+
+
 def test_a_run_without_a_plan_has_neither_plans_nor_goals(context, tmp_path, read):
     unplanned = attrs.evolve(context, result=PlanResult(status=PlanStatus.TIMEOUT), routes=(), goal=())
     Rosbag2().open(unplanned, tmp_path / "bag").close()
-    assert set(read(tmp_path / "bag")) == {"/run", "/map", "/tf_static"}
+    assert set(read(tmp_path / "bag")) == {"/run", "/map", "/navigation_graph", "/tf_static"}
 
 
 def test_every_level_has_its_map(context, tmp_path, read):

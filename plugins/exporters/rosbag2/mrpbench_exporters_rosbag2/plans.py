@@ -1,0 +1,82 @@
+"""What the robots set out to do: plans and goals."""
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Float, Int, Int16
+from mrpbench_core.model.run import RunContext
+from mrpbench_exporters_rosbag2.marker import ARROW, colour_of, marker
+from mrpbench_exporters_rosbag2.messages import SECOND, Topic, header, message, pose, serialize, spatial
+
+
+def plan(context: RunContext, robot: int, stamp: int) -> tuple[Topic, bytes]:
+    """One robot's first path; the stamp of each pose is when the plan has the robot there."""
+    topic = Topic(f"/{context.fleet.names[robot]}/plan", "nav_msgs/Path", latched=True)
+    waypoints = facing(context.routes[robot].waypoint)
+    full = spatial(waypoints, _elevation(context, context.routes[robot].level))
+    poses = [
+        message("geometry_msgs/PoseStamped", header=header(int(stamp + due), "map"), pose=pose(values))
+        for due, values in zip(_due(context, robot), full, strict=True)
+    ]
+    return topic, serialize(topic.type, message(topic.type, header=header(stamp, "map"), poses=poses))
+
+
+def goal(context: RunContext, robot: int, stamp: int) -> tuple[Topic, bytes]:
+    """Where one robot's path ends."""
+    topic = Topic(f"/{context.fleet.names[robot]}/goal_pose", "geometry_msgs/PoseStamped", latched=True)
+    full = _goal_pose(context, robot)
+    return topic, serialize(topic.type, message(topic.type, header=header(stamp, "map"), pose=pose(full)))
+
+
+def goal_markers(context: RunContext, stamp: int) -> tuple[Topic, bytes]:
+    """An arrow at every goal, in the colour of its robot."""
+    topic = Topic("/goals", "visualization_msgs/MarkerArray", latched=True)
+    arrows = [
+        marker(
+            "goals", robot, ARROW, (0.3, 0.06, 0.06), colour_of(robot), values=_goal_pose(context, robot), stamp=stamp
+        )
+        for robot in range(len(context.goal))
+    ]
+    return topic, serialize(topic.type, message(topic.type, markers=arrows))
+
+
+def _goal_pose(context: RunContext, robot: int) -> Float:
+    """Goal f8[7]; one that leaves the yaw open gets the one the robot arrives with."""
+    planar, z = np.array(context.goal[robot]), 0.0
+    if context.routes:
+        route = context.routes[robot]
+        planar[2] = facing(route.waypoint)[-1, 2] if np.isnan(planar[2]) else planar[2]
+        z = float(_elevation(context, route.level[-1:])[0])
+    return spatial(np.nan_to_num(planar), z)
+
+
+def _due(context: RunContext, robot: int) -> Int:
+    """Planned arrival i8[k+1] at each waypoint of a route, nanoseconds from the start."""
+    timed = context.result.plan
+    count = len(context.routes[robot].waypoint)
+    if timed is None or len(timed.paths[robot]) + 1 != count:
+        return np.zeros(count, np.int64)
+    ticks = np.concatenate([[0], timed.paths[robot].leave])
+    due: Int = np.rint(ticks * context.problem.roadmap.tick * SECOND).astype(np.int64)
+    return due
+
+
+def _elevation(context: RunContext, levels: Int16) -> Float:
+    """Height of each of `levels`, metres."""
+    return np.array([context.world.levels[level].elevation for level in levels])
+
+
+def facing(waypoints: Float) -> Float:
+    """Waypoints f8[k,3] in which an open yaw (NaN) is the way the robot drives on, or came from where it only waits."""
+    turned = np.array(waypoints)
+    ahead = np.diff(turned[:, :2], axis=0)
+    moves = (ahead != 0).any(axis=1)
+    yaw = 0.0
+    if moves.any():
+        first = ahead[moves][0]
+        yaw = float(np.arctan2(first[1], first[0]))
+    for index in range(len(turned)):
+        if index < len(ahead) and moves[index]:
+            yaw = float(np.arctan2(ahead[index, 1], ahead[index, 0]))
+        if np.isnan(turned[index, 2]):
+            turned[index, 2] = yaw
+    return turned

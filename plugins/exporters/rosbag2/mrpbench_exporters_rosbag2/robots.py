@@ -1,0 +1,50 @@
+"""Robots as shapes, for viewers that draw neither `nav_msgs/Odometry` nor a robot description."""
+
+import numpy as np
+
+from mrpbench_core.model.fleet import RobotModel
+from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.run import RunContext
+from mrpbench_exporters_rosbag2.frames import floor
+from mrpbench_exporters_rosbag2.marker import CYLINDER, DARK, LINE_STRIP, TEXT, colour_of, marker
+from mrpbench_exporters_rosbag2.messages import Topic, message, spatial
+from mrpbench_exporters_rosbag2.source import POSE, Rows, Source
+from mrpbench_exporters_rosbag2.template import Template
+
+INTERVAL = 0.1
+"""seconds between two messages, at least."""
+
+
+def robot_markers(context: RunContext) -> Source:
+    """A cylinder, the footprint and the name of every robot where it truly is, on `/robots`."""
+    topic = Topic("/robots", "visualization_msgs/MarkerArray")
+    fleet = context.fleet
+    markers = [mark for index, robot in enumerate(fleet.robots) for mark in _marks(index, robot, fleet.names[index])]
+    rise = np.array([[robot.height / 2, robot.height, robot.height + 0.2] for robot in fleet.robots])
+    due = -np.inf
+
+    def rows(block: Chunk) -> Rows | None:
+        nonlocal due
+        if "truth" not in block:
+            return None
+        shown = []
+        for index, now in enumerate(block["time"].tolist()):
+            if now >= due:
+                shown.append(index)
+                due = now + INTERVAL - 1e-9
+        planar = np.repeat(block["truth"][:, :, None], 3, axis=2)
+        full = spatial(planar, floor(block, context.world)[..., None] + rise)
+        return block["time"][shown], {"pose": full[shown].reshape(len(shown), 3 * len(fleet), 7)}
+
+    return Source(topic, Template(topic.type, message(topic.type, markers=markers), {"pose": POSE}), rows)
+
+
+def _marks(index: int, robot: RobotModel, name: str) -> list[object]:
+    """Body, outline on top of it, and name above."""
+    outline = np.column_stack([robot.footprint, np.zeros(len(robot.footprint))])
+    width = 2 * robot.radius
+    return [
+        marker("robots", index, CYLINDER, (width, width, robot.height), colour_of(index)),
+        marker("footprints", index, LINE_STRIP, (0.02, 0.0, 0.0), DARK, points=[*outline, outline[0]]),
+        marker("names", index, TEXT, (0.0, 0.0, 0.2), DARK, text=name),
+    ]
