@@ -36,7 +36,7 @@ class Blocks:
             rows = {name: chunk[name] for name in (axis, *channels) if name in chunk}
             if len(rows.get(axis, ())):
                 before = self.waiting[axis]
-                self.waiting[axis] = {n: np.concatenate([before[n], rows[n]]) for n in rows} if before else rows
+                self.waiting[axis] = {n: _append(before[n], rows[n]) for n in rows} if before else rows
         times = self.waiting["time"].get("time")
         if times is not None:
             yield from self._cut(times, float(times[-1]))
@@ -55,3 +55,13 @@ class Blocks:
                     self.waiting[axis] = {name: values[count:] for name, values in rows.items()}
             if block:
                 yield block
+
+
+def _append(before: NDArray[Any], after: NDArray[Any]) -> NDArray[Any]:
+    """Rows after rows. Scans are as wide as the widest lidar among them, which differs from chunk to chunk."""
+    if before.ndim == 2 and before.shape[1] != after.shape[1]:
+        width = max(before.shape[1], after.shape[1])
+        before, after = (
+            np.pad(rows, ((0, 0), (0, width - rows.shape[1])), constant_values=np.nan) for rows in (before, after)
+        )
+    return np.concatenate([before, after])

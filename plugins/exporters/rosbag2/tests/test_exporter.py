@@ -2,10 +2,13 @@ import math
 import tracemalloc
 from collections import Counter
 
+import attrs
 import numpy as np
 import pytest
 from mcap.reader import make_reader
 from mrpbench_exporters_rosbag2 import Rosbag2
+
+from mrpbench_core.model.fleet import Fleet
 
 ROBOTS = ("robot_0", "robot_1")
 LATCHED = ("/run", "/map", "/navigation_graph", "/tf_static", "/goals")
@@ -161,6 +164,24 @@ def test_scans_have_the_geometry_of_the_lidar(bag, recording, index):
         assert scan.angle_max == pytest.approx(math.tau * 7 / 8, abs=1e-6)
         assert (scan.range_min, scan.range_max) == (pytest.approx(0.12), 3.5)
         assert (scan.scan_time, scan.time_increment) == (pytest.approx(0.2), 0)
+
+
+def test_lidars_may_differ_and_chunks_be_as_wide_as_their_widest_scan(context, recording, tmp_path, read):
+    first, second = context.fleet.robots
+    narrow = attrs.evolve(second, lidar=attrs.evolve(second.lidar, beams=4))
+    mixed = attrs.evolve(context, fleet=Fleet(robots=(first, narrow)))
+    time = np.array([0.0, 0.1, 0.2])
+    ranges = np.arange(24, dtype="f4").reshape(3, 8)
+    periodic = {name: recording[name] for name in ("time", "truth")}
+    chunks = [
+        {"scan_time": time[:1], "scan_robot": np.array([1]), "scan_ranges": ranges[:1, :4]},
+        {"scan_time": time[1:2], "scan_robot": np.array([0]), "scan_ranges": ranges[1:2]},
+        {"scan_time": time[2:], "scan_robot": np.array([1]), "scan_ranges": ranges[2:, :4]},
+        periodic,
+    ]
+    bag = read(export(mixed, chunks, tmp_path / "bag"))
+    assert [list(scan.ranges) for _, scan in bag["/robot_0/scan"]] == [list(ranges[1])]
+    assert [list(scan.ranges) for _, scan in bag["/robot_1/scan"]] == [list(ranges[0, :4]), list(ranges[2, :4])]
 
 
 def test_robots_are_drawn_where_they_truly_are_at_most_ten_times_a_second(bag, recording):
