@@ -1,0 +1,78 @@
+import numpy as np
+import pytest
+
+from mrpbench_core.builtin.roadmaps.graph import Graph
+from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
+from mrpbench_core.builtin.roadmaps.lanes import Lanes
+from mrpbench_core.builtin.worlds.shipped import Office, Warehouse
+from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.components import components
+from mrpbench_core.checking.world import check_world, size
+from mrpbench_core.files.robot import load_robot
+from mrpbench_core.model.fleet import Fleet
+
+BURGERS = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
+
+
+@pytest.fixture(params=[Office, Warehouse])
+def world(request):
+    return request.param().load()
+
+
+def test_the_worlds_are_as_large_as_the_papers():
+    assert size(Office().load()) == pytest.approx((21.5, 12.0))
+    assert size(Warehouse().load()) == pytest.approx((22.0, 27.0))
+
+
+def test_the_worlds_have_as_many_places_and_lanes_as_the_papers():
+    assert [(len(world.vertices), len(world.lanes)) for world in (Office().load(), Warehouse().load())] == [
+        (29, 32),
+        (54, 59),
+    ]
+
+
+def test_everything_in_them_is_understood(world):
+    assert world.notes == ()
+
+
+def test_every_place_has_a_name_of_its_own(world):
+    names = [vertex.name for vertex in world.vertices]
+    assert all(names)
+    assert len(set(names)) == len(names)
+
+
+def test_places_and_lanes_keep_clear_of_walls(world):
+    point = np.array([(vertex.x, vertex.y) for vertex in world.vertices])
+    lane = np.array([(lane.start, lane.end) for lane in world.lanes])
+    assert keeps_clear(world.levels[0], point, point, 0.3).all()
+    assert keeps_clear(world.levels[0], point[lane[:, 0]], point[lane[:, 1]], 0.3).all()
+
+
+@pytest.mark.parametrize(
+    "roadmap",
+    [
+        *(kind(cell_size=size) for kind in (Lanes, GridRoadmap) for size in (0.35, 0.36, 0.37, 0.38, 0.39, 0.4)),
+        Lanes(cell_size=0.35, compatible="mrp_bench"),
+        Lanes(cell_size=0.4, compatible="mrp_bench"),
+        Graph(),
+    ],
+    ids=repr,
+)
+def test_every_place_can_be_reached_from_every_other(world, roadmap):
+    built = roadmap.build(world, BURGERS)
+    assert (built.place >= 0).all()
+    assert len(set(built.place.tolist())) == len(world.vertices), "no two places share a vertex"
+    assert len(set(components(len(built.position), built.edges))) == 1
+
+
+def test_nothing_is_left_out_of_their_roadmaps(world):
+    for roadmap in (Lanes(), GridRoadmap(), Graph()):
+        built = roadmap.build(world, BURGERS)
+        assert built.notes == ()
+        assert check_world(world, built, 0.125).faults == ()
+
+
+@pytest.mark.parametrize(("source", "paper"), [(Office, 333), (Warehouse, 788)])
+def test_roads_have_about_as_many_cells_as_the_papers(source, paper):
+    built = Lanes(cell_size=0.4, compatible="mrp_bench").build(source().load(), BURGERS)
+    assert len(built.position) == pytest.approx(paper, rel=0.2)

@@ -1,0 +1,80 @@
+import numpy as np
+import pytest
+
+from mrpbench_core.checking.world import check_world, size
+from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.roadmap import Grid, Roadmap
+from mrpbench_core.model.world import Lane, Level, Obstacle, Vertex, World
+
+
+def roadmap_of(position, edges=(), place=(), grid=None) -> Roadmap:
+    return Roadmap(
+        position=position,
+        level=np.zeros(len(position)),
+        heading=np.full(len(position), np.nan),
+        edges=list(edges),
+        duration=np.ones((1, len(edges))),
+        tick=1.0,
+        grid=grid,
+        place=list(place),
+        notes=("left out.",),
+    )
+
+
+def world_of(*places, lanes=(), walls=(), notes=()) -> World:
+    return World(
+        name="w",
+        levels=(Level(name="", walls=list(walls)),),
+        vertices=tuple(Vertex(name=name, x=x, y=y) for name, x, y in places),
+        lanes=tuple(Lane(start=a, end=b) for a, b in lanes),
+        notes=notes,
+    )
+
+
+def test_cells_are_counted_on_a_raster_only():
+    world = world_of(("a", 0.5, 0.5), ("b", 1.5, 0.5), lanes=[(0, 1)], walls=[[0, 0, 3, 0]], notes=("assumed.",))
+    grid = Grid(shape=(2, 3), cell_size=1.0, origin=(0.0, 0.0), cell=[[0, 0], [0, 1]])
+    facts = check_world(world, roadmap_of([[0.5, 0.5], [1.5, 0.5]], [[0, 1], [1, 0]], [0, 1], grid), 0.2)
+    assert (facts.cells, facts.free, facts.blocked) == (6, 2, 4)
+    assert (facts.vertices, facts.edges, facts.components, facts.walls) == (2, 1, 1, 1)
+    assert (facts.roadmap_vertices, facts.roadmap_edges, facts.roadmap_components) == (2, 2, 1)
+    assert (facts.width, facts.height) == pytest.approx((3.1, 0.1))
+    assert facts.faults == ()
+    assert facts.notes == ("assumed.", "left out.")
+    graph = check_world(world, roadmap_of([[0.5, 0.5], [1.5, 0.5]], [[0, 1], [1, 0]], [0, 1]), 0.2)
+    assert (graph.cells, graph.free, graph.blocked) == (None, None, None)
+
+
+def test_pieces_of_the_graph_are_counted_by_position():
+    places = [("a", 0, 0), ("b", 1, 0), ("a2", 0, 0), ("c", 2, 5), ("d", 8, 8), ("e", 9, 9)]
+    facts = check_world(world_of(*places, lanes=[(0, 1), (2, 3), (4, 5)]), roadmap_of([[0, 0]], place=[0] * 6), 0.1)
+    assert facts.components == 2
+
+
+def test_every_kind_of_fault_is_named():
+    world = world_of(
+        ("in_wall", 5, 5), ("tight", 3, 4.85), ("a", 0, 0), ("b", 4, 0),
+        ("", 2, 0), ("c", 1, -1), ("d", 1, 1), ("a", 0, 0),
+        lanes=[(2, 3), (5, 6), (0, 3)],
+        walls=[[2, 5, 8, 5]],
+    )  # fmt: skip
+    roadmap = roadmap_of([[0, 0], [4, 0], [9, 9]], [[0, 1], [1, 0]], [-1, 2, 0, 1, 0, 0, 0, 0])
+    assert check_world(world, roadmap, 0.2).faults == (
+        "a is 2 vertices in one position (graphs [0])",
+        "(2.00, 0.00) lies on lane b – a without joining it",
+        "lanes b – a and c – d cross without a vertex",
+        "in_wall lies inside a wall",
+        "tight is nearer than 0.200 m to a wall",
+        "lane in_wall – b passes a wall nearer than 0.200 m",
+        "in_wall cannot be reached on the roadmap",
+        "tight cannot be reached on the roadmap",
+    )
+
+
+def test_size_covers_rasters_obstacles_and_places():
+    assert size(World(name="", levels=(Level(name=""),))) == (0, 0)
+    assert size(world_of(("a", 1, 1), ("b", 4, 3))) == (3, 2)
+    raster = Level(name="", occupancy=Occupancy(blocked=np.zeros((4, 6), bool), cell_size=0.5))
+    assert size(World(name="", levels=(raster,))) == (3, 2)
+    table = Level(name="", obstacles=(Obstacle(name="", polygon=[[0, 0], [2, 0], [2, 1]]),))
+    assert size(World(name="", levels=(table,))) == (2, 1)

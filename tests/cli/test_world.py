@@ -1,0 +1,82 @@
+import argparse
+import json
+
+import pytest
+
+from mrpbench_core.cli import world as command
+from mrpbench_core.files.errors import InputError
+
+
+@pytest.fixture
+def invoke(capsys):
+    def run(*words) -> str:
+        parser = argparse.ArgumentParser()
+        command.configure(parser)
+        assert command.run(parser.parse_args([str(word) for word in words])) == 0
+        return capsys.readouterr().out
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("name", "figures"),
+    [
+        ("office", (29, 32, 1025, 333, 692)),
+        ("airport_terminal", (210, 211, 105700, 7645, 98055)),
+        ("warehouse", (54, 40, 3009, 788, 2221)),
+    ],
+)
+def test_table_one_of_the_original_is_reproduced(shared_data, invoke, name, figures):
+    file = shared_data / f"rmf/mrp_bench/{name}.building.yaml"
+    facts = json.loads(invoke(file, "--cell-size", 0.4, "--compatible", "mrp_bench", "--json"))
+    assert tuple(facts[key] for key in ("vertices", "edges", "cells", "free", "blocked")) == figures
+
+
+def test_a_built_in_world_is_named(invoke):
+    out = invoke("office")
+    assert "21.50 × 12.00 m" in out
+    assert "faults" not in out
+
+
+def test_a_moving_ai_map_is_a_grid(invoke, tmp_path):
+    file = tmp_path / "tiny.map"
+    file.write_text("type octile\nheight 2\nwidth 2\nmap\n.@\n..\n")
+    facts = json.loads(invoke(file, "--json"))
+    assert (facts["name"], facts["cells"], facts["free"], facts["blocked"]) == ("tiny", 4, 3, 1)
+
+
+def test_a_graph_has_no_cells(invoke):
+    assert json.loads(invoke("warehouse", "--roadmap", "graph", "--json"))["cells"] is None
+
+
+def test_many_faults_are_cut_short(invoke, shared_data):
+    out = invoke(shared_data / "rmf/mrp_bench/airport_terminal.building.yaml")
+    assert "more; --json lists all" in out
+
+
+def test_a_picture_is_written(invoke, tmp_path):
+    pytest.importorskip("matplotlib")
+    invoke("office", "--render", tmp_path / "office.png")
+    assert (tmp_path / "office.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["offise"], "did you mean 'office'"),
+        (["missing.map"], "missing.map: no such file"),
+        (["missing.building.yaml"], "missing.building.yaml: no such file"),
+        (["rmf"], "rmf needs file"),
+        (["office", "--level", "L2"], "office has no option 'level'"),
+        (["office", "--roadmap", "grit"], "did you mean 'grid'"),
+        (["office", "--roadmap", "graph", "--cell-size", "1"], "graph has no option 'cell_size'"),
+        (["office", "--cell-size", "-1"], "'cell_size' must be > 0"),
+        (["office", "--robot", "r2d2"], "no robot is named 'r2d2'"),
+        (["office", "--render", "no/such/folder.png"], "no/such/folder.png: cannot be written"),
+    ],
+)
+def test_a_mistake_is_one_line(invoke, words, message):
+    with pytest.raises(InputError) as caught:
+        invoke(*words)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
