@@ -20,6 +20,9 @@ class ExporterSession(ABC):
     def close(self) -> None:
         """Finish the file; until then it has a temporary name or is readable as it stands."""
 
+    def abandon(self) -> None:  # noqa: B027 - optional: there may be nothing to remove
+        """Drop the unfinished file, because the run failed."""
+
 
 class Exporter(Component):
     """Writes runs in another program's format; serves live runs and stored recordings alike."""

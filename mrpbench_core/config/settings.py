@@ -67,11 +67,15 @@ class FleetEntry:
 
 @attrs.frozen(kw_only=True)
 class Noise:
-    """What the engine adds to the simulator's exact output; standard deviations."""
+    """What the engine adds to the simulator's exact output."""
 
-    lidar: float = option(0.0, help="of each range", unit="m", validator=validators.ge(0))
-    odometry: float = option(0.0, help="relative to the distance and angle driven", validator=validators.ge(0))
-    start_jitter: float = option(0.0, help="of start positions", unit="m", validator=validators.ge(0))
+    lidar: float = option(0.0, help="standard deviation of each range", unit="m", validator=validators.ge(0))
+    odometry: float = option(
+        0.0, help="standard deviation of each step's distance and turn, relative to them", validator=validators.ge(0)
+    )
+    start_jitter: float = option(
+        0.0, help="each robot starts up to this late, uniformly", unit="s", validator=validators.ge(0)
+    )
 
 
 @attrs.frozen(kw_only=True)
@@ -130,6 +134,9 @@ class RunConfig:
     controller: Controller | None = block("pure_pursuit", help="turns a path into wheel commands", validator=_drives)
     simulator: Simulator | None = block("kinematic", help="moves the robots; `none` ends the run after planning")
     localizer: Localizer | None = block("ground_truth", help="tells robots where they are", validator=_drives)
+    control_rate: float = option(
+        20.0, help="how often dispatcher, navigator and controller act", unit="Hz", validator=validators.gt(0)
+    )
     noise: Noise = option(Noise(), help="what is added to the simulator's exact output")
     metrics: Mapping[str, Metric] = block(("planning", "execution"), help="what is measured")
     export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")

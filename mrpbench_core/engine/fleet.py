@@ -38,5 +38,6 @@ def robot_model(entry: FleetEntry) -> RobotModel:
     changes = {name: value for name, value in attrs.asdict(entry.lidar).items() if value is not None}
     lidar = attrs.evolve(model.lidar or Lidar(), **changes)
     if lidar.min_range >= lidar.range:
-        raise InputError(f"fleet: lidar of {model.name}: min_range {lidar.min_range:g} m is not below range {lidar.range:g} m")
+        reach = f"min_range {lidar.min_range:g} m is not below its range {lidar.range:g} m"
+        raise InputError(f"fleet: the lidar of {model.name}: {reach}")
     return attrs.evolve(model, lidar=lidar)

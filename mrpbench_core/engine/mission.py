@@ -1,7 +1,7 @@
 """The loop that executes a plan: simulator, localizer, dispatcher, navigator, and again."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, Self
 
 import attrs
 import numpy as np
@@ -11,9 +11,11 @@ from mrpbench_core.api.dispatcher import Dispatcher
 from mrpbench_core.api.localizer import Localizer
 from mrpbench_core.api.navigator import Navigator
 from mrpbench_core.api.simulator import Simulation
+from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.noise import SensorNoise
 from mrpbench_core.engine.recorder import Recorder
 from mrpbench_core.engine.seeds import seed_of
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.execution import (
     FleetObservation,
     FleetView,
@@ -37,6 +39,20 @@ class Stack:
     dispatcher: Dispatcher
     navigator: Navigator
     controller: Controller
+
+    @classmethod
+    def of(cls, config: RunConfig) -> Self:
+        """The components that a configuration names.
+
+        Raises:
+            InputError: a stage that execution needs is `none`.
+        """
+        chosen = {}
+        for field in attrs.fields(cls):
+            chosen[field.name] = getattr(config, field.name)
+            if chosen[field.name] is None:
+                raise InputError(f"{field.name}: cannot be 'none' when there is a simulator")
+        return cls(**chosen)
 
 
 @attrs.frozen(kw_only=True)

@@ -52,7 +52,7 @@ def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanR
     result = attrs.evolve(result, statistics=statistics)
     if report.conflicts and Promise.CONFLICT_FREE in planner.promises:
         return result, str(report.conflicts[0])
-    if not math.isnan(result.lower_bound):
+    if result.plan is not None and not math.isnan(result.lower_bound):
         factor = float(getattr(planner, "w", 1.0)) if Promise.BOUNDED in planner.promises else 1.0
         held = {Promise.BOUNDED, Promise.OPTIMAL} & planner.promises
         cost = result.plan.sum_of_costs

@@ -16,7 +16,7 @@ def build_problem(roadmap: Roadmap, fleet: Fleet, start: np.ndarray, goals: tupl
     no raster, and on a raster whose cells are smaller than the two largest robots. On a wider raster the field's usual
     point-like conflicts suffice, since a dispatcher admits no robot to a cell before the last one has cleared it.
     """
-    _, profile = fleet.profiles
+    profile = np.array(fleet.profiles[1], np.int32)
     problem = Problem(
         roadmap=roadmap,
         profile=profile,

@@ -5,6 +5,8 @@ import numpy as np
 from mrpbench_core.model.execution import Route
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.world import World
 
 
 def build_routes(problem: Problem, plan: Plan, final_yaw: np.ndarray, speed_limits: np.ndarray) -> tuple[Route, ...]:
@@ -26,6 +28,16 @@ def build_routes(problem: Problem, plan: Plan, final_yaw: np.ndarray, speed_limi
         speed = np.where(path.edge >= 0, speed_limits[path.edge] if len(speed_limits) else np.inf, np.inf)
         routes.append(Route(waypoint=waypoint, level=roadmap.level[vertices], speed=speed))
     return tuple(routes)
+
+
+def speed_limits(world: World, roadmap: Roadmap) -> np.ndarray:
+    """m/s on each edge of the roadmap, f8[E]: what its duration implies where the world has speed limits, else inf."""
+    if not any(lane.speed_limit > 0 for lane in world.lanes) or not len(roadmap.edges):
+        return np.full(len(roadmap.edges), np.inf)
+    span = roadmap.position[roadmap.edges[:, 1]] - roadmap.position[roadmap.edges[:, 0]]
+    ticks = np.where(roadmap.duration > 0, roadmap.duration, np.iinfo("i4").max).min(axis=0)
+    limits: np.ndarray = np.hypot(span[:, 0], span[:, 1]) / (ticks * roadmap.tick)
+    return limits
 
 
 def placements(routes: tuple[Route, ...], start_yaw: np.ndarray) -> np.ndarray:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from enum import Enum
-from typing import Any, TypeVar, get_origin
+from typing import Any, TypeVar, cast, get_origin
 
 import attrs
 import cattrs
@@ -35,7 +35,7 @@ def decode(data: Any, kind: type[Kept], fetch: Callable[[str], NDArray[Any]]) ->
     """The object of class `kind` that `encode` gave `data` for; `fetch` loads an array by name."""
     converter = cattrs.Converter()
     converter.register_structure_hook_func(
-        lambda wanted: wanted is np.ndarray or get_origin(wanted) is np.ndarray,
+        lambda wanted: cast(Any, get_origin(wanted)) is np.ndarray,
         lambda entry, _: fetch(entry["array"]),
     )
     converter.register_structure_hook(float, lambda number, _: float(number))

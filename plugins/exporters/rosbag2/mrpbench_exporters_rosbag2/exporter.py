@@ -84,6 +84,12 @@ class Rosbag2Session(ExporterSession):
             self.bag.close()
             self.bag = None
 
+    def abandon(self) -> None:
+        """Remove the unfinished bag."""
+        if self.bag is not None:
+            self.bag.abandon()
+            self.bag = None
+
     def _write(self, blocks: Iterator[Chunk]) -> None:
         assert self.bag is not None, "closed"
         try:
@@ -91,8 +97,7 @@ class Rosbag2Session(ExporterSession):
                 for stamp, topic, data in sorted(self._messages(block), key=itemgetter(0)):  # stable
                     self.bag.write(topic, stamp, data)
         except BaseException:
-            self.bag.abandon()
-            self.bag = None
+            self.abandon()
             raise
 
     def _messages(self, block: Chunk) -> Iterator[tuple[int, Topic, bytes]]:

@@ -294,3 +294,10 @@ def test_a_failure_leaves_nothing_behind(context, recording, tmp_path):
 def test_a_start_that_ros_cannot_stamp_is_refused(start):
     with pytest.raises(ValueError, match="start_time"):
         Rosbag2(start_time=start)
+
+
+def test_an_abandoned_bag_leaves_nothing_behind(context, tmp_path):
+    session = Rosbag2().open(context, tmp_path / "bag")
+    session.abandon()
+    session.close()
+    assert list(tmp_path.iterdir()) == []

@@ -1,0 +1,96 @@
+"""Drives a plan in the simulator, and writes what happens to the recording and the exports."""
+
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from mrpbench_core.api.dispatcher import DispatchError
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.measure import measure
+from mrpbench_core.engine.mission import MissionError, Outcome, Stack, execute_plan
+from mrpbench_core.engine.noise import SensorNoise
+from mrpbench_core.engine.preparation import Announce, Ended
+from mrpbench_core.engine.recorder import Recorder
+from mrpbench_core.engine.routes import placements
+from mrpbench_core.engine.seeds import seed_of
+from mrpbench_core.model.execution import State
+from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.run import FinishedRun, RunContext
+from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.recording import Recording, RecordingWriter
+
+
+def drive(
+    config: RunConfig,
+    context: RunContext,
+    paths: RunPaths,
+    announce: Announce,
+    timing: dict[str, Any],
+    stepped: Callable[[float, State], None],
+) -> Ended | None:
+    """Execute the plan; says how it ended if not every robot arrived. Nothing half-written keeps a final name."""
+    announce("execution", {})
+    writer = RecordingWriter(paths.recording, context)
+    if config.export:
+        paths.exports.mkdir(parents=True, exist_ok=True)
+    exports = [exporter.open(context, paths.exports / name) for name, exporter in config.export.items()]
+
+    def sink(chunk: Chunk) -> None:
+        writer.write({name: rows for name, rows in chunk.items() if config.recording.scans or name[:5] != "scan_"})
+        for session in exports:
+            session.write(chunk)
+
+    recorder = Recorder(config.recording.rate, context.period, sink)
+    began = time.perf_counter()
+    ended: Ended | None
+    try:
+        outcome = _simulate(config, context, recorder, stepped)
+        ended = _judge(outcome, config)
+        timing["execution_wall_s"] = time.perf_counter() - began
+        timing["real_time_factor"] = outcome.simulated_s / timing["execution_wall_s"]
+    except (DispatchError, MissionError) as error:
+        ended = Ended("execution_aborted", "execution", str(error))
+    except BaseException:
+        writer.discard()
+        for session in exports:
+            session.abandon()
+        raise
+    recorder.flush()
+    writer.close()
+    announce("export", {})
+    for session in exports:
+        session.close()
+    return ended
+
+
+def measure_recording(config: RunConfig, file: Path) -> dict[str, Any]:
+    """Metrics of a stored recording."""
+    recording = Recording(file)
+    try:
+        run = FinishedRun(context=recording.context(), executed=True, channels=recording.channels)
+        return measure(config.metrics, run)[0]
+    finally:
+        recording.close()
+
+
+def _simulate(
+    config: RunConfig, context: RunContext, recorder: Recorder, stepped: Callable[[float, State], None]
+) -> Outcome:
+    assert config.simulator is not None
+    stack = Stack.of(config)
+    seeds = (config.seed, config.repeat)
+    poses = placements(context.routes, context.scenario.start[:, 2])
+    noise = SensorNoise(config.noise.lidar, config.noise.odometry, config.noise.start_jitter, poses, *seeds)
+    seed = seed_of(*seeds, "simulator")
+    with config.simulator.open(context.world, context.fleet, poses, seed, context.period) as simulation:
+        return execute_plan(context, stack, simulation, noise, recorder, config.limits.execution, seeds, stepped)
+
+
+def _judge(outcome: Outcome, config: RunConfig) -> Ended | None:
+    if outcome.arrived:
+        return None
+    if outcome.aborted:
+        return Ended("execution_aborted", "execution", "a robot gave up before all had arrived")
+    limit = config.limits.execution
+    return Ended("goals_missed", "execution", f"not all robots arrived within {limit:g} simulated seconds")
