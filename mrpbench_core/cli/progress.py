@@ -6,8 +6,8 @@ from collections import Counter
 from typing import Any
 
 from mrpbench_core.config.study import RunPoint
+from mrpbench_core.engine.progress import Progress
 from mrpbench_core.engine.selection import Selection
-from mrpbench_core.engine.study import Progress
 from mrpbench_core.store.results import Results
 
 SHORT = 12
@@ -42,32 +42,34 @@ class Printed(Progress):
         self._going[point.run_id] = point
         self._draw()
 
-    def finished(self, record: dict[str, Any]) -> None:
+    def finished(self, point: RunPoint, record: dict[str, Any]) -> None:
         """Count it; on a terminal only what went wrong gets a line of its own."""
-        self._end(record["run_id"], record["status"], (record.get("error") or {}).get("message", ""))
+        self._end(point, record["status"], (record.get("error") or {}).get("message", ""))
 
-    def lost(self, run_id: str, reason: str) -> None:
+    def lost(self, point: RunPoint, reason: str) -> None:
         """Say so."""
-        self._going.pop(run_id)
-        print(("\r\x1b[K" if self._live else "") + f"{run_id[:SHORT]} is done again: {reason}", flush=True)
+        self._going.pop(point.run_id)
+        print(("\r\x1b[K" if self._live else "") + f"{point.run_id[:SHORT]} is done again: {reason}", flush=True)
 
-    def refused(self, run_id: str, mistake: str) -> None:
+    def refused(self, point: RunPoint, mistake: str) -> None:
         """Count it; the caller prints each mistake once."""
-        self._end(run_id, "not run", mistake)
+        self._end(point, "not run", mistake)
 
     def close(self) -> None:
         """Remove the live line."""
         if self._live:
             print("\r\x1b[K", end="", flush=True)
 
-    def _end(self, run_id: str, status: str, message: str) -> None:
-        point = self._going.pop(run_id)
+    def _end(self, point: RunPoint, status: str, message: str) -> None:
+        self._going.pop(point.run_id)
         self._counts[status] += 1
         if not self._live or status in ("crashed", "out_of_memory", "wall_timeout", "not run"):
             done = f"[{self._counts.total()}/{self._total}]"
             axes = " ".join(f"{key}={word(value)}" for key, value in point.axes.items())
             line = (
-                f"{done} {run_id[:SHORT]} {status}" + (f" {axes}" if axes else "") + (f": {message}" if message else "")
+                f"{done} {point.run_id[:SHORT]} {status}"
+                + (f" {axes}" if axes else "")
+                + (f": {message}" if message else "")
             )
             print(("\r\x1b[K" if self._live else "") + line, flush=True)
         self._draw()

@@ -8,8 +8,9 @@ from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.config.items import Where, from_data
 from mrpbench_core.config.structure import structure_component
 from mrpbench_core.config.study import Study, load_study
+from mrpbench_core.engine.progress import Progress
 from mrpbench_core.engine.selection import Rerun, read_shard_option
-from mrpbench_core.engine.study import Progress, Request, run_study
+from mrpbench_core.engine.study import Request, run_study
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.store.results import Results
 

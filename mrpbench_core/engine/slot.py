@@ -61,6 +61,8 @@ class Slot:
             if death.signal in OUTSIDE:
                 return Outcome(run_id=job.run_id, lost=str(death))
             return Outcome(run_id=job.run_id, failure=watch.failure("crashed", str(death)))
+        except OSError as error:
+            return Outcome(run_id=job.run_id, mistake=f"no worker can be started: {error}")
         finally:
             if self._stopped:
                 self._discard()

@@ -4,6 +4,7 @@ Reads one job a line and executes it, announcing each stage. What plugins print,
 the run's log.
 """
 
+import contextlib
 import ctypes
 import errno
 import faulthandler
@@ -18,10 +19,13 @@ from typing import Any
 
 import psutil
 
+from mrpbench_core.config.study import unpack
 from mrpbench_core.engine.lifeline import hold
 from mrpbench_core.engine.machine import machine
+from mrpbench_core.engine.pipeline import Observers, execute
 from mrpbench_core.engine.plain import plain
 from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.plugins.hooks import Hooks, load_hooks
 from mrpbench_core.store.paths import RunPaths
 
 Say = Callable[[dict[str, Any]], None]
@@ -36,30 +40,35 @@ def main(jobs: int, messages: int, lifeline: int) -> None:
     for stream in (sys.stdout, sys.stderr):
         stream.reconfigure(line_buffering=True, errors="backslashreplace")  # type: ignore[union-attr]
     faulthandler.enable()
+    hooks = load_hooks()
     with os.fdopen(jobs, "rb") as requests, os.fdopen(messages, "wb", buffering=0) as replies:
 
         def say(message: dict[str, Any]) -> None:
             replies.write(json.dumps(message).encode() + b"\n")
 
-        import mrpbench_core.engine.pipeline  # noqa: F401 - before the first run's clock starts
-
         say({"ready": True, "machine": machine()})
         for line in requests:
-            job = json.loads(line)
-            _redirect(job["log"])
-            _backstop(job["memory_bytes"])
-            answer = _execute(job, say)
-            _flush()
-            _redirect(os.devnull)
-            if not Path(job["log"]).stat().st_size:
-                Path(job["log"]).unlink()
-            say(answer)
+            hooks.switch_on()
+            say(_answer(json.loads(line), say, hooks))
 
 
-def _execute(job: dict[str, Any], say: Say) -> dict[str, Any]:
-    from mrpbench_core.config.study import unpack
-    from mrpbench_core.engine.pipeline import execute
+def _answer(job: dict[str, Any], say: Say, hooks: Hooks) -> dict[str, Any]:
+    """Execute a job with its own log, which stays only if something was printed."""
+    log = Path(job["log"])
+    try:
+        _redirect(log)
+        _backstop(job["memory_bytes"])
+        answer = _execute(job, say, hooks)
+        _flush()
+        _redirect(Path(os.devnull))
+        if not log.stat().st_size:
+            log.unlink()
+    except OSError as error:
+        return {"mistake": f"{log}: {error.strerror}"}
+    return answer
 
+
+def _execute(job: dict[str, Any], say: Say, hooks: Hooks) -> dict[str, Any]:
     def announce(name: str, facts: dict[str, Any]) -> None:
         say({"stage": name, **plain(facts)})
 
@@ -68,8 +77,12 @@ def _execute(job: dict[str, Any], say: Say) -> dict[str, Any]:
         exports=Path(job["exports"]),
         picture=None if job["picture"] is None else Path(job["picture"]),
     )
+    observers = Observers(
+        planned=lambda problem, result: hooks.call("mrpbench_planned", problem=problem, result=result),
+        stepped=lambda now, state: hooks.call("mrpbench_stepped", now=now, state=state),
+    )
     try:
-        record = plain(execute(unpack(job["parcel"]), job["run_id"], paths, announce))
+        record = plain(execute(unpack(job["parcel"]), job["run_id"], paths, announce, observers))
     except (InputError, InputErrors) as error:
         return {"mistake": str(error)}
     except OSError as error:
@@ -96,7 +109,7 @@ def describe(error: BaseException) -> str:
     return f"{type(error).__name__}{': ' + text if text else ''}{where}"
 
 
-def _redirect(file: str) -> None:
+def _redirect(file: Path) -> None:
     target = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND, 0o644)
     os.dup2(target, 1)
     os.dup2(target, 2)
@@ -106,7 +119,8 @@ def _redirect(file: str) -> None:
 def _flush() -> None:
     """Empty Python's and the C library's buffers, so that each run's output is in its own log."""
     for stream in (sys.stdout, sys.stderr):
-        stream.flush()
+        with contextlib.suppress(ValueError):  # a plugin closed it
+            stream.flush()
     ctypes.CDLL(None).fflush(None)
 
 

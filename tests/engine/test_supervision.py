@@ -6,7 +6,7 @@ import psutil
 import pytest
 
 from mrpbench_core import load, run
-from mrpbench_core.engine.study import Progress
+from mrpbench_core.engine.progress import Progress
 from mrpbench_core.files.errors import InputErrors
 
 
@@ -82,7 +82,7 @@ class Told(Progress):
     def __init__(self):
         self.losses = []
 
-    def lost(self, run_id, reason):
+    def lost(self, point, reason):
         self.losses.append(reason)
 
 
