@@ -34,7 +34,7 @@ def choices(config: RunConfig, folder: Path) -> dict[str, Any]:
     for field in attrs.fields(RunConfig):
         if field.name not in _ignored(config) and _differs(config, field):
             chosen[field.name] = _chosen(getattr(config, field.name), folder, field.name)
-    return {name: value for name, value in chosen.items() if not _is_default_plugin(name, value)}
+    return {name: value for name, value in chosen.items() if value != {} and not _is_default_plugin(name, value)}
 
 
 def _ignored(config: RunConfig) -> set[str]:

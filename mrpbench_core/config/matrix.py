@@ -43,6 +43,8 @@ class Point:
     root: Item
     axes: dict[str, Any]
     """Plain value of every key that varies."""
+    fault: InputError | None = None
+    """Why it cannot be put together."""
 
     @property
     def label(self) -> str:
@@ -69,10 +71,10 @@ class Matrix:
         """Every point of the matrix over the configuration `root`, with `overrides` as further axes.
 
         Raises:
-            Mistakes: there are none, or too many, or a key leads nowhere.
+            Mistakes: there are too many.
         """
         matrix = self.replaced(overrides)
-        blocks = [matrix.axes] if matrix.axes or not matrix.include else []
+        blocks = [matrix.axes] if self.axes or not self.include else []
         blocks += matrix.include
         size = sum(math.prod(len(axis.rows) for axis in (*block, *overrides)) for block in blocks)
         if size > POINT_LIMIT:
@@ -208,13 +210,14 @@ def _product(root: Item, axes: Sequence[Axis]) -> Iterator[Point]:
     varying = {name for axis in axes if len(axis.rows) > 1 for name in axis.names}
     for rows in itertools.product(*(axis.rows for axis in axes)):
         values = [item for row in rows for item in row]
-        patched = root
-        for index in order:
-            try:
+        patched, fault = root, None
+        try:
+            for index in order:
                 patched = patch(patched, names[index], values[index])
-            except InputError as error:
-                raise Mistakes(error) from None
-        yield Point(patched, {name: item.data for name, item in zip(names, values, strict=True) if name in varying})
+        except InputError as error:
+            fault = error
+        label = {name: item.data for name, item in zip(names, values, strict=True) if name in varying}
+        yield Point(patched, label, fault)
 
 
 def _has(root: Item, name: str, wanted: Item) -> bool:

@@ -93,9 +93,13 @@ class _Schema:
         if isinstance(kind, type) and issubclass(kind, Component):
             return self._component(kind, default)
         if attrs.has(kind):
-            block = {"type": "object", "properties": self.options(kind), "additionalProperties": False}
-            robots = {"anyOf": [{"enum": list(robot_names())}, {"type": "string", "pattern": r"\.ya?ml$"}]}
-            return {"anyOf": [robots, block]} if kind is FleetEntry else block
+            options = self.options(kind)
+            block = {"type": "object", "properties": options, "additionalProperties": False}
+            if kind is not FleetEntry:
+                return block
+            robot = {"anyOf": [{"enum": list(robot_names())}, {"type": "string", "pattern": r"\.ya?ml$"}]}
+            options["robot"] |= robot
+            return {"anyOf": [robot, block]}
         return {}
 
     def _sequence(self, arguments: tuple[Any, ...], *, fixed: bool, unit: str | None) -> dict[str, Any]:

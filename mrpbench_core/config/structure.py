@@ -113,10 +113,10 @@ class Structure:
         optional = len(members) < len(typing.get_args(kind))
         if optional and (item.value is None or (item.value == "none" and not _takes_text(members))):
             return None
-        if len(members) == 1:
-            return self._value(item, members[0], key, unit, default)
         if isinstance(item.value, str) and str in members and Path in members:
             members.remove(str if is_path(item.value) else Path)
+        if len(members) == 1:
+            return self._value(item, members[0], key, unit, default)
         members.sort(key=lambda member: member is not type(item.value))
         failures = []
         for choice in members:
@@ -124,7 +124,7 @@ class Structure:
                 return self._value(item, choice, key, unit, default)
             except Mistakes as mistakes:
                 failures.append((choice, mistakes))
-        fitting = [mistakes for choice, mistakes in failures if _is_block(choice) == isinstance(item.value, dict)]
+        fitting = [mistakes for choice, mistakes in failures if _holds(choice, type(item.value))]
         if len(fitting) == 1:
             raise fitting[0]
         expected = " or ".join(_describe_choice(choice, unit) for choice in members)
@@ -328,6 +328,13 @@ def _takes_text(members: list[Any]) -> bool:
 
 def _is_block(kind: Any) -> bool:
     return isinstance(kind, type) and (issubclass(kind, Component) or attrs.has(kind))
+
+
+def _holds(kind: Any, container: type) -> bool:
+    """Tell whether a dict or list is the form in which values of `kind` are written."""
+    if container is dict:
+        return _is_block(kind)
+    return container is list and typing.get_origin(kind) in (tuple, frozenset)
 
 
 def _describe_choice(kind: Any, unit: str | None) -> str:

@@ -139,6 +139,8 @@ def _structure(
     faults: dict[str, tuple[InputError, list[Point]]] = {}
     for point in points:
         try:
+            if point.fault:
+                raise Mistakes(point.fault)
             config = structurer.run(point.root)
         except Mistakes as mistakes:
             for error in mistakes.errors:

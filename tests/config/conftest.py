@@ -2,6 +2,9 @@
 
 import pytest
 
+from mrpbench_core.config.study import load_study
+from mrpbench_core.files.errors import InputErrors
+
 CODE = """
 import enum
 from pathlib import Path
@@ -163,3 +166,27 @@ def toy(install):
     """Installs the plugins above, and nothing else."""
     groups = {group: {name: f"{{module}}:{cls}" for name, cls in entries.items()} for group, entries in NAMES.items()}
     install("toy", groups, CODE)
+
+
+@pytest.fixture
+def study(toy, tmp_path):
+    """Return a function that loads a text as the configuration `some.yaml`."""
+
+    def load(text, *overrides):
+        path = tmp_path / "some.yaml"
+        path.write_text(text)
+        return load_study(path, overrides)
+
+    return load
+
+
+@pytest.fixture
+def errors(study, tmp_path):
+    """Return a function that gives the lines of a text's errors, less the folder's name."""
+
+    def load(text, *overrides):
+        with pytest.raises(InputErrors) as caught:
+            study(text, *overrides)
+        return str(caught.value).replace(f"{tmp_path}/", "").splitlines()
+
+    return load
