@@ -111,7 +111,7 @@ def test_a_local_planner_travels_with_its_source(full, study, tmp_path):
 
 def test_a_file_that_changed_is_refused_unless_only_looked_at(full, tmp_path):
     (tmp_path / "maps" / "a.yaml").write_text("other walls")
-    with pytest.raises(InputErrors, match="world.file: has changed since this configuration was written"):
+    with pytest.raises(InputErrors, match=r"world\.file: has changed since this configuration was written"):
         unpack(full.parcel)
     assert unpack(full.parcel, verify=False).world.file == Path(tmp_path / "maps" / "a.yaml")
 
