@@ -1,0 +1,126 @@
+"""Validates a recording against what its channels mean; see `mrpbench_core.model.recording`."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.recording import PERIODIC
+
+WIDTH = {"truth": 3, "truth_twist": 2, "estimate": 3, "odometry": 5, "command": 2}
+"""Numbers per robot and sample; the other periodic channels have one."""
+TIMES = {
+    "contact_time": ("contact",),
+    "scan_time": ("scan_robot", "scan_ranges"),
+    "event_time": ("event_kind", "event_robot", "event_detail"),
+}
+"""Channels with a time axis of their own."""
+SLACK = 1.5
+"""How many times its limit a robot may appear to exceed: physics pushes robots, and drops them into place."""
+NUDGE = 0.02
+"""metres a robot may move between two samples in any case."""
+
+Channels = Mapping[str, NDArray[Any]]
+
+
+def check_recording(channels: Channels, fleet: Fleet) -> list[str]:
+    """What is wrong with a recording, one sentence each; at most one for each robot, channel and rule.
+
+    Times increase; shapes fit the fleet; poses and commands are finite; `released`, `reached` and `cleared` never
+    decrease (except where an event `replan` falls between two samples), nothing is reached before it is released, and
+    no start vertex is cleared before the segment to it is reached; no robot jumps farther than its speed allows.
+    """
+    if "time" not in channels:
+        return ["has no channel time"]
+    faults = [*_shapes(channels, len(fleet)), *_axes(channels)]
+    if not faults:
+        faults += [*_finite(channels), *_order(channels), *_indices(channels, len(fleet))]
+    if not faults:
+        faults += _jumps(channels, fleet)
+    return faults
+
+
+def _shapes(channels: Channels, robots: int) -> Iterator[str]:
+    samples = len(channels["time"])
+    for name in PERIODIC:
+        width = (WIDTH[name],) if name in WIDTH else ()
+        if name in channels and channels[name].shape != (samples, robots, *width):
+            yield f"{name} has shape {channels[name].shape} instead of {(samples, robots, *width)}"
+    for time, companions in TIMES.items():
+        for name in companions:
+            if (name in channels) != (time in channels):
+                yield f"has {name if name in channels else time} without {time if name in channels else name}"
+            elif name in channels and len(channels[name]) != len(channels[time]):
+                yield f"{name} has {len(channels[name])} rows instead of {len(channels[time])}"
+
+
+def _axes(channels: Channels) -> Iterator[str]:
+    for name in ("time", *TIMES):
+        values = channels.get(name, np.empty(0))
+        if not np.isfinite(values).all():
+            yield f"{name} is not finite"
+        elif name == "time" and (np.diff(values) <= 0).any():
+            yield f"time does not increase after {values[int((np.diff(values) <= 0).argmax())]:g} s"
+        elif (np.diff(values) < 0).any():
+            yield f"{name} runs backward after {values[int((np.diff(values) < 0).argmax())]:g} s"
+
+
+def _finite(channels: Channels) -> Iterator[str]:
+    for name in WIDTH:
+        if name in channels:
+            bad = np.logical_not(np.isfinite(channels[name]).all(axis=2))
+            yield from _first(bad, channels["time"], f"robot {{robot}} has no finite {name} at {{time:g}} s")
+
+
+def _order(channels: Channels) -> Iterator[str]:
+    time = channels["time"]
+    for name in ("released", "reached", "cleared"):
+        if name in channels:
+            back = (np.diff(channels[name], axis=0) < 0) & ~_replanned(channels)[:, None]
+            yield from _first(back, time[1:], f"robot {{robot}}: {name} decreases at {{time:g}} s")
+    if "released" in channels and "reached" in channels:
+        early = channels["reached"] > channels["released"]
+        yield from _first(early, time, "robot {robot} reached at {time:g} s what was not released")
+    if "reached" in channels and "cleared" in channels:
+        early = channels["cleared"] > channels["reached"] + 1
+        yield from _first(early, time, "robot {robot} cleared at {time:g} s what it had not reached")
+
+
+def _replanned(channels: Channels) -> NDArray[np.bool_]:
+    """Which intervals between samples hold an event `replan`: bool[T-1]."""
+    time = channels["time"]
+    result = np.zeros(max(0, len(time) - 1), bool)
+    if "event_kind" in channels and len(result):
+        at = channels["event_time"][channels["event_kind"] == "replan"]
+        result[np.clip(np.searchsorted(time, at) - 1, 0, len(result) - 1)] = True
+    return result
+
+
+def _indices(channels: Channels, robots: int) -> Iterator[str]:
+    if "contact" in channels:
+        contact = channels["contact"].reshape(-1, 2)
+        one, other = contact[:, 0], contact[:, 1]
+        if ((one < 0) | (one >= robots) | (other < -1) | (other >= robots) | (one == other)).any():
+            yield "contact names a robot that does not exist, or a robot touching itself"
+    for name, least in (("scan_robot", 0), ("event_robot", -1)):
+        values = channels.get(name, np.empty(0))
+        if ((values < least) | (values >= robots)).any():
+            yield f"{name} names a robot that does not exist"
+
+
+def _jumps(channels: Channels, fleet: Fleet) -> Iterator[str]:
+    if "truth" not in channels:
+        return
+    time, truth = channels["time"], channels["truth"]
+    moved = np.hypot(*np.moveaxis(np.diff(truth[..., :2], axis=0), -1, 0))
+    limit = np.array([robot.max_speed for robot in fleet.robots])
+    far = moved > SLACK * np.diff(time)[:, None] * limit + NUDGE
+    yield from _first(far, time[1:], "robot {robot} jumps at {time:g} s, faster than it can drive")
+
+
+def _first(bad: NDArray[np.bool_], time: NDArray[Any], sentence: str) -> Iterator[str]:
+    """The first sample at which each robot is bad, in words."""
+    for robot in np.flatnonzero(bad.any(axis=0)).tolist():
+        yield sentence.format(robot=robot, time=time[int(bad[:, robot].argmax())])

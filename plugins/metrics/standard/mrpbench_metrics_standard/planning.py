@@ -1,0 +1,89 @@
+"""What a plan costs and what it took to find it. Wall time is no metric; it stands in the record's `timing`."""
+
+import math
+from collections.abc import Mapping
+from typing import ClassVar
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import Column, Metric, Value
+from mrpbench_core.model.plan import Plan, PlanStatus
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.run import FinishedRun
+
+STERN = "Stern et al., Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks, SoCS 2019"
+ORIGINAL = (
+    "Schaefer et al., A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered Environments, 2023"
+)
+
+
+@attrs.frozen(kw_only=True)
+class Planning(Metric):
+    """Measures the first plan of a run."""
+
+    columns: ClassVar[tuple[Column, ...]] = (
+        Column("solved", "", "higher", "the planner found a plan that keeps its promises, within its limits"),
+        Column("sum_of_costs", "s", "lower", "sum over robots of the time of the last arrival at its goal", STERN),
+        Column("makespan", "s", "lower", "time at which the last robot arrives at its goal", STERN),
+        Column("sum_of_costs_ticks", "", "lower", "sum_of_costs in ticks of the roadmap", STERN),
+        Column("makespan_ticks", "", "lower", "makespan in ticks of the roadmap", STERN),
+        Column("lower_bound_ticks", "", "neither", "lower bound on sum_of_costs_ticks that the planner proved"),
+        Column(
+            "suboptimality", "", "lower", "sum_of_costs_ticks / lower_bound_ticks: an upper bound on the true ratio"
+        ),
+        Column("conflicts", "", "lower", "pairs of robots in one another's way, counted by the validator", STERN),
+        Column("expansions", "", "lower", "search nodes expanded, as the planner counts them"),
+        Column("generated", "", "neither", "search nodes generated, as the planner counts them"),
+        Column("low_level_expansions", "", "lower", "nodes expanded in single-robot searches, as the planner counts"),
+        Column("moves", "", "lower", "moves along edges, without waits (sum of fuel)", STERN),
+        Column("distance_m", "m", "lower", "length of all planned moves"),
+        Column("mrp_bench.cost", "", "lower", "sum over robots of states in the schedule: arrival tick + 1", ORIGINAL),
+        Column("mrp_bench.makespan", "", "lower", "most states in one robot's schedule: arrival tick + 1", ORIGINAL),
+    )
+
+    def measure(self, run: FinishedRun) -> Mapping[str, Value]:
+        """Return all columns; without a plan, `solved` is false and the rest null."""
+        result, roadmap = run.context.result, run.context.problem.roadmap
+        solved = result.plan is not None and result.status == PlanStatus.SOLVED
+        values: dict[str, Value] = {column.name: None for column in self.columns} | {"solved": solved}
+        if result.plan is None:
+            return values
+        values |= _costs(result.plan, roadmap)
+        for name in ("conflicts", "expansions", "generated", "low_level_expansions"):
+            values[name] = _finite(result.statistics.get(name))
+        bound = _finite(result.lower_bound)
+        values["lower_bound_ticks"] = bound
+        values["suboptimality"] = None if bound is None else _ratio(result.plan.sum_of_costs, bound)
+        return values
+
+
+def _costs(plan: Plan, roadmap: Roadmap) -> dict[str, Value]:
+    arrivals = [path.arrival for path in plan.paths]
+    total, latest = sum(arrivals), max(arrivals, default=0)
+    edges = np.concatenate([path.edge[path.edge >= 0] for path in plan.paths] or [np.empty(0, np.int32)])
+    span = np.diff(roadmap.position[roadmap.edges[edges]], axis=1)
+    return {
+        "sum_of_costs": total * roadmap.tick,
+        "makespan": latest * roadmap.tick,
+        "sum_of_costs_ticks": total,
+        "makespan_ticks": latest,
+        "moves": len(edges),
+        "distance_m": float(np.hypot(span[..., 0], span[..., 1]).sum()),
+        "mrp_bench.cost": total + len(arrivals),
+        "mrp_bench.makespan": latest + 1 if arrivals else 0,
+    }
+
+
+def _finite(value: float | None) -> float | int | None:
+    """Null for what is missing or not finite; a whole number as one."""
+    if value is None or not math.isfinite(value):
+        return None
+    return int(value) if value == int(value) else value
+
+
+def _ratio(cost: int, bound: float) -> float | None:
+    """1 for a plan in which nobody needs to move; null where the planner proved nothing but that."""
+    if cost == bound:
+        return 1.0
+    return cost / bound if bound > 0 else None

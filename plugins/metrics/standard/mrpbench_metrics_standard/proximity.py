@@ -1,0 +1,36 @@
+"""How near robots came to one another."""
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Float, Int16
+
+
+def closest(position: Float, level: Int16, radii: Float) -> tuple[float | None, float | None]:
+    """Least centre distance and least gap between discs, metres, over samples and pairs on one level.
+
+    Neighbours are compared in order of x, farther and farther apart in that order, until the x distance alone exceeds
+    both records: exact, and quick for robots that are spread out.
+
+    Args:
+        position: f8[T,n,2] metres.
+        level: i2[T,n].
+        radii: f8[n] metres.
+
+    Returns:
+        None for both where no two robots were ever on one level.
+    """
+    order = np.argsort(position[..., 0], axis=1, kind="stable")
+    x, y = (np.take_along_axis(position[..., axis], order, axis=1) for axis in (0, 1))
+    level = np.take_along_axis(level, order, axis=1)
+    radius = radii[order]
+    nearest, tightest = np.inf, np.inf
+    for apart in range(1, position.shape[1]):
+        dx = x[:, apart:] - x[:, :-apart]
+        least = dx.min(initial=np.inf)
+        if least >= nearest and least - 2 * radii.max() >= tightest:
+            break
+        gap = np.hypot(dx, y[:, apart:] - y[:, :-apart])
+        gap = np.where(level[:, apart:] == level[:, :-apart], gap, np.inf)
+        nearest = min(nearest, float(gap.min(initial=np.inf)))
+        tightest = min(tightest, float((gap - (radius[:, apart:] + radius[:, :-apart])).min(initial=np.inf)))
+    return (nearest, tightest) if np.isfinite(nearest) else (None, None)
