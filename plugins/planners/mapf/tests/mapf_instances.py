@@ -85,3 +85,24 @@ def movingai(data: File, name: str, scen: str, robots: int) -> Problem:
     tasks = [[int(value) for value in line.split()[4:8]] for line in table]
     assert len(tasks) == robots
     return problem(road, [index[x, y] for x, y, _, _ in tasks], [index[x, y] for _, _, x, y in tasks])
+
+
+def random_graph_problem(random: np.random.Generator, robots: int, longest: int = 3, **fields) -> Problem:
+    """Robots with one or two goals each on a random graph with edges of 1..longest ticks."""
+    profiles = int(random.integers(1, 3))
+    road = random_graph(random, int(random.integers(robots + 2, 8)), longest, profiles)
+    vertices = len(road.position)
+    starts = random.choice(vertices, robots, replace=False)
+    goals = [tuple(map(int, random.choice(vertices, random.integers(1, 3), replace=False))) for _ in range(robots)]
+    return problem(road, starts, goals, profile=random.integers(0, profiles, robots), **fields)
+
+
+def random_rules(random: np.random.Generator) -> dict:
+    """Some mixture of footprints, ready times and conventions, as fields for `problem`."""
+    fields = {
+        "following": str(random.choice(["allowed", "forbidden"])),
+        "at_goal": str(random.choice(["stay", "disappear"])),
+    }
+    if random.random() < 0.5:
+        fields["radius"] = float(random.choice([0.1, 0.3, 0.6]))
+    return fields

@@ -1,0 +1,103 @@
+#include "check.hpp"
+#include "grids.hpp"
+#include "mrpbench_mapf/constraint.hpp"
+
+using namespace mrpbench::mapf;
+
+namespace {
+
+/// A path on a line of vertices: pairs of (vertex, arrival), leaving at once unless a duration says otherwise.
+Path along(const Roadmap& line, const std::vector<std::pair<int, Tick>>& stops, Tick duration) {
+  Path path{at_vertex(stops[0].first, stops[0].second, stops[0].second)};
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    const auto [vertex, arrive] = stops[i];
+    path.back().end = 2 * (arrive - duration);
+    const int edge = edge_between(line, stops[i - 1].first, vertex);
+    path.push_back(on_edge(line.vertex_count() + edge, arrive - duration, arrive));
+    path.push_back(at_vertex(vertex, arrive, arrive));
+  }
+  path.back().end = kForeverHalf;
+  return path;
+}
+
+struct Case {
+  Instance instance;
+  Path one, other;
+};
+
+PairConflict conflict_of(const Case& it) {
+  Limits limits = unlimited();
+  const Relations relations(it.instance, limits);
+  return find_conflict(it.instance, relations, 0, it.one, 1, it.other);
+}
+
+Case on_line(std::vector<std::pair<int, Tick>> one, Tick one_ticks, std::vector<std::pair<int, Tick>> other,
+             Tick other_ticks) {
+  Instance two = instance(grid(4, 1), {robot(0, 3), robot(3, 0)});
+  Path first = along(two.roadmap(), one, one_ticks), second = along(two.roadmap(), other, other_ticks);
+  return {std::move(two), std::move(first), std::move(second)};
+}
+
+bool contains(const Range& range, Tick tick) {
+  return range.first <= tick && tick <= range.last;
+}
+
+}  // namespace
+
+TEST("vertex conflicts are split at one instant") {
+  const Case it = on_line({{0, 0}, {1, 1}}, 1, {{2, 0}, {1, 3}, {0, 4}}, 1);
+  const PairConflict found = conflict_of(it);
+  CHECK(found.count == 1);
+  const auto [one, other] = split(found, it.one, it.other, 4);
+  CHECK(one.element == 1 && other.element == 1);
+  CHECK(one.range.first == 6 && one.range.last == 6);
+  CHECK(other.range.first == 6 && other.range.last == 6);
+}
+
+TEST("swaps are conflicts; a train is none") {
+  CHECK(conflict_of(on_line({{1, 0}, {2, 1}}, 1, {{2, 0}, {1, 1}}, 1)).count == 1);
+  CHECK(conflict_of(on_line({{1, 0}, {2, 1}}, 1, {{0, 0}, {1, 1}}, 1)).count == 0);
+}
+
+TEST("a swap of long moves forbids every departure up to the other's arrival") {
+  const Case it = on_line({{1, 0}, {2, 3}}, 3, {{2, 0}, {1, 4}}, 2);  // departures at 0 and 2
+  const PairConflict found = conflict_of(it);
+  CHECK(found.count == 1);
+  const auto [one, other] = split(found, it.one, it.other, 4);
+  CHECK(one.range.first == 0 && one.range.last == 3);
+  CHECK(other.range.first == 2 && other.range.last == 2);
+}
+
+TEST("overtaking on one lane is a conflict, keeping the order is none") {
+  const Case overtaking = on_line({{1, 0}, {2, 6}}, 6, {{0, 0}, {1, 1}, {2, 4}}, 1);
+  CHECK(conflict_of(overtaking).count == 1);  // 3 -> 4 within 0 -> 6, and in front of it on vertex 2
+  const Case behind = on_line({{1, 0}, {2, 3}, {3, 6}}, 3, {{0, 0}, {1, 1}, {2, 5}}, 1);
+  CHECK(conflict_of(behind).count == 0);
+}
+
+TEST("whatever the two constraints of a split forbid is in conflict, move by move") {
+  // Each robot appears from afar on the lane between 1 and 2 and is gone after it: only the lane counts.
+  const Instance two = instance(grid(4, 1), {robot(0, 3), robot(3, 0)});
+  const auto move = [&](int afar, int tail, int head, Tick depart, Tick ticks) {
+    const int lane = 4 + edge_between(two.roadmap(), tail, head);
+    return Path{at_vertex(afar, 0, depart), on_edge(lane, depart, depart + ticks)};
+  };
+  int conflicts = 0;
+  for (int i = 0; i < 4 * 4 * 2 * 5; ++i) {
+    const Tick one_ticks = 1 + i % 4, other_ticks = 1 + i / 4 % 4, late = i / 32;
+    const bool towards = i / 16 % 2 == 1;
+    const auto at = [&](Tick d, Tick e) {
+      return Case{two, move(0, 1, 2, d, one_ticks), move(3, towards ? 2 : 1, towards ? 1 : 2, e, other_ticks)};
+    };
+    const Case now = at(8, 8 + late);
+    const PairConflict found = conflict_of(now);
+    if (found.count == 0) continue;
+    ++conflicts;
+    const auto [one, other] = split(found, now.one, now.other, 4);
+    CHECK(contains(one.range, 8) && contains(other.range, 8 + late));
+    for (Tick d = one.range.first; d <= one.range.last; ++d) {
+      for (Tick e = other.range.first; e <= other.range.last; ++e) CHECK(conflict_of(at(d, e)).count == 1);
+    }
+  }
+  CHECK(conflicts > 40);
+}

@@ -1,0 +1,64 @@
+#include "check.hpp"
+#include "grids.hpp"
+#include "mrpbench_mapf/distance_table.hpp"
+
+using namespace mrpbench::mapf;
+
+namespace {
+
+/// Bellman-Ford, to compare with.
+std::vector<Tick> distances(const Roadmap& roadmap, int profile, const std::vector<int>& goals) {
+  std::vector<Tick> distance(roadmap.vertex_count(), kForever);
+  for (const int goal : goals) distance[goal] = 0;
+  for (int round = 0; round < roadmap.vertex_count(); ++round) {
+    for (int edge = 0; edge < roadmap.edge_count(); ++edge) {
+      const Tick ticks = roadmap.duration(profile)[edge];
+      const Tick rest = distance[roadmap.head(edge)];
+      if (ticks > 0 && rest != kForever)
+        distance[roadmap.tail(edge)] = std::min(distance[roadmap.tail(edge)], ticks + rest);
+    }
+  }
+  return distance;
+}
+
+Roadmap random_graph(unsigned seed, Tick longest) {
+  const int vertices = 40, edges = 90;
+  std::vector<int> tail, head;
+  std::vector<Tick> duration;
+  const auto random = [&](unsigned limit) { return (seed = seed * 1664525u + 1013904223u) / 65536u % limit; };
+  for (int e = 0; e < edges; ++e) {
+    tail.push_back(static_cast<int>(random(vertices)));
+    head.push_back(static_cast<int>(random(vertices)));
+  }
+  for (int e = 0; e < 2 * edges; ++e) {
+    duration.push_back(random(8) == 0 ? -1 : 1 + static_cast<Tick>(random(static_cast<unsigned>(longest))));
+  }
+  return Roadmap(vertices, tail, head, duration);
+}
+
+}  // namespace
+
+TEST("distances are those of Bellman-Ford, in whatever order they are asked for") {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const Roadmap roadmap = random_graph(seed, seed % 2 == 0 ? 1 : 9);
+    const std::vector<int> goals{static_cast<int>(seed % 40), static_cast<int>(seed * 7 % 40)};
+    const std::vector<Tick> expected = distances(roadmap, static_cast<int>(seed % 2), goals);
+    Limits limits = unlimited();
+    DistanceTable table(roadmap, static_cast<int>(seed % 2), goals, limits);
+    for (int i = 0; i < 40; ++i) {
+      const int vertex = (i * 17 + static_cast<int>(seed)) % 40;
+      CHECK(table(vertex) == expected[vertex]);
+    }
+  }
+}
+
+TEST("robots with the same goals and profile share a table") {
+  std::vector<Robot> robots{robot(0, 3), robot(1, 3), robot(2, 0)};
+  robots[0].goals = {3, 2};
+  robots[1].goals = {2, 3};
+  const Instance three = instance(grid(2, 2), robots);
+  Limits limits = unlimited();
+  DistanceTables tables(three, limits);
+  CHECK(&tables[0] == &tables[1]);
+  CHECK(&tables[0] != &tables[2]);
+}

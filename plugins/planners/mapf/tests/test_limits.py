@@ -1,0 +1,114 @@
+"""What all native planners share: limits, quick proofs that there is no plan, refusals."""
+
+import time
+
+import attrs
+import numpy as np
+import pytest
+from mapf_instances import grid, movingai, problem, random_grid_problem, roadmap
+from mrpbench_planners_mapf.astar import Astar
+from mrpbench_planners_mapf.cbs import Cbs
+from mrpbench_planners_mapf.prioritized import Prioritized
+
+from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.model.roadmap import Resource
+
+PLANNERS = [Astar(), Prioritized(), Cbs()]
+COOPERATIVE = PLANNERS[1:]
+BUDGET = Budget(wall_s=5, memory_bytes=1 << 30)
+SLACK_S = 0.5
+"""Far more than the planners need; other work may share the machine."""
+
+
+def timed(planner, asked, budget):
+    start = time.monotonic()
+    result = planner.plan(asked, budget)
+    return result, time.monotonic() - start
+
+
+def test_a_swap_in_a_dead_end_ends_at_the_deadline_with_a_bound():
+    asked = problem(grid(["...."]), [0, 3], [3, 0])
+    result, seconds = timed(Cbs(), asked, Budget(wall_s=0.3, memory_bytes=1 << 30))
+    assert result.status is PlanStatus.TIMEOUT
+    assert 0.25 < seconds < 0.3 + SLACK_S
+    assert result.lower_bound > 6
+    assert result.plan is None
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_no_time_at_all_is_a_timeout(planner):
+    asked = random_grid_problem(np.random.default_rng(1), 30, size=60)
+    result, seconds = timed(planner, asked, Budget(wall_s=0.0, memory_bytes=1 << 30))
+    assert result.status is PlanStatus.TIMEOUT
+    assert seconds < SLACK_S
+
+
+def test_a_large_crowd_stops_in_time(shared_data):
+    asked = movingai(shared_data, "den520d", "random-1", 200)
+    result, seconds = timed(Cbs(), asked, Budget(wall_s=0.2, memory_bytes=1 << 30))
+    assert result.status is PlanStatus.TIMEOUT
+    assert seconds < 0.2 + SLACK_S
+
+
+def test_memory_is_counted():
+    asked = problem(grid(["...."]), [0, 3], [3, 0])
+    assert Cbs().plan(asked, Budget(wall_s=20, memory_bytes=4 << 20)).status is PlanStatus.OUT_OF_MEMORY
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_a_goal_out_of_reach_is_unsolvable(planner):
+    result, seconds = timed(planner, problem(grid([".#."]), [0], [1]), BUDGET)
+    assert result.status is PlanStatus.UNSOLVABLE
+    assert result.statistics["failed_robot"] == 0
+    assert seconds < SLACK_S
+
+
+@pytest.mark.parametrize("planner", COOPERATIVE)
+@pytest.mark.parametrize(
+    ("starts", "goals", "radius"),
+    [
+        ([0, 2], [1, 1], None),  # one goal for two that stay
+        ([0, 0], [1, 2], None),  # one start
+        ([0, 1], [3, 2], 0.6),  # starts too near for the footprints
+        ([0, 3], [1, 2], 0.6),  # goals too near
+        ([0, 1, 2], [(3, 4), (4, 3), (3, 4)], None),  # two goals for three
+    ],
+)
+def test_robots_that_exclude_one_another_are_unsolvable(planner, starts, goals, radius):
+    result, seconds = timed(planner, problem(grid(["....."]), starts, goals, radius=radius), BUDGET)
+    assert result.status is PlanStatus.UNSOLVABLE
+    assert seconds < SLACK_S
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_no_robots_have_an_empty_plan(planner):
+    result = planner.plan(problem(grid(["."]), [], []), BUDGET)
+    assert result.status is PlanStatus.SOLVED
+    assert result.plan.paths == ()
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_a_robot_at_its_goal_needs_no_path(planner):
+    result = planner.plan(problem(grid(["."]), [0], [0]), BUDGET)
+    assert len(result.plan.paths[0]) == 0
+    assert result.lower_bound in (0, pytest.approx(np.nan, nan_ok=True))
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+def test_what_is_not_supported_is_named(planner):
+    asked = problem(attrs.evolve(grid([".."]), resources=(Resource(name="door", kind="door"),)), [0], [1], horizon=5)
+    assert planner.skip(asked) == "does not support horizon, resources"
+    assert planner.skip(problem(grid([".."]), [0], [1], radius=0.1, following="forbidden")) is None
+
+
+@pytest.mark.parametrize(
+    ("edges", "duration", "start", "fault"),
+    [
+        ([(0, 2)], [1], 0, "edge 0 leads from or to a vertex that does not exist"),
+        ([(0, 1)], [0], 0, "edge 0 takes 0 ticks"),
+        ([(0, 1)], [1], 2, "robot 0: starts at a vertex that does not exist"),
+    ],
+)
+def test_data_that_make_no_sense_are_refused(edges, duration, start, fault):
+    with pytest.raises(ValueError, match=fault):
+        Cbs().plan(problem(roadmap([(0, 0), (1, 0)], edges, duration), [start], [1]), BUDGET)

@@ -1,0 +1,84 @@
+"""Prioritised planning: valid plans, never cheaper than optimal, and honest when it fails."""
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mapf_instances import grid, problem, random_graph_problem, random_grid_problem, random_rules
+from mrpbench_planners_mapf.cbs import Cbs
+from mrpbench_planners_mapf.prioritized import Prioritized
+
+from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.model.problem import features_of
+
+BUDGET = Budget(wall_s=0.2, memory_bytes=1 << 30)
+seeds = st.integers(0, 2**32 - 1)
+orders = st.sampled_from(["index", "longest_first", "shortest_first", "random"])
+
+
+@settings(max_examples=150, deadline=None)
+@given(seed=seeds, robots=st.integers(2, 4), order=orders)
+def test_plans_on_graphs_are_valid_and_not_better_than_optimal(seed, robots, order):
+    random = np.random.default_rng(seed)
+    asked = random_graph_problem(random, robots, ready=random.integers(0, 3, robots), **random_rules(random))
+    result = Prioritized(order=order, seed=seed % 7).plan(asked, BUDGET)
+    best = Cbs().plan(asked, BUDGET)
+    if result.status is PlanStatus.SOLVED:
+        report = check_plan(asked, result.plan)
+        assert report.valid, (report.faults, report.conflicts)
+        assert best.lower_bound <= result.plan.sum_of_costs
+    elif result.status is PlanStatus.UNSOLVABLE:
+        assert best.status in {PlanStatus.UNSOLVABLE, PlanStatus.TIMEOUT}
+    else:
+        assert result.status is PlanStatus.GAVE_UP
+        assert 0 <= result.statistics["failed_robot"] < robots
+
+
+@pytest.mark.parametrize("radius", [None, 0.4])
+def test_crowds_are_planned_without_conflict(radius):
+    random = np.random.default_rng(11)
+    solved = 0
+    for _ in range(10):
+        asked = random_grid_problem(random, 12, size=9, radius=radius)
+        result = Prioritized().plan(asked, Budget(wall_s=5, memory_bytes=1 << 30))
+        if result.status is PlanStatus.SOLVED:
+            solved += 1
+            assert check_plan(asked, result.plan).valid
+    assert solved >= 5
+
+
+@settings(max_examples=60, deadline=None)
+@given(seed=seeds)
+def test_plans_begin_with_what_was_released(seed):
+    random = np.random.default_rng(seed)
+    before = random_graph_problem(random, 3, **random_rules(random))
+    first = Prioritized().plan(before, BUDGET)
+    if first.status is not PlanStatus.SOLVED:
+        return
+    sizes = random.integers(0, 4, 3)
+    released = tuple(
+        attrs.evolve(path, edge=path.edge[:size], enter=path.enter[:size], leave=path.leave[:size])
+        for path, size in zip(first.plan.paths, sizes, strict=True)
+    )
+    after = attrs.evolve(before, commitments=released)
+    after = attrs.evolve(after, features=features_of(after) | before.features)
+    again = Prioritized().plan(after, BUDGET)
+    if again.status is PlanStatus.SOLVED:
+        assert check_plan(after, again.plan).valid
+
+
+def test_a_robot_that_blocks_another_plans_after_it():
+    # Robot 0 would park at once in the corridor that robot 1 has to take; in the bay it can wait.
+    road = grid(["####", "....", "#.##"])
+    asked = problem(road, [1, 0], [2, 3])
+    assert Prioritized(order="index", restarts=0).plan(asked, BUDGET).status is PlanStatus.GAVE_UP
+    assert Prioritized(order="index", restarts=1).plan(asked, BUDGET).status is PlanStatus.SOLVED
+
+
+def test_seeds_change_random_orders_and_repeat_themselves():
+    asked = random_grid_problem(np.random.default_rng(3), 10, size=5)
+    plans = [Prioritized(order="random", seed=seed).plan(asked, BUDGET).plan for seed in range(8)]
+    assert plans == [Prioritized(order="random", seed=seed).plan(asked, BUDGET).plan for seed in range(8)]
+    assert len({plan.sum_of_costs for plan in plans if plan}) > 1
