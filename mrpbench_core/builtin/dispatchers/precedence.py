@@ -5,7 +5,7 @@ these are, here taken from the rules of `mrpbench_core.model.conflicts`. Whoever
 
 - rule 1: at each vertex, the next robot moves in only after the one before has *cleared* it. That keeps rules 2 and 3
   too: to swap or to overtake, two robots must use one of the edge's ends in the wrong order;
-- rule 4: at each vertex, the next robot moves in only after the one before has *completed* its move out;
+- rule 4: at each vertex, the next robot moves in only after the one before has also *completed* its move out;
 - rule 5: a move starts only after the last move on each element near it is *completed*. Moves are enough: who stands
   at a vertex came there, or will leave it, by a move that touches it.
 
@@ -91,10 +91,14 @@ def _at_vertices(problem: Problem, moves: Moves) -> Precedence:
     before, after = np.where(gone, arrival[earlier], departure[earlier]), arrival[later]
     some = before >= 0
     before, after, gone = before[some], after[some], gone[some]
-    completed = gone | (problem.rules.following == "forbidden")
+    passed = gone.copy()  # where to have completed the move says it all, clear or not
     if Feature.FOOTPRINTS in problem.features:
-        completed |= moves.leave[before] <= moves.enter[after]
-    return Precedence(before, after, completed)
+        passed |= moves.leave[before] <= moves.enter[after]
+    completed = passed | (problem.rules.following == "forbidden")
+    kinds = np.repeat([False, True], [int((~passed).sum()), int(completed.sum())])
+    return Precedence(
+        np.concatenate([before[~passed], before[completed]]), np.concatenate([after[~passed], after[completed]]), kinds
+    )
 
 
 def _between_footprints(problem: Problem, moves: Moves) -> list[Precedence]:
