@@ -70,7 +70,7 @@ TEST("a swap of long moves forbids every departure up to the other's arrival") {
 
 TEST("overtaking on one lane is a conflict, keeping the order is none") {
   const Case overtaking = on_line({{1, 0}, {2, 6}}, 6, {{0, 0}, {1, 1}, {2, 4}}, 1);
-  CHECK(conflict_of(overtaking).count == 1);  // 3 -> 4 within 0 -> 6, and in front of it on vertex 2
+  CHECK(conflict_of(overtaking).count == 2);  // 3 to 4 within 0 to 6, then it stands in front at vertex 2
   const Case behind = on_line({{1, 0}, {2, 3}, {3, 6}}, 3, {{0, 0}, {1, 1}, {2, 5}}, 1);
   CHECK(conflict_of(behind).count == 0);
 }
