@@ -49,7 +49,7 @@ class Printed(Progress):
     def lost(self, point: RunPoint, reason: str) -> None:
         """Say so."""
         self._going.pop(point.run_id)
-        print(("\r\x1b[K" if self._live else "") + f"{point.run_id[:SHORT]} is done again: {reason}", flush=True)
+        self._say(f"{point.run_id[:SHORT]} is done again: {reason}")
 
     def refused(self, point: RunPoint, mistake: str) -> None:
         """Count it; the caller prints each mistake once."""
@@ -66,13 +66,12 @@ class Printed(Progress):
         if not self._live or status in ("crashed", "out_of_memory", "wall_timeout", "not run"):
             done = f"[{self._counts.total()}/{self._total}]"
             axes = " ".join(f"{key}={word(value)}" for key, value in point.axes.items())
-            line = (
-                f"{done} {point.run_id[:SHORT]} {status}"
-                + (f" {axes}" if axes else "")
-                + (f": {message}" if message else "")
-            )
-            print(("\r\x1b[K" if self._live else "") + line, flush=True)
+            line = " ".join(filter(None, (done, point.run_id[:SHORT], status, axes)))
+            self._say(f"{line}: {message}" if message else line)
         self._draw()
+
+    def _say(self, line: str) -> None:
+        print(("\r\x1b[K" if self._live else "") + line, flush=True)
 
     def _draw(self) -> None:
         now = time.monotonic()

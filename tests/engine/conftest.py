@@ -70,7 +70,7 @@ class Odd(Planner):
     def _eat(self):
         kept = []
         while True:
-            kept.append(b"x" * 10_000_000)
+            kept.append(b"x" * 50_000_000)
 
     def _eat_at_once(self):
         bytearray(1 << 46)
@@ -104,5 +104,5 @@ def study(tmp_path, monkeypatch):
         "planner": {"plugin": "./odd.py:Odd", "marks": str(tmp_path / "marks")},
         "simulator": "none",
         "metrics": [],
-        "limits": {"planning": 0.3, "wall": 30.0},
+        "limits": {"planning": 1.0, "wall": 30.0},
     }

@@ -18,7 +18,7 @@ def outcomes(study, does, **options):
 
 @pytest.mark.parametrize("workers", [1, 2])
 def test_neighbours_of_misbehaving_plugins_go_on(study, workers):
-    study["limits"]["memory"] = "700 MiB"
+    study["limits"]["memory"] = "500 MiB"
     does = ["hang", "exit", "nothing", "segfault", "eat", "raise", "system_exit", "eat_at_once"]
     records = outcomes(study, does, workers=workers)
     assert {key: record["status"] for key, record in records.items()} == {
@@ -44,7 +44,7 @@ def test_neighbours_of_misbehaving_plugins_go_on(study, workers):
     scenario_ids = {record["scenario_id"] for record in records.values()}
     assert len(scenario_ids) == 1
     assert None not in scenario_ids
-    assert records["hang"]["timing"]["planning_s"] >= 0.3
+    assert records["hang"]["timing"]["planning_s"] >= 1.0
     assert records["hang"]["timing"]["clock_bound"] is True
     assert all(record["timing"]["concurrent_workers"] == workers for record in records.values())
 

@@ -1,0 +1,102 @@
+"""`mrpbench demo`: the whole stack once, small."""
+
+import argparse
+import importlib.util
+from pathlib import Path
+from typing import Any
+
+from mrpbench_core.cli.progress import Printed
+from mrpbench_core.cli.report import print_report
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.invoke import prepare
+from mrpbench_core.engine.study import run_study
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.installed import providers
+from mrpbench_core.plugins.kinds import group_of
+from mrpbench_core.store.recording import Recording
+from mrpbench_core.store.results import Results
+
+WANTED = {
+    "assigner": ("ortools_mip", "hungarian", "identity"),
+    "planner": ("cbs", "prioritized", "example"),
+    "simulator": ("pybullet", "kinematic"),
+    "controller": ("pure_pursuit",),
+}
+"""For each kind, what the demo takes: the first that works here."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("--out", default="results/demo", metavar="DIR", help="results folder (default: %(default)s)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do the run and say what there is to see."""
+    study = load_study(_configuration())
+    progress = Printed()
+    done = run_study(study, prepare(study, out=arguments.out, rerun="all", progress=progress))
+    progress.close()
+    if done.mistakes:
+        raise InputError(next(iter(done.mistakes.values())))
+    print_report([done.results])
+    _show(done.results)
+    return int("crashed" in done.results.statuses())
+
+
+def _configuration() -> dict[str, Any]:
+    chosen = {}
+    for kind, names in WANTED.items():
+        chosen[kind] = next((name for name in names if _works(kind, name)), names[-1])
+        if chosen[kind] != names[0]:
+            print(f"{kind} {names[0]} is not available here ({_why(names[0])}); {chosen[kind]} takes its place")
+    return {
+        "name": "demo",
+        "world": "office",
+        "scenario": {"plugin": "random", "robots": 5},
+        **chosen,
+        "dispatcher": "adg",
+        "export": ["rosbag2"] if _works("exporter", "rosbag2") else [],
+        "limits": {"planning": 20.0},
+    }
+
+
+def _works(kind: str, name: str) -> bool:
+    offered = any(provider.name == name and not provider.problem for provider in providers(group_of(kind)))
+    return offered and (name != "pybullet" or importlib.util.find_spec("pybullet") is not None)
+
+
+def _why(name: str) -> str:
+    return "no PyBullet for this Python" if name == "pybullet" else "not installed"
+
+
+def _show(results: Results) -> None:
+    record = next(iter(results))
+    paths = results.folder.run(record["run_id"])
+    if "error" in record:
+        print(f"{record['status']} in {record['error']['stage']}: {record['error']['message']}")
+    print(f"results    {_near(results.folder.path)}")
+    if paths.recording.is_file():
+        print(f"recording  {_near(paths.recording)}")
+        try:
+            print(f"picture    {_near(_draw(paths.recording, results.folder.path / 'demo.png'))}")
+        except InputError as error:
+            print(f"picture    none: {error}")
+    if paths.exports.is_dir():
+        for bag in sorted(paths.exports.iterdir()):
+            print(f"bag        {_near(bag)}")
+
+
+def _draw(file: Path, picture: Path) -> Path:
+    from mrpbench_core.report.picture import draw_world
+
+    recording = Recording(file)
+    context = recording.context()
+    truth = recording.channel("truth")
+    recording.close()
+    draw_world(context.world, file=picture, fleet=context.fleet, routes=context.routes, truth=truth)
+    return picture
+
+
+def _near(path: Path) -> Path:
+    """Relative to where the user is, if it is below."""
+    return path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path

@@ -1,0 +1,38 @@
+"""`mrpbench export RUN --to NAME`."""
+
+import argparse
+from pathlib import Path
+
+from mrpbench_core.api.exporter import Exporter
+from mrpbench_core.cli.arguments import read_options
+from mrpbench_core.cli.reference import HELP, find_run
+from mrpbench_core.config.items import Where, from_data
+from mrpbench_core.config.structure import structure_component
+from mrpbench_core.store.recording import Recording
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("run", metavar="RUN", help=HELP)
+    parser.add_argument("--to", required=True, metavar="NAME", help="an exporter, e.g. rosbag2")
+    parser.add_argument("--option", action="append", default=[], metavar="K=V", help="an option of it")
+    parser.add_argument("--out", metavar="FILE", help="where to, without suffix (default: exports/ in the results)")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write the run's recording in another format."""
+    results, record = find_run(arguments.run)
+    block = from_data({"plugin": arguments.to, **read_options(arguments.option, "--option")}, Where())
+    exporter = structure_component(Exporter, block, "--to", Path.cwd())  # type: ignore[type-abstract]
+    paths = results.folder.run(record["run_id"])
+    recording = Recording(paths.recording)
+    destination = paths.exports / arguments.to if arguments.out is None else Path(arguments.out)
+    destination.parent.mkdir(parents=True, exist_ok=True)
+    session = exporter.open(recording.context(), destination)
+    for chunk in recording.chunks():
+        session.write(chunk)
+    session.close()
+    recording.close()
+    written = sorted(destination.parent.glob(f"{destination.name}*"))
+    print("wrote " + " ".join(map(str, written)))
+    return 0

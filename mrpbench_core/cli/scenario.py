@@ -1,0 +1,42 @@
+"""`mrpbench scenario CONFIG… --write FILE`."""
+
+import argparse
+from pathlib import Path
+
+from mrpbench_core.cli.arguments import add_configuration, split_words
+from mrpbench_core.config.study import load_studies
+from mrpbench_core.engine.preparation import set_scene
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.scenario import write_scenario
+from mrpbench_core.model.scenario import Scenario
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.epilog = "Read back with `scenario: {plugin: file, file: FILE}`."
+    add_configuration(parser)
+    parser.add_argument(
+        "--write",
+        required=True,
+        metavar="FILE",
+        help="a .yaml file; where the study draws several scenarios, the id of each is put before the suffix",
+    )
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Draw and write each scenario once."""
+    files, overrides = split_words(arguments.words)
+    studies = load_studies(files, overrides)
+    drawn: dict[str, Scenario] = {}
+    for point in (point for study in studies for point in study.runs):
+        scenario = set_scene(point.config, lambda stage, facts: None).scenario  # noqa: ARG005
+        drawn.setdefault(scenario.id, scenario)
+    target = Path(arguments.write)
+    for scenario_id, scenario in drawn.items():
+        file = target if len(drawn) == 1 else target.with_name(f"{target.stem}-{scenario_id}{target.suffix}")
+        try:
+            write_scenario(file, scenario)
+        except OSError as error:
+            raise InputError(f"cannot be written: {error.strerror}", file=file) from error
+        print(f"wrote {file}: scenario {scenario_id}, {len(scenario.start)} robots")
+    return 0
