@@ -12,7 +12,7 @@ from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.roadmap import Grid, Roadmap
 from mrpbench_core.model.world import Level, World
 
-LIMIT = 50_000_000
+LIMIT = 10_000_000
 """Cells beyond which a raster is refused: the cell size is surely a slip."""
 
 _AROUND = np.array([(0, 0), *((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column)])
@@ -57,10 +57,11 @@ def connect(raster: Occupancy) -> Cells:
     """All free cells of `raster` and the edges between 4-neighbours, walls not considered."""
     free = ~raster.blocked
     number = np.where(free, np.cumsum(free).reshape(free.shape) - 1, -1)
-    right = np.stack([number[:, :-1].ravel(), number[:, 1:].ravel()], axis=1)
-    up = np.stack([number[:-1].ravel(), number[1:].ravel()], axis=1)
-    edges = np.concatenate([right, up])
-    return Cells(raster, np.argwhere(free), edges[(edges >= 0).all(axis=1)])
+    edges = []
+    for here, there in ((number[:, :-1], number[:, 1:]), (number[:-1], number[1:])):  # rightwards, upwards
+        both = (here >= 0) & (there >= 0)
+        edges.append(np.stack([here[both], there[both]], axis=1))
+    return Cells(raster, np.argwhere(free), np.concatenate(edges))
 
 
 def without_contacts(cells: Cells, level: Level, radius: float) -> Cells:

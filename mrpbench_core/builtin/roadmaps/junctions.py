@@ -26,7 +26,7 @@ class Pieces:
     ends: Int
     """i8[m,2]: start and end of each piece."""
     lane: Int
-    """i8[m]: the lane that each piece is part of."""
+    """i8[m]: the lane that each piece is part of, ascending."""
 
 
 def cut_at_junctions(points: Float, lanes: Int, tolerance: float) -> Pieces:
@@ -50,7 +50,8 @@ def _cut_once(pieces: Pieces, tolerance: float) -> Pieces:
     crossing = _crossings(position[ends[:, 0]], position[ends[:, 1]], tolerance)
     position, number = _merge(np.concatenate([position, crossing]), tolerance)
     vertex, ends = number[vertex], number[ends]
-    stops = [_stops(position, a, b, tolerance) for a, b in ends]
+    passed = np.split(ends, np.searchsorted(pieces.lane, np.arange(1, pieces.lane.max(initial=0) + 1)))
+    stops = [_stops(position, a, b, passed[lane], tolerance) for (a, b), lane in zip(ends, pieces.lane, strict=True)]
     return Pieces(
         position=position,
         vertex=vertex,
@@ -91,12 +92,16 @@ def _overlapping(low: Float, high: Float) -> tuple[Int, Int]:
     return order[left], order[right]
 
 
-def _stops(position: Float, a: int, b: int, tolerance: float) -> Int:
-    """The vertices on the way from a to b, in order of travel; only a if that is b too."""
+def _stops(position: Float, a: int, b: int, passed: Int, tolerance: float) -> Int:
+    """The vertices on the way from a to b, in order of travel; only a if that is b too.
+
+    What the lane has `passed` already is no stop again, or it would run to and fro between vertices close together.
+    """
     if a == b:
         return np.array([a])
     start, end = position[a], position[b]
     on = point_segment_distance(position, start, end) < tolerance
+    on[passed] = False
     on[[a, b]] = True
     found = np.flatnonzero(on)
     share = (position[found] - start) @ (end - start)

@@ -54,7 +54,7 @@ def test_roads_lead_from_place_to_place_along_lanes(points, size):
 
 
 def test_the_direction_in_which_a_lane_was_drawn_does_not_matter():
-    world = road((0, 0), (3, 2), (5, -1))
+    world = road((0, 0), (4, 0), (4, 4), (8, 6))
     turned = attrs.evolve(world, lanes=tuple(Lane(start=lane.end, end=lane.start) for lane in world.lanes))
     assert np.array_equal(Lanes().build(world, FLEET).position, Lanes().build(turned, FLEET).position)
 

@@ -1,8 +1,11 @@
+import re
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.files.errors import InputError
@@ -122,7 +125,7 @@ def test_the_level_can_be_chosen(tmp_path):
         ("- [0, 1, {alpha", "- [0, -1, {alpha", "hut.building.yaml:15:13: wall to vertex -1"),
         ("- [4, 5, {name", "- [4, 6, {name", "hut.building.yaml:17:13: door to vertex 6"),
         ("- [3, 1, {graph_idx: [2, 0]}]", "- [3]", "hut.building.yaml:21:9: should have at least 2 values"),
-        ("[100, 0, 0", "[wide, 0, 0", "hut.building.yaml:9:10: should be a number, not 'wide'"),
+        ("[100, 0, 0", "[wide, 0, 0", "hut.building.yaml:9:10: should be a number within ±1e+09, not 'wide'"),
         ("[100, 0, 0", "[.nan, 0, 0", "hut.building.yaml:9:10: should be a number"),
         ("[3, 0.4]", "[3, fast]", "'speed_limit' should be a double [3, …], not 'fast'"),
         ("[4, true], graph", "[4, maybe], graph", "'bidirectional' should be a bool [4, …]"),
@@ -201,3 +204,24 @@ def test_walls_of_the_original_office_span_the_published_width(shared_data):
     walls = Rmf(file=shared_data / "rmf/mrp_bench/office.building.yaml").load().levels[0].walls.reshape(-1, 2)
     width, _ = np.ptp(walls, axis=0)
     assert width + 0.1 == pytest.approx(21.53, abs=0.03)
+
+
+TOKENS = re.findall(r"[\w.]+|\S", BUILDING)
+
+
+@settings(deadline=None, max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    st.integers(0, len(TOKENS) - 1),
+    st.sampled_from(
+        ["", "x", "-1", "7", "1e9", "1e999", ".nan", "~", "true", "[]", "{}", "[1, 2]", '""', "{a: 1}", "*a"]
+    ),
+)
+def test_any_slip_gives_a_world_or_one_line(tmp_path, index, slip):
+    places = list(re.finditer(r"[\w.]+|\S", BUILDING))
+    text = BUILDING[: places[index].start()] + slip + BUILDING[places[index].end() :]
+    try:
+        positions = [(vertex.x, vertex.y) for vertex in load(tmp_path, text).vertices]
+    except InputError as error:
+        line, positions = str(error), []
+        assert (error.file is not None, "\n" in line) == (True, False)  # noqa: PT017 - either outcome is right
+    assert np.isfinite(positions).all()

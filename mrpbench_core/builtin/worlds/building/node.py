@@ -7,6 +7,9 @@ import attrs
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import Document, Steps
 
+LIMIT = 1e9
+"""metres or pixels."""
+
 
 @attrs.frozen
 class Node:
@@ -39,11 +42,9 @@ class Node:
         return [] if inner is None else inner.items()
 
     def number(self) -> float:
-        """A finite number."""
-        if isinstance(self.value, bool) or not isinstance(self.value, int | float) or abs(self.value) >= 1e300:
-            raise self.error(f"should be a number, not {_kind(self.value)}")
-        if self.value != self.value:
-            raise self.error("should be a number, not nan")
+        """A finite number; no building is larger than `LIMIT`."""
+        if isinstance(self.value, bool) or not isinstance(self.value, int | float) or not abs(self.value) <= LIMIT:
+            raise self.error(f"should be a number within ±{LIMIT:g}, not {_kind(self.value)}")
         return float(self.value)
 
     def integer(self) -> int:
