@@ -16,6 +16,7 @@ from mrpbench_core.api.component import Component
 from mrpbench_core.config.canonical import plugin_name, scalar
 from mrpbench_core.config.content import content_hash
 from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING, RunConfig
+from mrpbench_core.config.validation import default_of
 from mrpbench_core.model.problem import Feature
 
 LENGTH = 16
@@ -71,9 +72,5 @@ def _chosen(value: Any, folder: Path, key: str) -> Any:
 
 
 def _differs(owner: Any, field: Any) -> bool:
-    default = field.default
-    if default is attrs.NOTHING:
-        return True
-    if isinstance(default, attrs.Factory):  # type: ignore[arg-type]
-        default = default.factory(owner) if default.takes_self else default.factory()
-    return bool(getattr(owner, field.name) != default)
+    default = default_of(field, owner)
+    return default is attrs.NOTHING or bool(getattr(owner, field.name) != default)

@@ -4,6 +4,7 @@ Items are immutable and shared: a patch copies only what lies on its path, so th
 common is one object, checked once.
 """
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -67,7 +68,7 @@ def from_document(document: Document) -> Item:
 
 def from_data(data: Any, where: Where) -> Item:
     """Items that all stand in one place."""
-    value = data
+    value = os.fspath(data) if isinstance(data, os.PathLike) else data
     if isinstance(data, Mapping):
         value = {str(key): from_data(inner, where) for key, inner in data.items()}
     elif isinstance(data, list | tuple):

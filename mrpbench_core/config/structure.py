@@ -20,6 +20,7 @@ from mrpbench_core.config.items import Item, Where, from_data
 from mrpbench_core.config.mistakes import Mistakes, did_you_mean, in_reading_order
 from mrpbench_core.config.scalars import Unfit, describe, literal, member, scalar, show
 from mrpbench_core.config.settings import EXECUTION, FleetEntry, RunConfig
+from mrpbench_core.config.validation import fault_of, stand_in_of, words_of
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.plugins.registry import Registry
 
@@ -218,7 +219,8 @@ class Structure:
         except InputError as error:
             if error.file is not None:
                 raise Mistakes(error) from None
-            raise Mistakes(chosen.where.error(key, error.message, error.hint)) from None
+            unsaid = chosen.value == default and chosen.where.line is None
+            raise Mistakes(chosen.where.error(key, error.message + " (the default)" * unsaid, error.hint)) from None
         options = {name: inner for name, inner in block.value.items() if name != "plugin"}
         return cast("Component", self._options(attrs.evolve(block, value=options), cls, key, {}, chosen.value))
 
@@ -244,7 +246,7 @@ class Structure:
                     inner.key.error(_join(key, name), f"unknown option{owner}" if key else "unknown key", hint)
                 )
         # A stand-in that validators may look at, with the values read so far and the defaults of the others.
-        stand_in = _stand_in(cls)
+        stand_in = stand_in_of(cls)
         for name, field in fields.items():
             inner = item.value.get(name, added.get(name))
             if inner is None:
@@ -257,7 +259,7 @@ class Structure:
             except Mistakes as mistakes:
                 errors += mistakes.errors
         for name in values:
-            if fault := _fault(stand_in, fields[name], values[name]):
+            if fault := fault_of(stand_in, fields[name], values[name]):
                 inner = item.value.get(name, added.get(name))
                 errors.append(inner.where.error(_join(key, name), *fault))
         if errors:
@@ -265,7 +267,7 @@ class Structure:
         try:
             return cls(**values)
         except Exception as error:  # noqa: BLE001 - a plugin's own check of its options
-            raise Mistakes(item.where.error(key, _words(error))) from None
+            raise Mistakes(item.where.error(key, words_of(error))) from None
 
     def _field(self, item: Item, field: Any, key: str) -> Any:
         default = field.metadata.get("written_default", attrs.NOTHING)
@@ -343,34 +345,3 @@ def _describe_choice(kind: Any, unit: str | None) -> str:
     if typing.get_origin(kind) is tuple:
         return "a list"
     return "a block" if _is_block(kind) else describe(kind, unit)
-
-
-def _stand_in(cls: type[Any]) -> Any:
-    instance = object.__new__(cls)
-    for field in attrs.fields(cls):
-        default = field.default
-        if isinstance(default, attrs.Factory):  # type: ignore[arg-type]
-            default = default.factory(instance) if default.takes_self else default.factory()
-        if default is not attrs.NOTHING:
-            object.__setattr__(instance, field.name, default)
-    return instance
-
-
-def _fault(instance: Any, field: Any, value: Any) -> tuple[str, str | None] | None:
-    """What the field's validator says against a value, and a hint."""
-    if field.validator is None or field.converter is not None:
-        return None  # what a converter makes of the value is validated with the whole
-    try:
-        field.validator(instance, field, value)
-    except AttributeError:
-        return None  # it looks at a field that is itself wrong
-    except InputError as error:
-        return error.message, error.hint
-    except Exception as error:  # noqa: BLE001 - a plugin's own code
-        return _words(error), None
-    return None
-
-
-def _words(error: Exception) -> str:
-    text = error.args[0] if error.args and isinstance(error.args[0], str) else str(error)
-    return " ".join(text.split()) or type(error).__name__

@@ -1,5 +1,6 @@
 """From a configuration file, or a dict, to the runs it describes."""
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -73,7 +74,7 @@ def load_study(source: Path | str | Mapping[str, Any], overrides: Sequence[str] 
         file, folder, root = None, Path.cwd(), from_data(source, Where())
     else:
         file = Path(source)
-        folder = Path.cwd() / file.parent
+        folder = Path(os.path.abspath(file.parent))  # noqa: PTH100 - a link in it stays a link
         root = from_document(load(file))
     try:
         return _study(root, file, folder, overrides)

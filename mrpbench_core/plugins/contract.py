@@ -21,6 +21,8 @@ def breach(cls: Any, base: type[Component]) -> str | None:
         attrs.resolve_types(cls)  # type: ignore[type-var]
     except Exception as error:  # noqa: BLE001 - annotations are code, so anything may be raised
         return f"has an option whose type cannot be resolved: {error}"
+    if any(field.alias == "plugin" for field in attrs.fields(cls)):  # type: ignore[arg-type]
+        return "has an option called `plugin`, the word that chooses it"
     if strays := _stray_annotations(cls):
         return f"has annotated public names that are no options: {', '.join(strays)} (write `name: type = option(...)`)"
     return None

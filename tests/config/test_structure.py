@@ -143,7 +143,9 @@ def test_a_default_that_is_not_installed_says_so(install, tmp_path, errors):
 
     installed.refresh()
     lines = errors(BASE)
-    assert any(line.startswith("some.yaml: assigner: no assigner is called 'ortools_mip'") for line in lines), lines
+    assert any(
+        line.startswith("some.yaml: assigner: no assigner is called 'ortools_mip' (the default)") for line in lines
+    ), lines
 
 
 def test_the_fleet_is_a_name_an_entry_or_a_list_of_them(study, errors, tmp_path):

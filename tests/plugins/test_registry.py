@@ -146,6 +146,7 @@ def test_a_plugin_for_another_core_is_refused_before_it_is_imported(install, req
             "@attrs.frozen(kw_only=True)\nclass Bad(Planner):\n    x: 'Nowhere' = 1\n    plan = None",
             "type cannot be resolved: name 'Nowhere'",
         ),
+        ("@attrs.frozen(kw_only=True)\nclass Bad(Good):\n    plugin: int = 1", "has an option called `plugin`"),
     ],
 )
 def test_a_class_that_breaks_the_contract_says_how(install, body, what):
