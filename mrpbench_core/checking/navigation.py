@@ -53,6 +53,12 @@ def crossings(world: World) -> list[tuple[Pair, Pair]]:
     return found
 
 
+def called(world: World, index: int) -> str:
+    """A vertex by its name, or its position if it has none."""
+    vertex = world.vertices[index]
+    return vertex.name or f"({vertex.x:.2f}, {vertex.y:.2f})"
+
+
 def _positions(world: World) -> tuple[Float, Float]:
     values = np.array([(vertex.x, vertex.y, vertex.level) for vertex in world.vertices]).reshape(-1, 3)
     return values[:, :2], values[:, 2]

@@ -5,7 +5,7 @@ import numpy as np
 
 from mrpbench_core.checking.clearance import keeps_clear, solids
 from mrpbench_core.checking.components import components
-from mrpbench_core.checking.navigation import crossings, duplicates, unique_edges, vertices_on_lanes
+from mrpbench_core.checking.navigation import called, crossings, duplicates, unique_edges, vertices_on_lanes
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.world import World
 
@@ -129,9 +129,3 @@ def _roadmap_faults(world: World, roadmap: Roadmap) -> list[str]:
         for vertex, cell in enumerate(place.tolist())
         if cell < 0 or label[cell] != main
     ]
-
-
-def called(world: World, index: int) -> str:
-    """A vertex by its name, or its position if it has none."""
-    vertex = world.vertices[index]
-    return vertex.name or f"({vertex.x:.2f}, {vertex.y:.2f})"

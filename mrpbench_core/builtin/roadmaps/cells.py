@@ -5,6 +5,7 @@ import numpy as np
 
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.components import components
+from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.fleet import Fleet
@@ -121,7 +122,7 @@ def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: li
     """
     if not len(cells.cell):
         raise InputError(f"world {world.name!r} has no cell that a robot fits in", hint="try a smaller cell_size")
-    lost = [_called(world, int(index)) for index in np.flatnonzero(place < 0)]
+    lost = [called(world, int(index)) for index in np.flatnonzero(place < 0)]
     if lost:
         notes = [*notes, f"No robot can stand at {', '.join(lost)}."]
     edges = np.concatenate([cells.edges, cells.edges[:, ::-1]])
@@ -143,8 +144,3 @@ def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: li
         place=place.astype(np.int32),
         notes=tuple(notes),
     )
-
-
-def _called(world: World, index: int) -> str:
-    vertex = world.vertices[index]
-    return vertex.name or f"({vertex.x:.2f}, {vertex.y:.2f})"

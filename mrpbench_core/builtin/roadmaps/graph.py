@@ -7,6 +7,7 @@ from mrpbench_core.api.component import option
 from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.builtin.roadmaps.junctions import Pieces, cut_at_junctions
 from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Bool, Int
 from mrpbench_core.model.fleet import Fleet
@@ -90,7 +91,7 @@ def _notes(world: World, pieces: Pieces, drivable: Bool) -> list[str]:
         notes.append(f"{cut} lanes are cut where they meet others; {made} junctions without a vertex got one.")
     for index in np.unique(pieces.lane[~drivable]):
         lane = world.lanes[index]
-        ends = " – ".join(_called(world, vertex) for vertex in (lane.start, lane.end))
+        ends = " – ".join(called(world, vertex) for vertex in (lane.start, lane.end))
         notes.append(f"Lane {ends} is left out where a robot on it would touch a wall.")
     oriented = sum(bool(lane.orientation) for lane in world.lanes)
     if oriented:
@@ -102,10 +103,5 @@ def _notes(world: World, pieces: Pieces, drivable: Bool) -> list[str]:
 
 
 def _lost(world: World, lost: Bool) -> list[str]:
-    names = [_called(world, int(index)) for index in np.flatnonzero(lost)]
+    names = [called(world, int(index)) for index in np.flatnonzero(lost)]
     return [f"No robot can stand at {', '.join(names)}."] if names else []
-
-
-def _called(world: World, index: int) -> str:
-    vertex = world.vertices[index]
-    return vertex.name or f"({vertex.x:.2f}, {vertex.y:.2f})"

@@ -18,6 +18,7 @@ from mrpbench_core.builtin.roadmaps.cells import (
 from mrpbench_core.builtin.roadmaps.mrp_bench import mrp_bench_raster
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.components import components
+from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.fleet import Fleet
@@ -116,9 +117,8 @@ def _broken(world: World, place: Int, label: Int, radius: float) -> list[str]:
     for lane in world.lanes:
         start, end = place[lane.start], place[lane.end]
         if start < 0 or end < 0 or label[start] != label[end]:
-            a, b = world.vertices[lane.start], world.vertices[lane.end]
-            p, q = np.array([(a.x, a.y)]), np.array([(b.x, b.y)])
-            clear = keeps_clear(world.levels[0], p, q, radius)[0]
+            ends = np.array([(world.vertices[index].x, world.vertices[index].y) for index in (lane.start, lane.end)])
+            clear = keeps_clear(world.levels[0], ends[:1], ends[1:], radius)[0]
             reason = "no two cells of the raster fit through" if clear else f"walls are nearer than {radius:.3f} m"
-            notes.append(f"Lane {a.name or p[0]} – {b.name or q[0]} is cut: {reason}.")
+            notes.append(f"Lane {called(world, lane.start)} – {called(world, lane.end)} is cut: {reason}.")
     return notes
