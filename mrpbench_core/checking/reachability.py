@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from mrpbench_core.checking.components import components
 from mrpbench_core.model.arrays import Bool, Int, Int32
 from mrpbench_core.model.roadmap import Roadmap
 
@@ -22,14 +23,14 @@ def reachable(roadmap: Roadmap, profile: int, source: int) -> Bool:
     return seen
 
 
-def components(roadmap: Roadmap, profile: int) -> Int:
+def round_trips(roadmap: Roadmap, profile: int) -> Int:
     """Label i8[V] of each vertex: equal where robots of a motion profile can drive there *and back*."""
     edges = _usable(roadmap, profile)
     count = len(roadmap.position)
     forth = np.sort(edges[:, 0].astype(np.int64) * count + edges[:, 1])
     back = np.sort(edges[:, 1].astype(np.int64) * count + edges[:, 0])
     if np.array_equal(forth, back):
-        return _undirected_components(count, edges)
+        return components(count, edges)
     return _directed_components(count, edges)
 
 
@@ -44,23 +45,6 @@ def _rows(first: Int, rows: Int) -> Int:
     skipped = np.cumsum(counts) - counts
     positions: Int = np.repeat(first[rows] - skipped, counts) + np.arange(counts.sum())
     return positions
-
-
-def _undirected_components(count: int, edges: Int32) -> Int:
-    """Hook every root to its smallest neighbouring root and halve the trees until nothing changes.
-
-    Shiloach & Vishkin, "An O(log n) parallel connectivity algorithm", Journal of Algorithms 1982.
-    """
-    label = np.arange(count)
-    while True:
-        tail, head = label[edges[:, 0]], label[edges[:, 1]]
-        apart = tail != head
-        if not apart.any():
-            return label
-        edges, tail, head = edges[apart], tail[apart], head[apart]
-        np.minimum.at(label, np.maximum(tail, head), np.minimum(tail, head))
-        while (label != label[label]).any():
-            label = label[label]
 
 
 def _directed_components(count: int, edges: Int32) -> Int:

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mrpbench_core.checking.reachability import components, reachable
-from mrpbench_core.model.arrays import Bool, Int
+from mrpbench_core.checking.reachability import reachable, round_trips
+from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.conflicts import TOLERANCE
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_core.model.roadmap import Roadmap
@@ -34,6 +34,24 @@ def check_scenario(problem: Problem, start_names: Sequence[str] = (), goal_names
     if problem.rules.at_goal == "stay":
         faults += _crowding(problem, goals, "share the goal", "have the goals")
     return [*faults, *_unreachable(problem, starts, goals)]
+
+
+def check_travel(costs: Float, start_names: Sequence[str] = (), goal_names: Sequence[str] = ()) -> list[str]:
+    """What no assignment can mend, given true travel times `costs` f8[n,m] (inf = no way), one sentence each.
+
+    Robots that can reach no task, where every robot needs one; tasks that no robot can reach, where each is to be done.
+    """
+    reach = np.isfinite(costs)
+    robots, tasks = costs.shape
+    idle = np.flatnonzero(~reach.any(axis=1)).tolist() if robots <= tasks else []
+    left = np.flatnonzero(~reach.any(axis=0)).tolist() if tasks <= robots else []
+    return [f"robot {robot} can reach no goal from its start{_called(start_names, robot)}" for robot in idle] + [
+        f"no robot can reach the goal of task {task}{_called(goal_names, task)}" for task in left
+    ]
+
+
+def _called(names: Sequence[str], index: int) -> str:
+    return f" {names[index]}" if index < len(names) and names[index] else ""
 
 
 class _Places:
@@ -110,7 +128,7 @@ class _Reach:
 
     def __call__(self, profile: int, source: int, target: int) -> bool:
         if profile not in self._label:
-            self._label[profile] = components(self._roadmap, profile)
+            self._label[profile] = round_trips(self._roadmap, profile)
         label = int(self._label[profile][source])
         if label == self._label[profile][target]:
             return True

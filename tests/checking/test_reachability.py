@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.checking.reachability import components, reachable
+from mrpbench_core.checking.reachability import reachable, round_trips
 from mrpbench_core.model.roadmap import Roadmap
 
 
@@ -41,7 +41,7 @@ def graphs(both_ways):
 @settings(deadline=None, max_examples=200)
 @given(graph=graphs(True) | graphs(False))
 def test_vertices_share_a_label_where_there_is_a_way_and_a_way_back(graph):
-    label = components(roadmap_of(*graph), 0)
+    label = round_trips(roadmap_of(*graph), 0)
     reach = closure(*graph)
     assert np.array_equal(label[:, None] == label[None, :], reach & reach.T)
 
@@ -58,5 +58,5 @@ def test_reachable_is_the_transitive_closure(graph):
 def test_a_long_one_way_ring_needs_no_recursion():
     count = 20_000
     ring = [(vertex, (vertex + 1) % count, 1) for vertex in range(count)]
-    assert len(set(components(roadmap_of(count, ring), 0).tolist())) == 1
-    assert len(set(components(roadmap_of(count, ring[:-1]), 0).tolist())) == count
+    assert len(set(round_trips(roadmap_of(count, ring), 0).tolist())) == 1
+    assert len(set(round_trips(roadmap_of(count, ring[:-1]), 0).tolist())) == count

@@ -4,7 +4,7 @@ import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.checking.scenario import check_scenario
+from mrpbench_core.checking.scenario import check_scenario, check_travel
 from mrpbench_core.model.problem import Feature, Problem, Rules
 from mrpbench_core.model.roadmap import Roadmap
 
@@ -105,3 +105,16 @@ def test_places_off_the_roadmap_are_named(roadmap):
 
 def test_a_robot_without_goals_is_feasible_anywhere(roadmap):
     assert check_scenario(problem(roadmap, [3, 0], [[], [[2]]])) == []
+
+
+def test_what_no_assignment_can_mend_is_named_from_travel_times():
+    way, no = 1.0, np.inf
+    square = np.array([[way, no], [no, no]])
+    assert check_travel(square) == [
+        "robot 1 can reach no goal from its start",
+        "no robot can reach the goal of task 1",
+    ]
+    assert check_travel(square, ["a", "b"], ["c", "d"])[1] == "no robot can reach the goal of task 1 d"
+    assert check_travel(np.array([[way, no]])) == []  # the robot does the other task
+    assert check_travel(np.array([[way], [no]])) == []
+    assert check_travel(np.array([[no, no]])) == ["robot 0 can reach no goal from its start"]

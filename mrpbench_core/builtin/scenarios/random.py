@@ -8,10 +8,10 @@ import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.scenario import ScenarioSource
-from mrpbench_core.builtin.scenarios.places import Places, places_of_roadmap, places_of_world
-from mrpbench_core.checking.reachability import components
+from mrpbench_core.builtin.scenarios.places import places_of_roadmap, places_of_world
+from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Int
+from mrpbench_core.model.arrays import Float, Int, Int16
 from mrpbench_core.model.conflicts import TOLERANCE
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.roadmap import Roadmap
@@ -50,10 +50,11 @@ class Random(ScenarioSource):
             return self._original_draw(world, seed)
         places = places_of_world(world, roadmap) if world.vertices else places_of_roadmap(roadmap)
         places = places[_connected(roadmap, places.vertex)]
+        stands = roadmap.position[places.vertex]
         room = 2 * float(fleet.radii.max())
         return places.scenario(
-            _separate(places, _shuffled(len(places), seed, STARTS), room, self.robots, "start"),
-            _separate(places, _shuffled(len(places), seed, GOALS), room, self.robots, "end"),
+            _separate(stands, places.level, _shuffled(len(places), seed, STARTS), room, self.robots, "start"),
+            _separate(stands, places.level, _shuffled(len(places), seed, GOALS), room, self.robots, "end"),
         )
 
     def _original_draw(self, world: World, seed: int) -> Scenario:
@@ -70,7 +71,7 @@ class Random(ScenarioSource):
 
 def _connected(roadmap: Roadmap, vertex: Int) -> Int:
     """Indices of the largest group of places among which every motion profile can drive there and back."""
-    labels = [components(roadmap, profile)[vertex] for profile in range(len(roadmap.duration))]
+    labels = [round_trips(roadmap, profile)[vertex] for profile in range(len(roadmap.duration))]
     if not labels or not len(vertex):
         return np.arange(len(vertex))
     _, group, sizes = np.unique(np.stack(labels), axis=1, return_inverse=True, return_counts=True)
@@ -83,14 +84,14 @@ def _shuffled(count: int, seed: int, stream: int) -> Int:
     return np.argsort(generator.random(count), kind="stable")
 
 
-def _separate(places: Places, order: Int, room: float, wanted: int, verb: str) -> Int:
+def _separate(position: Float, level: Int16, order: Int, room: float, wanted: int, verb: str) -> Int:
     """The first `wanted` places of `order` that lie at least `room` metres from those already taken."""
     taken = np.empty(wanted, np.int64)
     count = 0
     for index in order:
         here = taken[:count]
-        gap = np.hypot(*(places.position[here] - places.position[index]).T)
-        if ((gap >= room - TOLERANCE) | (places.level[here] != places.level[index])).all():
+        gap = np.hypot(*(position[here] - position[index]).T)
+        if ((gap >= room - TOLERANCE) | (level[here] != level[index])).all():
             taken[count] = index
             count += 1
             if count == wanted:

@@ -138,10 +138,17 @@ def test_the_worlds_places_are_used_where_it_has_any():
     assert len({s.start_names for s in drawn}) > 1
 
 
+def test_places_near_one_another_in_different_cells_are_both_used():
+    """Robots stand at the centres of cells, not at the places."""
+    near = attrs.evolve(NAMED, vertices=(Vertex(name="a", x=0.99, y=0.5), Vertex(name="b", x=1.01, y=0.5)))
+    scenario = Random(robots=2).draw(near, raster(3, 3), fleet_of(2), 0)
+    assert set(scenario.start_names) == {"a", "b"}
+
+
 def test_a_place_that_the_roadmap_left_out_is_not_used():
     roadmap = attrs.evolve(raster(3, 3), grid=None, place=[0, -1, 2, -1, -1])
     scenario = Random(robots=2).draw(NAMED, roadmap, fleet_of(2), 0)
-    assert set(scenario.start_names) == {"b"} | {"a"}
+    assert set(scenario.start_names) == {"a", "b"}
 
 
 def test_the_originals_draw_takes_all_vertices_as_they_come():
