@@ -97,7 +97,7 @@ class Follower:
             turned = math.isnan(self.yaw) or abs(_wrap(yaw - self.yaw)) <= self._checks.yaw_goal_tolerance
             if turned and math.dist(foot, self._points[self._end]) <= _SETTLED:
                 return None
-        end = max(self._corner[self.reached] + 1, self._leg + 1)
+        end = min(max(self._corner[self.reached], self._leg) + 1, self._end)
         while end < self._end and not self._bends[end]:
             end += 1
         ahead = np.empty((end - self._leg + 1, 2))

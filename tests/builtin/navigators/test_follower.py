@@ -4,6 +4,8 @@ from itertools import pairwise
 import attrs
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from mrpbench_core.builtin.navigators.follower import Checks, Follower
 from mrpbench_core.model.execution import Mode, Route
@@ -107,6 +109,32 @@ def test_a_robot_that_comes_back_does_not_clear_early():
 def test_the_path_begins_beside_the_robot_and_ends_where_the_release_ends():
     follower, _ = follow(LINE, along([(0, 0), (0.5, 0)]), released=2)
     assert np.allclose(follower.path(0.5, 0.03, 0), [(0.5, 0), (0.8, 0)])
+
+
+@settings(deadline=None, max_examples=100)
+@given(
+    st.lists(st.sampled_from([(0.4, 0), (-0.4, 0), (0, 0.4), (0, -0.4), (0, 0)]), min_size=1, max_size=8),
+    st.data(),
+)
+def test_no_path_leads_beyond_what_is_released(steps, data):
+    points = [(0.0, 0.0), *np.cumsum(steps, axis=0).tolist()]
+    follower, driven, released = Follower(route(points), CHECKS, CLEARANCE), 0, 0
+    for _ in range(3):
+        released = data.draw(st.integers(released, len(steps)))
+        for x, y, yaw in along(points[driven : released + 1], step=0.05):
+            follower.update(0, x, y, yaw, 0.2, released)
+            assert driven <= follower.reached <= released
+            path = follower.path(x, y, yaw)
+            if path is not None:
+                ends = [points[index] for index in range(follower.reached, released + 1)]
+                assert min(math.dist(path[-1], end) for end in ends) < 1e-9
+        driven = released
+
+
+def test_a_robot_that_waits_before_a_bend_does_not_go_round_it():
+    follower, _ = follow(CORNER, along([(0, 0), (0.35, 0)]), released=1)
+    assert follower.reached == 1
+    assert np.allclose(follower.path(0.35, 0, 0), [(0.35, 0), (0.4, 0)])
 
 
 def test_the_path_ends_at_a_bend_until_it_is_reached():
