@@ -100,3 +100,17 @@ def test_the_last_sample_is_seen_even_between_messages(executed):
     values = CELL.measure(run)
     assert values["mrp_bench.success"] is True
     assert values["mrp_bench.duration_s"] == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(("away", "blocked"), [(0.5, 31), (0.4, 0)])
+def test_a_robot_between_a_cell_and_the_tolerance_from_its_start_may_be_blocked(executed, away, blocked):
+    run = executed(np.arange(40) / 2, [along_x([away] * 40)], [[0] * 40], [[(0, 0), (9, 0)]])
+    assert CELL.measure(run)["mrp_bench.time_blocked_s"] == pytest.approx(blocked * 19.5 / 40)
+
+
+@pytest.mark.parametrize(("moved", "blocked"), [(0.5, 1), (0.5625, 0)])
+def test_exactly_a_cell_in_ten_messages_is_still_blocked(executed, moved, blocked):
+    xs = [1.0] * 9 + [1.0 + moved]
+    run = executed(np.arange(10) / 2, [along_x(xs)], [[0] * 10], [[(0, 0), (9, 0)]])
+    values = Execution(mrp_bench_cell_size=0.5).measure(run)
+    assert values["mrp_bench.time_blocked_s"] == pytest.approx(blocked * 4.5 / 10)
