@@ -72,19 +72,14 @@ def test_footprints_wait_until_the_lane_close_by_is_passed(make):
         Adg().start(*make.solved(lanes, [[1, 0], [5, 4]], radius=0.2, features=FOOTPRINTS))
 
 
-def test_robots_of_different_size_keep_their_own_distances(make):
-    points = [(0, 0), (4, 0), (0, 1), (4, 1), (0, 2), (4, 2)]
-    lanes = make.roadmap(points, [(0, 1), (2, 3), (4, 5)], duration=[4, 4, 4])
-    paths = (
-        Path(edge=[0], enter=[0], leave=[4]),
-        Path(edge=[-1, 2], enter=[0, 4], leave=[4, 8]),
-        Path(edge=[-1, 4], enter=[0, 4], leave=[4, 8]),
-    )
-    small = make.problem(lanes, Plan(paths=paths), [0, 2, 4], radius=0.4, features=FOOTPRINTS)
-    assert Adg().start(small, Plan(paths=paths)).update(0.0, make.view([0, 0, 0])).released.tolist() == [1, 2, 2]
-    big = attrs.evolve(small, radius=[0.4, 0.4, 1.7])
-    with pytest.raises(DispatchError, match="robots 0 and 2"):
-        Adg().start(big, Plan(paths=paths))
+@pytest.mark.parametrize("radius", [[0.2, 0.75], [0.75, 0.2]])
+def test_robots_of_different_size_keep_their_common_distance(make, radius):
+    lanes = make.roadmap([(0, 0), (4, 0), (2, 5), (2, 0.9)], [(0, 1), (2, 3)])
+    problem, plan = make.solved(lanes, [[0, 1], [2, 2, 3]], features=FOOTPRINTS)
+    assert Adg().start(problem, plan).update(0.0, make.view([0, 0])).released.tolist() == [1, 2]
+    session = Adg().start(attrs.evolve(problem, radius=radius), plan)
+    assert session.update(0.0, make.view([0, 0], [1, 0])).released.tolist() == [1, 0]
+    assert session.update(0.0, make.view([1, 0], [1, 0])).released.tolist() == [1, 2]
 
 
 def test_a_ring_starts_together_when_all_are_there(make):

@@ -174,9 +174,9 @@ def drain(make, session, floor, replans=None):
         alive = floor.step(now, released)
         if now in replans:
             problem, plan = replans.pop(now)(released)
-            session.adopt(problem, plan)
-            floor.adopt(problem, plan)
-            revision += 1
+            if accepted(problem, plan, lambda *new: session.adopt(*new) or True):
+                floor.adopt(problem, plan)
+                revision += 1
         elif floor.done and not replans:
             return
         elif not alive and not replans:
@@ -186,17 +186,30 @@ def drain(make, session, floor, replans=None):
 
 
 def draw_roadmap(make, random):
-    """A grid, half the time with lanes bent, missing, and of different lengths."""
-    grid = make.grid(*(int(size) for size in random.integers(2, 5, 2)))
-    if random.random() < 0.5:
+    """A grid, or one with lanes bent, missing, crossing, and of different lengths, or a weave."""
+    rows, columns = (int(size) for size in random.integers(2, 5, 2))
+    kind = random.choice(["grid", "bent", "weave"])
+    if kind == "weave":
+        return draw_weave(make, random, rows, columns)
+    grid = make.grid(rows, columns)
+    if kind == "grid":
         return grid
-    kept = np.repeat(random.random(len(grid.edges) // 2) < 0.9, 2)
-    return attrs.evolve(
-        grid,
-        position=grid.position + random.uniform(-0.3, 0.3, grid.position.shape),
-        edges=grid.edges[kept],
-        duration=[np.repeat(random.integers(1, 6, len(kept) // 2), 2)[kept]],
-    )
+    corners = [v for v in range((rows - 1) * columns) if (v + 1) % columns]
+    lanes = grid.edges[::2].tolist()
+    lanes += [pair for v in corners for pair in ((v, v + columns + 1), (v + 1, v + columns)) if random.random() < 0.3]
+    lanes = [lane for lane in lanes if random.random() < 0.9]
+    bent = grid.position + random.uniform(-0.2, 0.2, grid.position.shape)
+    return make.roadmap(bent, lanes, duration=random.integers(1, 6, len(lanes)))
+
+
+def draw_weave(make, random, rows, columns):
+    """Long lanes that cross one another between their ends, each end joined to that of the next lane beside it."""
+    across = [((-1, y), (columns, y)) for y in range(rows)]
+    along = [((x, -1), (x, rows)) for x in range(columns)]
+    points = [point for lane in across + along for point in lane]
+    lanes = [(v, v + 1) for v in range(0, len(points), 2)]
+    lanes += [(v, v + 2) for v in range(len(points) - 2) if v not in (2 * rows - 2, 2 * rows - 1)]
+    return make.roadmap(points, lanes, duration=random.integers(1, 4, len(lanes)))
 
 
 def draw_problem(make, random, roadmap):
@@ -207,7 +220,7 @@ def draw_problem(make, random, roadmap):
     nowhere = Plan(paths=tuple(make.path(roadmap, [start]) for start in starts))
     problem = attrs.evolve(
         make.problem(roadmap, nowhere, starts),
-        radius=random.choice([0.05, 0.15, 0.3], robots),
+        radius=random.choice([0.1, 0.2, 0.4], robots),
         goals=((),) * robots,
         rules=Rules(
             following=str(random.choice(["allowed", "allowed", "forbidden"])),
@@ -215,7 +228,7 @@ def draw_problem(make, random, roadmap):
         ),
         features=frozenset({Feature.FOOTPRINTS}) if random.random() < 0.4 else frozenset(),
     )
-    return problem if check_plan(problem, nowhere).valid else attrs.evolve(problem, radius=np.full(robots, 0.05))
+    return problem if check_plan(problem, nowhere).valid else attrs.evolve(problem, radius=np.full(robots, 0.1))
 
 
 def wander(problem, random, paths, ticks):
@@ -302,10 +315,10 @@ def draw_plan(make, random):
     return problem, squeeze(problem, random, wander(problem, random, paths, ticks=8))
 
 
-def start(problem, plan):
-    """A session, or None where the plan is refused for a cycle that is there indeed."""
+def accepted(problem, plan, take):
+    """What `take` makes of a plan, or None where it refuses it for a cycle that is there indeed."""
     try:
-        return Adg().start(problem, plan)
+        return take(problem, plan)
     except DispatchError as refusal:
         assert "wait for one another" in str(refusal) or "in a ring at once" in str(refusal), refusal  # noqa: PT017
         assert cycle_in(problem, plan)
@@ -339,7 +352,7 @@ def cycle_in(problem, plan):
 def test_plans_of_chance_drain(make, seed):
     random = np.random.default_rng(seed)
     problem, plan = draw_plan(make, random)
-    session = start(problem, plan)
+    session = accepted(problem, plan, Adg().start)
     event(f"refused: {session is None}")
     if session is not None:
         floor = Floor(problem, plan, random)
@@ -362,7 +375,7 @@ def test_plans_that_change_on_the_way_drain(make, seed):
         return committed, wander(committed, random, list(prefixes), ticks=5)
 
     problem = attrs.evolve(problem, rules=attrs.evolve(problem.rules, at_goal="stay"))
-    if check_plan(problem, plan).valid and (session := start(problem, plan)) is not None:
+    if check_plan(problem, plan).valid and (session := accepted(problem, plan, Adg().start)) is not None:
         drain(make, session, Floor(problem, plan, random), {int(step): replan for step in random.integers(0, 60, 3)})
 
 
@@ -388,5 +401,5 @@ def test_plans_of_planners_drain(make, name, seed):
         if planner.skip(asked) is None:
             result = planner.plan(asked, Budget(wall_s=0.2, memory_bytes=1 << 30))
             event(str(result.status))
-            if result.plan is not None and (session := start(asked, result.plan)) is not None:
+            if result.plan is not None and (session := accepted(asked, result.plan, Adg().start)) is not None:
                 drain(make, session, Floor(asked, result.plan, random))
