@@ -30,7 +30,7 @@ class Random(ScenarioSource):
     Only places that are on the roadmap, on distinct vertices, far enough apart for the robots to stand side by side,
     and among which every robot can drive there and back, are drawn. The order of the places is that of
     `Generator(PCG64(SeedSequence([seed modulo 2**64, 0]))).random(places)` for starts (key 1 for goals), sorted; so the
-    first robots of a larger fleet on the same seed start and end where those of a smaller one do.
+    first of more robots of one kind start and end, on the same seed, where fewer do.
     """
 
     robots: int = option(help="number of robots", validator=attrs.validators.ge(1))
