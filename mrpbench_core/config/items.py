@@ -100,7 +100,7 @@ def look_up(root: Item, key: str) -> Item | None:
         item = _as_block(item, steps[:depth])
         if isinstance(item.value, dict) and step in item.value:
             item = item.value[step]
-        elif isinstance(item.value, list) and step.isdecimal() and int(step) < len(item.value):
+        elif isinstance(item.value, list) and _is_index(step) and int(step) < len(item.value):
             item = item.value[int(step)]
         else:
             return None
@@ -127,7 +127,7 @@ def _patch(item: Item, steps: tuple[str, ...], depth: int, new: Item) -> Item:
         inner = item.value.get(step) or Item({}, new.where, new.key)
         return attrs.evolve(item, value={**item.value, step: _patch(inner, steps, depth + 1, new)})
     if isinstance(item.value, list):
-        if not step.isdecimal():
+        if not _is_index(step):
             raise new.key.error(
                 key, f"{'.'.join(steps[:depth])} is a list", f"number its entries: {_numbered(steps, depth)}"
             )
@@ -137,6 +137,10 @@ def _patch(item: Item, steps: tuple[str, ...], depth: int, new: Item) -> Item:
         entries[int(step)] = _patch(entries[int(step)], steps, depth + 1, new)
         return attrs.evolve(item, value=entries)
     raise new.key.error(key, f"{'.'.join(steps[:depth]) or 'the file'} is not a block but {item.value!r}")
+
+
+def _is_index(step: str) -> bool:
+    return step.isdecimal() and len(step) < 9
 
 
 def _numbered(steps: tuple[str, ...], depth: int) -> str:

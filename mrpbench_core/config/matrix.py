@@ -8,7 +8,8 @@
       exclude: [{planner: astar, scenario.robots: 9}]          # points that match all of an entry are left out
       include: [{planner: cbs, seed: 0..3}]                    # further points, beside the product
 
-Points come in reading order, the last axis varying fastest, included ones last.
+Points come in reading order, the last axis varying fastest, included ones last. `exclude` looks at what is written;
+defaults are not filled in yet.
 """
 
 import itertools

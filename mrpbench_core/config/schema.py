@@ -30,6 +30,11 @@ def schema() -> dict[str, Any]:
     return _Schema().whole()
 
 
+def options_schema(cls: type[Any]) -> dict[str, Any]:
+    """Schema of each option of one component, by name."""
+    return _Schema().options(cls)
+
+
 class _Schema:
     def __init__(self) -> None:
         self.definitions: dict[str, Any] = {}

@@ -1,7 +1,9 @@
 """Where a component came from: what a record keeps about the code that made it."""
 
 import functools
+import hashlib
 import json
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -9,6 +11,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.files.text import read_bytes
 from mrpbench_core.plugins.installed import distribution
 from mrpbench_core.plugins.local import source_of
 from mrpbench_core.plugins.registry import Registry
@@ -44,7 +47,10 @@ def origin(cls: type[Component], folder: Path | None = None) -> dict[str, Any]:
     found: dict[str, Any] = {"kind": registry.kind, "name": registry.name_of(cls, folder)}
     if source := source_of(cls):
         return found | {"file": found["name"].partition(":")[0], "sha256": source.sha256}
-    if provider := registry.provider_of(cls):
+    provider = registry.provider_of(cls)
+    if provider is None and (file := getattr(sys.modules.get(cls.__module__), "__file__", None)):
+        return found | {"file": Path(file).name, "sha256": hashlib.sha256(read_bytes(file)).hexdigest()}
+    if provider is not None:
         found |= {"distribution": provider.distribution, "version": provider.version}
         if url := _direct_url(provider.distribution):
             found["direct_url"] = url

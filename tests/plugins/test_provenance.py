@@ -66,3 +66,15 @@ def test_a_local_component_is_listed_with_file_and_hash(tmp_path, install):
             "sha256": hashlib.sha256(CODE.encode()).hexdigest(),
         }
     ]
+
+
+def test_a_class_named_by_its_module_is_listed_with_the_modules_hash(install):
+    install("acme-plain", {}, CODE)
+    assert provenance(Registry(Planner).get("acme_plain:Good")()) == [
+        {
+            "kind": "planner",
+            "name": "acme_plain:Good",
+            "file": "acme_plain.py",
+            "sha256": hashlib.sha256(CODE.encode()).hexdigest(),
+        }
+    ]
