@@ -1,5 +1,10 @@
 """A small study whose planners misbehave in every way that a planner can."""
 
+import os
+import shutil
+import subprocess
+import sys
+
 import pytest
 
 PLANNERS = '''
@@ -106,3 +111,39 @@ def study(tmp_path, monkeypatch):
         "metrics": [],
         "limits": {"planning": 1.0, "wall": 30.0},
     }
+
+
+@pytest.fixture
+def command(tmp_path):
+    """Return a function that runs `mrpbench` in a process of its own; distributions in `site/` count as installed."""
+
+    def run(*words, **options):
+        return subprocess.run(
+            [sys.executable, "-m", "mrpbench_core.cli.main", *map(str, words)],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            env=os.environ | {"PYTHONPATH": str(tmp_path / "site")},
+            **options,
+        )
+
+    return run
+
+
+@pytest.fixture
+def publish(tmp_path):
+    """Return a function that installs a distribution for `command`, as pip would leave it."""
+    site = tmp_path / "site"
+    site.mkdir()
+
+    def make(name, entry_points, code, version="1.0"):
+        module = name.replace("-", "_")
+        (site / f"{module}.py").write_text(code)
+        for old in site.glob(f"{module}-*.dist-info"):
+            shutil.rmtree(old)
+        folder = site / f"{module}-{version}.dist-info"
+        folder.mkdir()
+        (folder / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: {version}\n")
+        (folder / "entry_points.txt").write_text(entry_points)
+
+    return make

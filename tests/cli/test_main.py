@@ -1,0 +1,78 @@
+"""What every command has in common."""
+
+import subprocess
+import sys
+
+import pytest
+
+from mrpbench_core.cli import info, main
+
+LIGHT = "import sys; from mrpbench_core.cli.main import main; main({words!r}); sys.exit('numpy' in sys.modules)"
+
+
+@pytest.mark.parametrize("words", [["plugins"], ["plugins", "--json"], ["init"]])
+def test_light_commands_import_neither_plugins_nor_numpy(tmp_path, words):
+    command = [sys.executable, "-c", LIGHT.format(words=words)]
+    assert subprocess.run(command, cwd=tmp_path, stdout=subprocess.DEVNULL).returncode == 0
+
+
+def test_the_package_is_light():
+    code = "import sys, mrpbench_core; sys.exit(any(name in sys.modules for name in ('numpy', 'attrs', 'yaml')))"
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
+
+
+@pytest.mark.parametrize("command", main.COMMANDS)
+def test_every_listed_command_has_help(mrpbench, command):
+    code, output, errors = mrpbench(command, "--help")
+    assert (code, errors) == (0, "")
+    assert f"usage: mrpbench {command}" in output
+
+
+@pytest.mark.parametrize(
+    ("words", "what"),
+    [
+        (["rum"], "no command is called 'rum' (did you mean 'run'?)"),
+        (["run"], "mrpbench run: the following arguments are required"),
+        (["run", "tiny.yaml", "--wrokers", "2"], "unrecognized arguments: --wrokers 2"),
+        (["run", "seed=0"], "no configuration file is named"),
+        (["run", "none.yaml"], "none.yaml: no such file"),
+        (["run", "tiny.yaml", "planner.ordr=given"], "unknown option of 'example' (did you mean 'order'?)"),
+        (["run", "tiny.yaml", "--workers", "0"], "workers: at least 1"),
+        (["run", "tiny.yaml", "--executor-option", "x"], "--executor-option x: not KEY=VALUE"),
+        (["run", "tiny.yaml", "scenario.robots=99"], "99 robots"),
+        (["report", "nowhere"], "nowhere: is no results folder"),
+        (["export", "nowhere:ab", "--to", "rosbag2"], "nowhere: is no results folder"),
+        (["plugins", "show", "exmple"], "no plugin is called 'exmple' (did you mean 'example'?)"),
+        (["plugins", "wheel"], "no plugin is a 'wheel'"),
+        (["init", "a/b"], "'a/b' is not a name"),
+    ],
+)
+def test_a_mistake_is_one_line_and_exit_code_2(mrpbench, words, what):
+    code, _, errors = mrpbench(*words)
+    assert code == 2
+    assert errors.count("\n") == 1
+    assert what in errors
+    assert "Traceback" not in errors
+
+
+def test_a_defect_is_one_line_and_says_where_the_rest_is(mrpbench, monkeypatch, tmp_path):
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    monkeypatch.setattr("tempfile.tempdir", None)
+
+    def fail(_):
+        raise ZeroDivisionError("oops")
+
+    monkeypatch.setattr(info, "run", fail)
+    code, _, errors = mrpbench("info")
+    (log,) = tmp_path.glob("mrpbench-*.txt")
+    assert code == 1
+    assert errors == f"mrpbench: internal error: ZeroDivisionError: oops (details in {log}; please report it)\n"
+    assert "Traceback" in log.read_text()
+    monkeypatch.setenv("MRPBENCH_TRACEBACK", "1")
+    assert "Traceback" in mrpbench("info")[2]
+
+
+def test_a_closed_pipe_is_no_error(tmp_path):
+    command = f"{sys.executable} -m mrpbench_core.cli.main schema | head -1; echo ${{PIPESTATUS[0]}}"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
+    assert (done.stdout, done.stderr) == ("{\n0\n", "")

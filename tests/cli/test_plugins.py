@@ -1,0 +1,31 @@
+"""`mrpbench plugins`."""
+
+import json
+
+
+def test_everything_installed_is_listed_with_its_distribution(mrpbench):
+    entries = json.loads(mrpbench("plugins", "--json")[1])
+    found = {(entry["kind"], entry["name"]): entry for entry in entries}
+    assert found["roadmap", "lanes"]["distribution"] == "mrpbench-core"
+    assert found["planner", "example"]["class"] == "mrpbench_planners_example:Example"
+    planners = json.loads(mrpbench("plugins", "planner", "--json")[1])
+    assert planners == [entry for entry in entries if entry["kind"] == "planner"]
+    assert "lanes" in mrpbench("plugins", "roadmaps")[1]
+
+
+def test_options_are_shown_with_default_unit_and_help(mrpbench):
+    facts = json.loads(mrpbench("plugins", "show", "lanes", "--json")[1])
+    assert (facts["kind"], facts["distribution"]) == ("roadmap", "mrpbench-core")
+    size = next(entry for entry in facts["options"] if entry["name"] == "cell_size")
+    assert (size["default"], size["unit"], size["type"]) == ("0.4", "m", "float")
+    assert all(entry["help"] for entry in facts["options"])
+    plain = mrpbench("plugins", "show", "example")[1]
+    assert "planner example, from mrpbench-planners-example" in plain
+    assert "promises: conflict_free, deterministic" in plain
+
+
+def test_a_name_of_several_kinds_wants_its_kind(mrpbench):
+    code, _, errors = mrpbench("plugins", "show", "movingai")
+    assert code == 2
+    assert "scenario:movingai or world:movingai" in errors
+    assert mrpbench("plugins", "show", "world:movingai")[1].startswith("world movingai")
