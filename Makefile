@@ -5,7 +5,7 @@ BIN := $(VENV)/bin
 UV := $(shell command -v uv)
 STAMP := $(VENV)/.installed
 NATIVE := $(wildcard native/CMakeLists.txt native/*/*.cpp native/*/*.hpp native/*/*/*.cpp native/*/*/*.hpp native/*/*/*.py native/*/*/*.pyi)
-INPUTS := pyproject.toml uv.lock requirements.txt constraints.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
+INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
 .PHONY: help install demo test lint types layers cpp python format lock clean
 
@@ -54,7 +54,7 @@ format: install ## rewrite the sources in the house style
 
 lock: ## renew the pinned versions, for uv and for pip
 	uv lock --upgrade
-	uv export --quiet --locked --all-groups --no-emit-workspace --no-hashes --no-header --no-annotate --output-file constraints.txt
+	uv export --quiet --locked --all-groups --no-emit-workspace --no-hashes --no-header --no-annotate --output-file pinned.txt
 
 clean: ## remove what builds made
 	rm -rf build dist $(VENV) native/build
