@@ -9,7 +9,7 @@ import numpy as np
 
 from mrpbench_core.api.assigner import AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
-from mrpbench_core.checking.scenario import check_scenario
+from mrpbench_core.checking.scenario import check_scenario, check_travel
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.costs import cost_matrix
 from mrpbench_core.engine.fleet import build_fleet
@@ -87,6 +87,8 @@ def assign(config: RunConfig, setting: Setting, announce: Announce, timing: dict
     began = time.perf_counter()
     if assigner.reads_costs:
         costs = cost_matrix(assigner.cost, setting.roadmap, setting.fleet, setting.scenario)
+        if faults := check_travel(costs, setting.scenario.start_names, _task_names(setting)):
+            raise Ended("scenario_infeasible", "scenario", summary(faults))
     else:
         costs = np.zeros((len(setting.fleet), len(setting.scenario.tasks)))
     timing["cost_matrix_s"] = time.perf_counter() - began
@@ -110,6 +112,18 @@ def pose_problem(setting: Setting, assigned: tuple[int, ...]) -> Problem:
     """
     goals = tuple(tuple((vertex,) for vertex in setting.goals[task]) if task >= 0 else () for task in assigned)
     problem = build_problem(setting.roadmap, setting.fleet, setting.start, goals)
-    if faults := check_scenario(problem):
-        raise Ended("scenario_infeasible", "scenario", "; ".join(faults))
+    names = _task_names(setting)
+    goal_names = [names[task] if task >= 0 else "" for task in assigned]
+    if faults := check_scenario(problem, setting.scenario.start_names, goal_names):
+        raise Ended("scenario_infeasible", "scenario", summary(faults))
     return problem
+
+
+def summary(faults: list[str], shown: int = 3) -> str:
+    """The first faults in one line, and how many more there are."""
+    more = f"; and {len(faults) - shown} more" if len(faults) > shown else ""
+    return "; ".join(faults[:shown]) + more
+
+
+def _task_names(setting: Setting) -> list[str]:
+    return [task.name for task in setting.scenario.tasks]
