@@ -1,12 +1,12 @@
-"""Whether robots, as discs, keep clear of everything solid on a level.
+"""Whether robots, as discs, keep clear of everything solid on a level: walls, obstacles, blocked cells.
 
-That is walls, obstacles and, where the level is a raster, all but its free cells.
 Solid things are closed polygons. A disc of radius r that moves straight from p to q keeps clear of one when p is
 outside and no side of the polygon is nearer than r to the segment p-q; touching at exactly r is allowed.
 """
 
 import numpy as np
 
+from mrpbench_core.checking.tiles import Tiles
 from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.geometry import segment_distance
 from mrpbench_core.model.occupancy import Occupancy
@@ -27,19 +27,14 @@ def keeps_clear(level: Level, start: Float, end: Float, radius: float) -> Bool:
     """Tell bool[k] whether a disc of `radius` metres moving straight from `start` to `end` f8[k,2] touches nothing."""
     start, end = np.asarray(start, float).reshape(-1, 2), np.asarray(end, float).reshape(-1, 2)
     clear = np.ones(len(start), bool)
-    order = np.argsort(np.minimum(start[:, 0], end[:, 0]), kind="stable")
-    p, q = start[order], end[order]
-    low, high = np.minimum(p, q) - radius, np.maximum(p, q) + radius
-    widest = float((high - low)[:, 0].max(initial=0.0))
+    low, high = np.minimum(start, end) - radius, np.maximum(start, end) + radius
+    nearby = Tiles(low, high)
     for outline in solids(level):
-        least, most = outline.min(axis=0), outline.max(axis=0)
-        first, last = np.searchsorted(low[:, 0], (least[0] - widest, most[0] + TOLERANCE))
-        window = slice(first, last)
-        near = (high[window] >= least).all(axis=1) & (low[window] <= most).all(axis=1)
-        chosen = first + np.flatnonzero(near)
-        chosen = chosen[clear[order[chosen]]]
-        if len(chosen):
-            clear[order[chosen]] = ~_touches(outline[None], p[chosen], q[chosen], radius)
+        least, most = outline.min(axis=0) - TOLERANCE, outline.max(axis=0) + TOLERANCE
+        chosen = nearby(least, most)
+        near = (high[chosen] >= least).all(axis=1) & (low[chosen] <= most).all(axis=1)
+        chosen = chosen[near & clear[chosen]]
+        clear[chosen] = ~_touches(outline[None], start[chosen], end[chosen], radius)
     if level.occupancy is not None:
         left = np.flatnonzero(clear)
         clear[left] = _clear_of_cells(level.occupancy, start[left], end[left], radius)

@@ -79,9 +79,9 @@ def test_a_wall_beside_a_lane_narrows_the_road_only():
 @pytest.mark.parametrize("name", MAPS)
 def test_no_robot_touches_a_wall_of_the_original_maps(shared_data, name):
     world = Rmf(file=shared_data / f"rmf/{name}.building.yaml").load()
-    begin = time.perf_counter()
+    begin = time.process_time()
     roadmap = Lanes().build(world, FLEET)
-    assert time.perf_counter() - begin < 2
+    assert time.process_time() - begin < 2
     start, end = roadmap.position[roadmap.edges[:, 0]], roadmap.position[roadmap.edges[:, 1]]
     assert keeps_clear(world.levels[0], start, end, 0.12).all()
     label = components(len(roadmap.position), roadmap.edges)

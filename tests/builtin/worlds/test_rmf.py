@@ -177,9 +177,9 @@ def test_a_level_without_lanes_or_vertices_loads(tmp_path):
     ],
 )
 def test_public_maps_load_whole_and_fast(shared_data, name, vertices, lanes, walls, doors):
-    begin = time.perf_counter()
+    begin = time.process_time()
     world = Rmf(file=shared_data / f"rmf/{name}.building.yaml").load()
-    assert time.perf_counter() - begin < 1
+    assert time.process_time() - begin < 1
     level = world.levels[0]
     assert (len(world.vertices), len(world.lanes), len(level.walls), len(level.doors)) == (
         vertices,
