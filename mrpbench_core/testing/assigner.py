@@ -1,0 +1,129 @@
+"""What every assigner must keep."""
+
+from collections.abc import Iterator
+from itertools import permutations
+
+import numpy as np
+
+from mrpbench_core.api.assigner import Assigner, AssignmentError
+from mrpbench_core.checking.assignment import check_assignment
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.scenario import Task
+from mrpbench_core.testing.component import ComponentConformance
+from mrpbench_core.testing.outcome import Fault, Skip, require
+
+SHAPES = ((1, 1), (2, 2), (4, 4), (5, 5), (3, 5), (5, 3), (1, 4), (4, 1))
+INF = float("inf")
+
+
+class AssignerConformance(ComponentConformance):
+    """Checks of assigners: `class TestMine(AssignerConformance)`."""
+
+    def make(self) -> Assigner:
+        """Return the assigner to check."""
+        raise NotImplementedError("define make(self) and return the assigner to check")
+
+    def value(self, paid: Float) -> float:
+        """The objective of an assignment whose pairs cost `paid`. Override it for an objective of your own."""
+        objective = getattr(self.make(), "objective", "sum")
+        if objective not in ("sum", "bottleneck"):
+            raise Skip(f"objective {objective!r} is not known here: override `value` in a subclass of this suite")
+        return float(paid.sum() if objective == "sum" else paid.max(initial=-INF if len(paid) else 0.0))
+
+    def test_gives_each_task_to_one_robot(self) -> None:
+        assigner = self.make()
+        for name, problem in problems():
+            faults = check_assignment(problem, assigned(assigner, problem))
+            require(not faults, f"{name}: {'; '.join(faults)}")
+
+    def test_gives_the_same_assignment_again(self) -> None:
+        for name, problem in problems():
+            one, other = assigned(self.make(), problem), assigned(self.make(), problem)
+            require((one.task == other.task).all(), f"{name}: assigns differently the second time")
+
+    def test_avoids_what_is_forbidden(self) -> None:
+        assigner = self.reading_costs()
+        for name, problem in forbidding():
+            faults = check_assignment(problem, assigned(assigner, problem))
+            require(not faults, f"{name}: {'; '.join(faults)}")
+
+    def test_is_optimal(self) -> None:
+        assigner = self.reading_costs()
+        for name, problem in (*problems(), *forbidding()):
+            found = assigned(assigner, problem)
+            rows = np.flatnonzero(found.task >= 0)
+            value = self.value(problem.costs[rows, found.task[rows]])
+            best = min(self.value(paid) for paid in assignments(problem.costs))
+            close = 1e-6 * max(1.0, abs(best))
+            require(value <= best + close, f"{name}: its assignment is worth {value:g}, the best {best:g}")
+            require(abs(found.cost - value) <= close, f"{name}: says {found.cost:g} of an assignment worth {value:g}")
+
+    def test_raises_an_assignment_error_when_nothing_is_feasible(self) -> None:
+        assigner = self.reading_costs()
+        for costs in ([[INF]], [[1.0, INF], [2.0, INF]], [[INF, INF, INF], [1.0, 2.0, 3.0]]):
+            problem = make_problem(np.array(costs))
+            try:
+                found = assigned(assigner, problem)
+            except AssignmentError:
+                continue
+            raise Fault(f"assigns {found.task.tolist()} where costs {costs} allow no assignment")
+
+    def test_does_not_change_the_problem(self) -> None:
+        assigner = self.make()
+        for name, problem in problems():
+            before = problem.costs.copy()
+            assigned(assigner, problem)
+            require(np.array_equal(problem.costs, before), f"{name}: changes the costs")
+
+    def reading_costs(self) -> Assigner:
+        """The assigner, if it looks at costs."""
+        assigner = self.make()
+        if not assigner.reads_costs:
+            raise Skip("it does not read costs")
+        return assigner
+
+
+def assigned(assigner: Assigner, problem: AssignmentProblem) -> Assignment:
+    """The assigner's answer."""
+    found = assigner.assign(problem)
+    require(isinstance(found, Assignment), f"returns {type(found).__name__} instead of Assignment")
+    return found
+
+
+def make_problem(costs: Float) -> AssignmentProblem:
+    """Robots, and tasks of one goal each, with these costs."""
+    tasks = tuple(Task(goals=[(float(index), 0.0, np.nan)]) for index in range(costs.shape[1]))
+    return AssignmentProblem(costs=costs, tasks=tasks)
+
+
+def problems() -> Iterator[tuple[str, AssignmentProblem]]:
+    """Square and rectangular problems, some with ties, one without robots' preferences, one with large costs."""
+    random = np.random.default_rng(0)
+    for robots, tasks in SHAPES:
+        yield f"{robots} robots, {tasks} tasks", make_problem(random.uniform(0, 20, (robots, tasks)))
+        ties = random.integers(0, 3, (robots, tasks)).astype(float)
+        yield f"{robots} robots, {tasks} tasks, many ties", make_problem(ties)
+    yield "equal costs", make_problem(np.ones((4, 4)))
+    yield "large costs", make_problem(random.uniform(0, 1e9, (4, 4)))
+
+
+def forbidding() -> Iterator[tuple[str, AssignmentProblem]]:
+    """Feasible problems with forbidden pairs."""
+    random = np.random.default_rng(1)
+    for robots, tasks in SHAPES:
+        costs = random.uniform(0, 20, (robots, tasks))
+        forbidden = random.random(costs.shape) < 0.4
+        np.fill_diagonal(forbidden, False)
+        yield f"{robots} robots, {tasks} tasks, some forbidden", make_problem(np.where(forbidden, INF, costs))
+
+
+def assignments(costs: Float) -> Iterator[Float]:
+    """What the pairs cost in every feasible assignment: all permutations."""
+    robots, tasks = costs.shape
+    if robots > tasks:
+        costs, robots, tasks = costs.T, tasks, robots
+    for chosen in permutations(range(tasks), robots):
+        paid = costs[np.arange(robots), chosen]
+        if np.isfinite(paid).all():
+            yield paid

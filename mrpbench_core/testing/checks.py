@@ -1,0 +1,44 @@
+"""Runs a suite without pytest: one outcome for each check."""
+
+import traceback
+from collections.abc import Iterator
+from typing import Literal
+
+import attrs
+
+from mrpbench_core.files.errors import InputError, one_line
+from mrpbench_core.testing.component import ComponentConformance
+from mrpbench_core.testing.outcome import Fault, Skip
+
+
+@attrs.frozen
+class Check:
+    """The outcome of one check."""
+
+    name: str
+    """What holds if it is ok, as a sentence."""
+    outcome: Literal["ok", "failed", "skipped"]
+    reason: str = ""
+
+
+def run_checks(suite: ComponentConformance) -> Iterator[Check]:
+    """Run every check of a suite, those of all kinds first, in the order of the source."""
+    for method in methods(type(suite)):
+        name = method.removeprefix("test_").replace("_", " ")
+        try:
+            getattr(suite, method)()
+        except Skip as skip:
+            yield Check(name, "skipped", str(skip))
+        except (Fault, InputError) as fault:
+            yield Check(name, "failed", str(fault))
+        except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a plugin raises is a finding
+            last = traceback.extract_tb(error.__traceback__)[-1]
+            yield Check(name, "failed", f"raises {one_line(error)} ({last.filename}:{last.lineno})")
+        else:
+            yield Check(name, "ok")
+
+
+def methods(suite: type[ComponentConformance]) -> list[str]:
+    """The names of a suite's checks."""
+    found = [name for owner in reversed(suite.__mro__) for name in vars(owner) if name.startswith("test_")]
+    return [name for name in dict.fromkeys(found) if callable(getattr(suite, name))]

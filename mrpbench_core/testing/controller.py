@@ -1,0 +1,155 @@
+"""What every controller must keep: one TurtleBot3 Burger that does exactly what it is told."""
+
+import math
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.controller import Controller, ControllerSession
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Observation
+from mrpbench_core.testing.component import ComponentConformance
+from mrpbench_core.testing.outcome import require
+from mrpbench_core.testing.room import PERIOD, ROBOT, driven, room
+
+Point = tuple[float, float]
+START = np.array([1.0, 1.0, 0.0])
+STRAIGHT = ((1.5, 1.0), (2.0, 1.0), (2.5, 1.0))
+CORNER = ((1.6, 1.0), (2.2, 1.0), (2.2, 1.6), (2.2, 2.2))
+PASSED = 0.12
+"""metres from a waypoint at which the next one is the nearest ahead"""
+REACHED = 0.15
+"""metres from the end of the path at which a robot should stop"""
+PATIENCE = 40.0
+"""simulated seconds for paths of less than 3 m"""
+
+
+@attrs.frozen
+class Drive:
+    """What a robot did."""
+
+    pose: Float
+    """f8[t,3]"""
+    twist: Float
+    """f8[t,2] commanded"""
+
+
+class ControllerConformance(ComponentConformance):
+    """Checks of controllers: `class TestMine(ControllerConformance)`."""
+
+    def make(self) -> Controller:
+        """Return the controller to check."""
+        raise NotImplementedError("define make(self) and return the controller to check")
+
+    def start(self) -> ControllerSession:
+        """A session for one robot in the room."""
+        return self.make().start(ROBOT, room(), PERIOD)
+
+    def test_commands_are_within_the_limits_of_the_robot(self) -> None:
+        for path in (STRAIGHT, CORNER):
+            twist = drive(self.start(), path).twist
+            require(np.isfinite(twist).all(), "commands a speed that is not finite")
+            fastest, spin = np.abs(twist).max(axis=0)
+            require(fastest <= ROBOT.max_speed + 1e-6, f"commands {fastest:.3f} m/s, the robot's limit is {ROBOT.max_speed}")
+            require(spin <= ROBOT.max_turn_rate + 1e-6, f"commands {spin:.3f} rad/s, the limit is {ROBOT.max_turn_rate}")
+
+    def test_keeps_the_speed_that_is_allowed(self) -> None:
+        fastest = drive(self.start(), STRAIGHT, speed=0.1).twist[:, 0].max()
+        require(fastest <= 0.1 + 1e-6, f"commands {fastest:.3f} m/s where 0.1 m/s is allowed")
+
+    def test_comes_to_the_end_of_a_straight_path_and_stops(self) -> None:
+        comes_to_the_end(drive(self.start(), STRAIGHT), STRAIGHT)
+
+    def test_comes_round_a_corner_and_stops(self) -> None:
+        comes_to_the_end(drive(self.start(), CORNER), CORNER)
+
+    def test_turns_towards_the_path(self) -> None:
+        for side, target in ((1, (1.0, 2.0)), (-1, (1.0, 0.3))):
+            turned = side * drive(self.start(), (target,), seconds=3.0).pose[-1, 2]
+            word = "left" if side > 0 else "right"
+            require(turned > 0.2, f"the path leads to the {word}, but after 3 s it has turned {turned:.2f} rad to that side")
+
+    def test_a_robot_at_the_end_stays(self) -> None:
+        twist = drive(self.start(), (tuple(START[:2].tolist()),), seconds=2.0).twist
+        require(np.abs(twist[-10:, 0]).max() < 0.05, "drives on at the end of its path")
+
+    def test_the_same_observations_give_the_same_commands(self) -> None:
+        one, other = drive(self.start(), CORNER), drive(self.start(), CORNER)
+        require(np.array_equal(one.twist, other.twist), "commands differ the second time")
+
+    def test_robots_do_not_disturb_one_another(self) -> None:
+        alone = [drive(self.start(), path, seconds=5.0).twist for path in (STRAIGHT, CORNER)]
+        together = self.make().start_fleet([ROBOT, ROBOT], room(), PERIOD)
+        poses, twists = np.array([START, START]), np.zeros((2, 2))
+        left: list[list[Point]] = [list(STRAIGHT), list(CORNER)]
+        said = []
+        for step in range(round(5.0 / PERIOD)):
+            left = [ahead(pose, path) for pose, path in zip(poses, left, strict=True)]
+            seen = {robot: observation(step, poses[robot], twists[robot], left[robot]) for robot in range(2)}
+            answers = together.command(seen)
+            require(answers.keys() == seen.keys(), f"start_fleet: commands {set(answers)} when asked for {set(seen)}")
+            twists = np.array([answers[robot] or (0.0, 0.0) for robot in range(2)])
+            said.append(twists)
+            poses = driven(poses, twists, PERIOD)
+        first = np.array(said)
+        for robot in range(2):
+            same = np.allclose(first[: len(alone[robot]), robot], alone[robot][: len(first)], atol=1e-9)
+            require(same, "a robot gets other commands when a second one is controlled too")
+
+    def test_answers_the_optional_questions(self) -> None:
+        session = self.start()
+        seen = observation(0, START, np.zeros(2), STRAIGHT)
+        session.command(seen)
+        session.clear()
+        poses = np.array([START, (2.0, 1.0, 1.0), (2.5, 1.5, -1.0)])
+        free = np.asarray(session.is_free(poses))
+        require(free.shape == (3,) and free.dtype == bool, f"is_free answers {free!r} to three poses")
+        around = session.reroute(seen)
+        right = around is None or (np.asarray(around).ndim == 2 and np.asarray(around).shape[1] == 2)
+        require(right, f"reroute returns {around!r} instead of f8[k,2] or None")
+
+
+def comes_to_the_end(driving: Drive, path: Sequence[Point]) -> None:
+    """Require that a robot came to the end and stopped there."""
+    away = float(np.hypot(*(driving.pose[-1, :2] - path[-1])))
+    require(away < REACHED, f"after {len(driving.pose) * PERIOD:.0f} s it is {away:.2f} m from the end of the path")
+    speed = float(np.abs(driving.twist[-1, 0]))
+    require(speed < 0.02, f"at the end of its path it drives on at {speed:.3f} m/s")
+
+
+def drive(session: ControllerSession, path: Sequence[Point], seconds: float = PATIENCE, speed: float = math.inf) -> Drive:
+    """Let a robot do exactly what its controller says, until it rests at the end or time is over."""
+    pose, twist = START.copy(), np.zeros(2)
+    poses, twists = [], []
+    at_rest = 0
+    left = list(path)
+    for step in range(round(seconds / PERIOD)):
+        left = ahead(pose, left)
+        command = session.command(observation(step, pose, twist, left, speed))
+        require(command is None or len(command) == 2, f"command returns {command!r} instead of (speed, turn rate) or None")
+        twist = np.array(command or (0.0, 0.0), float)
+        pose = driven(pose[None], twist[None], PERIOD)[0]
+        poses.append(pose)
+        twists.append(twist)
+        near = np.hypot(*(pose[:2] - path[-1])) < REACHED and abs(twist[0]) < 0.02
+        at_rest = at_rest + 1 if near else 0
+        if at_rest == 40:  # two seconds
+            break
+    return Drive(np.array(poses), np.array(twists))
+
+
+def ahead(pose: Float, path: Sequence[Point]) -> list[Point]:
+    """The waypoints that are left, the last one always."""
+    left = list(path)
+    while len(left) > 1 and np.hypot(*(pose[:2] - left[0])) < PASSED:
+        left.pop(0)
+    return left
+
+
+def observation(
+    step: int, pose: Float, twist: Float, path: Sequence[Point], speed: float = math.inf
+) -> Observation:
+    """What a controller sees; without scans, which may be missing in any period."""
+    yaw = math.remainder(pose[2], math.tau)
+    return Observation(now=step * PERIOD, pose=[pose[0], pose[1], yaw], twist=twist, path=path, speed=speed)

@@ -1,0 +1,81 @@
+"""Problems drawn as text: short to write, and seen at a glance.
+
+`problem(\"\"\"
+    a  .  B
+    .  #  .
+    b  .  A
+\"\"\")` is two robots on a four-connected grid of cells of 1 m around a block. A small letter is a robot's start, the
+capital its goal; `aB` is both; several cells with one capital are a goal set. Letters are robots in order.
+"""
+
+from collections.abc import Iterable
+from typing import Any
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.problem import Feature, Problem, features_of
+from mrpbench_core.model.roadmap import Grid, Roadmap
+
+BLOCKED = "#"
+STEPS = ((0, 1), (0, -1), (1, 0), (-1, 0))
+
+
+def grid(rows: int, columns: int, blocked: Iterable[tuple[int, int]] = (), cell_size: float = 1.0) -> Roadmap:
+    """A four-connected grid whose steps take one tick; vertices are its free cells, row by row from the lowest."""
+    closed = set(blocked)
+    cells = [(row, column) for row in range(rows) for column in range(columns) if (row, column) not in closed]
+    vertex = {cell: index for index, cell in enumerate(cells)}
+    edges = [
+        (index, vertex[row + up, column + right])
+        for (row, column), index in vertex.items()
+        for up, right in STEPS
+        if (row + up, column + right) in vertex
+    ]
+    return Roadmap(
+        position=[((column + 0.5) * cell_size, (row + 0.5) * cell_size) for row, column in cells] or np.empty((0, 2)),
+        level=[0] * len(cells),
+        heading=[np.nan] * len(cells),
+        edges=edges,
+        duration=np.ones((1, len(edges))),
+        tick=1.0,
+        grid=Grid(shape=(rows, columns), cell_size=cell_size, origin=(0.0, 0.0), cell=cells),
+    )
+
+
+def problem(drawing: str, radius: float = 0.1, features: Iterable[Feature] = (), **fields: Any) -> Problem:
+    """The problem of a drawing; `fields` replace those of `Problem`, `features` are added to those it is seen to have."""
+    lines = [line.split() for line in drawing.strip().splitlines()][::-1]
+    if len({len(line) for line in lines}) != 1:
+        raise ValueError("the lines of a drawing have different lengths")
+    tokens = {(row, column): token for row, line in enumerate(lines) for column, token in enumerate(line)}
+    roadmap = grid(len(lines), len(lines[0]), [cell for cell, token in tokens.items() if token == BLOCKED])
+    free = [token for token in tokens.values() if token != BLOCKED]
+    robots = sorted({letter for token in free for letter in token if letter.islower()})
+    starts = [next(vertex for vertex, token in enumerate(free) if robot in token) for robot in robots]
+    goals = [tuple(vertex for vertex, token in enumerate(free) if robot.upper() in token) for robot in robots]
+    roadmap = fields.pop("roadmap", roadmap)
+    return complete(roadmap, starts, goals, radius, features, **fields)
+
+
+def complete(
+    roadmap: Roadmap,
+    starts: Iterable[int],
+    goal_sets: Iterable[tuple[int, ...]],
+    radius: float = 0.1,
+    features: Iterable[Feature] = (),
+    **fields: Any,
+) -> Problem:
+    """A problem of like robots, each with one goal set; `fields` replace those of `Problem`."""
+    start = list(starts)
+    count = len(start)
+    default = {
+        "roadmap": roadmap,
+        "profile": [0] * count,
+        "radius": [radius] * count,
+        "start": start,
+        "ready": [0] * count,
+        "goals": tuple((goal_set,) for goal_set in goal_sets),
+    }
+    made = Problem(**default | fields)
+    return attrs.evolve(made, features=features_of(made) | set(features))

@@ -1,0 +1,38 @@
+"""What every executor must keep."""
+
+from concurrent.futures import Executor
+
+from mrpbench_core.api.executor import ExecutorSource
+from mrpbench_core.testing.component import ComponentConformance
+from mrpbench_core.testing.outcome import Fault, require
+
+
+class ExecutorConformance(ComponentConformance):
+    """Checks of executors: `class TestMine(ExecutorConformance)`."""
+
+    def make(self) -> ExecutorSource:
+        """Return the executor to check."""
+        raise NotImplementedError("define make(self) and return the executor to check")
+
+    def test_is_an_executor_of_the_standard_library(self) -> None:
+        with self.make().open(2) as executor:
+            require(isinstance(executor, Executor), f"opens {type(executor).__name__}: no concurrent.futures.Executor")
+
+    def test_returns_what_calls_return(self) -> None:
+        with self.make().open(2) as executor:
+            futures = [executor.submit(divmod, number, 7) for number in range(20)]
+            found = [future.result(timeout=60) for future in futures]
+        require(found == [divmod(number, 7) for number in range(20)], f"20 calls returned {found}")
+
+    def test_equal_calls_are_all_made(self) -> None:
+        with self.make().open(2) as executor:
+            futures = [executor.submit(object) for _ in range(5)]
+            found = [future.result(timeout=60) for future in futures]
+        require(len({id(each) for each in found}) == 5, "equal calls were made once: repeated runs would not be run")
+
+    def test_hands_on_what_calls_raise(self) -> None:
+        with self.make().open(2) as executor:
+            error = executor.submit(divmod, 1, 0).exception(timeout=60)
+            require(isinstance(error, ZeroDivisionError), f"a call that raises ZeroDivisionError gave {error!r}")
+            if executor.submit(divmod, 9, 2).result(timeout=60) != (4, 1):
+                raise Fault("works no more after a call has raised")

@@ -1,0 +1,133 @@
+"""A fixed set of small problems: what every planner must master, and one or more for each feature it may support."""
+
+from collections.abc import Callable
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.plan import Path
+from mrpbench_core.model.problem import Feature, Problem, Rules
+from mrpbench_core.model.roadmap import Resource
+from mrpbench_core.testing.drawing import grid, problem
+
+CROSSING = """
+    .  a  .
+    b  .  B
+    .  A  .
+"""
+WIDE = """
+    .  .  a  .  .
+    .  .  .  .  .
+    b  .  .  .  B
+    .  .  .  .  .
+    .  .  A  .  .
+"""
+BAY = """
+    #   #  #  .  #
+    aB  .  .  .  bA
+"""
+CONVOY = "b  a  .  B  A"
+
+
+def one_way() -> Problem:
+    """Lanes to the left are closed below, those to the right above: robots must go round."""
+    drawn = problem("""
+        .   a  B
+        bA  .  .
+    """)
+    row = drawn.roadmap.position[:, 1]
+    right = np.diff(drawn.roadmap.position[drawn.roadmap.edges][:, :, 0], axis=1)[:, 0]
+    low = row[drawn.roadmap.edges[:, 0]] < 1
+    closed = (low & (right < 0)) | (~low & (right > 0))
+    return attrs.evolve(drawn, roadmap=attrs.evolve(drawn.roadmap, duration=[np.where(closed, -1, 1)]))
+
+
+def slow_lanes(drawing: str, features: frozenset[Feature] = frozenset(), radius: float = 0.1) -> Problem:
+    """Steps up and down take three ticks, those from left to right two."""
+    drawn = problem(drawing, radius=radius)
+    step = np.diff(drawn.roadmap.position[drawn.roadmap.edges], axis=1)[:, 0]
+    ticks = np.where(step[:, 1] != 0, 3, np.where(step[:, 0] > 0, 2, 1))
+    roadmap = attrs.evolve(drawn.roadmap, duration=[ticks])
+    return problem(drawing, roadmap=roadmap, radius=radius, features=features | {Feature.EDGE_DURATIONS})
+
+
+def profiles() -> Problem:
+    """The second robot may not use the steps of the middle row."""
+    drawn = problem(CROSSING)
+    middle = (drawn.roadmap.position[drawn.roadmap.edges][:, :, 1] == 1.5).all(axis=1)
+    two = attrs.evolve(drawn.roadmap, duration=[np.ones(len(middle)), np.where(middle, -1, 1)])
+    return problem(CROSSING, roadmap=two, profile=[0, 1])
+
+
+def commitments() -> Problem:
+    """The first robot is on its way already, the second has broken down for three ticks."""
+    drawn = problem(CROSSING)
+    down = edge_between(drawn, (1.5, 2.5), (1.5, 1.5))
+    empty = Path(edge=[], enter=[], leave=[])
+    return problem(CROSSING, ready=[0, 3], commitments=(Path(edge=[down], enter=[0], leave=[1]), empty))
+
+
+def goal_sequences() -> Problem:
+    """The first robot must first visit the other end."""
+    drawn = problem(". a . A")
+    return problem(". a . A", goals=(((0,), drawn.goals[0][0]),))
+
+
+def resources() -> Problem:
+    """The middle of the crossing is a mutex."""
+    drawn = problem(CROSSING)
+    middle = drawn.roadmap.nearest(1.5, 1.5)[0]
+    mutex = Resource(name="middle", kind="mutex", vertices=(middle,))
+    return problem(CROSSING, roadmap=attrs.evolve(drawn.roadmap, resources=(mutex,)))
+
+
+def headings() -> Problem:
+    """One vertex prescribes a yaw."""
+    line = grid(1, 3)
+    return problem("a . A", roadmap=attrs.evolve(line, heading=[np.nan, 0.0, np.nan]))
+
+
+def edge_between(drawn: Problem, tail: tuple[float, float], head: tuple[float, float]) -> int:
+    """The edge from one point of a drawing to another."""
+    ends = drawn.roadmap.nearest(*tail)[0], drawn.roadmap.nearest(*head)[0]
+    return int(np.flatnonzero((drawn.roadmap.edges == ends).all(axis=1))[0])
+
+
+_SOLVABLE: dict[str, Callable[[], Problem]] = {
+    "a robot alone": lambda: problem("a . . A"),
+    "a robot at its goal": lambda: problem("aA ."),
+    "a crossing": lambda: problem(CROSSING),
+    "a corridor with a bay": lambda: problem(BAY),
+    "a parked robot in the way": lambda: problem("# # . # #\n a . bB . A"),
+    "a ring of four": lambda: problem("aD bA\n dC cB"),
+    "one-way lanes": one_way,
+    "robots that disappear at their goals": lambda: problem("b a A . B", rules=Rules(at_goal="disappear")),
+    "edges of unlike durations": lambda: slow_lanes(CROSSING),
+    "a corridor of unlike durations": lambda: slow_lanes(BAY),
+    "footprints at a crossing": lambda: problem(CROSSING, radius=0.3, features={Feature.FOOTPRINTS}),
+    "footprints wider than a cell": lambda: problem(WIDE, radius=0.55, features={Feature.FOOTPRINTS}),
+    "footprints and unlike durations": lambda: slow_lanes(CROSSING, frozenset({Feature.FOOTPRINTS}), 0.3),
+    "two motion profiles": profiles,
+    "goal sets": lambda: problem("A b B\n . a .\n A . B"),
+    "commitments": commitments,
+    "goal sequences": goal_sequences,
+    "a horizon": lambda: problem(BAY, horizon=2),
+    "following forbidden": lambda: problem(CONVOY, rules=Rules(following="forbidden")),
+    "following forbidden at a crossing": lambda: problem(CROSSING, rules=Rules(following="forbidden")),
+    "resources": resources,
+    "headings": headings,
+}
+_UNSOLVABLE: dict[str, Callable[[], Problem]] = {
+    "a goal behind a wall": lambda: problem("a # A\n . # ."),
+    "a swap in a dead end": lambda: problem("aB . bA"),
+}
+
+
+def solvable() -> dict[str, Problem]:
+    """Problems with a solution, by name."""
+    return {name: make() for name, make in _SOLVABLE.items()}
+
+
+def unsolvable() -> dict[str, Problem]:
+    """Problems without one."""
+    return {name: make() for name, make in _UNSOLVABLE.items()}

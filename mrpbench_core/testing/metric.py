@@ -1,0 +1,87 @@
+"""What every metric must keep."""
+
+import math
+from collections.abc import Mapping
+
+from mrpbench_core.api.metric import Column, Metric, Value
+from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.testing.component import ComponentConformance
+from mrpbench_core.testing.finished import channels, context, finished, permuted
+from mrpbench_core.testing.outcome import Skip, require
+
+
+class MetricConformance(ComponentConformance):
+    """Checks of metrics: `class TestMine(MetricConformance)`."""
+
+    def make(self) -> Metric:
+        """Return the metric to check."""
+        raise NotImplementedError("define make(self) and return the metric to check")
+
+    def test_describes_its_columns(self) -> None:
+        columns = self.make().columns
+        require(columns and all(isinstance(column, Column) for column in columns), "`columns` holds no columns")
+        names = [column.name for column in columns]
+        require(len(set(names)) == len(names), f"two columns have one name: {names}")
+        for column in columns:
+            require(column.better in ("lower", "higher", "neither"), f"column {column.name}: better is {column.better!r}")
+            require(column.description, f"column {column.name} has no description")
+
+    def test_requires_channels_that_exist(self) -> None:
+        unknown = sorted(self.make().requires - {*channels(), "plan"})
+        require(not unknown, f"requires what no recording holds: {', '.join(unknown)}")
+
+    def test_gives_exactly_its_columns(self) -> None:
+        metric = self.make()
+        given, wanted = set(measured(metric, finished())), {column.name for column in metric.columns}
+        require(given <= wanted, f"gives what is no column: {', '.join(sorted(given - wanted))}")
+        require(wanted <= given, f"gives nothing for: {', '.join(sorted(wanted - given))}")
+
+    def test_needs_no_channel_that_it_does_not_require(self) -> None:
+        metric = self.make()
+        measured(metric, finished(sorted(metric.requires)))
+
+    def test_measures_a_run_that_was_not_executed(self) -> None:
+        metric = self.make()
+        if metric.requires - {"plan"}:
+            raise Skip("it requires a recording")
+        measured(metric, FinishedRun(context=context(), executed=False))
+
+    def test_measures_a_run_without_a_plan(self) -> None:
+        metric = self.make()
+        if metric.requires:
+            raise Skip(f"it requires {', '.join(sorted(metric.requires))}")
+        measured(metric, FinishedRun(context=context(PlanResult(status=PlanStatus.TIMEOUT)), executed=False))
+
+    def test_measures_the_same_again(self) -> None:
+        one, other = measured(self.make(), finished()), measured(self.make(), finished())
+        require(one == other, f"measures differently the second time: {differences(one, other)}")
+
+    def test_does_not_depend_on_the_order_of_robots(self) -> None:
+        metric = self.make()
+        one, other = measured(metric, finished()), measured(metric, permuted((2, 0, 1)))
+        found = differences(one, other)
+        require(not found, f"robots in another order are measured differently: {found}")
+
+
+def measured(metric: Metric, run: FinishedRun) -> Mapping[str, Value]:
+    """The metric's values, each a finite number, a truth value or None."""
+    values = metric.measure(run)
+    for name, value in values.items():
+        right = value is None or isinstance(value, bool | int | float)
+        require(right, f"column {name} is {value!r}, a {type(value).__name__}: give float, int, bool or None")
+        finite = not isinstance(value, float) or math.isfinite(value)
+        require(finite, f"column {name} is {value}: give None for what cannot be measured")
+    return values
+
+
+def differences(one: Mapping[str, Value], other: Mapping[str, Value]) -> str:
+    """Columns that differ by more than rounding, in words."""
+    return ", ".join(f"{name} {one[name]} and {other.get(name)}" for name in one if not close(one[name], other.get(name)))
+
+
+def close(one: Value, other: Value) -> bool:
+    """Equal but for rounding."""
+    if one is None or other is None:
+        return one is other
+    return math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-9)

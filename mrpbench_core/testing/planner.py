@@ -1,0 +1,180 @@
+"""What every planner must keep."""
+
+import pickle
+from collections.abc import Iterator
+
+import attrs
+
+from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.testing.asking import ask
+from mrpbench_core.testing.component import ComponentConformance
+from mrpbench_core.testing.drawing import complete, grid
+from mrpbench_core.testing.instances import solvable, unsolvable
+from mrpbench_core.testing.optimum import UNKNOWN, least_sum_of_costs
+from mrpbench_core.testing.outcome import Fault, Skip, require
+
+UNCHECKED = frozenset({Feature.RESOURCES, Feature.HEADINGS})
+"""Features that `check_plan` does not know yet."""
+SHORT = 1.0
+"""seconds for problems that some planners search until their time is over."""
+
+
+class PlannerConformance(ComponentConformance):
+    """Checks of planners: `class TestMine(PlannerConformance)`.
+
+    The problems are those of `mrpbench_core.testing.instances`; the planner is asked those that it does not skip.
+    """
+
+    def make(self) -> Planner:
+        """Return the planner to check."""
+        raise NotImplementedError("define make(self) and return the planner to check")
+
+    def test_declares_features_and_promises(self) -> None:
+        planner = self.make()
+        for name, kind in (("supports", Feature), ("promises", Promise)):
+            declared = getattr(planner, name)
+            right = isinstance(declared, frozenset) and all(isinstance(entry, kind) for entry in declared)
+            require(right, f"{name} is {declared!r} instead of a frozenset of {kind.__name__}")
+
+    def test_skips_what_it_does_not_support(self) -> None:
+        planner = self.make()
+        for name, problem in solvable().items():
+            reason = planner.skip(problem)
+            require(reason is None or (isinstance(reason, str) and reason), f"skip({name}) returns {reason!r}")
+            lacking = sorted(problem.features - planner.supports)
+            if lacking and reason is None:
+                raise Fault(f"takes {name}, though it does not support {', '.join(lacking)}")
+
+    def test_has_a_problem_for_every_feature_it_supports(self) -> None:
+        planner = self.make()
+        taken = list(asked(planner))
+        if not taken:
+            raise Skip(f"it skips every problem here, the first because it {planner.skip(solvable()['a robot alone'])}")
+        tried = frozenset().union(*(problem.features for _, problem in taken))
+        idle = sorted(planner.supports - tried)
+        require(not idle, f"supports {', '.join(idle)} but skips every problem with it")
+
+    def test_finds_the_way_of_a_robot_alone(self) -> None:
+        planner = self.make()
+        problem = solvable()["a robot alone"]
+        if reason := planner.skip(problem):
+            raise Skip(f"it {reason}")
+        result = ask(planner, problem)
+        require(result.status is PlanStatus.SOLVED, f"says {result.status} to a robot alone in a corridor")
+
+    def test_plans_are_valid(self) -> None:
+        planner = self.make()
+        promised = Promise.CONFLICT_FREE in planner.promises
+        unchecked = 0
+        for name, problem in asked(planner):
+            result = ask(planner, problem)
+            unchecked += bool(problem.features & UNCHECKED)
+            if result.plan is not None:
+                report = check_plan(problem, result.plan)
+                require(not report.faults, f"{name}: {'; '.join(report.faults)}")
+                require(
+                    not (promised and report.conflicts), f"{name}: {'; '.join(str(each) for each in report.conflicts)}"
+                )
+
+    def test_does_not_claim_that_a_solvable_problem_is_unsolvable(self) -> None:
+        planner = self.make()
+        for name, problem in asked(planner):
+            require(ask(planner, problem).status is not PlanStatus.UNSOLVABLE, f"calls {name} unsolvable")
+
+    def test_says_so_when_there_is_no_plan(self) -> None:
+        planner = self.make()
+        for name, problem in unsolvable().items():
+            if planner.skip(problem) is None:
+                result = ask(planner, problem, SHORT)
+                if result.plan is not None:
+                    report = check_plan(problem, result.plan)
+                    broken = report.faults or (Promise.CONFLICT_FREE in planner.promises)
+                    require(not broken, f"gives a plan for {name}, which has none")
+
+    def test_keeps_its_deadline(self) -> None:
+        planner = self.make()
+        roadmap = grid(24, 24)
+        robots = 60
+        starts, goals = range(robots), [(len(roadmap.position) - 1 - robot,) for robot in range(robots)]
+        crowd = complete(roadmap, starts, goals)
+        if reason := planner.skip(crowd):
+            raise Skip(f"it {reason}")
+        for wall_s in (0.2, 0.0):
+            ask(planner, crowd, wall_s)
+
+    def test_does_not_change_the_problem(self) -> None:
+        planner = self.make()
+        for name, problem in asked(planner):
+            before = pickle.loads(pickle.dumps(problem))  # noqa: S301 - our own
+            ask(planner, problem)
+            require(problem == before, f"changes the problem {name}")
+
+    def test_gives_the_same_plan_again(self) -> None:
+        planner = self.make()
+        if Promise.DETERMINISTIC not in planner.promises:
+            raise Skip("it does not promise to be deterministic")
+        copy = pickle.loads(pickle.dumps(planner))  # noqa: S301 - our own
+        for name, problem in asked(planner):
+            first = answer(ask(planner, problem))
+            require(answer(ask(planner, problem)) == first, f"plans {name} differently the second time")
+            require(answer(ask(copy, problem)) == first, f"a pickled copy plans {name} differently")
+
+    def test_is_complete(self) -> None:
+        planner = self.make()
+        if Promise.COMPLETE not in planner.promises:
+            raise Skip("it does not promise to be complete")
+        for name, problem in asked(planner):
+            status = ask(planner, problem).status
+            require(status is PlanStatus.SOLVED, f"says {status} to {name}, which has a plan")
+
+    def test_bounds_hold(self) -> None:
+        planner = self.make()
+        for name, problem, optimum in compared(planner):
+            bound = ask(planner, problem).lower_bound
+            require(not bound > optimum, f"proves a lower bound of {bound:g} for {name}, whose optimum is {optimum}")
+
+    def test_is_optimal(self) -> None:
+        planner = self.make()
+        if Promise.OPTIMAL not in planner.promises:
+            raise Skip("it does not promise to be optimal")
+        for name, problem, optimum in compared(planner):
+            plan = ask(planner, problem).plan
+            cost = None if plan is None else plan.sum_of_costs
+            require(cost in (None, optimum), f"{name}: costs {cost}, the optimum is {optimum}")
+
+    def test_is_within_its_bound(self) -> None:
+        planner = self.make()
+        if Promise.BOUNDED not in planner.promises:
+            raise Skip("it does not promise to be bounded")
+        w = getattr(planner, "w", None)
+        require(isinstance(w, int | float), "promises to be bounded but has no option `w`")
+        for name, problem, optimum in compared(planner):
+            result = ask(planner, problem)
+            if result.plan is not None and w is not None:
+                cost, bound = result.plan.sum_of_costs, result.lower_bound
+                require(cost <= w * bound + 1e-9, f"{name}: costs {cost}, more than {w:g} times its bound {bound:g}")
+                require(cost <= w * optimum + 1e-9, f"{name}: costs {cost}, more than {w:g} times the optimum {optimum}")
+
+
+def asked(planner: Planner) -> Iterator[tuple[str, Problem]]:
+    """Problems with a solution that the planner does not skip, by name."""
+    for name, problem in solvable().items():
+        if planner.skip(problem) is None:
+            yield name, problem
+
+
+def compared(planner: Planner) -> Iterator[tuple[str, Problem, int]]:
+    """Those whose optimum brute force can tell, with it."""
+    for name, problem in asked(planner):
+        if not problem.features & UNKNOWN:
+            optimum = least_sum_of_costs(problem)
+            assert optimum is not None, f"{name} has no solution"
+            yield name, problem, optimum
+
+
+def answer(result: PlanResult) -> tuple[object, ...]:
+    """What of a result must not differ from call to call; statistics may hold times."""
+    return attrs.astuple(result, recurse=False)[:3]

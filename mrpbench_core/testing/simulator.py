@@ -1,0 +1,182 @@
+"""What every simulator must keep: two TurtleBot3 Burgers in a room of 4 × 3 m."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from mrpbench_core.api.simulator import Simulation, Simulator
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Inputs, ScanBatch, State
+from mrpbench_core.model.geometry import point_segment_distance
+from mrpbench_core.testing.component import ComponentConformance
+from mrpbench_core.testing.outcome import require
+from mrpbench_core.testing.room import HALF_WALL, HEIGHT, PERIOD, ROBOT, WIDTH, fleet, room
+
+PLACES = ((1.0, 1.0, 0.0), (1.0, 2.0, 0.0))
+CRUISE = 0.8 * ROBOT.max_speed
+STILL = (0.0, 0.0)
+INNER = float(point_segment_distance(np.zeros(2), ROBOT.footprint, np.roll(ROBOT.footprint, -1, axis=0)).min())
+"""metres from a robot's origin to the nearest side of its footprint"""
+
+
+class SimulatorConformance(ComponentConformance):
+    """Checks of simulators: `class TestMine(SimulatorConformance)`."""
+
+    def make(self) -> Simulator:
+        """Return the simulator to check."""
+        raise NotImplementedError("define make(self) and return the simulator to check")
+
+    def open(self, places: Sequence[tuple[float, float, float]] = PLACES, movers: Sequence[float] = ()) -> Simulation:
+        """A simulation of the room with a robot at each place."""
+        return self.make().open(room(), fleet(len(places)), np.array(places), 0, PERIOD, movers)
+
+    def test_begins_with_the_placements(self) -> None:
+        with self.open() as simulation:
+            off = np.abs(simulation.state.pose - PLACES).max()
+            require(off < 1e-3, f"before the first step robots are {off:g} (m, rad) from their placements")
+
+    def test_states_have_the_shapes_of_the_contract(self) -> None:
+        with self.open() as simulation:
+            for state in (simulation.state, simulation.step(inputs(STILL, STILL))):
+                require(isinstance(state, State), f"returns {type(state).__name__} instead of State")
+                shapes = [state.pose.shape, state.twist.shape, state.level.shape]
+                require(shapes == [(2, 3), (2, 2), (2,)], f"pose, twist, level of two robots have shapes {shapes}")
+                require(np.isfinite(state.pose).all() and np.isfinite(state.twist).all(), "poses or twists not finite")
+            latest, given = simulation.step(inputs(STILL, STILL)), simulation.state
+            require(np.array_equal(latest.pose, given.pose), "`state` is not what the last step returned")
+
+    def test_robots_without_a_command_stay(self) -> None:
+        with self.open() as simulation:
+            drive(simulation, [STILL, STILL], 2.0)
+            moved = np.abs(simulation.state.pose - PLACES).max()
+            require(moved < 0.01, f"robots at rest moved by {moved:g} (m, rad) in 2 s")
+
+    def test_a_robot_commanded_straight_moves_straight(self) -> None:
+        with self.open() as simulation:
+            drive(simulation, [(CRUISE, 0.0), STILL], 5.0)
+            (x, y, yaw), other = simulation.state.pose
+            ahead, aside = x - PLACES[0][0], abs(y - PLACES[0][1])
+            wanted = 5.0 * CRUISE
+            require(0.85 * wanted < ahead < 1.05 * wanted, f"at {CRUISE:g} m/s it came {ahead:.3f} m far in 5 s")
+            require(aside < 0.03, f"it came {aside:.3f} m off its straight line")
+            require(abs(yaw) < 0.05, f"it turned by {yaw:.3f} rad")
+            require(np.abs(other - PLACES[1]).max() < 0.01, "the other robot, without a command, moved too")
+
+    def test_a_positive_turn_rate_turns_counter_clockwise(self) -> None:
+        with self.open() as simulation:
+            drive(simulation, [(0.0, 0.5), (0.0, -0.5)], 2.0)
+            yaw, gone = simulation.state.pose[:, 2], np.abs(simulation.state.pose[:, :2] - np.array(PLACES)[:, :2]).max()
+            right = (0.7 < yaw[0] < 1.1) and (-1.1 < yaw[1] < -0.7)
+            require(right, f"after 2 s at ±0.5 rad/s the yaws are {yaw[0]:.2f} and {yaw[1]:.2f} rad")
+            require(gone < 0.05, f"robots that turn on the spot moved by {gone:.3f} m")
+
+    def test_no_robot_is_faster_than_its_limits(self) -> None:
+        with self.open() as simulation:
+            before = simulation.state.pose
+            for state in drive(simulation, [(10.0, 0.0), (0.0, 50.0)], 3.0):
+                moved = float(np.hypot(*(state.pose - before)[:, :2].T).max()) / PERIOD
+                turn = float(np.abs(state.twist[:, 1]).max())
+                require(moved <= 1.05 * ROBOT.max_speed + 0.01, f"drives at {moved:.3f} m/s of {ROBOT.max_speed:g}")
+                require(turn <= 1.05 * ROBOT.max_turn_rate + 0.05, f"turns at {turn:.3f} rad/s of {ROBOT.max_turn_rate:g}")
+                before = state.pose
+
+    def test_walls_stop_robots_and_are_reported(self) -> None:
+        with self.open([(WIDTH - 0.6, 1.0, 0.3), (WIDTH - 0.6, 2.0, 0.0)]) as simulation:
+            states = drive(simulation, [(ROBOT.max_speed, 0.0)] * 2, 6.0)
+            far = max(float(state.pose[:, 0].max()) for state in states)
+            require(far < WIDTH - HALF_WALL, f"a robot's centre came to x = {far:.3f} m, into the wall or behind it")
+            touched = {int(robot) for state in states for robot, other in state.contacts.tolist() if other == -1}
+            require(touched == {0, 1}, f"two robots drove into a wall; a contact with it is reported of {touched or 'none'}")
+
+    def test_robots_do_not_pass_through_one_another(self) -> None:
+        with self.open([(1.5, 1.5, 0.0), (2.1, 1.5, math.pi)]) as simulation:
+            states = drive(simulation, [(ROBOT.max_speed, 0.0)] * 2, 4.0)
+            closest = min(float(np.hypot(*(state.pose[0] - state.pose[1])[:2])) for state in states)
+            require(closest > 2 * INNER - 0.01, f"the centres of two robots came within {closest:.3f} m")
+            met = any([0, 1] in state.contacts.tolist() for state in states)
+            require(met, "two robots drove into one another; no contact (0, 1) is reported")
+
+    def test_scans_come_once_and_in_order(self) -> None:
+        with self.open() as simulation:
+            taken = list(simulation.scans())
+            require(not simulation.scans(), "the same scans are handed out twice")
+            for period in range(1, 61):
+                simulation.step(inputs(STILL, STILL))
+                new = simulation.scans()
+                late = [scan.stamp for scan in new if scan.stamp > period * PERIOD + 1e-9]
+                require(not late, f"a scan of the future: stamp {late} at {period * PERIOD:g} s")
+                taken += new
+            stamps = [scan.stamp for scan in taken]
+            require(stamps == sorted(stamps), "stamps of scans run backwards")
+            seen = [(scan.stamp, robot) for scan in taken for robot in scan.robot.tolist()]
+            require(len(seen) == len(set(seen)), "a robot scans twice at one instant")
+            assert ROBOT.lidar is not None
+            for robot in range(2):
+                count, due = sum(found == robot for _, found in seen), 3.0 * ROBOT.lidar.rate
+                require(0.7 * due <= count <= 1.3 * due + 1, f"robot {robot} took {count} scans in 3 s, {due:g} are due")
+
+    def test_scans_measure_walls_and_robots(self) -> None:
+        assert ROBOT.lidar is not None
+        with self.open([(1.0, 1.0, 0.0), (1.0, 2.2, 0.0)], movers=[0.2]) as simulation:
+            for _ in range(40):
+                simulation.step(inputs(STILL, STILL, movers=[(2.0, 1.0, 0.0, 0.0)]))
+            newest = [scan for scan in simulation.scans() if 0 in scan.robot]
+            require(newest, "robot 0 has a lidar but takes no scans")
+            ranges = of(newest[-1], 0)
+            beams = len(ranges)
+            require(beams == ROBOT.lidar.beams, f"a scan has {beams} beams instead of {ROBOT.lidar.beams}")
+            x, y = ROBOT.lidar.mount[:2]
+            right = ranges[3 * beams // 4]
+            behind = ranges[beams // 2]
+            ahead, left = ranges[0], ranges[beams // 4]
+            for name, found, wanted, close in (
+                ("the wall to the right", right, 1.0 + y - HALF_WALL, 0.03),
+                ("the wall behind", behind, 1.0 + x - HALF_WALL, 0.03),
+                ("the mover ahead", ahead, 1.0 - x - 0.2, 0.03),
+                ("the robot to the left", left, 1.2 - y - ROBOT.radius, ROBOT.radius),
+            ):
+                require(abs(found - wanted) < close, f"the beam to {name} reads {found:.3f} m instead of {wanted:.3f}")
+
+    def test_runs_are_equal_to_the_last_bit(self) -> None:
+        first, second = self.history(), self.history()
+        require(first == second, "the same inputs led to other states or scans the second time")
+
+    def test_simulations_do_not_disturb_one_another(self) -> None:
+        alone = self.history()
+        with self.open([(2.0, 0.5, 1.0)]) as other:
+            drive(other, [(CRUISE, 1.0)], 0.5)
+            beside = self.history()
+            other.step(inputs((CRUISE, 1.0)))
+        require(alone == beside, "a second simulation in the same process changes the first")
+
+    def test_closes_twice(self) -> None:
+        simulation = self.open()
+        simulation.close()
+        simulation.close()
+
+    def history(self) -> bytes:
+        """All that happens to two robots that drive about, bump into a wall and into one another."""
+        said = []
+        with self.open([(0.5, 1.4, -math.pi / 2), (1.2, 1.5, math.pi)]) as simulation:
+            for step in range(80):
+                state = simulation.step(inputs((ROBOT.max_speed, 0.3 * math.sin(step)), (CRUISE, 0.0)))
+                said += [state.pose.tobytes(), state.twist.tobytes(), state.contacts.tobytes()]
+                said += [repr(scan.stamp).encode() + scan.ranges.tobytes() for scan in simulation.scans()]
+        return b"".join(said)
+
+
+def inputs(*twists: tuple[float, float], movers: Sequence[tuple[float, float, float, float]] | None = None) -> Inputs:
+    """Commands, and where movers are."""
+    return Inputs(twist=twists, movers=None if movers is None else np.array(movers, float))
+
+
+def drive(simulation: Simulation, twists: Sequence[tuple[float, float]], seconds: float) -> list[State]:
+    """The states that constant commands lead to."""
+    return [simulation.step(inputs(*twists)) for _ in range(round(seconds / PERIOD))]
+
+
+def of(scan: ScanBatch, robot: int) -> Float:
+    """One robot's ranges."""
+    ranges: Float = scan.ranges[scan.robot.tolist().index(robot)]
+    return ranges

@@ -1,0 +1,46 @@
+"""The suite of each kind."""
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.plugins.kinds import kind_of
+from mrpbench_core.testing.assigner import AssignerConformance
+from mrpbench_core.testing.component import ComponentConformance
+from mrpbench_core.testing.controller import ControllerConformance
+from mrpbench_core.testing.crowd import CrowdConformance
+from mrpbench_core.testing.dispatcher import DispatcherConformance
+from mrpbench_core.testing.executor import ExecutorConformance
+from mrpbench_core.testing.exporter import ExporterConformance
+from mrpbench_core.testing.localizer import LocalizerConformance
+from mrpbench_core.testing.metric import MetricConformance
+from mrpbench_core.testing.navigator import NavigatorConformance
+from mrpbench_core.testing.planner import PlannerConformance
+from mrpbench_core.testing.roadmap import RoadmapConformance
+from mrpbench_core.testing.scenario import ScenarioConformance
+from mrpbench_core.testing.simulator import SimulatorConformance
+from mrpbench_core.testing.world import WorldConformance
+
+SUITES: dict[str, type[ComponentConformance]] = {
+    "world": WorldConformance,
+    "roadmap": RoadmapConformance,
+    "scenario": ScenarioConformance,
+    "assigner": AssignerConformance,
+    "planner": PlannerConformance,
+    "dispatcher": DispatcherConformance,
+    "navigator": NavigatorConformance,
+    "controller": ControllerConformance,
+    "localizer": LocalizerConformance,
+    "simulator": SimulatorConformance,
+    "crowd": CrowdConformance,
+    "metric": MetricConformance,
+    "exporter": ExporterConformance,
+    "executor": ExecutorConformance,
+}
+
+
+def suite_for(component: Component) -> ComponentConformance:
+    """The suite for a component; one of a kind that a plugin defines gets the checks of every component."""
+
+    class Suite(SUITES.get(kind_of(component.group), ComponentConformance)):  # type: ignore[misc]
+        def make(self) -> Component:
+            return component
+
+    return Suite()
