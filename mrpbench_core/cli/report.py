@@ -9,6 +9,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.config.mistakes import did_you_mean
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.groups import Group, group
 from mrpbench_core.store.results import Results, load
@@ -23,6 +24,10 @@ MAIN = (
     "execution.robot_contacts",
 )
 """Columns shown where no others are asked for and some run has them."""
+
+
+ABREAST = 4
+"""Groups that stand side by side, one row for each column of the table."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -56,26 +61,27 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def print_report(results: Sequence[Results], metrics: str | None = None, limit: int | None = None) -> None:
-    """Print one row a group, at most `limit` of them."""
+    """Print a column for each group while they are few, else a row for each, at most `limit` of them."""
     groups = group(_Records(results))
     known = list(dict.fromkeys(key for found in groups for key in found.sums))
     wanted = known if metrics == "all" else metrics.split(",") if metrics else [key for key in MAIN if key in known]
     if unknown := [key for key in wanted if key not in known]:
-        raise InputError(f"no run has a value of {unknown[0]!r}", hint="there are: " + ", ".join(known))
+        raise InputError(f"no run has a value of {unknown[0]!r}", hint=did_you_mean(unknown[0], known))
     axes = list(dict.fromkeys(key for found in groups for key in found.axes))
-    rows = [
-        [
-            *(found.axes.get(key) for key in axes),
-            found.runs,
-            f"{found.statuses['succeeded']}/{found.counted}",
-            ", ".join(f"{name} {count}" for name, count in found.statuses.most_common() if name != "succeeded") or None,
-            *(_mean(found, key) for key in wanted),
-        ]
-        for found in groups
-    ]
-    print_table([*axes, "runs", "succeeded", "other", *wanted], rows[:limit])
-    if limit is not None and len(rows) > limit:
-        print(f"… {len(rows) - limit} more rows: `mrpbench report {results[0].folder.path}`")
+    table: dict[str, list[Any]] = {key: [found.axes.get(key) for found in groups] for key in axes}
+    table["runs"] = [found.runs for found in groups]
+    table["succeeded"] = [f"{found.statuses['succeeded']}/{found.counted}" for found in groups]
+    others = dict.fromkeys(status for found in groups for status in found.statuses if status != "succeeded")
+    table |= {status: [found.statuses[status] for found in groups] for status in others}
+    table |= {key: [_mean(found, key) for found in groups] for key in wanted}
+    if len(groups) <= ABREAST:
+        print_table(
+            ["", *(f"#{number + 1}" for number in range(len(groups)))], [[key, *row] for key, row in table.items()]
+        )
+    else:
+        print_table(_short(list(table)), list(zip(*table.values(), strict=True))[:limit])
+    if limit is not None and len(groups) > max(limit, ABREAST):
+        print(f"… {len(groups) - limit} more rows: `mrpbench report {results[0].folder.path}`")
 
 
 @attrs.frozen
@@ -89,6 +95,12 @@ class _Records:
             for record in results:
                 if not any(record["run_id"] in later for later in self.results[index + 1 :]):
                     yield record
+
+
+def _short(columns: list[str]) -> list[str]:
+    """Headings without the name of the metric, where they stay different."""
+    short = [column.rpartition(".")[2] for column in columns]
+    return [end if short.count(end) == 1 else column for end, column in zip(short, columns, strict=True)]
 
 
 def _mean(found: Group, key: str) -> str | None:

@@ -7,32 +7,41 @@ from typing import Any
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "") -> None:
-    """Print rows of cells; None is shown as a dash."""
+    """Print rows of cells; None is shown as a dash. Columns of numbers are flush right."""
     cells = [["–" if cell is None else str(cell) for cell in row] for row in rows]
-    numeric = [
-        bool(rows) and all(isinstance(row[index], int | float | None) for row in rows) for index in range(len(columns))
-    ]
+    right = [all(_is_number(row[index]) for row in cells) for index in range(len(columns))]
     if sys.stdout.isatty():
-        from rich.console import Console
-        from rich.markup import escape
-        from rich.table import Table
-
-        table = Table(title=title or None, title_justify="left")
-        for name, right in zip(columns, numeric, strict=True):
-            table.add_column(escape(name), justify="right" if right else "left", overflow="fold")
-        for row in cells:
-            table.add_row(*map(escape, row))
-        Console().print(table)
+        _print_rich(columns, cells, right, title)
         return
     if title:
         print(title)
-    widths = [max(len(row[index]) for row in [list(columns), *cells]) for index in range(len(columns))]
-    for row in [list(columns), *cells]:
+    lines = [list(columns), *cells]
+    widths = [max(len(line[index]) for line in lines) for index in range(len(columns))]
+    for line in lines:
         parts = (
-            cell.rjust(width) if right else cell.ljust(width)
-            for cell, width, right in zip(row, widths, numeric, strict=True)
+            cell.rjust(width) if flush else cell.ljust(width)
+            for cell, width, flush in zip(line, widths, right, strict=True)
         )
         print("  ".join(parts).rstrip())
+
+
+def _print_rich(columns: Sequence[str], cells: Sequence[Sequence[str]], right: Sequence[bool], title: str) -> None:
+    from rich import box
+    from rich.console import Console
+    from rich.markup import escape
+    from rich.table import Table
+
+    table = Table(title=title or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    for name, flush in zip(columns, right, strict=True):  # broken between words where the terminal is narrow
+        heading = escape(name.replace("_", " ").replace(".", " "))
+        table.add_column(heading, justify="right" if flush else "left", overflow="fold")
+    for row in cells:
+        table.add_row(*map(escape, row))
+    Console().print(table)
+
+
+def _is_number(cell: str) -> bool:
+    return cell == "–" or cell.replace(".", "").replace("e-", "").replace("e+", "").removeprefix("-").isdigit()
 
 
 def print_json(value: Any) -> None:
