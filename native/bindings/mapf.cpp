@@ -188,16 +188,19 @@ Answer cbs(const Instance& instance, double wall_s, std::int64_t memory_bytes) {
 }  // namespace
 
 NB_MODULE(mapf, module) {
+  // Arrays come with the right type: converting would wrap numbers that are too large.
+  const auto array = [](const char* name) { return nb::arg(name).noconvert(); };
   module.doc() = "Multi-agent path finding in C++. Plain arrays in, plain arrays out.";
 
   nb::class_<Instance>(
       module, "Instance",
       "Robots on a roadmap. Raises ValueError for data that make no sense. Lists of several robots are "
       "stored one after another: those of robot r are [first[r], first[r + 1]).")
-      .def("__init__", &construct, nb::kw_only(), "position"_a, "edges"_a, "duration"_a, "profile"_a, "radius"_a,
-           "start"_a, "ready"_a, "goal_first"_a, "goal"_a, "committed_first"_a, "committed_edge"_a, "committed_enter"_a,
-           "committed_leave"_a, "exclusion_first"_a, "exclusion_element"_a, "exclusion_distance"_a,
-           "following_forbidden"_a, "disappear_at_goal"_a);
+      .def("__init__", &construct, nb::kw_only(), array("position"), array("edges"), array("duration"),
+           array("profile"), array("radius"), array("start"), array("ready"), array("goal_first"), array("goal"),
+           array("committed_first"), array("committed_edge"), array("committed_enter"), array("committed_leave"),
+           array("exclusion_first"), array("exclusion_element"), array("exclusion_distance"), "following_forbidden"_a,
+           "disappear_at_goal"_a);
 
   nb::class_<Answer>(module, "Answer", "How a solver ended. The segments of robot r are [first[r], first[r + 1]).")
       .def_prop_ro("status", &Answer::status, "solved, timeout, out_of_memory, unsolvable or gave_up.")

@@ -52,6 +52,7 @@ class Cbs {
 
   void solve() {
     if (const auto robot = find_cut_off_robot(instance_, tables_, limits_)) return unsolvable(*robot);
+    result_.lower_bound = static_cast<double>(tables_.sum_of_costs(instance_));
     if (const auto robot = find_clash(instance_, relations_, limits_)) return unsolvable(*robot);
     reserve_beginnings(instance_, certain_);
     if (const auto robot = plan_root()) return unsolvable(*robot);

@@ -60,4 +60,14 @@ DistanceTables::DistanceTables(const Instance& instance, Limits& limits) {
   }
 }
 
+Cost DistanceTables::sum_of_costs(const Instance& instance) {
+  Cost sum = 0;
+  for (int robot = 0; robot < instance.size(); ++robot) {
+    const Beginning& beginning = instance.beginning(robot);
+    const Tick distance = (*this)[robot](beginning.vertex);
+    sum += distance == 0 ? enter_tick(beginning.occupied.back()) : beginning.free_at + distance;
+  }
+  return sum;
+}
+
 }  // namespace mrpbench::mapf

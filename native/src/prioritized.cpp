@@ -81,6 +81,7 @@ void solve(const Instance& instance, const PrioritizedOptions& options, Limits& 
   };
   DistanceTables tables(instance, limits);
   if (const auto robot = find_cut_off_robot(instance, tables, limits)) return unsolvable(*robot);
+  result.lower_bound = static_cast<double>(tables.sum_of_costs(instance));
   const Relations relations(instance, limits);
   if (const auto robot = find_clash(instance, relations, limits)) return unsolvable(*robot);
 

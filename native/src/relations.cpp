@@ -24,7 +24,8 @@ void sort_and_unite(std::vector<Near>& row) {
 
 }  // namespace
 
-Relations::Relations(const Instance& instance, Limits& limits) {
+Relations::Relations(const Instance& instance, Limits& limits)
+    : local_(!instance.footprints() && !instance.rules().following_forbidden) {
   const Roadmap& roadmap = instance.roadmap();
   const Exclusions& exclusions = instance.exclusions();
   const int vertices = roadmap.vertex_count();
@@ -46,6 +47,7 @@ Relations::Relations(const Instance& instance, Limits& limits) {
       }
     }
     sort_and_unite(row);
+    place_.push_back(row.empty() ? element : std::min(element, row.front().element));
     near_.insert(near_.end(), row.begin(), row.end());
     first_.push_back(near_.size());
   }
@@ -66,7 +68,7 @@ void Relations::add_lane_rules(const Instance& instance, int edge, std::vector<N
   for (const int other : roadmap.in(tail)) row.push_back({edges + other, false, kAlways});
 }
 
-Relation Relations::between(int one, int other, double reach) const {
+Relation Relations::find(int one, int other, double reach) const {
   const std::span<const Near> near = row(one);
   if (near.size() <= 8) {
     for (const Near& entry : near) {

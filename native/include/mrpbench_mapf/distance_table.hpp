@@ -47,6 +47,8 @@ class DistanceTables {
  public:
   DistanceTables(const Instance& instance, Limits& limits);
   DistanceTable& operator[](int robot) { return *tables_[of_robot_[robot]]; }
+  /// Sum of costs if every robot were alone: a lower bound. All of them must be able to reach a goal.
+  Cost sum_of_costs(const Instance& instance);
 
  private:
   std::vector<std::unique_ptr<DistanceTable>> tables_;

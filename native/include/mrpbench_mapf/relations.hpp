@@ -34,11 +34,17 @@ class Relations {
   std::span<const Near> row(int element) const {
     return {near_.data() + first_[element], near_.data() + first_[element + 1]};
   }
-  Relation between(int one, int other, double reach) const;
+  Relation between(int one, int other, double reach) const {
+    // On most roadmaps only a vertex with itself and the lanes of one pair of vertices are related: one comparison.
+    return local_ && place_[one] != place_[other] ? Relation::none : find(one, other, reach);
+  }
 
  private:
+  Relation find(int one, int other, double reach) const;
   void add_lane_rules(const Instance& instance, int edge, std::vector<Near>& row) const;
 
+  bool local_;                       // related elements have the same place
+  std::vector<std::int32_t> place_;  // the vertex itself, or the first edge between the same two vertices
   std::vector<std::size_t> first_;
   std::vector<Near> near_;
 };

@@ -1,6 +1,6 @@
 """Decentralised A*: each robot plans alone, as in the baseline of MRP-Bench."""
 
-from typing import ClassVar
+from typing import ClassVar, Literal, get_args
 
 import attrs
 from mrpbench_native import mapf
@@ -10,6 +10,8 @@ from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_planners_mapf.native import SUPPORTED, solve
+
+Heuristic = Literal["exact", "zero", "manhattan", "octile", "euclidean"]
 
 
 @attrs.frozen(kw_only=True)
@@ -22,11 +24,11 @@ class Astar(Planner):
     supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.DETERMINISTIC})
 
-    heuristic: str = option(
+    heuristic: Heuristic = option(
         "exact",
         help="Estimate of the ticks to go: exact (true distances), zero, or a distance in metres times the least "
         "ticks per metre of any edge: manhattan, octile, euclidean. All find shortest paths, with different effort.",
-        validator=attrs.validators.in_(("exact", "zero", "manhattan", "octile", "euclidean")),
+        validator=attrs.validators.in_(get_args(Heuristic)),
     )
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:

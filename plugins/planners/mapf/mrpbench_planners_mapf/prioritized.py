@@ -1,6 +1,6 @@
 """Cooperative planning in priority order by safe interval path planning."""
 
-from typing import ClassVar
+from typing import ClassVar, Literal, get_args
 
 import attrs
 from mrpbench_native import mapf
@@ -11,6 +11,8 @@ from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_planners_mapf.native import SUPPORTED, solve
 
+Order = Literal["index", "longest_first", "shortest_first", "random"]
+
 
 @attrs.frozen(kw_only=True)
 class Prioritized(Planner):
@@ -18,19 +20,19 @@ class Prioritized(Planner):
 
     Fast, but incomplete: when some robot finds no path, the robot goes to the front and all are planned again, up to
     `restarts` times (an order that was tried before is shuffled). Then the planner gives up, and
-    `statistics["failed_robot"]` names the robot.
+    `statistics["failed_robot"]` names the robot. `lower_bound` is what the robots would cost if each were alone.
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
 
-    order: str = option(
+    order: Order = option(
         "longest_first",
         help="Who plans first: index (the order of the fleet), longest_first or shortest_first (by the distance to "
         "the goal), random.",
-        validator=attrs.validators.in_(("index", "longest_first", "shortest_first", "random")),
+        validator=attrs.validators.in_(get_args(Order)),
     )
-    restarts: int = option(20, help="Further orders to try after a failure.", validator=attrs.validators.ge(0))
+    restarts: int = option(100, help="Further orders to try after a failure.", validator=attrs.validators.ge(0))
     seed: int = option(0, help="Seed of random orders.", validator=attrs.validators.ge(0))
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:

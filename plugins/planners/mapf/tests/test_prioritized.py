@@ -28,7 +28,7 @@ def test_plans_on_graphs_are_valid_and_not_better_than_optimal(seed, robots, ord
     if result.status is PlanStatus.SOLVED:
         report = check_plan(asked, result.plan)
         assert report.valid, (report.faults, report.conflicts)
-        assert best.lower_bound <= result.plan.sum_of_costs
+        assert result.lower_bound <= best.lower_bound <= result.plan.sum_of_costs
     elif result.status is PlanStatus.UNSOLVABLE:
         assert best.status in {PlanStatus.UNSOLVABLE, PlanStatus.TIMEOUT}
     else:
