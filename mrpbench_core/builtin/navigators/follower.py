@@ -1,12 +1,15 @@
 """One robot on its route: what it has reached and cleared, what lies ahead, and whether it makes progress."""
 
 import math
+from typing import TYPE_CHECKING
 
-import attrs
 import numpy as np
 
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.execution import Mode, Route
+
+if TYPE_CHECKING:
+    from mrpbench_core.builtin.navigators.waypoints import Waypoints
 
 _SETTLED = 0.02
 """metres before the end of what is released at which a robot that has reached it need not be driven any more."""
@@ -18,26 +21,16 @@ _SLACK = 1e-6
 """metres."""
 
 
-@attrs.frozen(kw_only=True)
-class Checks:
-    """When something counts; see the options of `Waypoints`."""
-
-    stop: bool
-    waypoint_tolerance: float
-    xy_goal_tolerance: float
-    yaw_goal_tolerance: float
-    required_movement_radius: float
-    movement_time_allowance: float
-    max_recoveries: int
-
-
 class Follower:
     """Follows one route. `clearance` is the distance in metres at which this robot leaves room for any other."""
 
-    def __init__(self, route: Route, checks: Checks, clearance: float) -> None:
-        self._checks = checks
+    def __init__(self, route: Route, options: "Waypoints", clearance: float) -> None:
+        self._options = options
+        self._stops = options.waypoints == "stop"
         self._clearance = clearance
         self.reached = self.cleared = 0
+        self.yaw = math.nan
+        """Yaw to take at the end of the last `path`, NaN = any."""
         self._leg = 0  # the robot drives from corner `_leg` of its route to the next
         self.adopt(route)
 
@@ -59,11 +52,6 @@ class Follower:
         self.mode = Mode.WAITING
 
     @property
-    def yaw(self) -> float:
-        """Yaw to take at the end of what is released, NaN = any."""
-        return self._yaw[self._released]
-
-    @property
     def speed(self) -> float:
         """Speed limit of the segment under way, m/s."""
         return self._speed[self.reached]
@@ -74,8 +62,8 @@ class Follower:
         self._halting = self._halting and abs(speed) > _STANDING
         while self.reached < released and not self._halting and self._has_arrived(x, y, yaw):
             self.reached += 1
-            self._halting = self._checks.stop and abs(speed) > _STANDING
-        self._released = min(self.reached + 1, released) if self._checks.stop else released
+            self._halting = self._stops and abs(speed) > _STANDING
+        self._released = min(self.reached + 1, released) if self._stops else released
         self._end = self._corner[self._released]
         while self._leg + 1 < self._end and self._is_round_the_corner(x, y):
             self._leg += 1
@@ -94,12 +82,12 @@ class Follower:
             return None
         foot = _nearest(x, y, *self._points[self._leg], *self._points[self._leg + 1])
         if self.reached == self._released and self._leg + 1 == self._end:
-            turned = math.isnan(self.yaw) or abs(_wrap(yaw - self.yaw)) <= self._checks.yaw_goal_tolerance
-            if turned and math.dist(foot, self._points[self._end]) <= _SETTLED:
+            if self._faces(yaw, self._released) and math.dist(foot, self._points[self._end]) <= _SETTLED:
                 return None
         end = min(max(self._corner[self.reached], self._leg) + 1, self._end)
         while end < self._end and not self._bends[end]:
             end += 1
+        self.yaw = self._yaw[self._released] if end == self._end else math.nan
         ahead = np.empty((end - self._leg + 1, 2))
         ahead[0] = foot
         ahead[1:] = self._corners[self._leg + 1 : end + 1]
@@ -112,16 +100,20 @@ class Follower:
         px, py = self._points[corner]
         distance = math.hypot(x - px, y - py)
         if goal == len(self._corner) - 1:
-            self._at_goal = self._at_goal or distance <= self._checks.xy_goal_tolerance
-            wanted = self._yaw[goal]
-            return self._at_goal and (math.isnan(wanted) or abs(_wrap(yaw - wanted)) <= self._checks.yaw_goal_tolerance)
-        if corner == self._corner[self.reached] or distance <= self._checks.waypoint_tolerance:
+            self._at_goal = self._at_goal or distance <= self._options.xy_goal_tolerance
+            return self._at_goal and self._faces(yaw, goal)
+        if corner == self._corner[self.reached] or distance <= self._options.waypoint_tolerance:
             return True
         qx, qy = self._points[corner - 1]
         length = math.hypot(px - qx, py - qy)
         past = ((x - px) * (px - qx) + (y - py) * (py - qy)) / length
         beside = ((px - qx) * (y - py) - (py - qy) * (x - px)) / length
-        return past >= 0 and abs(beside) <= self._checks.waypoint_tolerance
+        return past >= 0 and abs(beside) <= self._options.waypoint_tolerance
+
+    def _faces(self, yaw: float, waypoint: int) -> bool:
+        """Tell whether `yaw` is the one that a waypoint prescribes, if it prescribes any."""
+        wanted = self._yaw[waypoint]
+        return math.isnan(wanted) or abs(math.remainder(yaw - wanted, math.tau)) <= self._options.yaw_goal_tolerance
 
     def _is_round_the_corner(self, x: float, y: float) -> bool:
         """Tell whether the robot reached the next corner and is nearer to the leg behind it than to this one."""
@@ -151,12 +143,12 @@ class Follower:
             self._baseline = None
             return ()
         since = self._baseline
-        if since is None or math.dist((x, y), since[1:]) > self._checks.required_movement_radius:
+        if since is None or math.dist((x, y), since[1:]) > self._options.required_movement_radius:
             self._baseline = (now, x, y)
-        elif now - since[0] > self._checks.movement_time_allowance:
+        elif now - since[0] > self._options.movement_time_allowance:
             self._baseline = (now, x, y)
             self._recoveries += 1
-            if self._recoveries > self._checks.max_recoveries:
+            if self._recoveries > self._options.max_recoveries:
                 self.mode = Mode.ABORTED
                 return ("no_progress", "aborted")
             return ("no_progress",)
@@ -176,7 +168,3 @@ def _nearest(x: float, y: float, ax: float, ay: float, bx: float, by: float) -> 
     dx, dy = bx - ax, by - ay
     share = min(max(((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy), 0.0), 1.0)
     return ax + share * dx, ay + share * dy
-
-
-def _wrap(angle: float) -> float:
-    return math.remainder(angle, math.tau)

@@ -11,7 +11,7 @@ import numpy as np
 from attrs.validators import ge, gt
 
 from mrpbench_core.api import Controller, FleetControllerSession, Navigator, NavigatorSession, option
-from mrpbench_core.builtin.navigators.follower import Checks, Follower
+from mrpbench_core.builtin.navigators.follower import Follower
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.execution import Event, FleetObservation, Motion, Observation, Orders, Route, ScanBatch
 from mrpbench_core.model.fleet import Fleet
@@ -26,13 +26,18 @@ class Waypoints(Navigator):
         "pass", help="drive through released waypoints on the way, or stop at each as the original benchmark did"
     )
     waypoint_tolerance: float = option(
-        0.10, help="a waypoint on the way is reached within this distance, or when passed that close", unit="m"
+        0.10,
+        help="a waypoint on the way is reached within this distance, or when passed that close",
+        unit="m",
+        validator=gt(0),
     )
     xy_goal_tolerance: float = option(
-        0.10, help="distance within which the end of the path is reached (Nav2: 0.25)", unit="m"
+        0.10, help="distance within which the end of the path is reached (Nav2: 0.25)", unit="m", validator=gt(0)
     )
     yaw_goal_tolerance: float = option(
-        0.25, help="error of yaw within which the end of the path is reached, if it prescribes one, radians"
+        0.25,
+        help="error of yaw within which the end of the path is reached, if it prescribes one, radians",
+        validator=gt(0),
     )
     required_movement_radius: float = option(
         0.5, help="a robot under way makes progress when it moves this far", unit="m", validator=gt(0)
@@ -49,18 +54,9 @@ class Waypoints(Navigator):
     ) -> NavigatorSession:
         """Begin at the start of the routes; nothing here is random."""
         del seed
-        checks = Checks(
-            stop=self.waypoints == "stop",
-            waypoint_tolerance=self.waypoint_tolerance,
-            xy_goal_tolerance=self.xy_goal_tolerance,
-            yaw_goal_tolerance=self.yaw_goal_tolerance,
-            required_movement_radius=self.required_movement_radius,
-            movement_time_allowance=self.movement_time_allowance,
-            max_recoveries=self.max_recoveries,
-        )
         widest = float(fleet.radii.max(initial=0.0))
         followers = [
-            Follower(route, checks, robot.radius + widest) for route, robot in zip(routes, fleet.robots, strict=True)
+            Follower(route, self, robot.radius + widest) for route, robot in zip(routes, fleet.robots, strict=True)
         ]
         return _Session(followers, controller.start_fleet(fleet.robots, world, period))
 

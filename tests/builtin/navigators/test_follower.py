@@ -7,18 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.builtin.navigators.follower import Checks, Follower
+from mrpbench_core.builtin.navigators.follower import Follower
+from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.model.execution import Mode, Route
 
-CHECKS = Checks(
-    stop=False,
-    waypoint_tolerance=0.1,
-    xy_goal_tolerance=0.1,
-    yaw_goal_tolerance=0.25,
-    required_movement_radius=0.5,
-    movement_time_allowance=10.0,
-    max_recoveries=2,
-)
+OPTIONS = Waypoints(max_recoveries=2)
 CLEARANCE = 0.25
 
 
@@ -29,9 +22,9 @@ def route(points, yaw=math.nan, speed=math.inf):
     return Route(waypoint=waypoint, level=np.zeros(segments + 1), speed=np.full(segments, speed))
 
 
-def follow(points, poses, released=None, checks=CHECKS, **options):
+def follow(points, poses, released=None, navigator=OPTIONS, **options):
     """The follower after some poses (x, y, yaw), one control period apart, with everything released."""
-    follower = Follower(route(points, **options), checks, CLEARANCE)
+    follower = Follower(route(points, **options), navigator, CLEARANCE)
     events = []
     for period, (x, y, yaw) in enumerate(poses):
         limit = len(points) - 1 if released is None else released
@@ -118,7 +111,7 @@ def test_the_path_begins_beside_the_robot_and_ends_where_the_release_ends():
 )
 def test_no_path_leads_beyond_what_is_released(steps, data):
     points = [(0.0, 0.0), *np.cumsum(steps, axis=0).tolist()]
-    follower, driven, released = Follower(route(points), CHECKS, CLEARANCE), 0, 0
+    follower, driven, released = Follower(route(points), OPTIONS, CLEARANCE), 0, 0
     for _ in range(3):
         released = data.draw(st.integers(released, len(steps)))
         for x, y, yaw in along(points[driven : released + 1], step=0.05):
@@ -162,9 +155,18 @@ def test_the_goal_has_a_yaw_when_the_route_prescribes_one():
     assert follower.path(1.2, 0, 1.4) is None
 
 
+def test_the_yaw_of_the_goal_is_not_to_be_taken_at_a_bend_before_it():
+    follower, _ = follow(CORNER, along([(0, 0), (0.2, 0)]), yaw=1.5)
+    follower.path(0.2, 0, 0)
+    assert math.isnan(follower.yaw)
+    follower.update(9, 0.35, 0, 0, 0.2, 3)
+    follower.path(0.35, 0, 0)
+    assert follower.yaw == 1.5
+
+
 def test_stopping_at_waypoints_means_standing_still_at_each():
-    stop = attrs.evolve(CHECKS, stop=True)
-    follower, _ = follow(LINE, along([(0, 0), (0.31, 0)]), checks=stop)
+    stop = Waypoints(waypoints="stop")
+    follower, _ = follow(LINE, along([(0, 0), (0.31, 0)]), navigator=stop)
     assert follower.reached == 1
     assert follower.path(0.31, 0, 0) is None
     follower.update(9, 0.31, 0, 0, 0.005, 3)
@@ -199,7 +201,7 @@ def test_a_longer_route_continues_where_the_old_one_was():
 
 def test_the_speed_limit_is_that_of_the_segment_under_way():
     limits = attrs.evolve(route(LINE), speed=np.array([0.1, 0.2, math.inf]))
-    follower = Follower(limits, CHECKS, CLEARANCE)
+    follower = Follower(limits, OPTIONS, CLEARANCE)
     seen = []
     for pose in along([(0, 0), (1.2, 0)]):
         follower.update(0, *pose, 0.2, 3)
@@ -208,7 +210,7 @@ def test_the_speed_limit_is_that_of_the_segment_under_way():
 
 
 def test_a_robot_that_need_not_move_has_arrived():
-    follower = Follower(route([(1, 1)]), CHECKS, CLEARANCE)
+    follower = Follower(route([(1, 1)]), OPTIONS, CLEARANCE)
     assert follower.update(0, 1, 1, 0, 0, 0) == ()
     assert follower.path(1, 1, 0) is None
     waits, _ = follow([(1, 1), (1, 1)], [(1, 1, 0)])

@@ -7,7 +7,7 @@ import sys
 import attrs
 import numpy as np
 import pytest
-from mrpbench_simulators_pybullet import PyBullet
+from mrpbench_simulators_pybullet import PyBullet, walls
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.files.robot import load_robot
@@ -98,6 +98,18 @@ def test_lidars_of_both_simulators_agree(world):
     same = np.isclose(a, b, rtol=0, atol=0.01)  # inf equals inf
     assert same.mean() >= 0.99
     assert 0.3 < np.isfinite(a).mean() < 1
+
+
+def test_large_worlds_are_several_meshes_that_act_as_one(monkeypatch):
+    command = [[0.2, 0.0]]
+    (whole, seen), (parts, seen_in_parts) = (
+        (monkeypatch.setattr(walls, "_SEGMENTS", size), run(PyBullet(), ROOM, (BURGER,), [[5.6, 3.5, 0]], command, 3))[
+            1
+        ]
+        for size in (10_000, 7)
+    )
+    assert np.allclose(seen[0].ranges, seen_in_parts[0].ranges)
+    assert whole[-1].contacts.tolist() == parts[-1].contacts.tolist() == [[0, -1]]
 
 
 def test_robots_see_each_other_as_discs():
