@@ -81,9 +81,9 @@ class Follower:
         if self.mode == Mode.ABORTED or self._halting or self._end == 0:
             return None
         foot = _nearest(x, y, *self._points[self._leg], *self._points[self._leg + 1])
-        if self.reached == self._released and self._leg + 1 == self._end:
-            if self._faces(yaw, self._released) and math.dist(foot, self._points[self._end]) <= _SETTLED:
-                return None
+        settled = self._leg + 1 == self._end and math.dist(foot, self._points[self._end]) <= _SETTLED
+        if settled and self.reached == self._released and self._faces(yaw, self._released):
+            return None
         end = min(max(self._corner[self.reached], self._leg) + 1, self._end)
         while end < self._end and not self._bends[end]:
             end += 1
