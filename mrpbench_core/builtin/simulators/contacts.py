@@ -99,7 +99,7 @@ def _overlap(centres: Float, radii: Float, owner: Int, walls: Float) -> Float:
 
 
 def _away(centre: Float, wall: Float) -> Float:
-    """The direction f8[2] that leads from a segment, solid on its left, straight to a point; never into the solid."""
+    """The direction f8[2] straight from a segment, solid on its left, to a point; to its right from a point on it."""
     along = wall[2:] - wall[:2]
     offset = centre - wall[:2]
     share = min(max(float((offset * along).sum() / max(float((along * along).sum()), 1e-300)), 0.0), 1.0)
