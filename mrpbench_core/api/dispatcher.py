@@ -18,7 +18,11 @@ class DispatcherSession(ABC):
 
     @abstractmethod
     def adopt(self, problem: Problem, plan: Plan) -> None:
-        """Continue with a new plan that begins with what was released of the old one (`problem.commitments`)."""
+        """Continue with a new plan that begins with what was released of the old one (`problem.commitments`).
+
+        Raises:
+            DispatchError: the new plan cannot be released safely from here; the old one stays in force.
+        """
 
 
 class Dispatcher(Component):
