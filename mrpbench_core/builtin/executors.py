@@ -9,14 +9,17 @@ from concurrent.futures import Executor, ThreadPoolExecutor
 import attrs
 
 from mrpbench_core.api.executor import ExecutorSource
+from mrpbench_core.files.errors import InputError
 
 
 @attrs.frozen(kw_only=True)
 class Serial(ExecutorSource):
-    """One run after another, whatever `--workers` says: for timing."""
+    """One run after another: for timing."""
 
-    def open(self, workers: int) -> Executor:  # noqa: ARG002
+    def open(self, workers: int) -> Executor:
         """One thread."""
+        if workers != 1:
+            raise InputError(f"the executor serial has one worker, not {workers}", hint="processes has several")
         return ThreadPoolExecutor(1, "mrpbench-run")
 
 

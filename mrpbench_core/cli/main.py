@@ -27,6 +27,8 @@ COMMANDS = {
     "scenario": "freeze the instances a study draws, for publication",
     "world": "facts and checks of a map",
     "plugins": "list what is installed, or show one plugin's options",
+    "check": "run the checks that every plugin of its kind must pass",
+    "new-plugin": "write a plugin that works, in a folder of its own",
     "schema": "print the JSON Schema of configurations, for editors",
     "info": "facts about this machine and installation, for bug reports",
 }
@@ -87,7 +89,7 @@ def _dispatch(words: list[str]) -> int:
         raise InputError(
             f"no command is called {name!r}", hint=f"did you mean {close[0]!r}?" if close else "see --help"
         )
-    command = importlib.import_module(f"mrpbench_core.cli.{name}")
+    command = importlib.import_module(f"mrpbench_core.cli.{name.replace('-', '_')}")
     parser = Parser(prog=f"mrpbench {name}", description=COMMANDS[name][0].upper() + COMMANDS[name][1:] + ".")
     command.configure(parser)
     code: int = command.run(parser.parse_intermixed_args(words[1:]))

@@ -51,9 +51,11 @@ class Printed(Progress):
         self._going.pop(point.run_id)
         self._say(f"{point.run_id[:SHORT]} is done again: {reason}")
 
-    def refused(self, point: RunPoint, mistake: str) -> None:
-        """Count it; the caller prints each mistake once."""
-        self._end(point, "not run", mistake)
+    def refused(self, point: RunPoint, mistake: str) -> None:  # noqa: ARG002
+        """Count it; the mistake itself is printed once for all runs it spoils, at the end."""
+        self._going.pop(point.run_id)
+        self._counts["not run"] += 1
+        self._draw()
 
     def close(self) -> None:
         """Remove the live line."""
@@ -63,7 +65,7 @@ class Printed(Progress):
     def _end(self, point: RunPoint, status: str, message: str) -> None:
         self._going.pop(point.run_id)
         self._counts[status] += 1
-        if not self._live or status in ("crashed", "out_of_memory", "wall_timeout", "not run"):
+        if not self._live or status in ("crashed", "out_of_memory", "wall_timeout"):
             done = f"[{self._counts.total()}/{self._total}]"
             axes = " ".join(f"{key}={word(value)}" for key, value in point.axes.items())
             line = " ".join(filter(None, (done, point.run_id[:SHORT], status, axes)))

@@ -3,6 +3,7 @@
 import argparse
 import signal
 import sys
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -78,8 +79,8 @@ def _run_one(study: Study, request: Request) -> int:
             f"interrupted; what is finished is kept in {request.out}, the same command goes on from there\n"
         )
         raise SystemExit(130) from None
-    for mistake in dict.fromkeys(line for text in done.mistakes.values() for line in text.splitlines()):
-        sys.stderr.write(f"{mistake}\n")
+    for mistake, runs in Counter(line for text in done.mistakes.values() for line in text.splitlines()).items():
+        sys.stderr.write(f"{mistake}\n" if runs == 1 else f"{mistake} ({runs} runs)\n")
     if done.mistakes and not len(done.results):
         return 2
     _summarize(done, request)

@@ -18,6 +18,9 @@ import psutil
 SAMPLING_S = 0.1
 """Seconds between looks at a worker's memory, or more where looking takes long."""
 
+CLOSING_S = 1.0
+"""Seconds between the end of a worker's messages and its own."""
+
 
 class Died(Exception):  # noqa: N818 - it says what happened
     """The process ended without answering; the message says how."""
@@ -52,6 +55,8 @@ class Child:
             for descriptor in (jobs, messages, lifeline):
                 os.close(descriptor)
         self._buffer = b""
+        self._poll = select.poll()
+        self._poll.register(self._messages, select.POLLIN)
         self._reaping = threading.Lock()
         self._watched = psutil.Process(self._process.pid)
         self._next_sample = 0.0
@@ -80,18 +85,17 @@ class Child:
         Raises:
             Died: the process ended.
         """
-        if b"\n" not in self._buffer:
-            ended = self._ended()  # before reading, so that its last words are heard
-            if select.select([self._messages], [], [], 0 if ended else timeout_s)[0]:
-                content = os.read(self._messages, 1 << 16)
-                self._buffer += content
-                ended = ended or not content
-            if ended and b"\n" not in self._buffer:
+        while b"\n" not in self._buffer:
+            ended = self._ended()  # looked at before reading, so that its last words are heard
+            if not self._poll.poll(0 if ended else timeout_s * 1000):
+                if ended:
+                    raise self._end()
+                return None
+            content = os.read(self._messages, 1 << 16)
+            if not content:
                 raise self._end()
-        line, newline, rest = self._buffer.partition(b"\n")
-        if not newline:
-            return None
-        self._buffer = rest
+            self._buffer += content
+        line, _, self._buffer = self._buffer.partition(b"\n")
         message: dict[str, Any] = json.loads(line)
         return message
 
@@ -143,6 +147,11 @@ class Child:
 
     def _end(self) -> Died:
         """How it ended."""
+        deadline = time.monotonic() + CLOSING_S
+        while not self._ended():
+            if time.monotonic() > deadline:
+                return Died("the worker process closed its connection")
+            time.sleep(0.001)
         status = os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOWAIT)
         assert status is not None
         if status.si_code == os.CLD_EXITED:

@@ -91,7 +91,7 @@ def _do(study: Study, request: Request, folder: ResultsFolder, selection: Select
         shard = Writer(folder.shard(invocation), exclusive=True)
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror}", file=error.filename or folder.path) from error
-    with closing(shard):
+    with closing(shard), request.executor.open(request.workers) as executor:
         schedule = Schedule(
             invocation=invocation,
             waiting=deque(selection.todo),
@@ -102,7 +102,7 @@ def _do(study: Study, request: Request, folder: ResultsFolder, selection: Select
             progress=request.progress,
         )
         hooks.call("mrpbench_study_started", study=study.document, runs=len(selection.todo))
-        schedule.work_off(request.executor.open(request.workers))
+        schedule.work_off(executor)
         hooks.call("mrpbench_study_finished", records=len(selection.todo) - len(schedule.mistakes))
     return schedule.mistakes
 

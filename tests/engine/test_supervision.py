@@ -19,7 +19,7 @@ def outcomes(study, does, **options):
 @pytest.mark.parametrize("workers", [1, 2])
 def test_neighbours_of_misbehaving_plugins_go_on(study, workers):
     study["limits"]["memory"] = "500 MiB"
-    does = ["hang", "exit", "nothing", "segfault", "eat", "raise", "system_exit", "eat_at_once"]
+    does = ["hang", "exit", "nothing", "segfault", "eat", "raise", "system_exit", "eat_at_once", "close_everything"]
     records = outcomes(study, does, workers=workers)
     assert {key: record["status"] for key, record in records.items()} == {
         "hang": "plan_timeout",
@@ -30,6 +30,7 @@ def test_neighbours_of_misbehaving_plugins_go_on(study, workers):
         "raise": "crashed",
         "system_exit": "crashed",
         "eat_at_once": "out_of_memory",
+        "close_everything": "crashed",
     }
     errors = {key: record["error"] for key, record in records.items()}
     assert {error["stage"] for error in errors.values()} == {"planning"}

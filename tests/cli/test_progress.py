@@ -1,0 +1,53 @@
+"""The live line."""
+
+import types
+from pathlib import Path
+
+import pytest
+
+from mrpbench_core.cli import progress
+from mrpbench_core.cli.progress import Printed, word
+
+
+@pytest.fixture
+def terminal(capsys, monkeypatch):
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    monkeypatch.setattr(progress, "REFRESH_S", 0.0)
+
+
+def test_a_terminal_has_one_line_that_counts_and_lines_for_what_went_wrong(terminal, capsys):
+    points = [types.SimpleNamespace(run_id=f"{number:016d}", axes={"seed": number}) for number in range(4)]
+    results = types.SimpleNamespace(folder=types.SimpleNamespace(path=Path("out")))
+    results = type("Fake", (dict,), {"folder": results.folder})()
+    shown = Printed()
+    chosen = tuple(point.run_id for point in points)
+    shown.selected(types.SimpleNamespace(todo=points, chosen=chosen, changed=("x",)), results)
+    for point in points[:3]:
+        shown.started(point)
+    shown.finished(points[0], {"run_id": points[0].run_id, "status": "succeeded"})
+    error = {"stage": "planning", "message": "ValueError: no"}
+    shown.finished(points[1], {"run_id": points[1].run_id, "status": "crashed", "error": error})
+    shown.lost(points[2], "killed")
+    shown.close()
+    output = capsys.readouterr().out
+    assert output.startswith("out: 4 of 4 runs to do, 0 recorded\n1 recorded runs were made with other versions")
+    permanent = [part for part in output.split("\r\x1b[K") if part.endswith("\n")][1:]
+    assert permanent == [
+        "[2/4] 000000000000 crashed seed=1: ValueError: no\n",
+        "000000000000 is done again: killed\n",
+    ]
+    assert "[2/4] 1 succeeded, 1 crashed · 0:00 left · 000000000000" in output
+    assert output.endswith("\r\x1b[K")
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        ("cbs", "cbs"),
+        (1.5, "1.5"),
+        ({"plugin": "ecbs", "w": 1.2}, "ecbs[w=1.2]"),
+        ([{"robot": "burger"}, {"plugin": "a", "b": {"plugin": "c", "d": 1}}], "[burger,a[b=c[d=1]]]"),
+    ],
+)
+def test_an_axis_value_is_said_in_few_words(value, text):
+    assert word(value) == text
