@@ -3,6 +3,7 @@
 import numpy as np
 
 from mrpbench_core.checking.components import components
+from mrpbench_core.checking.strong_components import strong_components
 from mrpbench_core.model.arrays import Bool, Int, Int32
 from mrpbench_core.model.roadmap import Roadmap
 
@@ -31,7 +32,10 @@ def round_trips(roadmap: Roadmap, profile: int) -> Int:
     back = np.sort(edges[:, 1].astype(np.int64) * count + edges[:, 0])
     if np.array_equal(forth, back):
         return components(count, edges)
-    return _directed_components(count, edges)
+    label = np.arange(count)
+    for group in strong_components(edges[:, 0].tolist(), edges[:, 1].tolist()):
+        label[list(group)] = group[0]
+    return label
 
 
 def _usable(roadmap: Roadmap, profile: int) -> Int32:
@@ -45,35 +49,3 @@ def _rows(first: Int, rows: Int) -> Int:
     skipped = np.cumsum(counts) - counts
     positions: Int = np.repeat(first[rows] - skipped, counts) + np.arange(counts.sum())
     return positions
-
-
-def _directed_components(count: int, edges: Int32) -> Int:
-    """Strongly connected components; Tarjan, "Depth-first search and linear graph algorithms", SIAM J. Comput. 1972."""
-    after: list[list[int]] = [[] for _ in range(count)]
-    for tail, head in edges.tolist():
-        after[tail].append(head)
-    label, low, open_vertices = [-1] * count, [-1] * count, []
-    visits = 0
-    for root in range(count):
-        if low[root] >= 0:
-            continue
-        walk: list[tuple[int, int]] = [(root, 0)]
-        seen_at = {}
-        while walk:
-            vertex, index = walk.pop()
-            if index == 0:
-                seen_at[vertex] = low[vertex] = visits
-                visits += 1
-                open_vertices.append(vertex)
-            elif label[child := after[vertex][index - 1]] < 0:
-                low[vertex] = min(low[vertex], low[child])
-            while index < len(after[vertex]) and low[after[vertex][index]] >= 0:
-                if label[child := after[vertex][index]] < 0:
-                    low[vertex] = min(low[vertex], low[child])
-                index += 1
-            if index < len(after[vertex]):
-                walk += [(vertex, index + 1), (after[vertex][index], 0)]
-            elif low[vertex] == seen_at[vertex]:
-                while label[vertex] < 0:
-                    label[open_vertices.pop()] = vertex
-    return np.array(label, np.int64)

@@ -10,7 +10,7 @@ import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.builtin.dispatchers.precedence import Moves, Precedence
-from mrpbench_core.builtin.dispatchers.strong_components import strong_components
+from mrpbench_core.checking.strong_components import strong_components
 from mrpbench_core.model.arrays import Float, Int
 from mrpbench_core.model.conflicts import TOLERANCE
 from mrpbench_core.model.problem import Problem
