@@ -93,7 +93,7 @@ def assigned(assigner: Assigner, problem: AssignmentProblem) -> Assignment:
 
 def make_problem(costs: Float) -> AssignmentProblem:
     """Robots, and tasks of one goal each, with these costs."""
-    tasks = tuple(Task(goals=[(float(index), 0.0, np.nan)]) for index in range(costs.shape[1]))
+    tasks = tuple(Task(goals=np.array([(index, 0.0, np.nan)])) for index in range(costs.shape[1]))
     return AssignmentProblem(costs=costs, tasks=tasks)
 
 

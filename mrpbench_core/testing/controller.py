@@ -35,6 +35,23 @@ class Drive:
     """f8[t,2] commanded"""
 
 
+class Track:
+    """What lies ahead on a path from `START`, as the navigator `waypoints` tells it."""
+
+    def __init__(self, path: Sequence[Point]) -> None:
+        self.points = [START[:2], *map(np.array, path)]
+
+    def ahead(self, pose: Float) -> Float:
+        """The nearest point of the leg that the robot is on, then the waypoints ahead: f8[k,2]."""
+        while len(self.points) > 2 and np.hypot(*(pose[:2] - self.points[1])) < PASSED:
+            self.points.pop(0)
+        begin, end = self.points[:2]
+        along = end - begin
+        length = float(along @ along)
+        share = np.clip((pose[:2] - begin) @ along / length, 0.0, 1.0) if length else 1.0
+        return np.array([begin + share * along, *self.points[1:]])
+
+
 class ControllerConformance(ComponentConformance):
     """Checks of controllers: `class TestMine(ControllerConformance)`."""
 
@@ -51,8 +68,12 @@ class ControllerConformance(ComponentConformance):
             twist = drive(self.start(), path).twist
             require(np.isfinite(twist).all(), "commands a speed that is not finite")
             fastest, spin = np.abs(twist).max(axis=0)
-            require(fastest <= ROBOT.max_speed + 1e-6, f"commands {fastest:.3f} m/s, the robot's limit is {ROBOT.max_speed}")
-            require(spin <= ROBOT.max_turn_rate + 1e-6, f"commands {spin:.3f} rad/s, the limit is {ROBOT.max_turn_rate}")
+            require(
+                fastest <= ROBOT.max_speed + 1e-6, f"commands {fastest:.3f} m/s, the robot's limit is {ROBOT.max_speed}"
+            )
+            require(
+                spin <= ROBOT.max_turn_rate + 1e-6, f"commands {spin:.3f} rad/s, the limit is {ROBOT.max_turn_rate}"
+            )
 
     def test_keeps_the_speed_that_is_allowed(self) -> None:
         fastest = drive(self.start(), STRAIGHT, speed=0.1).twist[:, 0].max()
@@ -68,7 +89,9 @@ class ControllerConformance(ComponentConformance):
         for side, target in ((1, (1.0, 2.0)), (-1, (1.0, 0.3))):
             turned = side * drive(self.start(), (target,), seconds=3.0).pose[-1, 2]
             word = "left" if side > 0 else "right"
-            require(turned > 0.2, f"the path leads to the {word}, but after 3 s it has turned {turned:.2f} rad to that side")
+            require(
+                turned > 0.2, f"the path leads to the {word}, but after 3 s it has turned {turned:.2f} rad to that side"
+            )
 
     def test_a_robot_at_the_end_stays(self) -> None:
         twist = drive(self.start(), (tuple(START[:2].tolist()),), seconds=2.0).twist
@@ -82,11 +105,13 @@ class ControllerConformance(ComponentConformance):
         alone = [drive(self.start(), path, seconds=5.0).twist for path in (STRAIGHT, CORNER)]
         together = self.make().start_fleet([ROBOT, ROBOT], room(), PERIOD)
         poses, twists = np.array([START, START]), np.zeros((2, 2))
-        left: list[list[Point]] = [list(STRAIGHT), list(CORNER)]
+        tracks = [Track(STRAIGHT), Track(CORNER)]
         said = []
         for step in range(round(5.0 / PERIOD)):
-            left = [ahead(pose, path) for pose, path in zip(poses, left, strict=True)]
-            seen = {robot: observation(step, poses[robot], twists[robot], left[robot]) for robot in range(2)}
+            seen = {
+                robot: observation(step, poses[robot], twists[robot], track.ahead(poses[robot]))
+                for robot, track in enumerate(tracks)
+            }
             answers = together.command(seen)
             require(answers.keys() == seen.keys(), f"start_fleet: commands {set(answers)} when asked for {set(seen)}")
             twists = np.array([answers[robot] or (0.0, 0.0) for robot in range(2)])
@@ -99,7 +124,7 @@ class ControllerConformance(ComponentConformance):
 
     def test_answers_the_optional_questions(self) -> None:
         session = self.start()
-        seen = observation(0, START, np.zeros(2), STRAIGHT)
+        seen = observation(0, START, np.zeros(2), Track(STRAIGHT).ahead(START))
         session.command(seen)
         session.clear()
         poses = np.array([START, (2.0, 1.0, 1.0), (2.5, 1.5, -1.0)])
@@ -118,16 +143,19 @@ def comes_to_the_end(driving: Drive, path: Sequence[Point]) -> None:
     require(speed < 0.02, f"at the end of its path it drives on at {speed:.3f} m/s")
 
 
-def drive(session: ControllerSession, path: Sequence[Point], seconds: float = PATIENCE, speed: float = math.inf) -> Drive:
+def drive(
+    session: ControllerSession, path: Sequence[Point], seconds: float = PATIENCE, speed: float = math.inf
+) -> Drive:
     """Let a robot do exactly what its controller says, until it rests at the end or time is over."""
     pose, twist = START.copy(), np.zeros(2)
     poses, twists = [], []
     at_rest = 0
-    left = list(path)
+    track = Track(path)
     for step in range(round(seconds / PERIOD)):
-        left = ahead(pose, left)
-        command = session.command(observation(step, pose, twist, left, speed))
-        require(command is None or len(command) == 2, f"command returns {command!r} instead of (speed, turn rate) or None")
+        command = session.command(observation(step, pose, twist, track.ahead(pose), speed))
+        require(
+            command is None or len(command) == 2, f"command returns {command!r} instead of (speed, turn rate) or None"
+        )
         twist = np.array(command or (0.0, 0.0), float)
         pose = driven(pose[None], twist[None], PERIOD)[0]
         poses.append(pose)
@@ -139,17 +167,7 @@ def drive(session: ControllerSession, path: Sequence[Point], seconds: float = PA
     return Drive(np.array(poses), np.array(twists))
 
 
-def ahead(pose: Float, path: Sequence[Point]) -> list[Point]:
-    """The waypoints that are left, the last one always."""
-    left = list(path)
-    while len(left) > 1 and np.hypot(*(pose[:2] - left[0])) < PASSED:
-        left.pop(0)
-    return left
-
-
-def observation(
-    step: int, pose: Float, twist: Float, path: Sequence[Point], speed: float = math.inf
-) -> Observation:
+def observation(step: int, pose: Float, twist: Float, path: Float, speed: float = math.inf) -> Observation:
     """What a controller sees; without scans, which may be missing in any period."""
     yaw = math.remainder(pose[2], math.tau)
-    return Observation(now=step * PERIOD, pose=[pose[0], pose[1], yaw], twist=twist, path=path, speed=speed)
+    return Observation(now=step * PERIOD, pose=np.array([pose[0], pose[1], yaw]), twist=twist, path=path, speed=speed)

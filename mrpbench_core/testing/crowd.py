@@ -20,7 +20,12 @@ class CrowdConformance(ComponentConformance):
     def walk(self, seed: int) -> Float:
         """Movers f8[t,m,4] around a robot at rest."""
         session = self.make().start(room(), seed)
-        state = State(pose=[(1.0, 1.0, 0.0)], twist=[(0.0, 0.0)], level=[0], contacts=[])
+        state = State(
+            pose=np.array([(1.0, 1.0, 0.0)]),
+            twist=np.zeros((1, 2)),
+            level=np.zeros(1, np.int16),
+            contacts=np.empty((0, 2), np.int32),
+        )
         steps = [np.array(session.step(PERIOD, state), float) for _ in range(100)]
         shapes, wanted = {step.shape for step in steps}, (len(session.radii), 4)
         require(shapes == {wanted}, f"movers have shapes {shapes} instead of {wanted}")

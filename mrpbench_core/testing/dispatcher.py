@@ -11,7 +11,7 @@ from mrpbench_core.model.execution import Orders
 from mrpbench_core.model.plan import Path, Plan
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.drawing import problem
+from mrpbench_core.testing.drawing import problem, unit_path
 from mrpbench_core.testing.floor import Floor, requires_released
 from mrpbench_core.testing.instances import BAY, CONVOY, CROSSING
 from mrpbench_core.testing.outcome import Fault, Skip, require
@@ -179,4 +179,4 @@ def stepped(asked: Problem, robot: int, letters: str) -> Path:
         head = roadmap.nearest(*(roadmap.position[at] + moves[letter]))[0]
         edges.append(int(np.flatnonzero((roadmap.edges == (at, head)).all(axis=1))[0]))
         at = head
-    return Path(edge=edges, enter=np.arange(len(edges)), leave=np.arange(len(edges)) + 1)
+    return unit_path(edges)

@@ -14,6 +14,7 @@ from typing import Any
 import attrs
 import numpy as np
 
+from mrpbench_core.model.plan import Path
 from mrpbench_core.model.problem import Feature, Problem, features_of
 from mrpbench_core.model.roadmap import Grid, Roadmap
 
@@ -32,19 +33,20 @@ def grid(rows: int, columns: int, blocked: Iterable[tuple[int, int]] = (), cell_
         for up, right in STEPS
         if (row + up, column + right) in vertex
     ]
+    cell = np.array(cells, np.int32).reshape(-1, 2)
     return Roadmap(
-        position=[((column + 0.5) * cell_size, (row + 0.5) * cell_size) for row, column in cells] or np.empty((0, 2)),
-        level=[0] * len(cells),
-        heading=[np.nan] * len(cells),
-        edges=edges,
-        duration=np.ones((1, len(edges))),
+        position=(cell[:, ::-1] + 0.5) * cell_size,
+        level=np.zeros(len(cell), np.int16),
+        heading=np.full(len(cell), np.nan),
+        edges=np.array(edges, np.int32),
+        duration=np.ones((1, len(edges)), np.int32),
         tick=1.0,
-        grid=Grid(shape=(rows, columns), cell_size=cell_size, origin=(0.0, 0.0), cell=cells),
+        grid=Grid(shape=(rows, columns), cell_size=cell_size, origin=(0.0, 0.0), cell=cell),
     )
 
 
 def problem(drawing: str, radius: float = 0.1, features: Iterable[Feature] = (), **fields: Any) -> Problem:
-    """The problem of a drawing; `fields` replace those of `Problem`, `features` are added to those it is seen to have."""
+    """The problem of a drawing; `fields` replace those of `Problem`, `features` are added."""
     lines = [line.split() for line in drawing.strip().splitlines()][::-1]
     if len({len(line) for line in lines}) != 1:
         raise ValueError("the lines of a drawing have different lengths")
@@ -69,7 +71,7 @@ def complete(
     """A problem of like robots, each with one goal set; `fields` replace those of `Problem`."""
     start = list(starts)
     count = len(start)
-    default = {
+    default: dict[str, Any] = {
         "roadmap": roadmap,
         "profile": [0] * count,
         "radius": [radius] * count,
@@ -79,3 +81,9 @@ def complete(
     }
     made = Problem(**default | fields)
     return attrs.evolve(made, features=features_of(made) | set(features))
+
+
+def unit_path(edges: Iterable[int]) -> Path:
+    """A path that begins at tick 0 and takes one tick for each of its edges, -1 = wait."""
+    edge = np.array(list(edges), np.int32)
+    return Path(edge=edge, enter=np.arange(len(edge)), leave=np.arange(len(edge)) + 1)

@@ -3,8 +3,9 @@
 from concurrent.futures import Executor
 
 from mrpbench_core.api.executor import ExecutorSource
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import Fault, require
+from mrpbench_core.testing.outcome import Fault, Skip, require
 
 
 class ExecutorConformance(ComponentConformance):
@@ -15,23 +16,32 @@ class ExecutorConformance(ComponentConformance):
         raise NotImplementedError("define make(self) and return the executor to check")
 
     def test_is_an_executor_of_the_standard_library(self) -> None:
-        with self.make().open(2) as executor:
+        with self.make().open(1) as executor:
             require(isinstance(executor, Executor), f"opens {type(executor).__name__}: no concurrent.futures.Executor")
 
+    def test_opens_with_several_workers_or_says_why_not(self) -> None:
+        try:
+            executor = self.make().open(2)
+        except InputError as refusal:
+            raise Skip(str(refusal)) from None
+        with executor:
+            found = [future.result(timeout=60) for future in [executor.submit(abs, -number) for number in range(8)]]
+        require(found == list(range(8)), f"two workers returned {found}")
+
     def test_returns_what_calls_return(self) -> None:
-        with self.make().open(2) as executor:
+        with self.make().open(1) as executor:
             futures = [executor.submit(divmod, number, 7) for number in range(20)]
             found = [future.result(timeout=60) for future in futures]
         require(found == [divmod(number, 7) for number in range(20)], f"20 calls returned {found}")
 
     def test_equal_calls_are_all_made(self) -> None:
-        with self.make().open(2) as executor:
+        with self.make().open(1) as executor:
             futures = [executor.submit(object) for _ in range(5)]
             found = [future.result(timeout=60) for future in futures]
         require(len({id(each) for each in found}) == 5, "equal calls were made once: repeated runs would not be run")
 
     def test_hands_on_what_calls_raise(self) -> None:
-        with self.make().open(2) as executor:
+        with self.make().open(1) as executor:
             error = executor.submit(divmod, 1, 0).exception(timeout=60)
             require(isinstance(error, ZeroDivisionError), f"a call that raises ZeroDivisionError gave {error!r}")
             if executor.submit(divmod, 9, 2).result(timeout=60) != (4, 1):

@@ -1,6 +1,7 @@
 """A finished run made up for metrics and exporters: robots that drove down a corridor, one of them into a wall."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import attrs
@@ -8,12 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.model.execution import Mode
-from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.plan import Plan, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.recording import PERIODIC, Chunk
 from mrpbench_core.model.run import FinishedRun, RunContext
 from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.testing.drawing import complete, grid
+from mrpbench_core.testing.drawing import complete, grid, unit_path
 from mrpbench_core.testing.room import PERIOD, ROBOT, fleet, room, route
 
 ROBOTS = 3
@@ -38,13 +39,13 @@ def context(result: PlanResult | None = None) -> RunContext:
     problem = asked()
     starts = problem.roadmap.position[problem.start]
     ends = problem.roadmap.position[[goals[0][0] for goals in problem.goals]]
-    tasks = tuple(Task(goals=[(x, y, np.nan)]) for x, y in ends.tolist())
+    tasks = tuple(Task(goals=np.array([(x, y, np.nan)])) for x, y in ends.tolist())
     return RunContext(
         run_id="0123456789abcdef",
         world=room(),
         fleet=fleet(ROBOTS),
         scenario=Scenario(
-            start=np.column_stack([starts, np.zeros(ROBOTS)]), start_level=[0] * ROBOTS, tasks=tasks
+            start=np.column_stack([starts, np.zeros(ROBOTS)]), start_level=np.zeros(ROBOTS, np.int16), tasks=tasks
         ),
         problem=problem,
         result=result or PlanResult(status=PlanStatus.SOLVED, plan=plan(problem), statistics={"expansions": 12.0}),
@@ -64,7 +65,7 @@ def plan(problem: Problem) -> Plan:
     """Straight on."""
     ends = problem.roadmap.edges.tolist()
     steps = [[ends.index([start, start + 1]), ends.index([start + 1, start + 2])] for start in problem.start.tolist()]
-    return Plan(paths=tuple(Path(edge=edges, enter=[0, 1], leave=[1, 2]) for edges in steps))
+    return Plan(paths=tuple(unit_path(edges) for edges in steps))
 
 
 def channels() -> dict[str, NDArray[Any]]:
@@ -113,12 +114,12 @@ def executed(
     known: RunContext, recorded: Mapping[str, NDArray[Any]], names: Sequence[str] | None = None
 ) -> FinishedRun:
     """A finished run with some channels of a recording; they cannot be written to."""
-    for values in recorded.values():
-        values.flags.writeable = False
-    kept = {name: rows for name, rows in recorded.items() if names is None or name in names}
-    return FinishedRun(
-        context=known, executed=True, channels={name: lambda rows=rows: rows for name, rows in kept.items()}
-    )
+    loaders: dict[str, Callable[[], NDArray[Any]]] = {}
+    for name, rows in recorded.items():
+        rows.flags.writeable = False
+        if names is None or name in names:
+            loaders[name] = partial(np.asarray, rows)
+    return FinishedRun(context=known, executed=True, channels=loaders)
 
 
 def permuted(order: Sequence[int]) -> FinishedRun:
@@ -134,12 +135,8 @@ def permuted(order: Sequence[int]) -> FinishedRun:
             start=known.scenario.start[index],
             tasks=tuple(known.scenario.tasks[robot] for robot in order),
         ),
-        problem=attrs.evolve(
-            problem, start=problem.start[index], goals=tuple(problem.goals[robot] for robot in order)
-        ),
-        result=attrs.evolve(
-            known.result, plan=Plan(paths=tuple(known.result.plan.paths[robot] for robot in order))
-        ),
+        problem=attrs.evolve(problem, start=problem.start[index], goals=tuple(problem.goals[robot] for robot in order)),
+        result=attrs.evolve(known.result, plan=Plan(paths=tuple(known.result.plan.paths[robot] for robot in order))),
         routes=tuple(known.routes[robot] for robot in order),
         goal=tuple(known.goal[robot] for robot in order),
     )
@@ -158,9 +155,9 @@ def chunks(seconds: float) -> list[Chunk]:
     """The recording in pieces of so many seconds, as exporters get it."""
     recorded = channels()
     axes = {"time": PERIODIC, **OWN_AXES}
-    pieces = []
+    pieces: list[Chunk] = []
     for begin in np.arange(0.0, recorded["time"][-1] + 1e-9, seconds):
-        piece = {}
+        piece: dict[str, NDArray[Any]] = {}
         for axis, names in axes.items():
             rows = (recorded[axis] >= begin - 1e-9) & (recorded[axis] < begin + seconds - 1e-9)
             if rows.any():

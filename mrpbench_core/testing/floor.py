@@ -33,10 +33,16 @@ class Floor:
     def view(self) -> FleetView:
         """What a dispatcher sees."""
         robots = len(self.routes)
-        pose = [(*self.position[route[at]], 0.0) for route, at in zip(self.routes, self.reached, strict=True)]
+        at = [route[done] for route, done in zip(self.routes, self.reached, strict=True)]
+        pose = np.column_stack([self.position[at], np.zeros(robots)])
         mode = np.where(self.left > 0, Mode.FOLLOWING, Mode.WAITING)
         return FleetView(
-            revision=0, reached=self.reached, cleared=self._cleared(), pose=pose, level=[0] * robots, mode=mode
+            revision=0,
+            reached=self.reached,
+            cleared=self._cleared(),
+            pose=pose,
+            level=np.zeros(robots, np.int16),
+            mode=mode,
         )
 
     def step(self, released: np.ndarray) -> bool:
@@ -84,5 +90,7 @@ def requires_released(released: np.ndarray, before: np.ndarray, plan: Plan) -> N
     """Require that an order releases what there is, and takes nothing back."""
     lengths = np.array([len(path) for path in plan.paths])
     require(released.shape == before.shape, f"released has shape {released.shape} for {len(before)} robots")
-    require((released >= 0).all() and (released <= lengths).all(), f"releases {released.tolist()} of {lengths.tolist()}")
+    require(
+        (released >= 0).all() and (released <= lengths).all(), f"releases {released.tolist()} of {lengths.tolist()}"
+    )
     require((released >= before).all(), f"takes back what it had released: {before.tolist()}, then {released.tolist()}")

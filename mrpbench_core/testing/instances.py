@@ -5,10 +5,9 @@ from collections.abc import Callable
 import attrs
 import numpy as np
 
-from mrpbench_core.model.plan import Path
 from mrpbench_core.model.problem import Feature, Problem, Rules
 from mrpbench_core.model.roadmap import Resource
-from mrpbench_core.testing.drawing import grid, problem
+from mrpbench_core.testing.drawing import grid, problem, unit_path
 
 CROSSING = """
     .  a  .
@@ -39,7 +38,7 @@ def one_way() -> Problem:
     right = np.diff(drawn.roadmap.position[drawn.roadmap.edges][:, :, 0], axis=1)[:, 0]
     low = row[drawn.roadmap.edges[:, 0]] < 1
     closed = (low & (right < 0)) | (~low & (right > 0))
-    return attrs.evolve(drawn, roadmap=attrs.evolve(drawn.roadmap, duration=[np.where(closed, -1, 1)]))
+    return attrs.evolve(drawn, roadmap=attrs.evolve(drawn.roadmap, duration=np.where(closed, -1, 1)[None]))
 
 
 def slow_lanes(drawing: str, features: frozenset[Feature] = frozenset(), radius: float = 0.1) -> Problem:
@@ -47,7 +46,7 @@ def slow_lanes(drawing: str, features: frozenset[Feature] = frozenset(), radius:
     drawn = problem(drawing, radius=radius)
     step = np.diff(drawn.roadmap.position[drawn.roadmap.edges], axis=1)[:, 0]
     ticks = np.where(step[:, 1] != 0, 3, np.where(step[:, 0] > 0, 2, 1))
-    roadmap = attrs.evolve(drawn.roadmap, duration=[ticks])
+    roadmap = attrs.evolve(drawn.roadmap, duration=ticks[None])
     return problem(drawing, roadmap=roadmap, radius=radius, features=features | {Feature.EDGE_DURATIONS})
 
 
@@ -55,7 +54,7 @@ def profiles() -> Problem:
     """The second robot may not use the steps of the middle row."""
     drawn = problem(CROSSING)
     middle = (drawn.roadmap.position[drawn.roadmap.edges][:, :, 1] == 1.5).all(axis=1)
-    two = attrs.evolve(drawn.roadmap, duration=[np.ones(len(middle)), np.where(middle, -1, 1)])
+    two = attrs.evolve(drawn.roadmap, duration=np.stack([np.ones(len(middle)), np.where(middle, -1, 1)]))
     return problem(CROSSING, roadmap=two, profile=[0, 1])
 
 
@@ -63,8 +62,7 @@ def commitments() -> Problem:
     """The first robot is on its way already, the second has broken down for three ticks."""
     drawn = problem(CROSSING)
     down = edge_between(drawn, (1.5, 2.5), (1.5, 1.5))
-    empty = Path(edge=[], enter=[], leave=[])
-    return problem(CROSSING, ready=[0, 3], commitments=(Path(edge=[down], enter=[0], leave=[1]), empty))
+    return problem(CROSSING, ready=[0, 3], commitments=(unit_path([down]), unit_path([])))
 
 
 def goal_sequences() -> Problem:
@@ -84,7 +82,7 @@ def resources() -> Problem:
 def headings() -> Problem:
     """One vertex prescribes a yaw."""
     line = grid(1, 3)
-    return problem("a . A", roadmap=attrs.evolve(line, heading=[np.nan, 0.0, np.nan]))
+    return problem("a . A", roadmap=attrs.evolve(line, heading=np.array([np.nan, 0.0, np.nan])))
 
 
 def edge_between(drawn: Problem, tail: tuple[float, float], head: tuple[float, float]) -> int:

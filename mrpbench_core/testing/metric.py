@@ -24,7 +24,9 @@ class MetricConformance(ComponentConformance):
         names = [column.name for column in columns]
         require(len(set(names)) == len(names), f"two columns have one name: {names}")
         for column in columns:
-            require(column.better in ("lower", "higher", "neither"), f"column {column.name}: better is {column.better!r}")
+            require(
+                column.better in ("lower", "higher", "neither"), f"column {column.name}: better is {column.better!r}"
+            )
             require(column.description, f"column {column.name} has no description")
 
     def test_requires_channels_that_exist(self) -> None:
@@ -77,7 +79,9 @@ def measured(metric: Metric, run: FinishedRun) -> Mapping[str, Value]:
 
 def differences(one: Mapping[str, Value], other: Mapping[str, Value]) -> str:
     """Columns that differ by more than rounding, in words."""
-    return ", ".join(f"{name} {one[name]} and {other.get(name)}" for name in one if not close(one[name], other.get(name)))
+    return ", ".join(
+        f"{name} {one[name]} and {other.get(name)}" for name in one if not close(one[name], other.get(name))
+    )
 
 
 def close(one: Value, other: Value) -> bool:

@@ -75,7 +75,9 @@ class _Search:
     def least(self) -> int | None:
         starts = self.problem.start.tolist()
         robots = tuple(Robot(vertex, visited=self._visited(i, vertex, 0)) for i, vertex in enumerate(starts))
-        standing = [During(vertex, vertex, 0, False, True, robot, 0) for vertex, robot in zip(starts, robots, strict=True)]
+        standing = [
+            During(vertex, vertex, 0, False, True, robot, 0) for vertex, robot in zip(starts, robots, strict=True)
+        ]
         if any(self._meet(i, j, one, other) for j, other in enumerate(standing) for i, one in enumerate(standing[:j])):
             return None
         order = count()
@@ -197,7 +199,7 @@ class _Search:
                 if edge >= 0:
                     forced[enter] = edge, leave - enter
                 else:
-                    forced |= {tick: (-1, 1) for tick in range(enter, leave)}
+                    forced |= dict.fromkeys(range(enter, leave), (-1, 1))
         return forced
 
     def _to_go(self, index: int) -> list[float]:
@@ -213,4 +215,7 @@ class _Search:
         return ticks
 
     def _estimate(self, robots: tuple[Robot, ...]) -> float:
-        return sum(0.0 if robot.stopped else ticks[robot.vertex] + robot.left for robot, ticks in zip(robots, self.to_go, strict=True))
+        return sum(
+            0.0 if robot.stopped else ticks[robot.vertex] + robot.left
+            for robot, ticks in zip(robots, self.to_go, strict=True)
+        )

@@ -6,7 +6,7 @@ Skip = SkipTest
 """Raised where a check does not apply; pytest knows it too."""
 
 
-class Fault(AssertionError):
+class Fault(AssertionError):  # noqa: N818 - what is at fault is the component
     """What is wrong with a component, in one sentence."""
 
 

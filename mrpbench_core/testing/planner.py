@@ -43,7 +43,7 @@ class PlannerConformance(ComponentConformance):
         planner = self.make()
         for name, problem in solvable().items():
             reason = planner.skip(problem)
-            require(reason is None or (isinstance(reason, str) and reason), f"skip({name}) returns {reason!r}")
+            require(reason is None or reason, f"skip({name}) returns {reason!r}")
             lacking = sorted(problem.features - planner.supports)
             if lacking and reason is None:
                 raise Fault(f"takes {name}, though it does not support {', '.join(lacking)}")
@@ -156,7 +156,9 @@ class PlannerConformance(ComponentConformance):
             if result.plan is not None and w is not None:
                 cost, bound = result.plan.sum_of_costs, result.lower_bound
                 require(cost <= w * bound + 1e-9, f"{name}: costs {cost}, more than {w:g} times its bound {bound:g}")
-                require(cost <= w * optimum + 1e-9, f"{name}: costs {cost}, more than {w:g} times the optimum {optimum}")
+                require(
+                    cost <= w * optimum + 1e-9, f"{name}: costs {cost}, more than {w:g} times the optimum {optimum}"
+                )
 
 
 def asked(planner: Planner) -> Iterator[tuple[str, Problem]]:

@@ -4,7 +4,7 @@ import numpy as np
 
 from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.checking.clearance import keeps_clear
-from mrpbench_core.checking.reachability import components
+from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.world import World
 from mrpbench_core.testing.component import ComponentConformance
@@ -34,7 +34,9 @@ class RoadmapConformance(ComponentConformance):
         require(vertices and edges, f"has {vertices} vertices and {edges} edges")
         require(np.isfinite(roadmap.position).all(), "a vertex has no place")
         require(len(roadmap.level) == vertices == len(roadmap.heading), "position, level and heading differ in length")
-        require(((roadmap.edges >= 0) & (roadmap.edges < vertices)).all(), "an edge leads to a vertex that does not exist")
+        require(
+            ((roadmap.edges >= 0) & (roadmap.edges < vertices)).all(), "an edge leads to a vertex that does not exist"
+        )
         require((roadmap.edges[:, 0] != roadmap.edges[:, 1]).all(), "an edge leads from a vertex to itself")
         shape, wanted = roadmap.duration.shape, (1, edges)
         require(shape == wanted, f"duration has shape {shape} instead of {wanted}: one row for each kind of robot")
@@ -42,7 +44,9 @@ class RoadmapConformance(ComponentConformance):
         require(roadmap.tick > 0, f"a tick lasts {roadmap.tick} s")
         places, named = len(roadmap.place), len(self.world().vertices)
         require(places == named, f"`place` has {places} entries for {named} vertices of the world")
-        require(((roadmap.place >= -1) & (roadmap.place < vertices)).all(), "`place` names a vertex that does not exist")
+        require(
+            ((roadmap.place >= -1) & (roadmap.place < vertices)).all(), "`place` names a vertex that does not exist"
+        )
 
     def test_builds_the_same_roadmap_again(self) -> None:
         require(self.build() == self.build(), "builds another roadmap the second time")
@@ -57,6 +61,8 @@ class RoadmapConformance(ComponentConformance):
 
     def test_most_places_can_be_reached(self) -> None:
         roadmap = self.build()
-        _, sizes = np.unique(components(roadmap, 0), return_counts=True)
+        _, sizes = np.unique(round_trips(roadmap, 0), return_counts=True)
         share = sizes.max() / len(roadmap.position)
-        require(share > 0.5, f"the largest part in which one can drive everywhere has {100 * share:.0f} % of the vertices")
+        require(
+            share > 0.5, f"the largest part in which one can drive everywhere has {100 * share:.0f} % of the vertices"
+        )

@@ -20,7 +20,7 @@ ROBOT = load_robot("turtlebot3_burger")
 def room() -> World:
     """Four walls."""
     corners = [(0.0, 0.0), (WIDTH, 0.0), (WIDTH, HEIGHT), (0.0, HEIGHT)]
-    walls = [(*start, *end) for start, end in zip(corners, corners[1:] + corners[:1], strict=True)]
+    walls = np.column_stack([corners, corners[1:] + corners[:1]])
     return World(name="room", levels=(Level(name="L1", walls=walls, wall_thickness=2 * HALF_WALL),))
 
 
@@ -33,7 +33,7 @@ def route(*points: tuple[float, float], yaw: float = math.nan) -> Route:
     """A route through points, without limits of speed."""
     waypoint = np.array([(x, y, math.nan) for x, y in points])
     waypoint[-1, 2] = yaw
-    return Route(waypoint=waypoint, level=[0] * len(points), speed=[math.inf] * (len(points) - 1))
+    return Route(waypoint=waypoint, level=np.zeros(len(points), np.int16), speed=np.full(len(points) - 1, np.inf))
 
 
 def driven(pose: Float, twist: Float, dt: float) -> Float:

@@ -14,7 +14,7 @@ from mrpbench_core.testing.room import fleet
 
 
 class ScenarioConformance(ComponentConformance):
-    """Checks of scenarios: `class TestMine(ScenarioConformance)`. Override `world` and `roadmap` for those of one map."""
+    """Checks of scenarios: `class TestMine(ScenarioConformance)`. Override `world` and `roadmap` for one map."""
 
     def make(self) -> ScenarioSource:
         """Return the source of scenarios to check."""
@@ -38,7 +38,7 @@ class ScenarioConformance(ComponentConformance):
 
     def test_knows_its_number_of_robots(self) -> None:
         size = self.make().size()
-        require(isinstance(size, int) and size >= 1, f"size() returns {size!r}")
+        require(type(size) is int and size >= 1, f"size() returns {size!r}")
 
     def test_draws_starts_and_tasks(self) -> None:
         robots, drawn = self.make().size(), self.draw(0)

@@ -11,7 +11,7 @@ from mrpbench_core.model.execution import Inputs, ScanBatch, State
 from mrpbench_core.model.geometry import point_segment_distance
 from mrpbench_core.testing.component import ComponentConformance
 from mrpbench_core.testing.outcome import require
-from mrpbench_core.testing.room import HALF_WALL, HEIGHT, PERIOD, ROBOT, WIDTH, fleet, room
+from mrpbench_core.testing.room import HALF_WALL, PERIOD, ROBOT, WIDTH, fleet, room
 
 PLACES = ((1.0, 1.0, 0.0), (1.0, 2.0, 0.0))
 CRUISE = 0.8 * ROBOT.max_speed
@@ -66,7 +66,10 @@ class SimulatorConformance(ComponentConformance):
     def test_a_positive_turn_rate_turns_counter_clockwise(self) -> None:
         with self.open() as simulation:
             drive(simulation, [(0.0, 0.5), (0.0, -0.5)], 2.0)
-            yaw, gone = simulation.state.pose[:, 2], np.abs(simulation.state.pose[:, :2] - np.array(PLACES)[:, :2]).max()
+            yaw, gone = (
+                simulation.state.pose[:, 2],
+                np.abs(simulation.state.pose[:, :2] - np.array(PLACES)[:, :2]).max(),
+            )
             right = (0.7 < yaw[0] < 1.1) and (-1.1 < yaw[1] < -0.7)
             require(right, f"after 2 s at ±0.5 rad/s the yaws are {yaw[0]:.2f} and {yaw[1]:.2f} rad")
             require(gone < 0.05, f"robots that turn on the spot moved by {gone:.3f} m")
@@ -78,7 +81,9 @@ class SimulatorConformance(ComponentConformance):
                 moved = float(np.hypot(*(state.pose - before)[:, :2].T).max()) / PERIOD
                 turn = float(np.abs(state.twist[:, 1]).max())
                 require(moved <= 1.05 * ROBOT.max_speed + 0.01, f"drives at {moved:.3f} m/s of {ROBOT.max_speed:g}")
-                require(turn <= 1.05 * ROBOT.max_turn_rate + 0.05, f"turns at {turn:.3f} rad/s of {ROBOT.max_turn_rate:g}")
+                require(
+                    turn <= 1.05 * ROBOT.max_turn_rate + 0.05, f"turns at {turn:.3f} rad/s of {ROBOT.max_turn_rate:g}"
+                )
                 before = state.pose
 
     def test_walls_stop_robots_and_are_reported(self) -> None:
@@ -87,7 +92,9 @@ class SimulatorConformance(ComponentConformance):
             far = max(float(state.pose[:, 0].max()) for state in states)
             require(far < WIDTH - HALF_WALL, f"a robot's centre came to x = {far:.3f} m, into the wall or behind it")
             touched = {int(robot) for state in states for robot, other in state.contacts.tolist() if other == -1}
-            require(touched == {0, 1}, f"two robots drove into a wall; a contact with it is reported of {touched or 'none'}")
+            require(
+                touched == {0, 1}, f"two robots drove into a wall; a contact with it is reported of {touched or 'none'}"
+            )
 
     def test_robots_do_not_pass_through_one_another(self) -> None:
         with self.open([(1.5, 1.5, 0.0), (2.1, 1.5, math.pi)]) as simulation:
@@ -114,7 +121,9 @@ class SimulatorConformance(ComponentConformance):
             assert ROBOT.lidar is not None
             for robot in range(2):
                 count, due = sum(found == robot for _, found in seen), 3.0 * ROBOT.lidar.rate
-                require(0.7 * due <= count <= 1.3 * due + 1, f"robot {robot} took {count} scans in 3 s, {due:g} are due")
+                require(
+                    0.7 * due <= count <= 1.3 * due + 1, f"robot {robot} took {count} scans in 3 s, {due:g} are due"
+                )
 
     def test_scans_measure_walls_and_robots(self) -> None:
         assert ROBOT.lidar is not None
@@ -168,7 +177,7 @@ class SimulatorConformance(ComponentConformance):
 
 def inputs(*twists: tuple[float, float], movers: Sequence[tuple[float, float, float, float]] | None = None) -> Inputs:
     """Commands, and where movers are."""
-    return Inputs(twist=twists, movers=None if movers is None else np.array(movers, float))
+    return Inputs(twist=np.array(twists), movers=None if movers is None else np.array(movers, float))
 
 
 def drive(simulation: Simulation, twists: Sequence[tuple[float, float]], seconds: float) -> list[State]:

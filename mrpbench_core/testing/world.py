@@ -39,5 +39,7 @@ class WorldConformance(ComponentConformance):
         world = self.make().load()
         for lane in world.lanes:
             ends = {lane.start, lane.end}
-            require(ends <= set(range(len(world.vertices))), f"a lane from {lane.start} to {lane.end}: no such vertices")
+            require(
+                ends <= set(range(len(world.vertices))), f"a lane from {lane.start} to {lane.end}: no such vertices"
+            )
             require(len(ends) == 2, f"a lane from vertex {lane.start} to itself")

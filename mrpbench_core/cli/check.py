@@ -1,0 +1,105 @@
+"""`mrpbench check NAME [OPTION=VALUE…]`: the conformance suite of a plugin's kind, without pytest."""
+
+import argparse
+import contextlib
+import sys
+from pathlib import Path
+
+from mrpbench_core.api import KINDS
+from mrpbench_core.api.component import Component
+from mrpbench_core.cli.arguments import read_options
+from mrpbench_core.cli.table import print_json
+from mrpbench_core.config.items import Where, from_data
+from mrpbench_core.config.mistakes import did_you_mean
+from mrpbench_core.config.structure import structure_component
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.installed import installed
+from mrpbench_core.plugins.kinds import kind_of
+from mrpbench_core.plugins.local import is_local, load_local
+from mrpbench_core.plugins.provenance import kind_class
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.usage = "mrpbench check [-h] [--json] NAME [OPTION=VALUE …]"
+    parser.add_argument(
+        "words",
+        nargs="+",
+        metavar="NAME",
+        help="an installed plugin, NAME or KIND:NAME; or ./file.py:Class, package.module:Class; then its options",
+    )
+    parser.add_argument("--json", action="store_true", help="print as JSON")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print one line for each check; 1 if any failed."""
+    name, *words = arguments.words
+    component = make(name, words)
+    from mrpbench_core.testing import run_checks, suite_for  # the kit takes longer to import than to be refused
+
+    kind = kind_of(component.group)
+    outcomes = []
+    checks = run_checks(suite_for(component))
+    while True:
+        with contextlib.redirect_stdout(sys.stderr):  # what a plugin prints is not our output
+            check = next(checks, None)
+        if check is None:
+            break
+        outcomes.append(check)
+        if not arguments.json:
+            print(f"{check.outcome:<7}  {check.name}{': ' if check.reason else ''}{check.reason}", flush=True)
+    counts = {outcome: sum(check.outcome == outcome for check in outcomes) for outcome in ("ok", "failed", "skipped")}
+    if arguments.json:
+        lines = [{"check": check.name, "outcome": check.outcome, "reason": check.reason} for check in outcomes]
+        print_json({"kind": kind, "name": name, "component": repr(component), **counts, "checks": lines})
+    else:
+        print(f"{kind} {name}: {', '.join(f'{count} {outcome}' for outcome, count in counts.items())}")
+    return 1 if counts["failed"] else 0
+
+
+def make(name: str, words: list[str]) -> Component:
+    """The component of that name with options from the command line.
+
+    Raises:
+        InputError, InputErrors: there is no such plugin, or its options are wrong or missing.
+    """
+    base, plugin = resolve(name)
+    written = {"plugin": plugin, **read_options(words, "check")}
+    return structure_component(base, from_data(written, Where()), name, Path.cwd())
+
+
+def resolve(name: str) -> tuple[type[Component], str]:
+    """The class of a plugin's kind, and the name by which a configuration would choose it."""
+    kind, _, rest = name.partition(":")
+    if kind in KINDS and rest:
+        return KINDS[kind], rest
+    offers = [provider for provider in installed() if provider.group != "mrpbench.hooks"]
+    if kind in {provider.kind for provider in offers} and rest:  # a kind that some plugin defines
+        return _own_kind(kind, rest), rest
+    if is_local(name):
+        cls = load_local(name, Path.cwd())
+        if not isinstance(cls, type) or not issubclass(cls, Component) or not hasattr(cls, "group"):
+            raise InputError(f"{name} is no component", hint="derive it from a class of mrpbench_core.api")
+        return kind_class(cls), name
+    kinds = dict.fromkeys(provider.kind for provider in offers if provider.name == name.partition("@")[0])
+    if len(kinds) > 1:
+        raise InputError(
+            f"{name!r} is a plugin of several kinds", hint="write " + " or ".join(f"{each}:{name}" for each in kinds)
+        )
+    if not kinds:
+        hint = did_you_mean(name, {provider.name for provider in offers}, "`mrpbench plugins` lists what is installed:")
+        raise InputError(f"no plugin is called {name!r}", hint=hint)
+    (found,) = kinds
+    return KINDS.get(found) or _own_kind(found, name), name
+
+
+def _own_kind(kind: str, name: str) -> type[Component]:
+    """The class of a kind that a plugin defines."""
+    from mrpbench_core.plugins.installed import load
+
+    for provider in installed():
+        if provider.kind == kind and provider.name == name.partition("@")[0]:
+            cls = load(provider)
+            if isinstance(cls, type) and issubclass(cls, Component):
+                return kind_class(cls)
+    raise InputError(f"no {kind} is called {name!r}", hint="`mrpbench plugins` lists what is installed")
