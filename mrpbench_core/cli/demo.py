@@ -7,6 +7,7 @@ from typing import Any
 
 from mrpbench_core.cli.progress import Printed
 from mrpbench_core.cli.report import print_report
+from mrpbench_core.cli.run import plugins_line
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.invoke import prepare
 from mrpbench_core.engine.study import run_study
@@ -33,6 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Do the run and say what there is to see."""
     study = load_study(_configuration())
+    print(plugins_line([study]), flush=True)
     progress = Printed()
     done = run_study(study, prepare(study, out=arguments.out, rerun="all", progress=progress))
     progress.close()

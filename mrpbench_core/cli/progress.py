@@ -18,8 +18,9 @@ REFRESH_S = 0.1
 class Printed(Progress):
     """Prints to standard output."""
 
-    def __init__(self) -> None:
-        self._live = sys.stdout.isatty()
+    def __init__(self, live: bool | None = None) -> None:
+        """With `live` (default: on a terminal), what went well is only counted."""
+        self._live = sys.stdout.isatty() if live is None else live
         self._total = 0
         self._going: dict[str, RunPoint] = {}
         self._counts: Counter[str] = Counter()

@@ -66,7 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.dry_run:
         _list(studies, requests, arguments.json)
         return int(any(study.errors for study in studies))
-    print(_plugins_line(studies), flush=True)
+    print(plugins_line(studies), flush=True)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs so
     return max(_run_one(study, request) for study, request in zip(studies, requests, strict=True))
 
@@ -108,7 +108,7 @@ def _list(studies: Sequence[Study], requests: Sequence[Request], as_json: bool) 
     )
 
 
-def _plugins_line(studies: Sequence[Study]) -> str:
+def plugins_line(studies: Sequence[Study]) -> str:
     """Whose code runs, with versions."""
     offered: dict[str, list[str]] = {}
     for entry in {

@@ -9,17 +9,11 @@ from mrpbench_core.cli import progress
 from mrpbench_core.cli.progress import Printed, word
 
 
-@pytest.fixture
-def terminal(capsys, monkeypatch):
-    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+def test_a_terminal_has_one_line_that_counts_and_lines_for_what_went_wrong(capsys, monkeypatch):
     monkeypatch.setattr(progress, "REFRESH_S", 0.0)
-
-
-def test_a_terminal_has_one_line_that_counts_and_lines_for_what_went_wrong(terminal, capsys):
     points = [types.SimpleNamespace(run_id=f"{number:016d}", axes={"seed": number}) for number in range(4)]
-    results = types.SimpleNamespace(folder=types.SimpleNamespace(path=Path("out")))
-    results = type("Fake", (dict,), {"folder": results.folder})()
-    shown = Printed()
+    results = type("NoResults", (dict,), {"folder": types.SimpleNamespace(path=Path("out"))})()
+    shown = Printed(live=True)
     chosen = tuple(point.run_id for point in points)
     shown.selected(types.SimpleNamespace(todo=points, chosen=chosen, changed=("x",)), results)
     for point in points[:3]:

@@ -1,0 +1,29 @@
+"""`mrpbench demo` from beginning to end, and what can be done with its results."""
+
+import json
+from pathlib import Path
+
+from mrpbench_core.cli import demo
+
+
+def test_the_whole_stack_runs_and_leaves_something_to_see(mrpbench, monkeypatch):
+    monkeypatch.setitem(demo.WANTED, "simulator", ("holodeck", "kinematic"))
+    code, output, errors = mrpbench("demo")
+    assert (code, errors) == (0, "")
+    assert "simulator holodeck is not available here (not installed); kinematic takes its place" in output
+    (shard,) = Path("results/demo/runs").iterdir()
+    record = json.loads(shard.read_text())
+    assert record["status"] == "succeeded"
+    assert record["metrics"]["execution.goals_reached"] == 5
+    assert record["metrics"]["execution.robot_contacts"] == 0
+    lines = dict(line.split(maxsplit=1) for line in output.splitlines()[-4:])
+    assert Path(lines["picture"]).read_bytes().startswith(b"\x89PNG")
+    assert any(Path(lines["bag"]).glob("*.mcap"))
+    assert Path(lines["recording"]).is_file()
+
+    code, output, errors = mrpbench("export", f"results/demo:{record['run_id'][:4]}", "--to", "rosbag2", "--out", "bag")
+    assert (code, output, errors) == (0, "wrote bag\n", "")
+    assert any(Path("bag").glob("*.mcap"))
+    code, _, errors = mrpbench("export", "results/demo:zz", "--to", "rosbag2")
+    assert code == 2
+    assert errors.startswith("results/demo:zz: no runs begin with 'zz'")
