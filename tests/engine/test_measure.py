@@ -1,0 +1,48 @@
+"""What cannot be measured is null with a reason, never 0."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import Column, Metric
+from mrpbench_core.engine.measure import measure
+from mrpbench_core.model.run import FinishedRun
+
+
+@attrs.frozen(kw_only=True)
+class Length(Metric):
+    columns = (Column("length_s", "s", "lower", "How long."), Column("odd", "", "neither", "Not a number."))
+    requires = frozenset({"time"})
+
+    def measure(self, run):
+        return {"length_s": float(run.channel("time")[-1]), "odd": float("nan")}
+
+
+@attrs.frozen(kw_only=True)
+class NeedsPlan(Length):
+    requires = frozenset({"plan"})
+
+    def measure(self, run):
+        return {"length_s": 1.0}
+
+
+METRICS = {"length": Length(), "plan": NeedsPlan()}
+
+
+def test_values_are_named_after_metric_and_column_and_nan_is_null(run_context):
+    run = FinishedRun(context=run_context, executed=True, channels={"time": lambda: np.arange(3.0)})
+    values, reasons = measure(METRICS, run)
+    assert values == {"length.length_s": 2.0, "length.odd": None, "plan.length_s": 1.0, "plan.odd": None}
+    assert reasons == {}
+
+
+def test_a_metric_without_its_channel_gives_null_and_the_reason(run_context):
+    values, reasons = measure(METRICS, FinishedRun(context=run_context, executed=True))
+    assert values["length.length_s"] is None
+    assert reasons == {"length": "no time"}
+
+
+def test_without_a_plan_the_reason_says_so(run_context):
+    failed = attrs.evolve(run_context, result=attrs.evolve(run_context.result, plan=None))
+    values, reasons = measure(METRICS, FinishedRun(context=failed, executed=False))
+    assert set(values.values()) == {None}
+    assert reasons == {"length": "not executed", "plan": "no plan"}
