@@ -1,0 +1,140 @@
+"""Whole runs in this process: every way to end, and the same result again."""
+
+import hashlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.pipeline import Observers, execute
+from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.recording import Recording
+
+FIRST = {
+    "world": "office",
+    "scenario": {"plugin": "random", "robots": 3},
+    "assigner": "identity",
+    "planner": "example",
+    "limits": {"execution": "200 s"},
+}
+
+
+def execute_first(tmp_path: Path, *overrides: str, observers: Observers | None = None, **changes):
+    """Record of the run that `FIRST` describes with some settings replaced, and the stages announced."""
+    (point,) = load_study({**FIRST, **changes}, overrides).runs
+    stages = []
+    paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports", picture=None)
+    record = execute(point.config, point.run_id, paths, lambda stage, facts: stages.append(stage), observers)
+    return record, stages
+
+
+def digest(file: Path) -> str:
+    recording = Recording(file)
+    found = hashlib.sha256()
+    for name in sorted(recording.channels):
+        found.update(name.encode() + recording.channel(name).tobytes())
+    recording.close()
+    return found.hexdigest()
+
+
+def test_a_run_goes_through_every_stage_and_succeeds(tmp_path):
+    record, stages = execute_first(tmp_path)
+    assert stages == ["world", "roadmap", "scenario", "assignment", "planning", "execution", "export", "metrics"]
+    assert record["status"] == "succeeded"
+    assert record["metrics"]["execution.success"] is True
+    assert record["metrics"]["execution.goals_reached"] == 3
+    assert record["metrics"]["execution.robot_contacts"] == 0
+    assert record["timing"]["real_time_factor"] > 1
+    assert (tmp_path / "run.zip").is_file()
+
+
+def test_robots_end_within_tolerance_of_their_goals(tmp_path):
+    execute_first(tmp_path)
+    recording = Recording(tmp_path / "run.zip")
+    end, goal = recording.channel("truth")[-1, :, :2], np.array(recording.context().goal)[:, :2]
+    recording.close()
+    assert np.hypot(*(end - goal).T).max() <= 0.11
+
+
+@pytest.mark.parametrize("noise", [{}, {"lidar": 0.01, "odometry": 0.02, "start_jitter": "2 s"}])
+def test_the_same_run_is_recorded_the_same(tmp_path, noise):
+    digests = set()
+    for name in ("one", "two"):
+        record, _ = execute_first(tmp_path / name, noise=noise, recording={"scans": True})
+        digests.add((record["metrics"]["execution.duration_s"], digest(tmp_path / name / "run.zip")))
+    assert len(digests) == 1
+
+
+def test_a_repeat_meets_the_same_scenario_with_other_noise(tmp_path):
+    noise = {"start_jitter": "5 s"}
+    first, _ = execute_first(tmp_path / "0", noise=noise)
+    again, _ = execute_first(tmp_path / "1", noise=noise, repeat=1)
+    assert first["scenario_id"] == again["scenario_id"]
+    assert first["metrics"]["planning.makespan"] == again["metrics"]["planning.makespan"]
+    assert digest(tmp_path / "0" / "run.zip") != digest(tmp_path / "1" / "run.zip")
+
+
+def test_without_a_simulator_the_run_ends_after_planning(tmp_path):
+    record, stages = execute_first(tmp_path, simulator="none")
+    assert record["status"] == "succeeded"
+    assert "execution" not in stages
+    assert record["metrics"]["planning.solved"] is True
+    assert record["metrics"]["execution.duration_s"] is None
+    assert not (tmp_path / "run.zip").exists()
+
+
+def test_a_planner_is_not_given_what_it_does_not_support(tmp_path):
+    record, _ = execute_first(tmp_path, roadmap="graph")
+    assert record["status"] == "skipped"
+    assert record["error"]["message"] == "does not support edge_durations, footprints"
+
+
+def test_an_infeasible_scenario_is_named_before_planning(tmp_path):
+    places = {"plugin": "named", "starts": ["kitchen", "lounge"], "goals": ["sofa", "sofa"]}
+    record, stages = execute_first(tmp_path, scenario=places)
+    assert record["status"] == "scenario_infeasible"
+    assert "robots 0 and 1 share the goal sofa" in record["error"]["message"]
+    assert "planning" not in stages
+
+
+def test_too_little_time_misses_goals(tmp_path):
+    record, _ = execute_first(tmp_path, limits={"execution": "1 s"})
+    assert record["status"] == "goals_missed"
+    assert record["metrics"]["execution.success"] is False
+    assert record["error"]["message"] == "not all robots arrived within 1 simulated seconds"
+
+
+@pytest.mark.parametrize(("keep", "kept"), [("all", True), ("failed", False), ("none", False)])
+def test_recordings_of_successes_are_kept_as_asked(tmp_path, keep, kept):
+    record, _ = execute_first(tmp_path, recording={"keep": keep})
+    assert record["metrics"]["execution.success"] is True
+    assert (tmp_path / "run.zip").exists() is kept
+
+
+def test_a_failed_run_is_kept_when_failures_are(tmp_path):
+    execute_first(tmp_path, recording={"keep": "failed"}, limits={"execution": "1 s"})
+    assert (tmp_path / "run.zip").exists()
+
+
+def test_observers_see_the_plan_and_every_period(tmp_path):
+    seen = {"planned": 0, "stepped": []}
+
+    def planned(*, problem, result):
+        seen["planned"] += len(result.plan.paths) == len(problem)
+
+    observers = Observers(planned=planned, stepped=lambda *, now, state: seen["stepped"].append(now))
+    execute_first(tmp_path, observers=observers, limits={"execution": "2 s"})
+    assert seen["planned"] == 1
+    np.testing.assert_allclose(seen["stepped"], np.arange(41) * 0.05)
+
+
+@pytest.mark.parametrize("dispatcher", ["timed", "all_at_once"])
+def test_other_dispatchers_drive_a_single_robot_too(tmp_path, dispatcher):
+    record, _ = execute_first(tmp_path, "scenario.robots=1", dispatcher=dispatcher)
+    assert record["status"] == "succeeded"
+
+
+def test_a_slow_dispatch_takes_as_long_as_the_plan(tmp_path):
+    record, _ = execute_first(tmp_path, "scenario.robots=1", dispatcher="timed")
+    assert record["metrics"]["execution.duration_s"] > record["metrics"]["planning.makespan"] - 2.0
