@@ -4,15 +4,6 @@
 
 namespace mrpbench::mapf {
 
-namespace {
-
-/// Two robots on one lane at the same time: does the first to enter fail to be the first to leave?
-bool overtakes(const Occupation& one, const Occupation& other) {
-  return (one.begin < other.begin) != (one.end < other.end) || one.begin == other.begin || one.end == other.end;
-}
-
-}  // namespace
-
 PairConflict find_conflict(const Instance& instance, const Relations& relations, int one,
                            std::span<const Occupation> one_path, int other, std::span<const Occupation> other_path) {
   PairConflict found{one, other, 0, 0, 0, Relation::none, 0};

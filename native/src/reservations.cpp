@@ -11,10 +11,11 @@ Reservations::Reservations(const Instance& instance, const Relations& relations,
 }
 
 void Reservations::add(int robot, std::span<const Occupation> occupations) {
+  std::int32_t step = 0;
   for (const Occupation& occupation : occupations) {
     std::int32_t& head = head_[occupation.element];
     if (head < 0) touched_.push_back(occupation.element);
-    entries_.push_back({robot, occupation.begin, occupation.end, head});
+    entries_.push_back({robot, step++, occupation.begin, occupation.end, head});
     head = static_cast<std::int32_t>(entries_.size()) - 1;
   }
   limits_.charge_growth(counted_, entries_.capacity() * sizeof(Entry));

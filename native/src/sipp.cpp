@@ -12,10 +12,11 @@ Sipp::Sipp(const Instance& instance, Limits& limits, Statistics& statistics)
   edge_slot_.resize(roadmap_.edge_count());
 }
 
-bool Sipp::search(int robot, DistanceTable& distance, const Obstacles& obstacles, Path& path) {
+bool Sipp::search(int robot, DistanceTable& distance, const Obstacles& obstacles, Path& path,
+                  const Reservations* others) {
   const Beginning& beginning = instance_.beginning(robot);
   distance_ = &distance;
-  begin(instance_.robots()[robot], obstacles);
+  begin(robot, obstacles, others);
   least_cost_ = earliest_stay(instance_.robots()[robot]);
   if (least_cost_ == kForever || distance(beginning.vertex) == kForever) return false;
 
@@ -31,11 +32,11 @@ bool Sipp::search(int robot, DistanceTable& distance, const Obstacles& obstacles
     std::ranges::pop_heap(open_, std::greater{});
     const Open best = open_.back();
     open_.pop_back();
-    if (best.arrival > states_[best.state].arrival) continue;
-    const bool stays = instance_.rules().disappear_at_goal || states_[best.state].last == kForever;
-    found = best.h == 0 && stays;
+    if (states_[best.state].closed) continue;  // a better entry for it came first
+    states_[best.state].closed = true;
+    found = is_final(best.state, best.h);
     if (found) {
-      trace(robot, best.state, path);
+      trace(best.state, path);
     } else {
       expand(best.state);
     }
@@ -45,9 +46,11 @@ bool Sipp::search(int robot, DistanceTable& distance, const Obstacles& obstacles
   return found;
 }
 
-void Sipp::begin(const Robot& robot, const Obstacles& obstacles) {
+void Sipp::begin(int robot, const Obstacles& obstacles, const Reservations* others) {
+  robot_ = robot;
   obstacles_ = &obstacles;
-  duration_ = roadmap_.duration(robot.profile);
+  others_ = others;
+  duration_ = roadmap_.duration(instance_.robots()[robot].profile);
   if (++epoch_ == 0) {  // wrapped round: old stamps would look new
     std::ranges::fill(vertex_slot_, Slot{});
     std::ranges::fill(edge_slot_, Slot{});
@@ -81,7 +84,7 @@ Sipp::Slot Sipp::states_of(int vertex) {
   unite(scratch_);
   const auto add = [&](Half first, Half last) {
     const Tick begin = (first + 1) / 2, end = last / 2;
-    if (begin <= end) states_.push_back({begin, end, kForever, vertex, -1, -1});
+    if (begin <= end) states_.push_back({begin, end, kForever, vertex, -1, -1, 0, false});
   };
   Half free = 0;
   for (const Range& blocked : scratch_) {
@@ -120,27 +123,42 @@ void Sipp::expand(int state) {
       const Tick safe_from = states_[to].first - duration, safe_until = states_[to].last - duration;
       Tick departure = std::max(from.arrival, safe_from);
       if (safe_from > from.last) break;
-      if (departure > safe_until || departure + duration >= states_[to].arrival) continue;
+      if (departure > safe_until || departure + duration > states_[to].arrival || states_[to].closed) continue;
       departure = next_departure(edge, departure);
-      if (departure > from.last || departure > safe_until || departure + duration >= states_[to].arrival) continue;
-      states_[to].arrival = departure + duration;
-      states_[to].parent = state;
-      states_[to].edge = edge;
+      if (departure > from.last || departure > safe_until || departure + duration > states_[to].arrival) continue;
+      State reached = states_[to];
+      const bool earlier = departure + duration < reached.arrival;
+      reached.arrival = departure + duration;
+      reached.parent = state;
+      reached.edge = edge;
+      reached.conflicts = from.conflicts + count_conflicts(from, edge, departure, reached);
+      if (!earlier && reached.conflicts >= states_[to].conflicts) continue;
+      states_[to] = reached;
       push(to);
     }
   }
+}
+
+/// Conflicts with the others while waiting at `from`, crossing `edge`, and standing at `to`.
+int Sipp::count_conflicts(const State& from, int edge, Tick departure, const State& to) const {
+  if (others_ == nullptr) return 0;
+  const int element = roadmap_.vertex_count() + edge;
+  int number = others_->count(robot_, on_edge(element, departure, to.arrival));
+  if (departure > from.arrival) number += others_->count(robot_, {from.vertex, 2 * from.arrival + 1, 2 * departure});
+  const bool parks = !instance_.rules().disappear_at_goal && to.last == kForever && (*distance_)(to.vertex) == 0;
+  return number + others_->count(robot_, at_vertex(to.vertex, to.arrival, parks ? kForever : to.arrival));
 }
 
 void Sipp::push(int state) {
   ++statistics_.low_level_generated;
   const Tick h = (*distance_)(states_[state].vertex);
   const Tick arrival = states_[state].arrival;
-  open_.push_back({std::max(arrival + h, least_cost_), h, arrival, state});
+  open_.push_back({std::max(arrival + h, least_cost_), h, states_[state].conflicts, state});
   std::ranges::push_heap(open_, std::greater{});
 }
 
-void Sipp::trace(int robot, int state, Path& path) const {
-  const Beginning& beginning = instance_.beginning(robot);
+void Sipp::trace(int state, Path& path) const {
+  const Beginning& beginning = instance_.beginning(robot_);
   path.assign(beginning.occupied.begin(), beginning.occupied.end());
   std::size_t moves = 0;
   for (int s = state; states_[s].parent >= 0; s = states_[s].parent) ++moves;

@@ -24,13 +24,13 @@ struct Outcome {
   Path path;
 };
 
-Outcome search(const Instance& it, const Obstacles& obstacles, int who = 0) {
+Outcome search(const Instance& it, const Obstacles& obstacles, int who = 0, const Reservations* others = nullptr) {
   Limits limits = unlimited();
   Statistics statistics;
   DistanceTables tables(it, limits);
   Sipp sipp(it, limits, statistics);
   Path path;
-  const bool found = sipp.search(who, tables[who], obstacles, path);
+  const bool found = sipp.search(who, tables[who], obstacles, path, others);
   return {found, path};
 }
 
@@ -88,6 +88,19 @@ TEST("a robot that is at its goal never moves and costs nothing, ready or not") 
   const Outcome outcome = search(instance(grid(3, 1), {it}), Listed{});
   CHECK(outcome.found);
   CHECK(arrival(outcome.path) == 0);
+}
+
+TEST("of two ways that take equally long the one with fewer conflicts is taken") {
+  const Instance it = instance(grid(2, 2), {robot(0, 3), robot(1, 1), robot(2, 2)});
+  Limits limits = unlimited();
+  const Relations relations(it, limits);
+  for (int other = 1; other <= 2; ++other) {
+    Reservations others(it, relations, limits);
+    others.add(other, search(it, Listed{}, other).path);
+    const Outcome outcome = search(it, Listed{}, 0, &others);
+    CHECK(arrival(outcome.path) == 2);
+    CHECK(outcome.path[2].element == 3 - other);
+  }
 }
 
 TEST("reservations of others are avoided, swaps and overtaking included") {

@@ -7,6 +7,11 @@
 
 namespace mrpbench::mapf {
 
+/// Two robots on one lane at the same time: does the first to enter fail to be the first to leave?
+inline bool overtakes(const Occupation& one, const Occupation& other) {
+  return (one.begin < other.begin) != (one.end < other.end) || one.begin == other.begin || one.end == other.end;
+}
+
 /// Two robots in one another's way. `count` conflicts in all, described is the first.
 struct PairConflict {
   std::int32_t one, other;            // robots

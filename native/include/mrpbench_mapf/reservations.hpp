@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "mrpbench_mapf/conflict.hpp"
 #include "mrpbench_mapf/obstacles.hpp"
-#include "mrpbench_mapf/relations.hpp"
 
 namespace mrpbench::mapf {
 
@@ -22,9 +22,31 @@ class Reservations {
   void at_vertex(int robot, int vertex, std::vector<Range>& halves) const;
   void on_edge(int robot, int edge, Tick duration, std::vector<Range>& departures) const;
 
+  /// Call `found(entry, relation)` for every reservation of another robot with which `occupation` conflicts.
+  template <class Found>
+  void conflicts_of(int robot, const Occupation& occupation, Found found) const {
+    for (const Near& near : relations_.row(occupation.element)) {
+      for (std::int32_t k = head_[near.element]; k >= 0; k = entries_[k].next) {
+        const Entry& entry = entries_[k];
+        if (entry.robot == robot || entry.begin > occupation.end || entry.end < occupation.begin) continue;
+        const Relation relation = near.relation(instance_.reach(robot, entry.robot));
+        if (relation == Relation::none) continue;
+        if (relation == Relation::ordered && !overtakes(occupation, {near.element, entry.begin, entry.end})) continue;
+        found(entry, relation);
+      }
+    }
+  }
+  /// Number of conflicts of `occupation`.
+  int count(int robot, const Occupation& occupation) const {
+    int number = 0;
+    conflicts_of(robot, occupation, [&](const auto&, Relation) { ++number; });
+    return number;
+  }
+
  private:
   struct Entry {
     std::int32_t robot;
+    std::int32_t step;  // index into the robot's path
     Half begin, end;
     std::int32_t next;
   };
