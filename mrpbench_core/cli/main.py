@@ -23,6 +23,7 @@ COMMANDS = {
     "init": "write a commented configuration that runs",
     "run": "run what a study still lacks",
     "report": "print tables of results",
+    "view": "write a replay of a run that any browser opens",
     "export": "write a stored run in another format",
     "scenario": "freeze the instances a study draws, for publication",
     "world": "facts and checks of a map",

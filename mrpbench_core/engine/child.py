@@ -51,6 +51,9 @@ class Child:
                     pass_fds=(jobs, messages, lifeline),
                     start_new_session=True,
                 )
+        except OSError:
+            self._close_pipes()
+            raise
         finally:
             for descriptor in (jobs, messages, lifeline):
                 os.close(descriptor)
@@ -138,6 +141,9 @@ class Child:
         self.kill()
         with self._reaping:
             self._process.wait()
+        self._close_pipes()
+
+    def _close_pipes(self) -> None:
         for descriptor in (self._jobs, self._messages, self._lifeline):
             os.close(descriptor)
 

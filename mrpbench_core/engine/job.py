@@ -48,13 +48,13 @@ class Failure:
 
 @attrs.frozen(kw_only=True)
 class Outcome:
-    """How a job ended; exactly one of the first four is there."""
+    """How a job ended: with a record, a failure, or a mistake."""
 
     run_id: str
     record: dict[str, Any] | None = None
     failure: Failure | None = None
-    lost: str | None = None
-    """Something outside ended the worker, which says nothing about the run."""
+    lost: bool = False
+    """The failure is that something outside ended the worker, which says nothing about the run."""
     mistake: str | None = None
     """The user's, or a full disk, in one line: the run is not recorded."""
     machine: dict[str, Any] | None = None

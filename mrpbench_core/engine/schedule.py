@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import attrs
 
 from mrpbench_core.config.study import RunPoint
-from mrpbench_core.engine.job import Failure, Job, Outcome
+from mrpbench_core.engine.job import Job, Outcome
 from mrpbench_core.engine.progress import Progress
 from mrpbench_core.engine.record import complete
 from mrpbench_core.engine.slots import close_slots, run_in_slot
@@ -62,15 +62,12 @@ class Schedule:
         return bool(self._going)
 
     def _take(self, point: RunPoint, attempt: int, outcome: Outcome) -> None:
-        if outcome.lost is not None:
+        if outcome.lost and outcome.failure is not None:
             self._losses[point.run_id] += 1
-            if self._losses[point.run_id] < LOSSES:
-                self.progress.lost(point, outcome.lost)
+            if self._losses[point.run_id] < LOSSES:  # else it was perhaps the run itself
+                self.progress.lost(point, outcome.failure.message)
                 self.waiting.append((point, attempt + 1))
                 return
-            message = f"{outcome.lost} {LOSSES} times"  # perhaps by the run itself
-            failure = Failure(status="crashed", stage="start", message=message, seconds=0.0)
-            outcome = attrs.evolve(outcome, lost=None, failure=failure)
         if outcome.mistake is not None:
             self.mistakes[point.run_id] = outcome.mistake
             self.progress.refused(point, outcome.mistake)

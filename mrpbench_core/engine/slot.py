@@ -58,9 +58,8 @@ class Slot:
             if death.signal == signal.SIGKILL and oom_kills() > oom_before:
                 failure = watch.failure("out_of_memory", "the machine ran out of memory, and the kernel ended the run")
                 return Outcome(run_id=job.run_id, failure=failure)
-            if death.signal in OUTSIDE:
-                return Outcome(run_id=job.run_id, lost=str(death))
-            return Outcome(run_id=job.run_id, failure=watch.failure("crashed", str(death)))
+            failure = watch.failure("crashed", str(death))
+            return Outcome(run_id=job.run_id, failure=failure, lost=death.signal in OUTSIDE)
         except OSError as error:
             return Outcome(run_id=job.run_id, mistake=f"no worker can be started: {error}")
         finally:

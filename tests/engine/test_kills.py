@@ -15,12 +15,13 @@ from mrpbench_core import load, run
 from mrpbench_core.store.invocation import write_document
 
 RUNS = 8
+UNDISTURBED = {}
 
 
 @pytest.fixture
 def slow_study(study):
     """Runs of 0.15 s each, in a file."""
-    study["planner"]["does"] = "slow"
+    study["planner"] = {"plugin": "./odd.py:Odd", "does": "slow"}
     write_document(Path("odd.yaml"), study | {"matrix": {"seed": f"0..{RUNS - 1}"}})
     return study
 
@@ -57,17 +58,21 @@ def essence(folder):
     }
 
 
-def assert_as_undisturbed(study):
-    run("odd.yaml", out="undisturbed", workers=2)
-    assert essence("out") == essence("undisturbed")
-    assert len(load("out")) == RUNS
+@pytest.fixture
+def undisturbed(slow_study):
+    """What the study's records are when nobody disturbs it; worked out once, as it does not depend on the folder."""
+    if not UNDISTURBED:
+        run("odd.yaml", out="undisturbed", workers=2)
+        UNDISTURBED.update(essence("undisturbed"))
+        assert len(UNDISTURBED) == RUNS
+    return UNDISTURBED
 
 
 def gone(processes):
     return not [process for process in psutil.wait_procs(processes, timeout=5)[1] if process.is_running()]
 
 
-def test_a_killed_invoker_leaves_no_orphan_and_is_resumed(slow_study):
+def test_a_killed_invoker_leaves_no_orphan_and_is_resumed(undisturbed):
     process = invoke("--workers", "2")
     wait_for_records(3)
     workers = children(process)
@@ -77,10 +82,10 @@ def test_a_killed_invoker_leaves_no_orphan_and_is_resumed(slow_study):
     assert gone(workers)
     kept = essence("out")
     assert 3 <= len(kept) < RUNS
-    code, output, _ = finish(invoke())
+    code, output, _ = finish(invoke("--workers", "2"))
     assert code == 0
     assert f"{RUNS - len(kept)} of {RUNS} runs to do, {len(kept)} recorded" in output
-    assert_as_undisturbed(slow_study)
+    assert essence("out") == undisturbed
     assert {record["attempt"] for record in load("out")} == {1}
 
 
@@ -100,7 +105,7 @@ def test_a_killed_invoker_leaves_no_orphan_even_in_native_code_with_helpers(stud
     assert gone(workers)
 
 
-def test_runs_whose_worker_was_killed_are_done_again_and_it_is_said(slow_study):
+def test_runs_whose_worker_was_killed_are_done_again_and_it_is_said(undisturbed):
     process = invoke("--workers", "2")
     chance = random.Random(1)
     for count in (1, 3, 5):
@@ -109,12 +114,12 @@ def test_runs_whose_worker_was_killed_are_done_again_and_it_is_said(slow_study):
     code, output, errors = finish(process)
     assert (code, errors) == (0, "")
     assert output.count("is done again: the worker process was ended by SIGKILL") >= 1
-    assert_as_undisturbed(slow_study)
+    assert essence("out") == undisturbed
     assert sum(record["attempt"] - 1 for record in load("out")) == output.count("is done again")
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_an_interrupted_study_keeps_what_is_finished_and_goes_on(slow_study, number):
+def test_an_interrupted_study_keeps_what_is_finished_and_goes_on(undisturbed, number):
     process = invoke("--workers", "2")
     wait_for_records(3)
     workers = children(process)
@@ -126,10 +131,10 @@ def test_an_interrupted_study_keeps_what_is_finished_and_goes_on(slow_study, num
     kept = len(load("out"))
     assert 3 <= kept < RUNS
     assert finish(invoke("--workers", "2"))[0] == 0
-    assert_as_undisturbed(slow_study)
+    assert essence("out") == undisturbed
 
 
-def test_two_invocations_on_one_folder(slow_study):
+def test_two_invocations_on_one_folder(undisturbed):
     first = invoke()
     wait_for_records(1)
     code, _, errors = finish(invoke())
@@ -137,10 +142,10 @@ def test_two_invocations_on_one_folder(slow_study):
     assert errors.count("\n") == 1
     assert f"another invocation is working in this folder (process {first.pid} on {os.uname().nodename})" in errors
     assert finish(first)[0] == 0
-    assert_as_undisturbed(slow_study)
+    assert essence("out") == undisturbed
 
 
-def test_a_full_disk_ends_in_one_line_and_is_resumed(slow_study):
+def test_a_full_disk_ends_in_one_line_and_is_resumed(undisturbed):
     limited = (
         "import resource, signal, sys; from mrpbench_core.cli.main import main\n"
         "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
@@ -152,5 +157,5 @@ def test_a_full_disk_ends_in_one_line_and_is_resumed(slow_study):
     assert process.stderr.count("\n") == 1
     assert "cannot be written: File too large" in process.stderr
     assert 1 <= len(load("out")) < RUNS
-    assert finish(invoke())[0] == 0
-    assert_as_undisturbed(slow_study)
+    assert finish(invoke("--workers", "2"))[0] == 0
+    assert essence("out") == undisturbed

@@ -1,0 +1,36 @@
+"""What plugins return becomes what JSON can say."""
+
+import enum
+import json
+
+import numpy as np
+
+from mrpbench_core.engine.plain import plain
+
+
+class Colour(enum.StrEnum):
+    RED = "red"
+
+
+def test_everything_becomes_json():
+    value = {
+        1: np.float64(1.5),
+        "i": np.int32(3),
+        "b": np.bool_(True),
+        "a": np.array([[1.0, np.nan]]),
+        "n": (float("inf"), -float("inf"), None, True),
+        "e": Colour.RED,
+        "o": Ellipsis,
+        "d": {"x": frozenset()},
+    }
+    expected = {
+        "1": 1.5,
+        "i": 3,
+        "b": True,
+        "a": [[1.0, None]],
+        "n": [None, None, None, True],
+        "e": "red",
+        "o": "Ellipsis",
+        "d": {"x": "frozenset()"},
+    }
+    assert json.loads(json.dumps(plain(value), allow_nan=False)) == expected
