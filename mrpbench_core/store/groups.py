@@ -53,7 +53,22 @@ def group(records: Iterable[dict[str, Any]]) -> list[Group]:
             if _is_measure(key, record) and isinstance(value, int | float):
                 total, count = found.sums.get(key, (0.0, 0))
                 found.sums[key] = (total + value, count + 1)
+    _drop_implied(list(groups.values()))
     return list(groups.values())
+
+
+def _drop_implied(groups: list[Group]) -> None:
+    """Leave out options that say no more than which plugin their block names: each plugin's own defaults, mostly."""
+    for key in list(groups[0].axes) if groups else ():
+        blocks = key.split(".")[:-1]
+        naming = [".".join([*blocks[:depth], "plugin"]) for depth in range(1, len(blocks) + 1)]
+        plugins = [name for name in naming if name in groups[0].axes and name != key]
+        values: dict[str, set[str]] = {}
+        for found in groups:
+            values.setdefault(repr([found.axes[name] for name in plugins]), set()).add(repr(found.axes[key]))
+        if plugins and all(len(options) == 1 for options in values.values()):
+            for found in groups:
+                del found.axes[key]
 
 
 def _is_measure(key: str, record: dict[str, Any]) -> bool:
