@@ -36,7 +36,7 @@ Output<T> view(const std::vector<T>& values) {
 }
 
 Tick tick(std::int64_t value) {
-  if (value < -1 || value >= kForever / 4) throw std::invalid_argument("times must be below 2^28 ticks");
+  if (value < -1 || value > kLatestTime) throw std::invalid_argument("times are at most 2^28 ticks");
   return static_cast<Tick>(value);
 }
 

@@ -37,7 +37,7 @@ void DistanceTable::advance() {
     if (duration_[edge] < 0) continue;
     const int vertex = roadmap_.tail(edge);
     const Tick distance = entry.distance + duration_[edge];
-    if (distance >= distance_[vertex]) continue;
+    if (distance >= distance_[vertex] || distance >= kForever / 2) continue;
     distance_[vertex] = distance;
     queue_.push_back({distance, vertex});
     if (heap) std::ranges::push_heap(queue_, std::greater{});

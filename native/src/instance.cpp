@@ -62,12 +62,12 @@ void Instance::validate_robot(int robot) const {
   if (!(it.radius >= 0.0)) refuse(robot, "has no radius");
   if (it.goals.empty()) refuse(robot, "has no goal");
   if (!std::ranges::all_of(it.goals, is_vertex)) refuse(robot, "has a goal that does not exist");
-  if (it.ready < 0 || it.ready >= kForever / 4) refuse(robot, "becomes ready at an impossible time");
+  if (it.ready < 0 || it.ready > kLatestTime) refuse(robot, "becomes ready at an impossible time");
   int vertex = it.start;
   Tick now = 0;
   bool moved = false;
   for (const Segment& segment : it.committed) {
-    if (segment.enter != now || segment.leave < segment.enter || segment.leave >= kForever / 4) {
+    if (segment.enter != now || segment.leave < segment.enter || segment.leave > kLatestTime) {
       refuse(robot, "has committed segments that do not follow one another in time");
     }
     now = segment.leave;

@@ -32,9 +32,9 @@ void Roadmap::validate() const {
     }
   }
   for (std::size_t i = 0; i < duration_.size(); ++i) {
-    if (duration_[i] < -1 || duration_[i] == 0 || duration_[i] >= kForever / 4) {
+    if (duration_[i] < -1 || duration_[i] == 0 || duration_[i] > kLongestEdge) {
       throw std::invalid_argument("edge " + std::to_string(i % tail_.size()) + " takes " +
-                                  std::to_string(duration_[i]) + " ticks; at least 1 is needed, or -1 = forbidden");
+                                  std::to_string(duration_[i]) + " ticks; allowed are 1 to 2^20, or -1 = forbidden");
     }
   }
 }

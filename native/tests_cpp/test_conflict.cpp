@@ -101,3 +101,44 @@ TEST("whatever the two constraints of a split forbid is in conflict, move by mov
   }
   CHECK(conflicts > 40);
 }
+
+TEST("a robot that passes another one that stands is delayed until the stay ends or its passage has") {
+  // Vertex 0 is near the lane from 2 to 3, nothing else is near anything.
+  const int lane = 4 + edge_between(grid(4, 1), 2, 3);
+  Exclusions exclusions{{0}, {lane, 0}, {0.5, 0.5}};
+  for (int x = 0; x < grid(4, 1).element_count(); ++x) {
+    exclusions.first.push_back(exclusions.first.back() + (x == 0 || x == lane));
+  }
+  std::vector<Robot> robots{robot(0, 1), robot(2, 3)};
+  for (Robot& it : robots) it.radius = 0.3;
+  const Instance two(grid(4, 1), robots, {}, exclusions);
+  const int away = 4 + edge_between(two.roadmap(), 0, 1);
+  int conflicts = 0;
+  for (Tick leaves = 1; leaves <= 12; ++leaves) {
+    for (Tick ticks = 1; ticks <= 4; ++ticks) {
+      // Robot 0 stands at vertex 0 from `since` to `until`; robot 1 passes.
+      const auto at = [&](Tick since, Tick until, Tick depart) {
+        return Case{two,
+                    {at_vertex(1, 0, since - 1), on_edge(away, since - 1, since), at_vertex(0, since, until),
+                     on_edge(away, until, 40)},
+                    {at_vertex(2, 0, depart), on_edge(lane, depart, depart + ticks), at_vertex(3, depart + ticks, 40)}};
+      };
+      const Case now = at(1, leaves, 5);
+      const PairConflict found = conflict_of(now);
+      if (found.count == 0) continue;
+      ++conflicts;
+      const auto [stands, passes] = split(found, now.one, now.other, 4);
+      CHECK(contains(passes.range, 5));
+      CHECK(stands.range.first <= 2 * leaves && stands.range.last >= 2);
+      for (Tick depart = passes.range.first; depart <= passes.range.last; ++depart) {
+        for (Tick since = 1; since <= 12; ++since) {
+          for (Tick until = since; until <= 12; ++until) {
+            const bool forbidden = 2 * since <= stands.range.last && stands.range.first <= 2 * until;
+            if (forbidden) CHECK(conflict_of(at(since, until, depart)).count == 1);
+          }
+        }
+      }
+    }
+  }
+  CHECK(conflicts == 7 * 4);  // all that leave later than tick 5
+}

@@ -13,6 +13,9 @@ using Cost = std::int64_t;
 
 inline constexpr Tick kForever = (1 << 30) - 1;
 inline constexpr Half kForeverHalf = 2 * kForever;
+// Greatest values that instances may contain, so that sums of them stay below kForever.
+inline constexpr Tick kLongestEdge = 1 << 20;
+inline constexpr Tick kLatestTime = 1 << 28;
 
 /// A closed interval of integers (ticks or half-ticks, as the user says).
 struct Range {
