@@ -1,4 +1,5 @@
-// Conflicts between two timed paths: one sweep over both, since the occupations of a path follow one another in time.
+// Conflicts between two timed paths: one sweep over both, since the occupations of a path follow one another without a
+// gap from tick 0 on.
 #pragma once
 
 #include <span>
