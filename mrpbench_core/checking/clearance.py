@@ -1,4 +1,4 @@
-"""Whether robots, as discs, keep clear of everything solid on a level: walls, obstacles, blocked cells.
+"""Whether robots, as discs, keep clear of everything solid on a level: walls, obstacles, holes, blocked cells.
 
 Solid things are closed polygons. A disc of radius r that moves straight from p to q keeps clear of one when p is
 outside and no side of the polygon is nearer than r to the segment p-q; touching at exactly r is allowed.
@@ -18,9 +18,9 @@ TOLERANCE = 1e-9
 
 
 def solids(level: Level) -> list[Float]:
-    """Outlines f8[k,2] of walls and obstacles; a raster is not among them."""
+    """Outlines f8[k,2] of walls, obstacles and holes in the floor; a raster is not among them."""
     boxes = wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4)[:, :, :2]
-    return [*boxes, *(obstacle.polygon for obstacle in level.obstacles)]
+    return [*boxes, *(obstacle.polygon for obstacle in level.obstacles), *(hole.polygon for hole in level.holes)]
 
 
 def keeps_clear(level: Level, start: Float, end: Float, radius: float) -> Bool:

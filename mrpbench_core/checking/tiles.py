@@ -24,7 +24,8 @@ class Tiles:
 
     def __call__(self, least: Float, most: Float) -> Int:
         """Indices of the boxes that may meet the box from `least` to `most`, and some more."""
-        first = np.maximum(np.floor((least - self._widest) / self._size).astype(np.int64), self._first)
+        # a hair lower: where rounding makes a box wider than `widest`, its tile lies one before
+        first = np.maximum(np.floor((least - self._widest) / self._size - 1e-9).astype(np.int64), self._first)
         last = np.minimum(np.floor(most / self._size).astype(np.int64), self._last)
         if (first > last).any():
             return self._order[:0]

@@ -20,8 +20,12 @@ class WorldFacts:
     width: float
     """metres, walls included."""
     height: float
+    levels: int
     walls: int
     doors: int
+    lifts: int
+    obstacles: int
+    """Furniture."""
     vertices: int
     edges: int
     components: int
@@ -41,7 +45,7 @@ class WorldFacts:
 
 
 def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
-    """Examine level 0 of `world`, and `roadmap`, for robots of `radius` metres."""
+    """Examine all levels of `world`, and `roadmap`, for robots of `radius` metres."""
     edges = unique_edges(world)
     label = components(len(world.vertices), edges)
     merged = sum(len(group) - 1 for group in duplicates(world))
@@ -51,8 +55,11 @@ def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
         name=world.name,
         width=width,
         height=height,
-        walls=len(world.levels[0].walls),
-        doors=len(world.levels[0].doors),
+        levels=len(world.levels),
+        walls=sum(len(level.walls) for level in world.levels),
+        doors=sum(len(level.doors) for level in world.levels),
+        lifts=len(world.lifts),
+        obstacles=sum(len(level.obstacles) for level in world.levels),
         vertices=len(world.vertices),
         edges=len(edges),
         components=len(np.unique(label)) - merged,
@@ -68,12 +75,12 @@ def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
 
 
 def size(world: World) -> tuple[float, float]:
-    """Width and height in metres of everything solid on level 0, of its places if nothing is."""
-    level = world.levels[0]
-    corners = [*solids(level)]
-    if level.occupancy is not None:
-        rows, columns = level.occupancy.shape
-        corners.append(level.occupancy.centres(np.array([(-0.5, -0.5), (rows - 0.5, columns - 0.5)])))
+    """Width and height in metres of everything solid on all levels, of the places if nothing is."""
+    corners = [outline for level in world.levels for outline in solids(level)]
+    for level in world.levels:
+        if level.occupancy is not None:
+            rows, columns = level.occupancy.shape
+            corners.append(level.occupancy.centres(np.array([(-0.5, -0.5), (rows - 0.5, columns - 0.5)])))
     if not corners:
         corners = [np.array([(vertex.x, vertex.y) for vertex in world.vertices]).reshape(-1, 2)]
     points = np.concatenate(corners)
@@ -99,33 +106,39 @@ def _graph_faults(world: World) -> list[str]:
 
 
 def _clearance_faults(world: World, radius: float) -> list[str]:
-    point = np.array([(vertex.x, vertex.y) for vertex in world.vertices]).reshape(-1, 2)
     lanes = np.array(unique_edges(world), np.int64).reshape(-1, 2)
-    level = world.levels[0]
-    inside = ~keeps_clear(level, point, point, 0.0)
-    tight = ~keeps_clear(level, point, point, radius) & ~inside
-    blocked = ~keeps_clear(level, point[lanes[:, 0]], point[lanes[:, 1]], radius)
+    storey = np.array([vertex.level for vertex in world.vertices], np.int64)
+    inside, tight, blocked = [], [], []
+    for index, level in enumerate(world.levels):
+        here = np.flatnonzero(storey == index)
+        point = np.array([(world.vertices[vertex].x, world.vertices[vertex].y) for vertex in here]).reshape(-1, 2)
+        within = ~keeps_clear(level, point, point, 0.0)
+        inside += here[within].tolist()
+        tight += here[~keeps_clear(level, point, point, radius) & ~within].tolist()
+        ours = lanes[storey[lanes[:, 0]] == index] if len(lanes) else lanes
+        number = np.cumsum(storey == index) - 1
+        start, end = (point[number[ends]] for ends in ours.T)
+        blocked += ours[~keeps_clear(level, start, end, radius)].tolist()
     return [
-        *(f"{called(world, vertex)} lies inside a wall" for vertex in np.flatnonzero(inside).tolist()),
+        *(f"{called(world, vertex)} lies inside something solid" for vertex in inside),
+        *(f"{called(world, vertex)} is nearer than {radius:.3f} m to something solid" for vertex in tight),
         *(
-            f"{called(world, vertex)} is nearer than {radius:.3f} m to a wall"
-            for vertex in np.flatnonzero(tight).tolist()
-        ),
-        *(
-            f"lane {called(world, a)} – {called(world, b)} passes a wall nearer than {radius:.3f} m"
-            for a, b in lanes[blocked].tolist()
+            f"lane {called(world, a)} – {called(world, b)} passes something solid nearer than {radius:.3f} m"
+            for a, b in blocked
         ),
     ]
 
 
 def _roadmap_faults(world: World, roadmap: Roadmap) -> list[str]:
-    """Places that most others cannot reach on the roadmap."""
+    """Places that most others of their level cannot reach on the roadmap; it may cover some levels only."""
     label = components(len(roadmap.position), roadmap.edges)
-    place = roadmap.place
-    found = label[place[place >= 0]]
-    main = np.bincount(found).argmax() if len(found) else -1
-    return [
-        f"{called(world, vertex)} cannot be reached on the roadmap"
-        for vertex, cell in enumerate(place.tolist())
-        if cell < 0 or label[cell] != main
-    ]
+    storey = np.array([vertex.level for vertex in world.vertices], np.int64)
+    faults = []
+    for level in np.unique(roadmap.level):
+        here = np.flatnonzero(storey == level)
+        place = roadmap.place[here]
+        found = label[place[place >= 0]]
+        main = np.bincount(found).argmax() if len(found) else -1
+        cut = here[(place < 0) | (label[np.maximum(place, 0)] != main)]
+        faults += [f"{called(world, vertex)} cannot be reached on the roadmap" for vertex in cut.tolist()]
+    return faults

@@ -21,12 +21,14 @@ LOADERS = {".map": "movingai", ".yaml": "rmf", ".yml": "rmf"}
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("world", metavar="FILE|NAME", help="a .building.yaml or .map file, or a built-in world")
-    parser.add_argument("--level", help="level of a building; default: its reference level, else the first")
+    parser.add_argument("--level", help="the one level of a building to load; default: all")
     parser.add_argument("--roadmap", metavar="NAME", help="lanes (default where there are lanes), grid or graph")
     parser.add_argument("--cell-size", type=float, metavar="M", help="of lanes and grid; default: 0.4 m")
     parser.add_argument("--compatible", choices=["mrp_bench"], help="the raster of the original benchmark")
     parser.add_argument("--robot", default="turtlebot3_burger", help="the robot to fit in (default: %(default)s)")
-    parser.add_argument("--render", type=Path, metavar="PNG", help="draw the world and its roadmap")
+    parser.add_argument(
+        "--render", type=Path, metavar="PNG", help="draw the world and its roadmap, further levels beside it"
+    )
     parser.add_argument("--json", action="store_true", help="print as JSON")
 
 
@@ -43,7 +45,11 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.render is not None:
         from mrpbench_core.report.picture import draw_world
 
-        draw_world(world, roadmap=roadmap, file=arguments.render)
+        for index, level in enumerate(world.levels):
+            file = arguments.render
+            if index:
+                file = file.with_name(f"{file.stem}-{level.name}{file.suffix}")
+            draw_world(world, roadmap=roadmap, file=file, level=index)
     if arguments.json:
         import attrs
 
@@ -95,7 +101,8 @@ def _make(component: Any, name: str, options: dict[str, Any]) -> Any:
 def _print(facts: "WorldFacts") -> None:
     rows: list[tuple[str, Any]] = [
         ("size", f"{facts.width:.2f} × {facts.height:.2f} m"),
-        ("walls, doors", f"{facts.walls}, {facts.doors}"),
+        ("levels, lifts", f"{facts.levels}, {facts.lifts}"),
+        ("walls, doors, furniture", f"{facts.walls}, {facts.doors}, {facts.obstacles}"),
         ("vertices", facts.vertices),
         ("edges", facts.edges),
         ("components", facts.components),

@@ -77,4 +77,5 @@ class Roadmap:
         table[self.grid.cell[:, 0] * columns + self.grid.cell[:, 1]] = np.arange(len(self.grid.cell))
         cell = np.floor((np.atleast_2d(points) - self.grid.origin) / self.grid.cell_size).astype(int)
         inside = (cell >= 0).all(1) & (cell[:, 0] < columns) & (cell[:, 1] < rows)
+        inside &= np.isin(levels, self.level)  # a raster has one level
         return np.where(inside, table[np.where(inside, cell[:, 1] * columns + cell[:, 0], 0)], -1).astype("i4")

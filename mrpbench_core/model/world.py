@@ -1,12 +1,14 @@
-"""A place robots live in: walls, doors, obstacles and the navigation graph.
+"""A place robots live in: walls, doors, obstacles, lifts and the navigation graph.
 
 Metres, radians, x right, y up (ROS REP 103).
 """
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 import attrs
+import numpy as np
 
 from mrpbench_core.model.arrays import Float, array
 from mrpbench_core.model.occupancy import Occupancy
@@ -20,7 +22,22 @@ class Door:
     start: tuple[float, float]
     end: tuple[float, float]
     motion: str = "sliding"
-    """hinged, double_hinged, sliding or double_sliding."""
+    """hinged, double_hinged, sliding, double_sliding, telescope or double_telescope."""
+    motion_axis: str = "start"
+    """start | end: where a single leaf is hinged, or the side that it slides towards."""
+    motion_direction: int = 1
+    """1 | -1: a hinged leaf turns counter-clockwise or clockwise as it opens."""
+    motion_degrees: float = 90.0
+    """How far a hinged leaf turns."""
+    right_left_ratio: float = 1.0
+    """Length of the leaf at `end` over that of the leaf at `start`, for doors of two leaves."""
+    thickness: float = 0.03
+    height: float = 2.2
+
+    @property
+    def width(self) -> float:
+        """Metres between the posts."""
+        return math.dist(self.start, self.end)
 
 
 @attrs.frozen(kw_only=True)
@@ -32,6 +49,13 @@ class Obstacle:
     height: float = 1.0
     estimated: bool = False
     """True when the footprint is our estimate, not a fact of the map."""
+
+
+@attrs.frozen(kw_only=True)
+class Area:
+    """A part of a floor: a polygon f8[k,2] in metres."""
+
+    polygon: Float = array("f8", 2)
 
 
 @attrs.frozen(kw_only=True)
@@ -49,6 +73,45 @@ class Level:
     obstacles: tuple[Obstacle, ...] = ()
     occupancy: Occupancy | None = None
     """The raster of a map that is one by nature (MovingAI, ROS map_server); its blocked cells are solid."""
+    floors: tuple[Area, ...] = ()
+    """Where the floor is drawn; () = everywhere."""
+    holes: tuple[Area, ...] = ()
+    """Where it has holes: nothing solid, but robots keep clear of them. Lift shafts are not among them."""
+
+
+@attrs.frozen(kw_only=True)
+class Lift:
+    """A cabin that carries robots between levels: a rectangle around (x, y), turned by `yaw`."""
+
+    name: str
+    x: float
+    y: float
+    yaw: float
+    width: float
+    """metres along the cabin's x axis."""
+    depth: float
+    """metres along its y axis."""
+    levels: tuple[int, ...]
+    """Indices into `World.levels` where it stops, in the order of its file."""
+    initial_level: int
+    doors: tuple[Door, ...] = ()
+    """In the frame `map`; each opens cabin and shaft together."""
+    door_levels: tuple[tuple[int, ...], ...] = ()
+    """For each door, the levels on which it opens."""
+
+    @property
+    def corners(self) -> Float:
+        """The cabin's corners f8[4,2], counter-clockwise."""
+        half = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)]) * (self.width / 2, self.depth / 2)
+        cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
+        turned: Float = half @ np.array([(cosine, sine), (-sine, cosine)]) + (self.x, self.y)
+        return turned
+
+    def holds(self, x: float, y: float) -> bool:
+        """Tell whether a point lies inside the cabin."""
+        dx, dy = x - self.x, y - self.y
+        cosine, sine = math.cos(self.yaw), math.sin(self.yaw)
+        return abs(dx * cosine + dy * sine) <= self.width / 2 and abs(dy * cosine - dx * sine) <= self.depth / 2
 
 
 @attrs.frozen(kw_only=True)
@@ -60,6 +123,8 @@ class Vertex:
     y: float
     level: int = 0
     parameters: Mapping[str, Any] = attrs.field(factory=dict)
+    lift: str = ""
+    """The lift whose cabin it lies in."""
 
 
 @attrs.frozen(kw_only=True)
@@ -89,3 +154,4 @@ class World:
     lanes: tuple[Lane, ...] = ()
     notes: tuple[str, ...] = ()
     """What the loader did not understand or had to assume, one sentence each."""
+    lifts: tuple[Lift, ...] = ()

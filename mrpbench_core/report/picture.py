@@ -1,6 +1,7 @@
 """Pictures of worlds: walls, lanes, names; planned paths dashed, driven paths solid."""
 
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ _MARGINS = (84, 20, 60, 44)
 """Left, right, bottom, top, pixels."""
 _LEAST = 250
 """Pixels of the shorter side of the map."""
-_WALL, _LANE, _ROAD, _NAME = "#3b4252", "#9db4c8", "#e8f0f6", "#51606e"
+_WALL, _LANE, _ROAD, _NAME, _DOOR = "#3b4252", "#9db4c8", "#e8f0f6", "#51606e", "#b07d2b"
 
 
 def draw_world(
@@ -35,8 +36,9 @@ def draw_world(
     fleet: Fleet | None = None,
     routes: Sequence[Route] | None = None,
     truth: Float | None = None,
+    level: int = 0,
 ) -> None:
-    """Draw level 0 of `world` into a PNG of 1280 pixels width (or height, for a tall world).
+    """Draw a level of `world` into a PNG of 1280 pixels width (or height, for a tall world).
 
     Args:
         world: walls, obstacles, lanes and the names of places.
@@ -45,39 +47,77 @@ def draw_world(
         fleet: draw robots in their true size at their starts.
         routes: planned paths, dashed; start as a circle, goal as a star, both with the robot's number.
         truth: driven paths f8[T,n,3], solid.
+        level: which level; routes and paths are drawn wherever they lead.
 
     Raises:
         InputError: matplotlib is missing, or the file cannot be written.
     """
-    try:
-        import matplotlib
-    except ImportError:
-        raise InputError("pictures need matplotlib", hint="pip install 'mrpbench-core[figures]'") from None
-    from matplotlib.figure import Figure
-
-    low, high = _bounds(world, truth)
-    sheet, frame = _layout(high - low)
-    with matplotlib.rc_context({"font.family": "sans-serif", "font.size": 7}):
-        figure = Figure(figsize=sheet, dpi=_DPI)
-        axes = figure.add_axes(frame)
-        _frame(axes, world, low, high)
-        if roadmap is not None:
-            _shade(axes, roadmap)
-        _solids(axes, world.levels[0])
-        _lanes(axes, world)
-        moving = routes is not None or truth is not None
+    moving = routes is not None or truth is not None
+    with _plain():
+        figure, axes = world_figure(world, roadmap=roadmap, truth=truth, level=level, faint=moving)
         if moving:
             _paths(axes, fleet, routes or (), truth)
-        _names(figure, axes, world, faint=moving)
         try:
             figure.savefig(file, format="png")
         except OSError as error:
             raise InputError(f"cannot be written: {error.strerror or error}", file=file) from None
 
 
-def _bounds(world: World, truth: Float | None) -> tuple[Float, Float]:
+def world_figure(
+    world: World,
+    *,
+    roadmap: Roadmap | None = None,
+    truth: Float | None = None,
+    level: int = 0,
+    faint: bool = False,
+    pixels: int = PIXELS,
+) -> tuple[Any, Any]:
+    """A matplotlib figure of `pixels` width (or height) of a level, and its axes in metres; room for paths `truth`.
+
+    Raises:
+        InputError: matplotlib is missing.
+    """
+    with _plain():
+        from matplotlib.figure import Figure
+
+        low, high = _bounds(world, truth, level)
+        sheet, frame = _layout(high - low)
+        figure = Figure(figsize=sheet, dpi=_DPI * pixels / PIXELS)
+        axes = figure.add_axes(frame)
+        _frame(axes, _title(world, level), low, high)
+        if roadmap is not None and level in roadmap.level:
+            _shade(axes, roadmap)
+        _solids(axes, world.levels[level])
+        _lifts(axes, world, level)
+        _lanes(axes, world, level)
+        _names(figure, axes, _labels(world, level), faint=faint)
+    return figure, axes
+
+
+def _plain() -> AbstractContextManager[None]:
+    """Our own style, whatever the user's is."""
+    try:
+        import matplotlib
+    except ImportError:
+        raise InputError("pictures need matplotlib", hint="pip install 'mrpbench-core[figures]'") from None
+    style: AbstractContextManager[None] = matplotlib.rc_context({"font.family": "sans-serif", "font.size": 7})
+    return style
+
+
+def _title(world: World, level: int) -> str:
+    return world.name if len(world.levels) == 1 else f"{world.name}, {world.levels[level].name}"
+
+
+def _labels(world: World, level: int) -> dict[tuple[float, float], str]:
+    """Names of places and lifts by position."""
+    names = {(v.x, v.y): v.name or v.lift for v in world.vertices if v.level == level}
+    return {position: name for position, name in names.items() if name}
+
+
+def _bounds(world: World, truth: Float | None, level: int) -> tuple[Float, Float]:
     """Lower left and upper right corner of what is drawn, with a margin."""
-    points = [segments(world).reshape(-1, 2), np.array([(v.x, v.y) for v in world.vertices]).reshape(-1, 2)]
+    places = [(v.x, v.y) for v in world.vertices if v.level == level]
+    points = [segments(world, level).reshape(-1, 2), np.array(places).reshape(-1, 2)]
     if truth is not None:
         points.append(truth[..., :2].reshape(-1, 2))
     everything = np.concatenate(points)
@@ -97,13 +137,13 @@ def _layout(size: Float) -> tuple[tuple[float, float], tuple[float, float, float
     return (across / _DPI, up / _DPI), (left / across, bottom / up, width / across, height / up)
 
 
-def _frame(axes: Any, world: World, low: Float, high: Float) -> None:
+def _frame(axes: Any, title: str, low: Float, high: Float) -> None:
     axes.set_aspect("equal")
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     axes.set_xlabel("x [m]", color=_NAME)
     axes.set_ylabel("y [m]", color=_NAME)
-    axes.set_title(world.name, fontsize=9, loc="left", color=_NAME)
+    axes.set_title(title, fontsize=9, loc="left", color=_NAME)
     axes.tick_params(length=2, color=_NAME, labelcolor=_NAME)
     for spine in axes.spines.values():
         spine.set_visible(False)
@@ -149,19 +189,38 @@ def _solids(axes: Any, level: Level) -> None:
     axes.add_collection(PolyCollection(list(boxes), facecolor=_WALL, edgecolor=_WALL, linewidth=0.6, zorder=3))
     obstacles = [obstacle.polygon for obstacle in level.obstacles]
     axes.add_collection(PolyCollection(obstacles, facecolor="#b9a68c", edgecolor="#8d7b62", linewidth=0.6, zorder=2))
+    holes = [hole.polygon for hole in level.holes]
+    axes.add_collection(PolyCollection(holes, facecolor="none", edgecolor=_WALL, hatch="xxx", linewidth=0.6, zorder=2))
     doors = [(door.start, door.end) for door in level.doors]
-    axes.add_collection(LineCollection(doors, colors="#b07d2b", linewidths=1.2, linestyles="dotted", zorder=3))
+    axes.add_collection(LineCollection(doors, colors=_DOOR, linewidths=1.6, linestyles="dotted", zorder=3))
 
 
-def _lanes(axes: Any, world: World) -> None:
+def _lifts(axes: Any, world: World, level: int) -> None:
+    """Cabins that stop here, and the doors that open here."""
+    from matplotlib.collections import LineCollection, PolyCollection
+
+    cabins = [lift.corners for lift in world.lifts if level in lift.levels]
+    axes.add_collection(PolyCollection(cabins, facecolor="#e9ddf0", edgecolor="#7a5195", linewidth=0.8, zorder=2))
+    doors = [
+        (door.start, door.end)
+        for lift in world.lifts
+        for door, levels in zip(lift.doors, lift.door_levels, strict=True)
+        if level in levels
+    ]
+    axes.add_collection(LineCollection(doors, colors="#7a5195", linewidths=1.6, linestyles="dotted", zorder=3))
+
+
+def _lanes(axes: Any, world: World, level: int) -> None:
     from matplotlib.collections import LineCollection
 
-    point = [(vertex.x, vertex.y) for vertex in world.vertices]
-    lines = [(point[lane.start], point[lane.end]) for lane in world.lanes]
+    position = [(vertex.x, vertex.y) for vertex in world.vertices]
+    lanes = [lane for lane in world.lanes if world.vertices[lane.start].level == level]
+    lines = [(position[lane.start], position[lane.end]) for lane in lanes]
     axes.add_collection(LineCollection(lines, colors=_LANE, linewidths=0.8, zorder=4))
-    for lane in world.lanes:
+    point = [xy for xy, vertex in zip(position, world.vertices, strict=True) if vertex.level == level]
+    for lane in lanes:
         if not lane.bidirectional:
-            (x1, y1), (x2, y2) = point[lane.start], point[lane.end]
+            (x1, y1), (x2, y2) = position[lane.start], position[lane.end]
             arrow = {"arrowstyle": "->", "color": _LANE, "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0}
             tip = (x1 + 0.55 * (x2 - x1), y1 + 0.55 * (y2 - y1))
             axes.annotate("", xy=tip, xytext=(x1, y1), arrowprops=arrow, zorder=4)
@@ -213,7 +272,7 @@ def _legend(axes: Any, planned: bool, driven: bool) -> None:
     axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=4, frameon=False, borderpad=0)
 
 
-def _names(figure: Any, axes: Any, world: World, *, faint: bool) -> None:
+def _names(figure: Any, axes: Any, named: dict[tuple[float, float], str], *, faint: bool) -> None:
     """Names of places, each above, below or beside its vertex; one that fits nowhere is left out."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.patheffects import withStroke
@@ -222,7 +281,6 @@ def _names(figure: Any, axes: Any, world: World, *, faint: bool) -> None:
     renderer = canvas.get_renderer()
     axes.apply_aspect()  # settles where the axes are, on which positions in pixels depend
     taken = np.empty((0, 4))
-    named = {(vertex.x, vertex.y): vertex.name for vertex in world.vertices if vertex.name}
     size = 5.5 if len(named) <= CROWDED else 4.0
     inside = axes.get_window_extent(renderer)
     offsets = (

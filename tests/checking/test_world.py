@@ -63,9 +63,9 @@ def test_every_kind_of_fault_is_named():
         "a is 2 vertices in one position (graphs [0])",
         "(2.00, 0.00) lies on lane b – a without joining it",
         "lanes b – a and c – d cross without a vertex",
-        "in_wall lies inside a wall",
-        "tight is nearer than 0.200 m to a wall",
-        "lane in_wall – b passes a wall nearer than 0.200 m",
+        "in_wall lies inside something solid",
+        "tight is nearer than 0.200 m to something solid",
+        "lane in_wall – b passes something solid nearer than 0.200 m",
         "in_wall cannot be reached on the roadmap",
         "tight cannot be reached on the roadmap",
     )

@@ -87,8 +87,6 @@ def places(cells: Cells, world: World) -> Int:
     known = ((around >= -1) & (around <= (rows, columns))).all(axis=2)
     row, column = np.where(known[..., None], around + 1, 0).transpose(2, 0, 1)
     candidate = np.where(known, number[row, column], -1)
-    upstairs = np.array([vertex.level != 0 for vertex in world.vertices], bool)
-    candidate[upstairs] = -1
     centre = cells.raster.centres(around.reshape(-1, 2))
     far = np.hypot(*(centre - np.repeat(point, len(_AROUND), axis=0)).T).reshape(candidate.shape)
     far[:, 0] = -1.0  # the own cell first

@@ -9,8 +9,8 @@ from mrpbench_core.builtin.roadmaps.junctions import Pieces, cut_at_junctions
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Bool, Int
-from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.model.fleet import Fleet, RobotModel
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.world import Lane, World
 
@@ -33,16 +33,14 @@ class Graph(RoadmapBuilder):
     )
 
     def build(self, world: World, fleet: Fleet) -> Roadmap:
-        """Cut the lanes on level 0 at their junctions and drop what robots cannot drive on."""
+        """Cut the lanes of each level at their junctions and drop what robots cannot drive on."""
         if not world.lanes:
             raise InputError(f"world {world.name!r} has no lanes", hint="try roadmap: grid")
-        point = np.array([(vertex.x, vertex.y) for vertex in world.vertices])
-        drawn = np.array([(lane.start, lane.end) for lane in world.lanes], np.int64)
-        pieces = cut_at_junctions(point, drawn, self.tolerance)
+        pieces, level = _cut(world, self.tolerance)
         profiles, _ = fleet.profiles
         smallest = min(robot.radius for robot in profiles)
-        stands = keeps_clear(world.levels[0], pieces.position, pieces.position, smallest)
-        duration = np.stack([_ticks(world, pieces, robot.radius, robot.max_speed, self.tick) for robot in profiles])
+        stands = _clear(world, level, pieces.position, pieces.position, smallest)
+        duration = np.stack([_ticks(world, pieces, level, robot, self.tick) for robot in profiles])
         drivable = (duration >= 0).any(axis=0) & stands[pieces.ends[:, 0]] & stands[pieces.ends[:, 1]]
         edges, duration = _directed(pieces, world.lanes, duration, drivable)
         if not len(edges):
@@ -50,7 +48,7 @@ class Graph(RoadmapBuilder):
         number = np.where(stands, np.cumsum(stands) - 1, -1)
         return Roadmap(
             position=pieces.position[stands],
-            level=np.zeros(stands.sum(), np.int16),
+            level=level[stands].astype(np.int16),
             heading=np.full(stands.sum(), np.nan),
             edges=number[edges],
             duration=duration.astype(np.int32),
@@ -60,13 +58,48 @@ class Graph(RoadmapBuilder):
         )
 
 
-def _ticks(world: World, pieces: Pieces, radius: float, max_speed: float, tick: float) -> Int:
+def _cut(world: World, tolerance: float) -> tuple[Pieces, Int]:
+    """The pieces of the lanes of all levels, and the level i8[V] of each of their vertices."""
+    point = np.array([(vertex.x, vertex.y) for vertex in world.vertices])
+    storey = np.array([vertex.level for vertex in world.vertices])
+    drawn = np.array([(lane.start, lane.end) for lane in world.lanes], np.int64)
+    vertex = np.zeros(len(point), np.int64)
+    positions: list[Float] = []
+    ends: list[Int] = []
+    lanes: list[Int] = []
+    levels: list[Int] = []
+    for level in np.unique(storey):
+        here, ours = np.flatnonzero(storey == level), np.flatnonzero(storey[drawn[:, 0]] == level)
+        number = np.cumsum(storey == level) - 1
+        pieces = cut_at_junctions(point[here], number[drawn[ours]], tolerance)
+        first = sum(len(position) for position in positions)
+        positions.append(pieces.position)
+        vertex[here] = first + pieces.vertex
+        ends.append(first + pieces.ends)
+        lanes.append(ours[pieces.lane])
+        levels.append(np.full(len(pieces.position), level))
+    whole = Pieces(
+        position=np.concatenate(positions), vertex=vertex, ends=np.concatenate(ends), lane=np.concatenate(lanes)
+    )
+    return whole, np.concatenate(levels)
+
+
+def _clear(world: World, level: Int, start: Float, end: Float, radius: float) -> Bool:
+    """`keeps_clear` for sweeps on several levels."""
+    clear = np.ones(len(start), bool)
+    for index in np.unique(level):
+        here = level == index
+        clear[here] = keeps_clear(world.levels[index], start[here], end[here], radius)
+    return clear
+
+
+def _ticks(world: World, pieces: Pieces, level: Int, robot: RobotModel, tick: float) -> Int:
     """Duration i8[m] of each piece for one kind of robot, -1 where it would touch something solid."""
     start, end = pieces.position[pieces.ends[:, 0]], pieces.position[pieces.ends[:, 1]]
     limit = np.array([lane.speed_limit or np.inf for lane in world.lanes])[pieces.lane]
     length = np.hypot(*(end - start).T)
-    ticks = np.maximum(1, np.ceil(length / np.minimum(limit, max_speed) / tick - 1e-9)).astype(np.int64)
-    clear = keeps_clear(world.levels[0], start, end, radius)
+    ticks = np.maximum(1, np.ceil(length / np.minimum(limit, robot.max_speed) / tick - 1e-9)).astype(np.int64)
+    clear = _clear(world, level[pieces.ends[:, 0]], start, end, robot.radius)
     return np.where(clear, ticks, -1)
 
 
@@ -92,7 +125,7 @@ def _notes(world: World, pieces: Pieces, drivable: Bool) -> list[str]:
     for index in np.unique(pieces.lane[~drivable]):
         lane = world.lanes[index]
         ends = " – ".join(called(world, vertex) for vertex in (lane.start, lane.end))
-        notes.append(f"Lane {ends} is left out where a robot on it would touch a wall.")
+        notes.append(f"Lane {ends} is left out where a robot on it would touch something.")
     oriented = sum(bool(lane.orientation) for lane in world.lanes)
     if oriented:
         notes.append(f"{oriented} lanes prescribe an orientation, which has no effect.")

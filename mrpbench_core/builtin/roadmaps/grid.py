@@ -13,6 +13,7 @@ from mrpbench_core.builtin.roadmaps.cells import (
     places,
     without_contacts,
 )
+from mrpbench_core.builtin.roadmaps.ground import ground_level, whole_world
 from mrpbench_core.checking.clearance import solids
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.fleet import Fleet
@@ -41,6 +42,10 @@ class GridRoadmap(RoadmapBuilder):
 
     def build(self, world: World, fleet: Fleet) -> Roadmap:
         """Rasterise level 0 of `world`."""
+        ground, kept = ground_level(world)
+        return whole_world(self._build(ground, fleet), world, kept)
+
+    def _build(self, world: World, fleet: Fleet) -> Roadmap:
         level = world.levels[0]
         radius = float(fleet.radii.max())
         own = level.occupancy
@@ -60,7 +65,7 @@ class GridRoadmap(RoadmapBuilder):
 def _open_raster(world: World, cell_size: float) -> Occupancy:
     """A raster of free cells over everything there is on level 0."""
     level = world.levels[0]
-    corners = [*solids(level), np.array([(v.x, v.y) for v in world.vertices if v.level == 0]).reshape(-1, 2)]
+    corners = [*solids(level), np.array([(v.x, v.y) for v in world.vertices]).reshape(-1, 2)]
     if level.occupancy is not None:
         rows, columns = level.occupancy.shape
         corners.append(level.occupancy.centres(np.array([(-0.5, -0.5), (rows - 0.5, columns - 0.5)])))

@@ -15,6 +15,7 @@ from mrpbench_core.builtin.roadmaps.cells import (
     places,
     without_contacts,
 )
+from mrpbench_core.builtin.roadmaps.ground import ground_level, whole_world
 from mrpbench_core.builtin.roadmaps.mrp_bench import mrp_bench_raster
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.components import components
@@ -52,8 +53,12 @@ class Lanes(RoadmapBuilder):
 
     def build(self, world: World, fleet: Fleet) -> Roadmap:
         """Rasterise the lanes on level 0 of `world`."""
-        if not world.lanes:
+        ground, kept = ground_level(world)
+        if not ground.lanes:
             raise InputError(f"world {world.name!r} has no lanes", hint="try roadmap: grid")
+        return whole_world(self._build(ground, fleet), world, kept)
+
+    def _build(self, world: World, fleet: Fleet) -> Roadmap:
         radius = float(fleet.radii.max())
         if self.compatible is not None:
             cells = connect(mrp_bench_raster(world, self.cell_size))
@@ -108,7 +113,7 @@ def _own_cells(cell: Int, raster: Occupancy, world: World) -> Int:
 
 
 def _contacts(edges: int, fate: str) -> list[str]:
-    return [f"{edges} of the raster's edges on which a robot would touch a wall are {fate}."] if edges else []
+    return [f"{edges} of the raster's edges on which a robot would touch something are {fate}."] if edges else []
 
 
 def _broken(world: World, place: Int, label: Int, radius: float) -> list[str]:
@@ -119,6 +124,8 @@ def _broken(world: World, place: Int, label: Int, radius: float) -> list[str]:
         if start < 0 or end < 0 or label[start] != label[end]:
             ends = np.array([(world.vertices[index].x, world.vertices[index].y) for index in (lane.start, lane.end)])
             clear = keeps_clear(world.levels[0], ends[:1], ends[1:], radius)[0]
-            reason = "no two cells of the raster fit through" if clear else f"walls are nearer than {radius:.3f} m"
+            reason = (
+                "no two cells of the raster fit through" if clear else f"something solid is nearer than {radius:.3f} m"
+            )
             notes.append(f"Lane {called(world, lane.start)} – {called(world, lane.end)} is cut: {reason}.")
     return notes

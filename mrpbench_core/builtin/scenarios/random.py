@@ -8,7 +8,7 @@ import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.scenario import ScenarioSource
-from mrpbench_core.builtin.scenarios.places import places_of_roadmap, places_of_world
+from mrpbench_core.builtin.scenarios.places import Places, places_of_roadmap, places_of_world
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Float, Int, Int16
@@ -49,7 +49,7 @@ class Random(ScenarioSource):
         if self.compatible == "mrp_bench":
             return self._original_draw(world, seed)
         places = places_of_world(world, roadmap) if world.vertices else places_of_roadmap(roadmap)
-        places = places[_connected(roadmap, places.vertex)]
+        places = places[_connected(roadmap, places)]
         stands = roadmap.position[places.vertex]
         room = 2 * float(fleet.radii.max())
         return places.scenario(
@@ -69,13 +69,18 @@ class Random(ScenarioSource):
         return places_of_world(world).scenario(np.array(starts), np.array(goals))
 
 
-def _connected(roadmap: Roadmap, vertex: Int) -> Int:
-    """Indices of the largest group of places among which every motion profile can drive there and back."""
-    labels = [round_trips(roadmap, profile)[vertex] for profile in range(len(roadmap.duration))]
-    if not labels or not len(vertex):
-        return np.arange(len(vertex))
+def _connected(roadmap: Roadmap, places: Places) -> Int:
+    """Indices of the largest group of places among which every motion profile can drive there and back.
+
+    Groups that reach level 0 come first: on it simulators place the robots.
+    """
+    labels = [round_trips(roadmap, profile)[places.vertex] for profile in range(len(roadmap.duration))]
+    if not labels or not len(places):
+        return np.arange(len(places))
     _, group, sizes = np.unique(np.stack(labels), axis=1, return_inverse=True, return_counts=True)
-    return np.flatnonzero(group.ravel() == sizes.argmax())
+    group = group.ravel()
+    grounded = np.isin(np.arange(len(sizes)), group[places.level == 0])
+    return np.flatnonzero(group == np.where(grounded, sizes + len(places), sizes).argmax())
 
 
 def _shuffled(count: int, seed: int, stream: int) -> Int:

@@ -1,65 +1,123 @@
-"""Worlds drawn in the RMF traffic editor (`building.yaml`): one level, walls, doors as gaps, lanes."""
+"""Worlds drawn in the RMF traffic editor (`building.yaml`)."""
 
 import attrs
+import numpy as np
 
 from mrpbench_core.api.component import Path, option
 from mrpbench_core.api.world import WorldSource
-from mrpbench_core.builtin.worlds.building.coordinates import read_positions
-from mrpbench_core.builtin.worlds.building.lanes import read_graph
+from mrpbench_core.builtin.worlds.building.coordinates import Frame, read_frames, read_vertices
+from mrpbench_core.builtin.worlds.building.doors import read_doors
+from mrpbench_core.builtin.worlds.building.floors import read_areas
+from mrpbench_core.builtin.worlds.building.footprints import Footprints
+from mrpbench_core.builtin.worlds.building.lanes import Storey, read_graph
 from mrpbench_core.builtin.worlds.building.leftovers import note_leftovers
+from mrpbench_core.builtin.worlds.building.lifts import read_lifts
+from mrpbench_core.builtin.worlds.building.models import read_models
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
-from mrpbench_core.builtin.worlds.building.walls import read_doors, read_walls
+from mrpbench_core.builtin.worlds.building.walls import read_walls
 from mrpbench_core.files import yaml
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.world import Area, Lane, Level, Lift, Vertex, World
 
 
 @attrs.frozen(kw_only=True)
 class Rmf(WorldSource):
-    """A `building.yaml` of the RMF traffic editor."""
+    """A `building.yaml` of the RMF traffic editor, all its levels in the frame of the reference level.
+
+    The reference level (`reference_level_name`, else the first) becomes level 0. Models become obstacles by a table of
+    estimated footprints, which `footprints` extends; what is not understood stands in `World.notes`.
+    """
 
     file: Path = option(help="The building.yaml file.")
-    level: str | None = option(None, help="Name of the level; by default the reference level, else the first.")
+    level: str | None = option(None, help="Name of the one level to load, in its own frame; by default all.")
+    footprints: Path | None = option(
+        None, help="Footprints of models as `name: {size: [x, y]}` or `{radius: r}`, on top of the estimated ones."
+    )
+    clearance: float = option(
+        0.35,
+        help="An estimated footprint nearer than this to a lane is left out: the lane is surely free.",
+        unit="m",
+        validator=attrs.validators.ge(0),
+    )
 
     def load(self) -> World:
-        """Read walls, doors and lanes; what is not understood stands in `World.notes`."""
+        """Read walls, doors, furniture, lifts and lanes."""
         document = yaml.load(self.file)
         building = Node(document, document.data)
-        name = self._level_name(building)
-        level = building.fields()["levels"].fields()[name]
+        nodes = self._levels(building)
         notes = Notes()
-        positions = read_positions(building, level, notes)
-        doors = read_doors(level, positions, notes)
-        vertices, lanes = read_graph(level, positions, doors, notes)
-        elevation = level.fields().get("elevation")
-        floor = Level(
-            name=name,
-            elevation=0.0 if elevation is None else elevation.number(),
-            walls=read_walls(level, positions, notes),
-            doors=doors,
-        )
-        note_leftovers(building, level, name, notes)
+        frames = read_frames(building, nodes, notes)
+        storeys = {name: _storey(node, frames[name], notes) for name, node in nodes.items()}
+        lifts = read_lifts(building, frames, notes)
+        vertices, lanes = read_graph(tuple(storeys.values()), lifts, notes)
+        footprints = Footprints(self.footprints)
+        levels = []
+        for index, (name, storey) in enumerate(storeys.items()):
+            bare = _bare_level(name, storey, index, lifts, notes)
+            drawn = _named_lanes(index, vertices, lanes)
+            models = read_models(storey.node, frames[name], footprints, drawn, self.clearance, notes)
+            levels.append(attrs.evolve(bare, obstacles=models))
+        note_leftovers(building, nodes, notes)
         return World(
-            name=self._world_name(building), levels=(floor,), vertices=vertices, lanes=lanes, notes=notes.sentences()
+            name=self._world_name(building),
+            levels=tuple(levels),
+            vertices=vertices,
+            lanes=lanes,
+            notes=notes.sentences(),
+            lifts=lifts,
         )
 
-    def _level_name(self, building: Node) -> str:
-        levels = building.fields().get("levels")
-        if levels is None or not levels.fields():
+    def _levels(self, building: Node) -> dict[str, Node]:
+        """The levels to load, the reference level first."""
+        section = building.fields().get("levels")
+        if section is None or not section.fields():
             raise building.error("has no levels", "is it a traffic editor file?")
-        names = list(levels.fields())
-        reference = building.fields().get("reference_level_name")
+        levels = section.fields()
         if self.level is not None:
-            if self.level not in names:
-                raise levels.error(f"no level {self.level!r}", f"levels: {', '.join(names)}", key=True)
-            return self.level
-        if reference is not None and reference.text():
-            if reference.text() not in names:
-                raise reference.error(f"no level {reference.text()!r}", f"levels: {', '.join(names)}")
-            return reference.text()
-        return names[0]
+            if self.level not in levels:
+                raise section.error(f"no level {self.level!r}", f"levels: {', '.join(levels)}", key=True)
+            return {self.level: levels[self.level]}
+        stated = building.fields().get("reference_level_name")
+        if stated is None or not stated.text():
+            return levels
+        if stated.text() not in levels:
+            raise stated.error(f"no level {stated.text()!r}", f"levels: {', '.join(levels)}")
+        return {stated.text(): levels[stated.text()], **levels}
 
     def _world_name(self, building: Node) -> str:
         parts = building.fields()
         stated = next((parts[key].text() for key in ("name", "building_name") if key in parts), "")
         return stated or self.file.name.split(".")[0]
+
+
+def _storey(node: Node, frame: Frame, notes: Notes) -> Storey:
+    positions = frame(read_vertices(node))
+    return Storey(node, positions, read_doors(node, positions, notes))
+
+
+def _bare_level(name: str, storey: Storey, index: int, lifts: tuple[Lift, ...], notes: Notes) -> Level:
+    elevation = storey.node.fields().get("elevation")
+    shafts = [lift for lift in lifts if index in lift.levels]
+    holes = read_areas(storey.node, "holes", storey.positions)
+    return Level(
+        name=name,
+        elevation=0.0 if elevation is None else elevation.number(),
+        walls=read_walls(storey.node, storey.positions, notes),
+        doors=tuple(storey.doors),
+        floors=read_areas(storey.node, "floors", storey.positions),
+        holes=tuple(hole for hole in holes if not any(_is_shaft(hole, lift) for lift in shafts)),
+    )
+
+
+def _is_shaft(hole: Area, lift: Lift) -> bool:
+    return lift.holds(*hole.polygon.mean(axis=0).tolist())
+
+
+def _named_lanes(level: int, vertices: tuple[Vertex, ...], lanes: tuple[Lane, ...]) -> list[tuple[str, np.ndarray]]:
+    named = []
+    for lane in lanes:
+        ends = [vertices[index] for index in (lane.start, lane.end)]
+        if ends[0].level == level:
+            called = " – ".join(end.name or f"({end.x:.2f}, {end.y:.2f})" for end in ends)
+            named.append((called, np.array([(end.x, end.y) for end in ends])))
+    return named

@@ -64,8 +64,8 @@ def test_a_wall_across_a_lane_cuts_it_and_is_named():
     roadmap = Lanes().build(world, FLEET)
     label = components(len(roadmap.position), roadmap.edges)
     assert label[roadmap.place[0]] == label[roadmap.place[1]] != label[roadmap.place[2]]
-    assert "touch a wall are left out" in roadmap.notes[0]
-    assert roadmap.notes[1] == "Lane v1 – v2 is cut: walls are nearer than 0.120 m."
+    assert "touch something are left out" in roadmap.notes[0]
+    assert roadmap.notes[1] == "Lane v1 – v2 is cut: something solid is nearer than 0.120 m."
 
 
 def test_a_wall_beside_a_lane_narrows_the_road_only():

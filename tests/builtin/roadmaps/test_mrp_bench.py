@@ -48,4 +48,4 @@ def test_cells_start_at_the_lowest_vertex(two_rooms, make_fleet):
 def test_edges_through_walls_are_kept_and_counted(shared_data, make_fleet):
     world = Rmf(file=shared_data / "rmf/mrp_bench/office.building.yaml").load()
     roadmap = Lanes(compatible="mrp_bench").build(world, make_fleet(0.125))
-    assert roadmap.notes == ("5 of the raster's edges on which a robot would touch a wall are kept.",)
+    assert roadmap.notes == ("15 of the raster's edges on which a robot would touch something are kept.",)

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.geometry import segment_distance
 
 BUILDING = """\
 name: hut
@@ -100,10 +101,12 @@ def test_a_lane_names_the_door_it_passes(tmp_path):
 
 def test_what_is_not_understood_is_noted(tmp_path):
     text = BUILDING.replace("alpha: [3, 1]", "alpha: [3, 1], colour: [1, red], odd: [9, 1]") + (
-        "    models: [{name: chair}, {name: desk}]\n    floors: [{}]\n    smell: 1\n  L2: {}\nlifts: {lift: {}}\n"
+        "    models: [{model_name: Throne, x: 1, y: 1}, {model_name: Throne, x: 2, y: 2}]\n"
+        "    human_lanes: [1, 2, 3]\n    smell: 1\n  L2: {}\ncrowd_sim: {enable: 1}\n"
     )
-    notes = load(tmp_path, text).notes
-    for part in ("'colour'", "unknown type 9", "models (furniture)", ": 2 left out", "'smell'", "'L2'", "lifts"):
+    notes = load(tmp_path, text, level="L1").notes
+    expected = ("'colour'", "unknown type 9", "'Throne' has no known footprint", "(2 times)", ": 3 left out", "'smell'")
+    for part in (*expected, "not 'L2'", "no people"):
         assert any(part in note for note in notes), part
 
 
@@ -111,11 +114,30 @@ def test_a_map_that_is_understood_has_no_notes(tmp_path):
     assert load(tmp_path).notes == ()
 
 
-def test_the_level_can_be_chosen(tmp_path):
+def test_all_levels_are_loaded_the_reference_level_first(tmp_path):
+    text = BUILDING.replace("  L1:", "  L0: {elevation: -3}\n  L1:")
+    world = load(tmp_path, text)
+    assert [(level.name, level.elevation) for level in world.levels] == [("L0", -3), ("L1", 0)]
+    assert {vertex.level for vertex in world.vertices} == {1}
+    world = load(tmp_path, text + "reference_level_name: L1\n")
+    assert [level.name for level in world.levels] == ["L1", "L0"]
+    assert {vertex.level for vertex in world.vertices} == {0}
+
+
+def test_one_level_can_be_chosen(tmp_path):
     text = BUILDING.replace("  L1:", "  L0: {}\n  L1:")
-    assert load(tmp_path, text).levels[0].name == "L0"
-    assert load(tmp_path, text, level="L1").levels[0].name == "L1"
-    assert load(tmp_path, text + "reference_level_name: L1\n").levels[0].name == "L1"
+    world = load(tmp_path, text, level="L1")
+    assert [level.name for level in world.levels] == ["L1"]
+    assert {vertex.level for vertex in world.vertices} == {0}
+
+
+def test_floors_and_holes_are_kept(tmp_path):
+    text = BUILDING + "    floors: [{vertices: [0, 1, 2], parameters: {}}]\n    holes: [{vertices: [0, 2, 3]}]\n"
+    (level,) = load(tmp_path, text).levels
+    assert [area.polygon.tolist() for area in level.floors] == [[[0, 0], [5, 0], [0, -5]]]
+    assert [area.polygon.tolist() for area in level.holes] == [[[0, 0], [0, -5], [2.5, -5]]]
+    assert "hole to vertex 9" in failure(tmp_path, "[0, 2, 3]", "[0, 2, 9]", text)
+    assert "floor with fewer than three vertices" in failure(tmp_path, "[0, 1, 2], p", "[0, 1], p", text)
 
 
 @pytest.mark.parametrize(
@@ -135,9 +157,10 @@ def test_the_level_can_be_chosen(tmp_path):
         ("[0, 1, {distance", "[0, 0, {distance", "hut.building.yaml:6:9: measurement of zero length"),
         ("distance: [3, 5]", "distance: [3, 0]", "hut.building.yaml:6:9: measurement without a positive distance"),
         ("      - [0, 1, {distance: [3, 5]}]\n", "      []\n", "hut.building.yaml:3:3: the level has no measurements"),
-        ("name: hut", "coordinate_system: wgs84", "hut.building.yaml:1:20: coordinate_system 'wgs84' is not supported"),
-        ("name: hut", "coordinate_system: web_mercator", "'web_mercator' is not supported"),
-        ("name: hut", "coordinate_system: polar", "'polar' is not known"),
+        ("name: hut", "coordinate_system: web_mercator", "1:20: coordinate_system 'web_mercator' is not supported"),
+        ("name: hut", "coordinate_system: polar", "'polar' is unknown"),
+        ("[4, 5, {name", "[4, 4, {name", "hut.building.yaml:17:9: door of zero length"),
+        ("[1, hinged]", "[1, hinged], motion_axis: [1, top]", "'motion_axis' should be start or end, not 'top'"),
         ("name: hut", "reference_level_name: L7", "hut.building.yaml:1:23: no level 'L7' (levels: L1)"),
         ("levels:", "floors:", "hut.building.yaml:1:1: has no levels"),
     ],
@@ -187,6 +210,38 @@ def test_public_maps_load_whole_and_fast(shared_data, name, vertices, lanes, wal
         walls,
         doors,
     )
+
+
+def test_the_hotel_loads_with_three_levels_on_top_of_one_another(shared_data):
+    world = Rmf(file=shared_data / "rmf/rmf_demos/hotel.building.yaml").load()
+    assert [(level.name, level.elevation) for level in world.levels] == [("L1", 0), ("L2", 8), ("L3", 16)]
+    assert [len(level.walls) for level in world.levels] == [56, 99, 99]
+    assert [len(level.doors) for level in world.levels] == [5, 7, 7]
+    assert [len(level.floors) for level in world.levels] == [3, 5, 5]
+    assert len(world.lanes) == 58 + 32 + 32
+    assert [(lift.name, lift.levels, lift.initial_level) for lift in world.lifts] == [
+        ("Lift1", (0, 1, 2), 0),
+        ("Lift2", (0, 1, 2), 0),
+    ]
+    for lift in world.lifts:
+        cabins = [(vertex.x, vertex.y, vertex.level) for vertex in world.vertices if vertex.lift == lift.name]
+        assert {level for _, _, level in cabins} == {0, 1, 2}
+        assert np.hypot(*(np.array(cabins)[:, :2] - (lift.x, lift.y)).T).max() < 0.1, "the fiducials align the levels"
+        for door in lift.doors:
+            lane = [ln for ln in world.lanes if world.vertices[ln.end].lift == lift.name or
+                    world.vertices[ln.start].lift == lift.name]  # fmt: skip
+            ends = [[(world.vertices[i].x, world.vertices[i].y) for i in (ln.start, ln.end)] for ln in lane]
+            gaps = [segment_distance(*np.array([a, b, door.start, door.end])) for a, b in ends]
+            assert max(gaps) == 0, "every lane into the cabin leads through its door"
+
+
+def test_furniture_of_public_maps_is_solid_or_named(shared_data):
+    for file in sorted((shared_data / "rmf").glob("*/*.yaml")):
+        world = Rmf(file=file).load()
+        assert not any("no known footprint" in note for note in world.notes), file
+        for level in world.levels:
+            assert all(obstacle.estimated for obstacle in level.obstacles)
+    assert len(Rmf(file=shared_data / "rmf/mrp_bench/airport_terminal.building.yaml").load().levels[0].obstacles) > 270
 
 
 def test_vertices_of_the_original_office_come_in_publication_order(shared_data):

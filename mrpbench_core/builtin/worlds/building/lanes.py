@@ -1,7 +1,7 @@
 """The navigation graphs of a building file.
 
 A vertex becomes one world vertex for each graph whose lanes use it, in the order in which RMF publishes them: by graph
-index, inside a graph by first use, start before end. Random scenarios depend on that order.
+index, inside a graph by level, inside a level by first use, start before end. Random scenarios depend on that order.
 """
 
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from mrpbench_core.builtin.worlds.building.notes import Notes
 from mrpbench_core.builtin.worlds.building.parameters import Kind, read_parameters
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.geometry import segment_distance
-from mrpbench_core.model.world import Door, Lane, Vertex
+from mrpbench_core.model.world import Door, Lane, Lift, Vertex
 
 GRAPHS = range(9)
 """The graphs that RMF exports; the editor also lets one draw a tenth, which nobody reads."""
@@ -37,39 +37,64 @@ LANE: dict[str, Kind] = {
 }
 
 
+@attrs.frozen
+class Storey:
+    """What lanes of a level may lead through."""
+
+    node: Node
+    positions: Float
+    """f8[k,2] metres, of all vertices of the level."""
+    doors: Sequence[Door]
+
+
 def read_graph(
-    level: Node, positions: Float, doors: Sequence[Door], notes: Notes
+    storeys: Sequence[Storey], lifts: Sequence[Lift], notes: Notes
 ) -> tuple[tuple[Vertex, ...], tuple[Lane, ...]]:
     """The places that lanes use, and the lanes, both by graph index."""
-    places = [_place(node, xy, notes) for node, xy in zip(level.section("vertices"), positions, strict=True)]
-    drawn = [lane for node in level.section("lanes") if (lane := _lane(node, positions, doors, notes)) is not None]
+    places = [_places(storey, level, lifts, notes) for level, storey in enumerate(storeys)]
+    drawn = [_lanes(storey, notes) for storey in storeys]
     vertices: list[Vertex] = []
     lanes: list[Lane] = []
     for graph in GRAPHS:
-        number: dict[int, int] = {}
-        for lane in drawn:
-            if lane.graph == graph:
-                for index in (lane.start, lane.end):
-                    if index not in number:
-                        number[index] = len(vertices)
-                        vertices.append(places[index])
-                lanes.append(attrs.evolve(lane, start=number[lane.start], end=number[lane.end]))
-    notes.add("lane of a graph above 8 is left out, as RMF does", len(drawn) - len(lanes))
+        for here, candidates in zip(places, drawn, strict=True):
+            number: dict[int, int] = {}
+            for lane in candidates:
+                if lane.graph == graph:
+                    for index in (lane.start, lane.end):
+                        if index not in number:
+                            number[index] = len(vertices)
+                            vertices.append(here[index])
+                    lanes.append(attrs.evolve(lane, start=number[lane.start], end=number[lane.end]))
+    notes.add("lane of a graph above 8 is left out, as RMF does", sum(map(len, drawn)) - len(lanes))
     return tuple(vertices), tuple(lanes)
 
 
-def _place(node: Node, position: Float, notes: Notes) -> Vertex:
+def _places(storey: Storey, level: int, lifts: Sequence[Lift], notes: Notes) -> list[Vertex]:
+    nodes = storey.node.section("vertices")
+    return [_place(node, xy, level, lifts, notes) for node, xy in zip(nodes, storey.positions, strict=True)]
+
+
+def _place(node: Node, position: Float, level: int, lifts: Sequence[Lift], notes: Notes) -> Vertex:
     items = node.items()
     name = items[3].text() if len(items) > 3 else ""
     parameters = read_parameters(items[4], VERTEX, "vertex", notes) if len(items) > 4 else {}
-    if parameters.get("lift_cabin"):
-        notes.add("vertex inside a lift: lifts are not understood yet")
-    return Vertex(name=name, x=float(position[0]), y=float(position[1]), parameters=parameters)
+    x, y = position.tolist()
+    cabin = parameters.get("lift_cabin", "")
+    if cabin and cabin not in [lift.name for lift in lifts]:
+        notes.add(f"vertex inside the lift {cabin!r}, which there is not")
+        cabin = ""
+    inside = [lift.name for lift in lifts if level in lift.levels and lift.holds(x, y)]
+    return Vertex(name=name, x=x, y=y, level=level, parameters=parameters, lift=cabin or (inside[0] if inside else ""))
 
 
-def _lane(node: Node, positions: Float, doors: Sequence[Door], notes: Notes) -> Lane | None:
+def _lanes(storey: Storey, notes: Notes) -> list[Lane]:
+    return [lane for node in storey.node.section("lanes") if (lane := _lane(node, storey, notes)) is not None]
+
+
+def _lane(node: Node, storey: Storey, notes: Notes) -> Lane | None:
     """The lane, with the level's vertex indices."""
     first, second, *rest = node.items(least=2)
+    positions = storey.positions
     start, end = (item.index(len(positions), "lane") for item in (first, second))
     parameters = read_parameters(rest[0], LANE, "lane", notes) if rest else {}
     graph = parameters.get("graph_idx", 0)
@@ -92,7 +117,7 @@ def _lane(node: Node, positions: Float, doors: Sequence[Door], notes: Notes) -> 
         speed_limit=max(0.0, parameters.get("speed_limit", 0.0)),
         orientation=orientation,
         mutex=parameters.get("mutex", ""),
-        door=_door_on(positions[start], positions[end], doors),
+        door=_door_on(positions[start], positions[end], storey.doors),
     )
 
 

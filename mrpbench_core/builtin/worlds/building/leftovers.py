@@ -1,41 +1,35 @@
-"""What a building file holds that we do not understand yet: named, with counts, never dropped in silence."""
+"""What a building file holds that we do not understand: named, with counts, never dropped in silence."""
+
+from collections.abc import Mapping
 
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
 
-_BUILDING_READ = ("name", "building_name", "levels", "coordinate_system", "reference_level_name")
-_BUILDING_LOOKS = ("map_version", "graphs", "parameters")
-_LEVEL_READ = ("vertices", "lanes", "walls", "doors", "measurements", "elevation")
+_BUILDING_READ = ("name", "building_name", "levels", "lifts", "coordinate_system", "parameters", "reference_level_name")
+_BUILDING_LOOKS = ("map_version", "graphs")
+_LEVEL_READ = ("vertices", "lanes", "walls", "doors", "models", "floors", "holes", "measurements", "fiducials")
 _LEVEL_LOOKS = (  # background, and what the editor uses to align it
-    *("drawing", "x_meters", "y_meters", "flattened_x_offset", "flattened_y_offset"),
-    *("layers", "features", "constraints", "fiducials"),
+    *("elevation", "drawing", "x_meters", "y_meters", "flattened_x_offset", "flattened_y_offset"),
+    *("layers", "features", "constraints"),
 )
-_LEVEL_LATER = {
-    "models": "models (furniture) are not obstacles yet",
-    "floors": "floors are taken as boundless",
-    "holes": "holes in floors are not understood yet",
-    "human_lanes": "human lanes are not understood yet",
-}
 
 
-def note_leftovers(building: Node, level: Node, chosen: str, notes: Notes) -> None:
+def note_leftovers(building: Node, levels: Mapping[str, Node], notes: Notes) -> None:
     """Remark on every part of the file that has no effect on the world."""
     top = building.fields()
-    others = [name for name in top["levels"].fields() if name != chosen]
+    others = [name for name in top["levels"].fields() if name not in levels]
     if others:
-        notes.add(f"only level {chosen!r} is loaded, not {', '.join(map(repr, others))}")
-    lifts = top["lifts"].value if "lifts" in top else None
-    if lifts:
-        notes.add(f"lifts are not understood yet: {len(lifts)} left out")
+        chosen = ", ".join(map(repr, levels))
+        notes.add(f"only level {chosen} is loaded, not {', '.join(map(repr, others))}")
     crowd = top["crowd_sim"].value if "crowd_sim" in top else None
     if isinstance(crowd, dict) and crowd.get("enable"):
         notes.add("crowd_sim is not understood yet: no people")
-    _note_unknown(top, (*_BUILDING_READ, *_BUILDING_LOOKS, "lifts", "crowd_sim"), "building", notes)
-    parts = level.fields()
-    for key, sentence in _LEVEL_LATER.items():
-        if key in parts and parts[key].value:
-            notes.add(f"{sentence}: {len(parts[key].items())} left out")
-    _note_unknown(parts, (*_LEVEL_READ, *_LEVEL_LOOKS, *_LEVEL_LATER), "level", notes)
+    _note_unknown(top, (*_BUILDING_READ, *_BUILDING_LOOKS, "crowd_sim"), "building", notes)
+    for level in levels.values():
+        parts = level.fields()
+        if "human_lanes" in parts and parts["human_lanes"].value:
+            notes.add(f"human lanes are not understood yet: {len(parts['human_lanes'].items())} left out")
+        _note_unknown(parts, (*_LEVEL_READ, *_LEVEL_LOOKS, "human_lanes"), "level", notes)
 
 
 def _note_unknown(parts: dict[str, Node], known: tuple[str, ...], owner: str, notes: Notes) -> None:
