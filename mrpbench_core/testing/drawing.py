@@ -35,7 +35,7 @@ def grid(rows: int, columns: int, blocked: Iterable[tuple[int, int]] = (), cell_
     ]
     cell = np.array(cells, np.int32).reshape(-1, 2)
     return Roadmap(
-        position=(cell[:, ::-1] + 0.5) * cell_size,
+        position=np.asarray((cell[:, ::-1] + 0.5) * cell_size, np.float64),
         level=np.zeros(len(cell), np.int16),
         heading=np.full(len(cell), np.nan),
         edges=np.array(edges, np.int32),
