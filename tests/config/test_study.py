@@ -1,6 +1,5 @@
 """From a file to runs."""
 
-import time
 
 import pytest
 
@@ -88,8 +87,6 @@ def test_what_is_no_block_is_refused(errors, text):
     assert line.startswith("some.yaml:1:1: expected a block of settings")
 
 
-def test_a_thousand_runs_are_put_together_quickly(study):
-    start = time.perf_counter()
+def test_a_thousand_runs_are_put_together(study):
     found = study(SMALL + "matrix: {planner: [astar, ecbs], seed: 0..499}")
     assert len(found.runs) == 1000
-    assert time.perf_counter() - start < 5

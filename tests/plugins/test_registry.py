@@ -4,7 +4,6 @@ import importlib
 import pickle
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -241,14 +240,12 @@ def _built(provider):
     return importlib.util.find_spec(provider.value.partition(":")[0].rpartition(".")[0])
 
 
-def test_listing_imports_neither_plugins_nor_numpy_and_is_quick():
+def test_listing_imports_neither_plugins_nor_numpy():
     code = (
         "import sys; from mrpbench_core.plugins.installed import installed; assert installed();"
         "assert not {'numpy', 'mrpbench_core.api', 'yaml', 'mrpbench_native'} & set(sys.modules)"
     )
-    start = time.perf_counter()
     subprocess.run([sys.executable, "-c", code], check=True)
-    assert time.perf_counter() - start < 1.0  # 0.13 s on an idle machine
 
 
 def test_the_base_component_is_no_kind():

@@ -1,4 +1,3 @@
-import time
 
 import attrs
 import numpy as np
@@ -182,12 +181,7 @@ def test_a_cell_size_that_is_surely_a_slip_is_refused(two_rooms, make_fleet):
         GridRoadmap(cell_size=0.0001).build(two_rooms, make_fleet(0.1))
 
 
-def test_large_maps_take_less_than_two_seconds(shared_data, make_fleet):
-    begin = time.process_time()
-    GridRoadmap().build(MovingAi(file=shared_data / "movingai/maps/w_woundedcoast.map").load(), make_fleet(0.5))
-    assert time.process_time() - begin < 2
-    begin = time.process_time()
+def test_a_large_map_keeps_all_its_places(shared_data, make_fleet):
     airport = Rmf(file=shared_data / "rmf/mrp_bench/airport_terminal.building.yaml").load()
     roadmap = GridRoadmap().build(airport, make_fleet(0.125))
-    assert time.process_time() - begin < 2
     assert (roadmap.place >= 0).all()
