@@ -1,0 +1,66 @@
+"""`mrpbench view RUN`: a replay that any browser opens."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from mrpbench_core.cli.reference import HELP, find_run
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.yaml import load as load_yaml
+from mrpbench_core.report.replay.page import write_page
+from mrpbench_core.store.recording import Recording
+from mrpbench_core.store.results import Results
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.add_argument("run", metavar="RUN", help=HELP)
+    parser.add_argument("--out", metavar="FILE", help="the page (default: replay-<run id>.html in the results)")
+    parser.add_argument("--png", metavar="FILE", help="also a picture of the planned and driven paths")
+    parser.add_argument("--gif", metavar="FILE", help="also an animation of a few seconds")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Write the page, and what else is asked for."""
+    results, record = find_run(arguments.run)
+    run_id = record["run_id"]
+    page = Path(arguments.out) if arguments.out else results.folder.path / f"replay-{run_id[:12]}.html"
+    recording = Recording(results.folder.run(run_id).recording)
+    try:
+        write_page(recording, record, page, _columns(results, run_id))
+        print(f"wrote {page}")
+        if arguments.png:
+            _draw(recording, Path(arguments.png))
+        if arguments.gif:
+            _animate(recording, Path(arguments.gif))
+    finally:
+        recording.close()
+    return 0
+
+
+def _columns(results: Results, run_id: str) -> dict[str, Any]:
+    """What the invocation that did the run says about its metrics."""
+    entry = results.entry(run_id)
+    assert entry is not None
+    try:
+        columns = load_yaml(results.folder.invocation(entry.shard.stem)).data.get("columns")
+    except (InputError, AttributeError):  # merged folders may lack it; figures are then shown without units
+        return {}
+    return columns if isinstance(columns, dict) else {}
+
+
+def _draw(recording: Recording, file: Path) -> None:
+    from mrpbench_core.report.picture import draw_world
+    from mrpbench_core.report.replay.motion import read_poses
+
+    context = recording.context()
+    truth = read_poses(recording)[1]
+    draw_world(context.world, file=file, fleet=context.fleet, routes=context.routes, truth=truth)
+    print(f"wrote {file}")
+
+
+def _animate(recording: Recording, file: Path) -> None:
+    from mrpbench_core.report.replay.animation import write_gif
+
+    write_gif(recording, file)
+    print(f"wrote {file}")

@@ -1,0 +1,112 @@
+"""A run as a GIF of a few seconds, for papers and web pages."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.report.picture import COLOURS, world_figure
+from mrpbench_core.report.replay.motion import read_poses
+from mrpbench_core.store.recording import Recording
+
+PIXELS = 800
+FRAME_MS = 80
+LENGTH_S = 10.0
+"""seconds that the animation lasts at most."""
+HOLD_MS = 1500
+"""How long the last frame stays."""
+LEAST = 5.0
+"""pixels of radius: smaller robots are drawn this large."""
+WORLD_COLOURS, SHADES = 128, 12
+"""How the 256 colours of a GIF are shared out: to the world, and to shades of each robot's colour."""
+CROWD = 60
+"""Robots beyond which trails are thinner."""
+
+
+def write_gif(recording: Recording, file: Path) -> None:
+    """Animate the robots of level 0 with their trails.
+
+    Raises:
+        InputError: matplotlib is missing, nothing was recorded, or the file cannot be written.
+    """
+    context = recording.context()
+    times, poses = read_poses(recording)
+    speed = max(1.0, (times[-1] - times[0]) / LENGTH_S)
+    moments = np.arange(times[0], times[-1] + 1e-9, speed * FRAME_MS / 1000)
+    if moments[-1] < times[-1]:
+        moments = np.append(moments, times[-1])
+    figure, axes = world_figure(context.world, truth=poses, faint=True, pixels=PIXELS)
+    frames = _Frames(figure, axes, context.fleet, len(poses[0]))
+    images = [frames.draw(poses, times, moment, f"{moment:.1f} s  ×{speed:.3g}") for moment in moments]
+    shared = _share_palette(images)
+    durations = [FRAME_MS] * (len(shared) - 1) + [HOLD_MS]
+    try:
+        shared[0].save(
+            file, format="GIF", save_all=True, append_images=shared[1:], duration=durations, loop=0, optimize=False
+        )
+    except OSError as error:
+        raise InputError(f"cannot be written: {error.strerror or error}", file=file) from None
+
+
+def _share_palette(images: list[Any]) -> list[Any]:
+    """The same colours in all frames, or they would flicker: the world's, and each robot's from faint to full."""
+    from PIL import Image
+
+    world = images[0].quantize(colors=WORLD_COLOURS).getpalette()[: 3 * WORLD_COLOURS]
+    full = np.array([[int(colour[at : at + 2], 16) for at in (1, 3, 5)] for colour in COLOURS])
+    shades = [np.rint(255 + share * (full - 255)).astype(int) for share in np.linspace(0.2, 1, SHADES)]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette([*world, *np.concatenate(shades).ravel().tolist()])
+    return [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+
+
+class _Frames:
+    """Draws the robots again and again over one picture of the world."""
+
+    def __init__(self, figure: Any, axes: Any, fleet: Fleet, robots: int) -> None:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.collections import LineCollection, PolyCollection
+
+        canvas: Any = FigureCanvasAgg(figure)
+        self.canvas = canvas
+        self.axes = axes
+        colours = [COLOURS[robot % len(COLOURS)] for robot in range(robots)]
+        width = 1.2 if robots <= CROWD else 0.6
+        self.trails = LineCollection([], colors=colours, linewidths=width, alpha=0.6, zorder=6, animated=True)
+        self.bodies = PolyCollection(
+            [], facecolors=colours, edgecolors="white", linewidths=0.4, zorder=9, animated=True
+        )
+        self.noses = LineCollection([], colors="white", linewidths=1.0, zorder=10, animated=True)
+        self.clock = axes.text(
+            1, 1.01, "", transform=axes.transAxes, ha="right", va="bottom", fontsize=8, color="#51606e", animated=True
+        )
+        for artist in (self.trails, self.bodies, self.noses):
+            axes.add_collection(artist)
+        canvas.draw()
+        self.ground = canvas.copy_from_bbox(figure.bbox)
+        metre = float(np.diff(axes.transData.transform([(0, 0), (1, 0)])[:, 0])[0])
+        self.shapes = [robot.footprint * max(1.0, LEAST / (robot.radius * metre)) for robot in fleet.robots]
+
+    def draw(self, poses: Float, times: Float, moment: float, text: str) -> Any:
+        """The frame of a moment, as a Pillow image."""
+        from PIL import Image
+
+        sample = max(int(np.searchsorted(times, moment, side="right")) - 1, 0)
+        now = poses[sample]
+        self.trails.set_segments(list(poses[: sample + 1, :, :2].swapaxes(0, 1)))
+        cos, sin = np.cos(now[:, 2]), np.sin(now[:, 2])
+        turns = np.stack([np.stack([cos, sin], axis=1), np.stack([-sin, cos], axis=1)], axis=1)
+        self.bodies.set_verts(
+            [shape @ turn + pose[:2] for shape, turn, pose in zip(self.shapes, turns, now, strict=True)]
+        )
+        reach = np.array([shape[:, 0].max() for shape in self.shapes])
+        tips = now[:, :2] + turns[:, 0] * reach[:, None]
+        self.noses.set_segments(list(np.stack([now[:, :2], tips], axis=1)))
+        self.clock.set_text(text)
+        self.canvas.restore_region(self.ground)
+        for artist in (self.trails, self.bodies, self.noses, self.clock):
+            self.axes.draw_artist(artist)
+        return Image.fromarray(np.asarray(self.canvas.buffer_rgba())[..., :3].copy())

@@ -1,0 +1,50 @@
+"""What happened at one moment: events, contacts, arrivals."""
+
+from typing import Any
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.run import RunContext
+from mrpbench_core.store.recording import Recording
+
+PAUSE = 0.5
+"""seconds without contact after which the same two robots touch anew."""
+
+
+def read_events(recording: Recording, context: RunContext) -> list[list[Any]]:
+    """Events and arrivals as [seconds, kind, robot, detail], in the order of time."""
+    found: list[list[Any]] = []
+    names = ("event_time", "event_kind", "event_robot", "event_detail")
+    if set(names) <= recording.channels.keys():
+        times, kinds, robots, details = (recording.channel(name).tolist() for name in names)
+        found += [[round(time, 3), *rest] for time, *rest in zip(times, kinds, robots, details, strict=True)]
+    if "reached" in recording.channels:
+        found += _arrivals(recording.channel("time"), recording.channel("reached"), context)
+    return sorted(found, key=lambda event: (event[0], event[2]))
+
+
+def _arrivals(times: Float, reached: Int, context: RunContext) -> list[list[Any]]:
+    length = np.array([len(route.speed) for route in context.routes])
+    if reached.shape[1:] != length.shape:
+        return []
+    done = reached >= length
+    when = times[done.argmax(axis=0)]
+    moved = np.flatnonzero(done.any(axis=0) & (length > 0))
+    return [[round(float(when[robot]), 3), "arrived", int(robot), ""] for robot in moved]
+
+
+def read_contacts(recording: Recording) -> list[list[Any]]:
+    """Contacts as [first second, last second, robot, other robot or -1], in the order of time."""
+    if not {"contact_time", "contact"} <= recording.channels.keys():
+        return []
+    times, pairs = recording.channel("contact_time"), recording.channel("contact")
+    if not len(times):
+        return []
+    order = np.lexsort((times, pairs[:, 1], pairs[:, 0]))
+    times, pairs = times[order], pairs[order]
+    fresh = np.r_[True, (pairs[1:] != pairs[:-1]).any(axis=1) | (np.diff(times) > PAUSE)]
+    first = np.flatnonzero(fresh)
+    last = np.r_[first[1:], len(times)] - 1
+    spans = zip(times[first].tolist(), times[last].tolist(), pairs[first].tolist(), strict=True)
+    return sorted([round(begin, 3), round(end, 3), *pair] for begin, end, pair in spans)

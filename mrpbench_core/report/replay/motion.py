@@ -1,0 +1,58 @@
+"""How the robots of a recording moved, as arrays for the page: one row per robot, one column per sample."""
+
+import numpy as np
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.report.replay.packing import Packing
+from mrpbench_core.store.recording import Recording
+
+ANGLE = 0.001
+"""radians per step."""
+ASTRAY = 0.02
+"""metres: estimates that are never further from the truth are not packed."""
+COUNTS = ("reached", "released", "mode", "level")
+
+
+def read_poses(recording: Recording) -> tuple[Float, Float]:
+    """Times f8[T] and poses f8[T,n,3]: the truth, or what is known instead.
+
+    Raises:
+        InputError: the recording holds no samples.
+    """
+    name = next((name for name in ("truth", "estimate") if name in recording.channels), None)
+    if name is None or not len(times := recording.channel("time")):
+        raise InputError("the recording holds no poses", hint="a run that ended before its execution cannot be shown")
+    return times, recording.channel(name)
+
+
+def pack_motion(recording: Recording, packing: Packing) -> None:
+    """Pack times, poses, estimates that differ from them, progress and mode."""
+    times, poses = read_poses(recording)
+    packing.add_metres("time", times)
+    _pack_poses(packing, "", poses)
+    if {"truth", "estimate"} <= recording.channels.keys():
+        estimate = recording.channel("estimate")
+        if np.nanmax(np.abs(estimate[..., :2] - poses[..., :2]), initial=0) > ASTRAY:
+            _pack_poses(packing, "estimate_", estimate)
+    for name in COUNTS:
+        if name in recording.channels and (name != "level" or recording.channel(name).any()):
+            packing.add(name, recording.channel(name).T)
+
+
+def _pack_poses(packing: Packing, prefix: str, poses: Float) -> None:
+    """Yaw is unwrapped, so that the page may interpolate it like a length; unknown poses repeat the last known one."""
+    known: Bool = np.asarray(np.isfinite(poses).all(axis=2))
+    if not known.all():
+        packing.add(f"{prefix}known", known.T)
+        poses = _fill(poses, known)
+    for index, axis in enumerate("xy"):
+        packing.add_metres(f"{prefix}{axis}", poses[..., index].T)
+    packing.add_metres(f"{prefix}yaw", np.unwrap(poses[..., 2], axis=0).T, ANGLE)
+
+
+def _fill(poses: Float, known: Bool) -> Float:
+    latest = np.maximum.accumulate(np.where(known, np.arange(len(poses))[:, None], -1), axis=0)
+    first = known.argmax(axis=0)
+    filled: Float = np.take_along_axis(poses, np.where(latest < 0, first, latest)[..., None], axis=0)
+    return np.nan_to_num(filled)

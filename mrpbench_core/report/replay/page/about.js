@@ -1,0 +1,112 @@
+// What the run was: header, key figures, metrics, configuration, events.
+
+import { clockText } from "replay/clock.js";
+import { List, make } from "replay/list.js";
+
+const KEY = [
+  ["execution.duration_s", "duration"],
+  ["planning.sum_of_costs", "sum of costs"],
+  ["execution.min_distance_m", "least distance"],
+  ["execution.robot_contacts", "contacts"],
+  ["planning.makespan", "planned makespan"],
+  ["timing.planning_s", "planning time"],
+];
+const FIGURES = 4;
+
+export function fillHeader(run) {
+  const { facts, world, count } = run;
+  document.getElementById("title").textContent = world.name.replaceAll("_", " ");
+  document.getElementById("subtitle").textContent = `${count} ${count === 1 ? "robot" : "robots"} · ${facts.planner}`;
+  document.getElementById("run-id").textContent = facts.run_id.slice(0, 12);
+  const status = document.getElementById("status");
+  status.textContent = facts.status.replaceAll("_", " ");
+  status.classList.toggle("good", facts.status === "succeeded");
+  if (facts.error) status.title = `${facts.error.stage}: ${facts.error.message}`;
+}
+
+export function fillFigures(run) {
+  const known = new Map(run.facts.metrics.map((metric) => [metric.name, metric]));
+  const chosen = KEY.filter(([name]) => known.get(name)?.value != null).slice(0, FIGURES);
+  document.getElementById("figures").append(
+    ...chosen.map(([name, label]) => {
+      const metric = known.get(name);
+      const figure = make("div", "figure", make("b", "", ...withUnit(metric)), make("span", "", label));
+      figure.title = metric.text;
+      return figure;
+    }),
+  );
+}
+
+export function fillAbout(run, thinning) {
+  const { facts } = run;
+  const page = document.getElementById("about");
+  if (facts.error) page.append(make("p", "error", `${facts.error.stage}: ${facts.error.message}`));
+  page.append(section("choices", facts.choices.map(([name, value]) => [name, [value]]), true));
+  for (const [title, metrics] of groups(facts.metrics)) {
+    const rows = metrics.map((metric) => [metric.name.slice(title.length + 1).replaceAll("_", " "), withUnit(metric), metric.text]);
+    page.append(section(title, rows, title === "planning" || title === "execution"));
+  }
+  if (thinning && (thinning.beam_step > 1 || thinning.scan_step > 1)) {
+    page.append(make("p", "note", `Of the lidar scans, one in ${thinning.scan_step} is here, with one beam in ${thinning.beam_step}.`));
+  }
+  const configuration = make("pre", "", JSON.stringify(facts.config, null, 2));
+  page.append(make("details", "", make("summary", "", "configuration"), configuration));
+}
+
+/** Metrics by all but the last part of their name. */
+function groups(metrics) {
+  const found = new Map();
+  for (const metric of metrics) {
+    const title = metric.name.slice(0, metric.name.lastIndexOf("."));
+    found.set(title, [...(found.get(title) ?? []), metric]);
+  }
+  return found;
+}
+
+function section(title, rows, open) {
+  const list = make("dl");
+  for (const [name, value, text] of rows) {
+    const term = make("dt", "", name);
+    if (text) term.title = text;
+    list.append(term, make("dd", "", ...value));
+  }
+  const details = make("details", "", make("summary", "", title), list);
+  details.open = open;
+  return details;
+}
+
+function withUnit({ value, unit }) {
+  if (value === null) return ["–"];
+  if (typeof value === "boolean") return [value ? "yes" : "no"];
+  if (typeof value !== "number") return [String(value)];
+  if (unit === "B") return [`${(value / 2 ** 20).toPrecision(3)} `, make("small", "", "MiB")];
+  if (unit === "s" && value !== 0 && Math.abs(value) < 0.1) return [`${(value * 1000).toPrecision(3)} `, make("small", "", "ms")];
+  const text = Number.isInteger(value) ? String(value) : String(Number(value.toPrecision(4)));
+  return unit && unit !== "1" ? [`${text} `, make("small", "", unit)] : [text];
+}
+
+export class EventPanel {
+  constructor(run, choose) {
+    this.run = run;
+    const contacts = run.contacts.map(([first, last, robot, other]) => [first, "contact", robot, other < 0 ? "wall" : run.names[other], last]);
+    this.items = [...run.events, ...contacts].sort((left, right) => left[0] - right[0]);
+    const fill = (button, item) => this.#fill(button, item);
+    this.list = new List(document.getElementById("event-list"), 34, fill, choose, "Nothing happened but driving.");
+    this.list.show(this.items);
+  }
+
+  #fill(button, [time, kind, robot, detail]) {
+    button.className = "event";
+    button.dataset.kind = kind;
+    const who = robot < 0 ? "" : this.run.names[robot];
+    const what = [kind.replaceAll("_", " "), detail].filter(Boolean).join(": ");
+    button.replaceChildren(make("time", "", clockText(time)), make("span", "what", what), make("span", "who", who));
+    button.classList.toggle("past", time <= this.run.now);
+  }
+
+  /** The first event after, or the last before, a time; undefined if there is none. */
+  beside(time, forward) {
+    const away = (item) => (forward ? item[0] > time + 1e-3 : item[0] < time - 1e-3);
+    return forward ? this.items.find(away) : this.items.findLast(away);
+  }
+}

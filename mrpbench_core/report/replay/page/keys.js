@@ -1,0 +1,54 @@
+// The keyboard, and the dialog that explains it.
+
+import { make } from "replay/list.js";
+import { LAYERS } from "replay/shown.js";
+
+const HELP = [
+  ["space", "play or pause"],
+  ["← →", "one sample back or forth"],
+  ["page up, page down", "10 s back or forth"],
+  ["home, end", "start or end"],
+  ["[ ]", "slower, faster"],
+  [", .", "previous or next event"],
+  ["/", "find a robot"],
+  ["J K", "next or previous robot"],
+  ["esc", "let go of the robot"],
+  ["+ − F", "zoom in, zoom out, show everything"],
+  ["shift + arrows", "move the map"],
+  ["C", "colour by robot or by state"],
+  ...LAYERS.map(({ label, letter }) => [letter.toUpperCase(), `${label.toLowerCase()} on or off`]),
+  ["T", "light or dark"],
+  ["wheel, pinch; drag", "zoom; move the map"],
+  ["click a robot", "follow it"],
+];
+
+export function listenToKeys(actions) {
+  document.addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const typing = event.target.matches("input[type=search], select");
+    const pressing = event.target.matches("button, summary, [role=tab], input[type=checkbox]");
+    if (event.key === "Escape") actions.escape(event.target);
+    else if (typing || document.querySelector("dialog[open]")) return;
+    else if (event.key === " " && pressing) return;
+    else {
+      const name = event.shiftKey && event.key.startsWith("Arrow") ? `shift ${event.key}` : event.key.length === 1 ? event.key.toLowerCase() : event.key;
+      const action = actions[name];
+      if (!action) return;
+      event.preventDefault();
+      action();
+    }
+  });
+}
+
+export function helpDialog() {
+  const dialog = document.getElementById("keys");
+  const list = make("dl");
+  for (const [keys, text] of HELP) list.append(make("dt", "", make("kbd", "", keys)), make("dd", "", text));
+  const close = make("button", "", "Close");
+  close.type = "button";
+  close.addEventListener("click", () => dialog.close());
+  const least = "Robots are drawn in their true size, but never so small that they cannot be seen. Reserved: what the dispatcher has released and the robot has not reached yet.";
+  dialog.append(make("h2", "", "Keyboard and mouse"), list, make("p", "note", least), close);
+  dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
+  return dialog;
+}

@@ -1,0 +1,272 @@
+// Puts the page together and draws it, a frame at a time and only when something changed.
+
+import { EventPanel, fillAbout, fillFigures, fillHeader } from "replay/about.js";
+import { Clock, clockText, SPEEDS } from "replay/clock.js";
+import { coloursOf } from "replay/colours.js";
+import { layerControls, legend, levelControls, tabs } from "replay/controls.js";
+import { decoded, readArrays } from "replay/data.js";
+import { FleetPanel } from "replay/fleet.js";
+import { Ground } from "replay/ground.js";
+import { helpDialog, listenToKeys } from "replay/keys.js";
+import { Lidar } from "replay/lidar.js";
+import { Paths } from "replay/paths.js";
+import { listenToPointers } from "replay/pointer.js";
+import { Robots } from "replay/robots.js";
+import { Run, STATES } from "replay/run.js";
+import { Shown } from "replay/shown.js";
+import { fitCanvas } from "replay/surface.js";
+import { applyTheme, readTheme } from "replay/theme.js";
+import { Timeline } from "replay/timeline.js";
+import { View } from "replay/view.js";
+
+const get = (id) => document.getElementById(id);
+const PANEL_MS = 100; // between updates of the panel while playing
+const CLOSE = 70; // pixels per metre at least when a robot is followed
+
+const data = JSON.parse(get("run").textContent);
+const run = new Run(data, await readArrays("motion"));
+const clock = new Clock(run.begin, run.end);
+const shown = new Shown(run, Boolean(data.scans));
+const view = new View(boundsOf(run));
+const [ground, paths, robots] = [new Ground(run), new Paths(run), new Robots(run)];
+const lidar = new Lidar(run, data.scans);
+const timeline = new Timeline(run, get("track"));
+const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
+applyTheme(shown.dark);
+let theme = readTheme(STATES);
+const colours = () => coloursOf(run, theme, shown);
+let stale = { ground: true, actors: true, panel: true };
+let [lastFrame, lastPanel] = [0, 0];
+
+fillHeader(run);
+fillFigures(run);
+fillAbout(run, data.scans);
+layerControls(shown);
+levelControls(run, shown);
+legend(run);
+const fleet = new FleetPanel(run, shown, colours);
+const events = new EventPanel(run, ([time, , robot]) => {
+  clock.seek(time);
+  if (robot >= 0) shown.select(robot);
+});
+const openTab = tabs(() => (stale.panel = true));
+const help = helpDialog();
+
+/** Left, bottom, right, top of everything, with a margin, metres. */
+function boundsOf({ arrays, world, routeX, routeY }) {
+  let [left, bottom, right, top] = [Infinity, Infinity, -Infinity, -Infinity];
+  const include = (x, y) => {
+    [left, right] = [Math.min(left, x), Math.max(right, x)];
+    [bottom, top] = [Math.min(bottom, y), Math.max(top, y)];
+  };
+  world.levels.forEach(({ raster, obstacles, floors }, number) => {
+    const walls = decoded(arrays[`walls_${number}`]);
+    for (let i = 0; i < walls.length; i += 2) include(walls[i], walls[i + 1]);
+    for (const polygon of [...floors, ...obstacles.map((obstacle) => obstacle[1])]) polygon.forEach(([x, y]) => include(x, y));
+    if (!raster) return;
+    const [rows, columns] = arrays[`blocked_${number}`].shape;
+    include(...raster.origin);
+    include(raster.origin[0] + columns * raster.cell, raster.origin[1] + rows * raster.cell);
+  });
+  for (const [x, y] of world.vertices) include(x, y);
+  for (let i = 0; i < routeX.length; i++) include(routeX[i], routeY[i]);
+  if (left > right) include(0, 0);
+  const margin = 0.015 * Math.max(right - left, top - bottom) + 0.2;
+  return [left - margin, bottom - margin, right + margin, top + margin];
+}
+
+function retheme() {
+  applyTheme(shown.dark);
+  theme = readTheme(STATES);
+  timeline.prepare(theme);
+  stale = { ground: true, actors: true, panel: true };
+}
+
+function resize() {
+  const stage = get("stage");
+  view.inset = { left: 0, right: 0, top: get("layers").offsetHeight + 14, bottom: get("legend").offsetHeight + 14 };
+  view.resize(stage.clientWidth, stage.clientHeight);
+  retheme();
+}
+
+function moveView(change) {
+  change();
+  stale.ground = stale.actors = true;
+}
+
+function draw() {
+  run.seek(clock.now);
+  follow();
+  const painted = colours();
+  if (stale.ground) ground.draw(fitCanvas(get("ground")), view, theme, shown);
+  const context = fitCanvas(get("actors"));
+  context.clearRect(0, 0, view.width, view.height);
+  paths.draw(context, view, shown, painted);
+  if (shown.layers.lidar) lidar.draw(context, view, shown, painted);
+  robots.draw(context, view, theme, shown, painted, calm.matches || !clock.playing);
+  timeline.draw(theme);
+  get("now").textContent = clockText(run.now);
+  stale.ground = stale.actors = false;
+}
+
+function follow() {
+  if (!shown.follow || shown.selected < 0) return;
+  shown.level = run.value("level", shown.selected, shown.level);
+  view.centre(run.pose.x[shown.selected], run.pose.y[shown.selected]);
+  stale.ground = true;
+}
+
+function refreshPanel() {
+  fleet.refresh();
+  events.list.refresh();
+  get("scrub").value = run.now;
+  get("scrub").setAttribute("aria-valuetext", `${clockText(run.now)} of ${clockText(run.end)}`);
+  stale.panel = false;
+}
+
+function frame(now) {
+  clock.advance(Math.min((now - lastFrame) / 1000, 0.25));
+  lastFrame = now;
+  if (stale.actors || stale.ground) draw();
+  if (stale.panel && (!clock.playing || now - lastPanel >= PANEL_MS)) {
+    lastPanel = now;
+    refreshPanel();
+  }
+  requestAnimationFrame(frame);
+}
+
+clock.addEventListener("change", () => {
+  stale.actors = stale.panel = true;
+  document.body.classList.toggle("playing", clock.playing);
+  get("play").setAttribute("aria-label", clock.playing ? "Pause" : "Play");
+  get("speed").value = clock.speed;
+});
+
+let before = -1;
+shown.addEventListener("change", () => {
+  stale = { ground: true, actors: true, panel: true };
+  if (shown.selected !== before && shown.selected >= 0) {
+    if (shown.follow) view.zoom(Math.max(CLOSE / view.scale, 1));
+    openTab("tab-robots");
+    requestAnimationFrame(() => fleet.reveal(shown.selected));
+  }
+  before = shown.selected;
+  if (shown.layers.lidar) lidar.read().then(() => (stale.actors = true));
+});
+
+for (const speed of SPEEDS) get("speed").append(new Option(`${speed}×`, speed));
+get("speed").value = clock.speed;
+get("speed").addEventListener("change", () => clock.setSpeed(Number(get("speed").value)));
+Object.assign(get("scrub"), { min: run.begin, max: run.end, value: run.begin });
+get("scrub").addEventListener("input", () => clock.seek(Number(get("scrub").value)));
+
+/** Stop at the next sample in a direction. */
+function step(by) {
+  clock.toggle(false);
+  const at = run.sample + (by > 0 || run.fraction === 0 ? by : 0) + (by > 0 && run.fraction >= 1 ? 1 : 0);
+  clock.seek(run.time[Math.min(Math.max(at, 0), run.samples - 1)]);
+}
+
+function nextEvent(forward) {
+  const found = events.beside(clock.now, forward);
+  if (found) clock.seek(found[0]);
+}
+
+function nextRobot(by) {
+  if (run.count) shown.select((Math.max(shown.selected, by > 0 ? -1 : 0) + by + run.count) % run.count);
+}
+
+function swapTheme() {
+  shown.set({ dark: !shown.dark });
+  retheme();
+}
+
+const fit = () => {
+  shown.set({ follow: false });
+  moveView(() => view.fit());
+};
+const zoom = (factor, ...at) => moveView(() => view.zoom(factor, ...at));
+const pan = (dx, dy) => {
+  if (shown.follow) shown.set({ follow: false });
+  moveView(() => view.pan(dx, dy));
+};
+
+get("play").addEventListener("click", () => clock.toggle());
+get("back").addEventListener("click", () => step(-1));
+get("forth").addEventListener("click", () => step(1));
+get("zoom-in").addEventListener("click", () => zoom(1.5));
+get("zoom-out").addEventListener("click", () => zoom(1 / 1.5));
+get("fit").addEventListener("click", fit);
+get("theme").addEventListener("click", swapTheme);
+get("help").addEventListener("click", () => help.showModal());
+
+listenToPointers(get("actors"), {
+  pan,
+  zoom: (factor, px, py) => (shown.follow ? zoom(factor) : zoom(factor, px, py)),
+  press: (px, py) => {
+    const robot = robots.at(px, py, view);
+    shown.select(robot === shown.selected ? -1 : robot);
+  },
+  hover: (px, py) => {
+    const robot = px < 0 ? -1 : robots.at(px, py, view, 3);
+    get("actors").style.cursor = robot >= 0 ? "pointer" : "";
+    tip(robot >= 0 ? `${run.names[robot]}: ${STATES[run.state(robot)]}` : "", px, py);
+  },
+});
+
+get("timeline").addEventListener("pointermove", ({ offsetX }) => {
+  const near = run.events.find(([time]) => Math.abs(timeline.x(time) - offsetX) < 3);
+  get("timeline").title = near ? `${clockText(near[0])} ${near[1]} ${run.names[near[2]] ?? ""}` : clockText(timeline.time(offsetX));
+});
+
+function tip(text, px, py) {
+  const box = get("tooltip");
+  box.hidden = !text;
+  box.textContent = text;
+  box.style.transform = `translate(${px + 14}px, ${py + 10}px)`;
+}
+
+listenToKeys({
+  " ": () => clock.toggle(),
+  ArrowLeft: () => step(-1),
+  ArrowRight: () => step(1),
+  PageUp: () => clock.seek(clock.now - 10),
+  PageDown: () => clock.seek(clock.now + 10),
+  Home: () => clock.seek(run.begin),
+  End: () => clock.seek(run.end),
+  "[": () => clock.shift(-1),
+  "]": () => clock.shift(1),
+  ",": () => nextEvent(false),
+  ".": () => nextEvent(true),
+  "/": () => {
+    openTab("tab-robots");
+    get("search").focus();
+  },
+  j: () => nextRobot(1),
+  k: () => nextRobot(-1),
+  "+": () => zoom(1.5),
+  "=": () => zoom(1.5),
+  "-": () => zoom(1 / 1.5),
+  f: fit,
+  t: swapTheme,
+  c: () => shown.set({ colour: shown.colour === "robot" ? "state" : "robot" }),
+  "?": () => help.showModal(),
+  "shift ArrowLeft": () => pan(60, 0),
+  "shift ArrowRight": () => pan(-60, 0),
+  "shift ArrowUp": () => pan(0, 60),
+  "shift ArrowDown": () => pan(0, -60),
+  escape: (target) => (target === get("search") ? target.blur() : shown.select(-1)),
+  ...Object.fromEntries(shown.offered.map(({ key, letter }) => [letter, () => shown.setLayer(key)])),
+});
+
+window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ matches }) => {
+  shown.set({ dark: matches });
+  retheme();
+});
+new ResizeObserver(resize).observe(get("stage"));
+resize();
+requestAnimationFrame(frame);
+
+/** For the console and for tests. */
+window.replay = { run, clock, shown, view, robots, lidar };
+document.body.classList.add("ready");

@@ -1,0 +1,118 @@
+// A recorded run: where every robot is at any time, interpolated between samples, and what it is doing.
+
+import { decoded, lastAtMost } from "replay/data.js";
+
+/** What a robot may be doing: `Mode` of the recording, then what follows from its progress. */
+export const STATES = ["following", "waiting", "recovering", "off path", "aborted", "arrived"];
+const WAITING = 1;
+const ABORTED = 4;
+const ARRIVED = 5;
+
+export class Run {
+  constructor(data, arrays) {
+    this.facts = data.facts;
+    this.world = data.world;
+    this.events = data.events;
+    this.contacts = data.contacts;
+    this.arrays = arrays;
+    this.time = decoded(arrays.time);
+    this.samples = this.time.length;
+    this.begin = this.time[0];
+    this.end = this.time[this.samples - 1];
+    this.names = data.robots.names;
+    this.count = this.names.length;
+    this.models = data.robots.models;
+    this.kind = arrays.kind.values;
+    this.routeFirst = arrays.route_first.values;
+    this.routeX = decoded(arrays.route_x);
+    this.routeY = decoded(arrays.route_y);
+    this.routeLevel = arrays.route_level.values;
+    this.now = this.begin;
+    this.sample = 0;
+    this.fraction = 0;
+    this.pose = this.#poses();
+    this.ghost = arrays.estimate_x ? this.#poses() : null;
+    this.seek(this.begin);
+  }
+
+  #poses() {
+    const make = () => new Float64Array(this.count);
+    return { x: make(), y: make(), yaw: make() };
+  }
+
+  model(robot) {
+    return this.models[this.kind[robot]];
+  }
+
+  /** Move to a time; fills `pose` (and `ghost`, where the robots believe to be). */
+  seek(time) {
+    this.now = Math.min(Math.max(time, this.begin), this.end);
+    this.sample = Math.min(Math.max(lastAtMost(this.time, this.now), 0), Math.max(this.samples - 2, 0));
+    const span = this.samples > 1 ? this.time[this.sample + 1] - this.time[this.sample] : 0;
+    this.fraction = span > 0 ? (this.now - this.time[this.sample]) / span : 0;
+    for (const axis of ["x", "y", "yaw"]) {
+      this.#interpolate(this.arrays[axis], this.pose[axis]);
+      if (this.ghost) this.#interpolate(this.arrays[`estimate_${axis}`], this.ghost[axis]);
+    }
+  }
+
+  /** Yaw was unwrapped when it was packed: halfway from 179° to -179° is 180°, not 0°. */
+  #interpolate({ values, scale, offset }, into) {
+    const step = this.samples > 1 ? 1 : 0;
+    for (let robot = 0, at = this.sample; robot < this.count; robot++, at += this.samples) {
+      into[robot] = offset + scale * (values[at] + this.fraction * (values[at + step] - values[at]));
+    }
+  }
+
+  /** The newest sample that is not in the future. */
+  get latest() {
+    return this.fraction >= 1 ? this.sample + 1 : this.sample;
+  }
+
+  /** Value of a counting channel now (or at a sample), `missing` if it was not recorded. */
+  value(channel, robot, missing, sample = this.latest) {
+    const array = this.arrays[channel];
+    return array ? array.values[robot * this.samples + sample] : missing;
+  }
+
+  isKnown(robot) {
+    return this.value("known", robot, 1) === 1;
+  }
+
+  /** Number of path segments of a robot. */
+  segments(robot) {
+    return this.routeFirst[robot + 1] - this.routeFirst[robot] - 1;
+  }
+
+  state(robot, sample = this.latest) {
+    const mode = this.value("mode", robot, 0, sample);
+    if (mode === ABORTED || !this.arrays.reached) return mode;
+    const over = this.value("reached", robot, 0, sample) >= this.segments(robot);
+    return over && mode <= WAITING ? ARRIVED : mode;
+  }
+
+  /** Metres per second between the samples around now, of the robot's origin. */
+  speed(robot) {
+    if (this.samples < 2) return 0;
+    const { x, y } = this.arrays;
+    const at = robot * this.samples + this.sample;
+    const dx = (x.values[at + 1] - x.values[at]) * x.scale;
+    const dy = (y.values[at + 1] - y.values[at]) * y.scale;
+    return Math.hypot(dx, dy) / (this.time[this.sample + 1] - this.time[this.sample]);
+  }
+
+  /** Robots of the contacts that last now or ended less than `after` seconds ago: [robot, other or -1, start]. */
+  touching(after) {
+    return this.contacts.filter(([first, last]) => first <= this.now && this.now <= last + after);
+  }
+
+  /** Name of the place at the end of a robot's route, or "". */
+  goal(robot) {
+    const last = this.routeFirst[robot + 1] - 1;
+    const place = this.world.vertices.find(
+      ([x, y, level, name]) =>
+        name && level === this.routeLevel[last] && Math.hypot(x - this.routeX[last], y - this.routeY[last]) < 0.05,
+    );
+    return place ? place[3].replaceAll("_", " ") : "";
+  }
+}

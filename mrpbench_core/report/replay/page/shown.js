@@ -1,0 +1,46 @@
+// What the viewer chose to see.
+
+export const LAYERS = [
+  { key: "names", label: "Names", letter: "n" },
+  { key: "lanes", label: "Lanes", letter: "a" },
+  { key: "plan", label: "Plan", letter: "p" },
+  { key: "driven", label: "Driven", letter: "d" },
+  { key: "reserved", label: "Reserved", letter: "r" },
+  { key: "estimate", label: "Estimate", letter: "m" },
+  { key: "lidar", label: "Lidar", letter: "l" },
+];
+const FEW = 40; // robots whose paths can all be told apart
+
+export class Shown extends EventTarget {
+  constructor(run, hasScans) {
+    super();
+    const few = run.count <= FEW;
+    this.many = !few;
+    this.offered = LAYERS.filter(
+      ({ key }) =>
+        (key !== "lidar" || hasScans) && (key !== "estimate" || run.ghost) && (key !== "reserved" || run.arrays.released),
+    );
+    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, estimate: false, lidar: false };
+    this.colour = few ? "robot" : "state";
+    this.selected = -1;
+    this.follow = false;
+    this.level = run.value("level", 0, 0);
+    this.dark = window.matchMedia("(prefers-color-scheme: dark)").matches;
+  }
+
+  set(changes) {
+    Object.assign(this, changes);
+    this.dispatchEvent(new Event("change"));
+  }
+
+  setLayer(key, on = !this.layers[key]) {
+    if (this.offered.some((layer) => layer.key === key)) this.set({ layers: { ...this.layers, [key]: on } });
+  }
+
+  /** Choose a robot (-1 = none). Of many robots, only the chosen one's paths are shown unless one asks for all. */
+  select(robot, follow = true) {
+    const one = robot >= 0;
+    const paths = this.many && one !== this.selected >= 0 ? { plan: one, driven: one } : {};
+    this.set({ selected: robot, follow: one && follow, layers: { ...this.layers, ...paths } });
+  }
+}
