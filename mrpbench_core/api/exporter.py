@@ -31,4 +31,4 @@ class Exporter(Component):
 
     @abstractmethod
     def open(self, context: RunContext, destination: Path) -> ExporterSession:
-        """Begin to write the run to `destination`, a path without suffix in an existing folder; replaces what is there."""
+        """Begin to write to `destination`, a path without suffix in an existing folder; replaces what is there."""

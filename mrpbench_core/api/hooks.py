@@ -1,4 +1,4 @@
-"""Lifecycle hooks, group `mrpbench.hooks`: for watching only. One that raises is logged and switched off for that run."""
+"""Lifecycle hooks, group `mrpbench.hooks`: for watching only. One that raises is switched off for that run."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -115,8 +115,8 @@ class Observation:
     twist: Float = array("f8")
     """f8[2] measured m/s, rad/s."""
     path: Float = array("f8", 2)
-    """f8[k,2]: the nearest point of the route, then released waypoints; the robot is to stop at the last, which may be a
-    bend that it has not reached yet."""
+    """f8[k,2]: the nearest point of the route, then released waypoints. The robot is to stop at the last, which may be
+    a bend that it has not reached yet."""
     yaw: float = float("nan")
     """Yaw to take at the last waypoint, NaN = any."""
     speed: float = float("inf")
