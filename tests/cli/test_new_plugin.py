@@ -1,0 +1,144 @@
+"""`mrpbench new-plugin`: what it writes installs, is found, passes its checks, and is gone when uninstalled."""
+
+import importlib.util
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from mrpbench_core.cli.new_plugin import kinds
+
+OPTIONS = {"scenario": ["robots=2"]}
+
+
+def install(folder: Path, site: Path) -> None:
+    """By pip where the build backend is at hand, else as pip would leave it."""
+    site.mkdir()
+    if importlib.util.find_spec("hatchling"):
+        words = ["install", "--quiet", "--no-deps", "--no-build-isolation", "--target", str(site), str(folder)]
+        subprocess.run([sys.executable, "-m", "pip", *words], check=True, timeout=100)
+        return
+    project = tomllib.loads((folder / "pyproject.toml").read_text())
+    facts = project["project"]
+    (package,) = project["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
+    shutil.copytree(folder / package, site / package)
+    info = site / f"{package}-{facts['version']}.dist-info"
+    info.mkdir()
+    lines = ["Metadata-Version: 2.1", f"Name: {facts['name']}", f"Version: {facts['version']}"]
+    lines += [f"Requires-Dist: {requirement}" for requirement in facts["dependencies"]]
+    (info / "METADATA").write_text("\n".join(lines) + "\n")
+    text = "".join(
+        f"[{group}]\n" + "".join(f"{name} = {value}\n" for name, value in entries.items())
+        for group, entries in facts["entry-points"].items()
+    )
+    (info / "entry_points.txt").write_text(text)
+
+
+@pytest.fixture
+def command(tmp_path):
+    """Return a function that runs `mrpbench` in a process of its own, which sees what is installed in `site`."""
+
+    def run(*words):
+        environment = {**os.environ, "PYTHONPATH": str(tmp_path / "site"), "PYTHONDONTWRITEBYTECODE": "1"}
+        return subprocess.run(
+            [sys.executable, "-m", "mrpbench_core.cli.main", *words],
+            cwd=tmp_path,
+            env=environment,
+            capture_output=True,
+            text=True,
+            timeout=100,
+        )
+
+    return run
+
+
+@pytest.mark.parametrize("kind", kinds())
+def test_a_new_plugin_works(kind, mrpbench, command, tmp_path):
+    code, out, _ = mrpbench("new-plugin", kind, "acme-first")
+    assert code == 0
+    folder = tmp_path / f"mrpbench-{kind}s-acme-first"
+    assert f"wrote {folder.name}" in out
+    install(folder, tmp_path / "site")
+
+    listed = json.loads(command("plugins", kind, "--json").stdout)
+    (mine,) = [entry for entry in listed if entry["name"] == "acme_first"]
+    assert mine["distribution"] == f"mrpbench-{kind}s-acme-first"
+    assert mine["version"] == "0.1.0"
+    assert mine["problem"] is None
+
+    checked = command("check", f"{kind}:acme_first", *OPTIONS.get(kind, []))
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+    assert " 0 failed" in checked.stdout
+
+    shutil.rmtree(tmp_path / "site")
+    assert "acme_first" not in command("plugins", kind).stdout
+    assert command("check", f"{kind}:acme_first").returncode == 2
+
+
+@pytest.mark.parametrize("kind", kinds())
+def test_what_is_written_is_clean(kind, mrpbench, tmp_path):
+    mrpbench("new-plugin", kind, "neat", "--folder", "here/neat")
+    folder = tmp_path / "here/neat"
+    package = f"mrpbench_{kind}s_neat"
+    assert {path.name for path in folder.iterdir()} == {".gitignore", "README.md", "pyproject.toml", package, "tests"}
+    texts = [path.read_text() for path in folder.rglob("*") if path.is_file()]
+    assert not [text for text in texts if "$" in text]
+    root = Path(__file__).parents[2]
+    ruff = [sys.executable, "-m", "ruff"]
+    config = ["--config", str(root / "pyproject.toml"), "--no-cache"]
+    checked = subprocess.run([*ruff, "check", *config, package], cwd=folder, capture_output=True, text=True)
+    assert checked.returncode == 0, checked.stdout
+    ordered = subprocess.run(
+        [*ruff, "check", "--select", "I", *config, "."], cwd=folder, capture_output=True, text=True
+    )
+    assert ordered.returncode == 0, ordered.stdout
+    formatted = subprocess.run([*ruff, "format", "--check", *config, "."], cwd=folder, capture_output=True, text=True)
+    assert formatted.returncode == 0, formatted.stdout
+
+
+def test_its_test_passes_in_pytest(mrpbench, tmp_path):
+    mrpbench("new-plugin", "metric", "mine")
+    folder = tmp_path / "mrpbench-metrics-mine"
+    words = ["-m", "pytest", "-q", "-p", "no:cacheprovider"]
+    environment = {**os.environ, "PYTHONPATH": str(folder)}
+    done = subprocess.run([sys.executable, *words], cwd=folder, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout
+    assert "passed" in done.stdout
+
+
+def test_the_most_asked_kinds_have_templates():
+    assert {"planner", "assigner", "controller", "metric", "dispatcher", "simulator", "scenario"} <= set(kinds())
+
+
+def test_nothing_is_overwritten(mrpbench, tmp_path):
+    (tmp_path / "mrpbench-planners-mine").mkdir()
+    code, _, err = mrpbench("new-plugin", "planner", "mine")
+    assert code == 2
+    assert err == "mrpbench-planners-mine: is there already and is not overwritten\n"
+    assert not list((tmp_path / "mrpbench-planners-mine").iterdir())
+
+
+@pytest.mark.parametrize(
+    ("words", "line"),
+    [
+        (["planer", "mine"], "there is no template for a 'planer' (there are assigner, "),
+        (["planner", "Mine"], "'Mine' is not a name"),
+        (["planner", "3d"], "'3d' is not a name"),
+        (["planner", "../mine"], "'../mine' is not a name"),
+        (["planner", "class"], "'class' is a word of Python"),
+        (["planner", "path"], "a class Path would hide another of that name"),
+        (["dispatcher", "adg"], "dispatcher 'adg' is installed already, by mrpbench-core"),
+        (["planner"], "NAME"),
+    ],
+)
+def test_mistakes_are_one_line(mrpbench, tmp_path, words, line):
+    code, _, err = mrpbench("new-plugin", *words)
+    assert code == 2
+    assert line in err
+    assert err.count("\n") == 1
+    assert not list(tmp_path.glob("mrpbench-*"))
