@@ -83,4 +83,4 @@ class ResultsFolder:
 
 def new_invocation() -> str:
     """A name that sorts by time and that no other invocation has, on any machine."""
-    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{secrets.token_hex(4)}"
+    return f"{datetime.now(UTC):%Y%m%dT%H%M%S.%fZ}-{secrets.token_hex(4)}"

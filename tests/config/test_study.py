@@ -1,6 +1,5 @@
 """From a file to runs."""
 
-
 import pytest
 
 from mrpbench_core.config.study import load_studies, load_study
