@@ -9,7 +9,7 @@ from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording
 
 RANGES = 16_000_000
-"""Ranges a page carries at most."""
+"""Ranges a page carries at most, but for one scan of each robot."""
 BEAMS = 120
 """Beams of a scan that are kept at least."""
 QUANTUM = 0.01

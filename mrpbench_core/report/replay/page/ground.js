@@ -99,8 +99,14 @@ export class Ground {
     }
     const [left, bottom] = view.toScreen(...raster.origin);
     const size = raster.cell * view.scale;
+    const area = [left, bottom - shape[0] * size, shape[1] * size, shape[0] * size];
     context.imageSmoothingEnabled = size < 1;
-    context.drawImage(kept.raster, left, bottom - shape[0] * size, shape[1] * size, shape[0] * size);
+    context.fillStyle = theme.floor;
+    context.fillRect(...area);
+    context.drawImage(kept.raster, ...area);
+    context.strokeStyle = theme.wall; // beyond its edge a raster is solid
+    context.lineWidth = 2;
+    context.strokeRect(area[0] - 1, area[1] - 1, area[2] + 2, area[3] + 2);
   }
 
   #drawDoors(context, view, theme, number) {

@@ -16,10 +16,14 @@ export class Shown extends EventTarget {
     super();
     const few = run.count <= FEW;
     this.many = !few;
-    this.offered = LAYERS.filter(
-      ({ key }) =>
-        (key !== "lidar" || hasScans) && (key !== "estimate" || run.ghost) && (key !== "reserved" || run.arrays.released),
-    );
+    const missing = {
+      names: !run.world.vertices.some(([, , , name]) => name),
+      lanes: !run.world.lanes.length,
+      reserved: !run.arrays.released,
+      estimate: !run.ghost,
+      lidar: !hasScans,
+    };
+    this.offered = LAYERS.filter(({ key }) => !missing[key]);
     this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, estimate: false, lidar: false };
     this.colour = few ? "robot" : "state";
     this.selected = -1;

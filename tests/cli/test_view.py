@@ -1,0 +1,61 @@
+import json
+
+import pytest
+
+DRIVEN = """\
+name: driven
+world: {plugin: movingai, file: tiny.map}
+roadmap: grid
+scenario: {plugin: random, robots: 2}
+assigner: identity
+planner: example
+simulator: kinematic
+metrics: [execution]
+recording: {scans: true}
+limits: {execution: 60}
+"""
+
+
+@pytest.fixture
+def driven(mrpbench, tmp_path):
+    (tmp_path / "driven.yaml").write_text(DRIVEN)
+    code, _, errors = mrpbench("run", "driven.yaml")
+    assert code == 0, errors
+    return mrpbench
+
+
+def test_a_run_becomes_a_page_beside_its_results(driven, tmp_path):
+    code, output, _ = driven("view", "results/driven")
+    assert code == 0
+    (page,) = (tmp_path / "results" / "driven").glob("replay-*.html")
+    assert output.strip() == f"wrote {page}"
+    text = page.read_text(encoding="utf-8")
+    run = json.loads(text.split('id="run">')[1].split("</script>")[0])
+    metrics = {metric["name"]: metric for metric in run["facts"]["metrics"]}
+    assert run["facts"]["status"] == "succeeded"
+    assert metrics["execution.duration_s"]["unit"] == "s", "units come from the invocation"
+    assert 'id="scans"' in text
+
+
+def test_pictures_are_written_where_asked(driven, tmp_path):
+    pytest.importorskip("matplotlib")
+    code, _, errors = driven("view", "results/driven", "--out", "a.html", "--png", "a.png", "--gif", "a.gif")
+    assert code == 0, errors
+    assert (tmp_path / "a.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+    assert (tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG"
+    assert (tmp_path / "a.gif").read_bytes()[:6] == b"GIF89a"
+
+
+def test_a_run_without_recording_says_so(mrpbench):
+    mrpbench("run", "tiny.yaml", "seed=0")
+    code, _, errors = mrpbench("view", "results/tiny")
+    assert code == 2
+    assert "no recording here" in errors
+    assert len(errors.splitlines()) == 1
+
+
+def test_which_run_is_asked_for_must_be_clear(mrpbench):
+    mrpbench("run", "tiny.yaml")
+    code, _, errors = mrpbench("view", "results/tiny")
+    assert code == 2
+    assert "2 runs" in errors

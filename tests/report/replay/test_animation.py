@@ -1,0 +1,37 @@
+import numpy as np
+import pytest
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.report.picture import COLOURS
+from mrpbench_core.report.replay.animation import FRAME_MS, HOLD_MS, PIXELS, write_gif
+
+pytest.importorskip("matplotlib")
+images = pytest.importorskip("PIL.Image")
+
+
+def count(image, colour):
+    wanted = [int(colour[index : index + 2], 16) for index in (1, 3, 5)]
+    return np.abs(np.asarray(image.convert("RGB")).astype(int) - wanted).max(axis=2) <= 8
+
+
+def test_robots_move_through_the_frames(store, chunk, tmp_path):
+    write_gif(store(chunk), tmp_path / "a.gif")
+    with images.open(tmp_path / "a.gif") as movie:
+        assert max(movie.size) == PIXELS
+        length = 0
+        for frame in range(movie.n_frames):
+            movie.seek(frame)
+            length += movie.info["duration"]
+        assert abs(length - (4000 + HOLD_MS)) <= 2 * FRAME_MS
+        middles = []
+        for frame in (0, movie.n_frames - 1):
+            movie.seek(frame)
+            middles.append([np.flatnonzero(count(movie, COLOURS[robot]).any(axis=0)).max() for robot in (0, 1)])
+    metre = (middles[0][1] - middles[0][0]) / 1.0
+    moved = (np.array(middles[1]) - middles[0]) / metre
+    assert np.allclose(moved, 1.0, atol=0.05), "each robot drives one metre to the right"
+
+
+def test_a_folder_that_does_not_exist_is_named(store, chunk, tmp_path):
+    with pytest.raises(InputError, match="cannot be written"):
+        write_gif(store(chunk), tmp_path / "no" / "a.gif")

@@ -1,0 +1,321 @@
+"""The page in headless Chromium. Skipped where there is none."""
+
+import shutil
+import time
+
+import numpy as np
+import pytest
+
+from mrpbench_core.report.replay.page import write_page
+
+webdriver = pytest.importorskip("selenium.webdriver", reason="the tests of the page in a browser need selenium")
+from selenium.webdriver.common.by import By  # noqa: E402
+from selenium.webdriver.common.keys import Keys  # noqa: E402
+
+FLAGS = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
+    if chromium is None or driver is None:
+        pytest.skip("the tests of the page in a browser need chromium and chromedriver")
+    options = webdriver.ChromeOptions()
+    for flag in (*FLAGS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
+        options.add_argument(flag)
+    options.binary_location = chromium
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    found = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    screen = {"width": 1280, "height": 800, "deviceScaleFactor": 1, "mobile": False}
+    found.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
+    yield found
+    found.quit()
+
+
+@pytest.fixture
+def show(browser, store, record, tmp_path):
+    """Return a function that opens the page of a recording; afterwards the console must be empty."""
+
+    def load(rows, **context):
+        file = tmp_path / "a.html"
+        write_page(store(rows, **context), record, file)
+        browser.get_log("browser")
+        browser.get_log("performance")
+        browser.get(file.as_uri())
+        wait(lambda: browser.execute_script("return document.body.classList.contains('ready')"))
+        return browser
+
+    yield load
+    assert browser.get_log("browser") == []
+
+
+def wait(ready, seconds=20.0):
+    end = time.monotonic() + seconds
+    while not ready():
+        assert time.monotonic() < end, "the page did not get there in time"
+        time.sleep(0.02)
+
+
+def ask(browser, expression):
+    return browser.execute_script(f"return {expression}")
+
+
+def settle(browser):
+    """Let two frames be drawn."""
+    browser.execute_async_script("const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))")
+
+
+def press(browser, keys):
+    browser.switch_to.active_element.send_keys(keys)
+    settle(browser)
+
+
+def pixels(browser, canvas="actors"):
+    """How many pixels of a canvas are painted."""
+    script = f"""
+        const canvas = document.getElementById("{canvas}");
+        const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+        copy.drawImage(canvas, 0, 0);
+        const data = copy.getImageData(0, 0, canvas.width, canvas.height).data;
+        let count = 0;
+        for (let i = 3; i < data.length; i += 4) count += data[i] > 0;
+        return count;"""
+    return browser.execute_script(script)
+
+
+def test_it_loads_without_a_word_and_asks_the_network_for_nothing(show, chunk):
+    browser = show(chunk)
+    settle(browser)
+    assert browser.find_element(By.ID, "status").text == "goals missed"
+    assert browser.find_element(By.ID, "subtitle").text == "2 robots · eecbs w=1.2"
+    assert pixels(browser) > 100
+    assert pixels(browser, "ground") == ask(
+        browser, "document.getElementById('ground').width * document.getElementById('ground').height"
+    )
+    requests = [
+        entry["message"] for entry in browser.get_log("performance") if "Network.requestWillBeSent" in entry["message"]
+    ]
+    assert requests
+    assert not [message for message in requests if "http:" in message or "https:" in message]
+
+
+def test_it_plays_pauses_and_stops_at_the_end(show, chunk):
+    browser = show(chunk)
+    before = ask(browser, "replay.clock.now")
+    press(browser, Keys.SPACE)
+    assert ask(browser, "document.getElementById('play').ariaLabel") == "Pause"
+    wait(lambda: ask(browser, "replay.clock.now") > before)
+    press(browser, Keys.SPACE)
+    held = ask(browser, "replay.clock.now")
+    settle(browser)
+    assert ask(browser, "replay.clock.now") == held
+    ask(browser, "replay.clock.setSpeed(50)")
+    browser.find_element(By.ID, "play").click()
+    wait(lambda: not ask(browser, "replay.clock.playing"))
+    assert ask(browser, "replay.clock.now") == pytest.approx(4.0)
+    settle(browser)
+    assert browser.find_element(By.ID, "now").text == "0:04.0"
+
+
+def test_it_seeks_and_interpolates(show, chunk):
+    browser = show(chunk)
+    browser.execute_script("replay.clock.seek(2.57)")
+    settle(browser)
+    expected = [np.interp(2.57, chunk["time"], chunk["truth"][:, robot, 0]) for robot in (0, 1)]
+    assert np.allclose(ask(browser, "[...replay.run.pose.x]"), expected, atol=0.001)
+    assert browser.find_element(By.ID, "now").text == "0:02.6"
+    scrub = browser.find_element(By.ID, "scrub")
+    assert float(scrub.get_attribute("value")) == pytest.approx(2.57)
+    browser.execute_script("arguments[0].value = 1; arguments[0].dispatchEvent(new Event('input'))", scrub)
+    assert ask(browser, "replay.clock.now") == pytest.approx(1.0)
+
+
+def test_a_turn_through_pi_is_the_short_one(show, chunk):
+    browser = show(chunk)
+    wrap = int(np.argmax(np.abs(np.diff(chunk["truth"][:, 1, 2]))))
+    time_between = (chunk["time"][wrap] + chunk["time"][wrap + 1]) / 2
+    browser.execute_script(f"replay.clock.seek({time_between})")
+    settle(browser)
+    yaw = ask(browser, "replay.run.pose.yaw[1]")
+    assert np.cos(yaw) < -0.99
+
+
+def test_steps_go_from_sample_to_sample(show, chunk):
+    browser = show(chunk)
+    press(browser, Keys.ARROW_RIGHT)
+    press(browser, Keys.ARROW_RIGHT)
+    assert ask(browser, "replay.clock.now") == pytest.approx(0.2)
+    browser.execute_script("replay.clock.seek(0.25)")
+    settle(browser)
+    press(browser, Keys.ARROW_LEFT)
+    assert ask(browser, "replay.clock.now") == pytest.approx(0.2)
+    press(browser, Keys.END)
+    press(browser, Keys.ARROW_LEFT)
+    assert ask(browser, "replay.clock.now") == pytest.approx(3.9)
+    press(browser, Keys.HOME)
+    press(browser, Keys.ARROW_LEFT)
+    assert ask(browser, "replay.clock.now") == 0
+
+
+def test_a_click_on_a_robot_follows_it(show, chunk):
+    browser = show(chunk)
+    browser.execute_script("replay.clock.seek(2.5)")
+    settle(browser)
+    x, y = ask(browser, "[replay.robots.px[0], replay.robots.py[0]]")
+    canvas = browser.find_element(By.ID, "actors")
+    size = canvas.size
+    mouse = webdriver.ActionChains(browser)
+    offset = round(x - size["width"] / 2), round(y - size["height"] / 2)
+    mouse.move_to_element_with_offset(canvas, *offset).click().perform()
+    settle(browser)
+    assert ask(browser, "replay.shown.selected") == 0
+    assert "robot_0" in browser.find_element(By.ID, "card").text
+    for moment in (2.5, 3.3):
+        browser.execute_script(f"replay.clock.seek({moment})")
+        settle(browser)
+        assert ask(browser, "replay.view.x") == pytest.approx(ask(browser, "replay.run.pose.x[0]"))
+    press(browser, Keys.ESCAPE)
+    assert ask(browser, "replay.shown.selected") == -1
+    assert not browser.find_element(By.ID, "card").is_displayed()
+
+
+def test_a_robot_is_found_by_its_number(show, chunk):
+    browser = show(chunk)
+    press(browser, "/")
+    search = browser.switch_to.active_element
+    search.send_keys("1")
+    rows = [row.text for row in browser.find_elements(By.CSS_SELECTOR, ".robot") if row.is_displayed()]
+    assert len(rows) == 1
+    assert rows[0].startswith("robot_1")
+    search.send_keys(Keys.ENTER)
+    assert ask(browser, "replay.shown.selected") == 1
+    search.send_keys("x")
+    assert browser.find_element(By.CSS_SELECTOR, "#robot-list .note").text == "No robot has this name."
+
+
+def test_the_list_says_what_robots_do(show, chunk):
+    browser = show(chunk)
+
+    def states():
+        settle(browser)
+        return [cell.text for cell in browser.find_elements(By.CSS_SELECTOR, ".robot .state")]
+
+    assert states() == ["waiting", "following"]
+    browser.execute_script("replay.clock.seek(3)")
+    assert states() == ["following", "arrived"]
+
+
+def test_the_wheel_zooms_about_the_pointer_and_a_drag_moves_the_map(show, chunk):
+    browser = show(chunk)
+    settle(browser)
+    canvas = browser.find_element(By.ID, "actors")
+    x, y = canvas.size["width"] / 2 + 100, canvas.size["height"] / 2 - 50
+    place, scale = ask(browser, f"[replay.view.toWorld({x}, {y}), replay.view.scale]")
+    origin = webdriver.common.actions.wheel_input.ScrollOrigin.from_element(canvas, 100, -50)
+    webdriver.ActionChains(browser).scroll_from_origin(origin, 0, -300).perform()
+    settle(browser)
+    assert ask(browser, "replay.view.scale") > scale
+    assert ask(browser, f"replay.view.toWorld({x}, {y})") == pytest.approx(place, abs=0.02)
+    centre = ask(browser, "[replay.view.x, replay.view.y, replay.view.scale]")
+    mouse = webdriver.ActionChains(browser)
+    mouse.move_to_element_with_offset(canvas, 0, 100).click_and_hold().move_by_offset(80, 40).release().perform()
+    settle(browser)
+    moved = ask(browser, "[replay.view.x, replay.view.y, replay.view.scale]")
+    assert moved[0] == pytest.approx(centre[0] - 80 / centre[2], rel=0.02)
+    assert moved[1] == pytest.approx(centre[1] + 40 / centre[2], rel=0.02)
+    browser.find_element(By.ID, "fit").click()
+    settle(browser)
+    assert ask(browser, "replay.view.scale") == pytest.approx(scale)
+
+
+def test_layers_and_colours_change_what_is_drawn(show, chunk):
+    browser = show(chunk)
+    browser.execute_script("replay.clock.seek(1)")
+    settle(browser)
+    for key in ("plan", "reserved", "driven", "estimate"):
+        box = browser.find_element(By.ID, f"layer-{key}")
+        before, was = pixels(browser), box.is_selected()
+        box.click()
+        settle(browser)
+        assert (pixels(browser) < before) == was, key
+    before = pixels(browser)
+    browser.find_element(By.ID, "layer-lidar").click()
+    wait(lambda: ask(browser, "replay.lidar.arrays !== null"))
+    settle(browser)
+    assert pixels(browser) > before
+    press(browser, "c")
+    assert ask(browser, "replay.shown.colour") == "state"
+
+
+def test_contacts_are_shown_while_they_last(show, chunk):
+    browser = show(chunk)
+    counts = []
+    for moment in (0.9, 1.05, 2.6):
+        browser.execute_script(f"replay.clock.seek({moment})")
+        settle(browser)
+        counts.append(ask(browser, "replay.run.touching(0).length"))
+    assert counts == [0, 1, 0]
+
+
+def test_events_lead_to_their_moment(show, chunk):
+    browser = show(chunk)
+    browser.find_element(By.ID, "tab-events").click()
+    settle(browser)
+    rows = [row.text.split("\n") for row in browser.find_elements(By.CSS_SELECTOR, ".event") if row.is_displayed()]
+    assert rows[0] == ["0:01.0", "contact: robot_1", "robot_0"]
+    assert rows[1] == ["0:01.5", "spin: </script><b>", "robot_0"]
+    press(browser, ".")
+    press(browser, ".")
+    assert ask(browser, "replay.clock.now") == pytest.approx(1.5)
+
+
+def test_dark_and_light_both_work(show, chunk, browser):
+    features = [{"name": "prefers-color-scheme", "value": "dark"}]
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+    show(chunk)
+    background = "getComputedStyle(document.body).backgroundColor"
+    dark = ask(browser, background)
+    browser.find_element(By.ID, "theme").click()
+    settle(browser)
+    assert ask(browser, background) == "rgb(255, 255, 255)" != dark
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
+
+
+def test_every_control_has_a_name(show, chunk):
+    browser = show(chunk)
+    controls = browser.find_elements(By.CSS_SELECTOR, "button, input, select, [role=tab], [tabindex='0']")
+    assert len(controls) > 15
+    named = """
+        const it = arguments[0];
+        const label = document.getElementById(it.getAttribute("aria-labelledby"));
+        const unseen = it.closest("[hidden], dialog") !== null;
+        return unseen || Boolean(it.ariaLabel || it.textContent.trim() || it.labels?.length || label)"""
+    assert [
+        control.get_attribute("outerHTML") for control in controls if not browser.execute_script(named, control)
+    ] == []
+
+
+def test_one_sample_is_a_run_too(show, chunk):
+    browser = show({name: rows[:1] for name, rows in chunk.items()})
+    settle(browser)
+    press(browser, Keys.SPACE)
+    settle(browser)
+    assert browser.find_element(By.ID, "now").text == "0:00.0"
+
+
+def test_poses_alone_are_enough(show, chunk):
+    browser = show({"time": chunk["time"], "truth": chunk["truth"]})
+    browser.execute_script("replay.clock.seek(1); replay.shown.select(0)")
+    settle(browser)
+    assert not browser.find_elements(By.ID, "layer-lidar")
+    assert not browser.find_elements(By.ID, "layer-reserved")
+    assert pixels(browser) > 100
