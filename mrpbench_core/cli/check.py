@@ -13,8 +13,8 @@ from mrpbench_core.config.items import Where, from_data
 from mrpbench_core.config.mistakes import did_you_mean
 from mrpbench_core.config.structure import structure_component
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.installed import installed
-from mrpbench_core.plugins.kinds import kind_of
+from mrpbench_core.plugins.installed import installed, load
+from mrpbench_core.plugins.kinds import HOOKS, kind_of
 from mrpbench_core.plugins.local import is_local, load_local
 from mrpbench_core.plugins.provenance import kind_class
 
@@ -73,7 +73,7 @@ def resolve(name: str) -> tuple[type[Component], str]:
     kind, _, rest = name.partition(":")
     if kind in KINDS and rest:
         return KINDS[kind], rest
-    offers = [provider for provider in installed() if provider.group != "mrpbench.hooks"]
+    offers = [provider for provider in installed() if provider.group != HOOKS]
     if kind in {provider.kind for provider in offers} and rest:  # a kind that some plugin defines
         return _own_kind(kind, rest), rest
     if is_local(name):
@@ -95,8 +95,6 @@ def resolve(name: str) -> tuple[type[Component], str]:
 
 def _own_kind(kind: str, name: str) -> type[Component]:
     """The class of a kind that a plugin defines."""
-    from mrpbench_core.plugins.installed import load
-
     for provider in installed():
         if provider.kind == kind and provider.name == name.partition("@")[0]:
             cls = load(provider)

@@ -15,7 +15,7 @@ class Floor:
         starts = zip(plan.paths, problem.start.tolist(), strict=True)
         self.routes = [path.vertices(problem.roadmap, start).tolist() for path, start in starts]
         self.edges = [path.edge.tolist() for path in plan.paths]
-        self.radius, self.position = problem.radius, problem.roadmap.position
+        self.position = problem.roadmap.position
         robots = len(problem)
         self.reached = np.zeros(robots, np.int32)
         self.left = np.zeros(robots, int)

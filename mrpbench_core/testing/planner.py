@@ -68,16 +68,16 @@ class PlannerConformance(ComponentConformance):
     def test_plans_are_valid(self) -> None:
         planner = self.make()
         promised = Promise.CONFLICT_FREE in planner.promises
-        unchecked = 0
         for name, problem in asked(planner):
             result = ask(planner, problem)
-            unchecked += bool(problem.features & UNCHECKED)
             if result.plan is not None:
                 report = check_plan(problem, result.plan)
                 require(not report.faults, f"{name}: {'; '.join(report.faults)}")
                 require(
                     not (promised and report.conflicts), f"{name}: {'; '.join(str(each) for each in report.conflicts)}"
                 )
+        if unchecked := sorted(planner.supports & UNCHECKED):
+            raise Skip(f"valid as far as can be told: {' and '.join(unchecked)} cannot be validated yet")
 
     def test_does_not_claim_that_a_solvable_problem_is_unsolvable(self) -> None:
         planner = self.make()

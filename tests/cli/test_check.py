@@ -110,3 +110,25 @@ def test_an_installed_plugin_that_breaks_its_contract(mrpbench, install):
     code, _, err = mrpbench("check", "thawed")
     assert code == 2
     assert "is not decorated @attrs.frozen(kw_only=True)" in err
+
+
+def test_a_kind_that_a_plugin_defines(mrpbench, install):
+    code = """
+        from typing import ClassVar
+        import attrs
+        from mrpbench_core.api.component import Component, option
+
+        class Critic(Component):
+            group: ClassVar[str] = "mrpbench.critics"
+
+        @attrs.frozen(kw_only=True)
+        class Mild(Critic):
+            '''Likes most things.'''
+
+            scale: float = option(1.0, help="weight")
+    """
+    install("acme-critics", {"mrpbench.critics": {"mild": "{module}:Mild"}}, code)
+    for name in ("mild", "critic:mild"):
+        code, out, _ = mrpbench("check", name, "scale=2.0")
+        assert code == 0
+        assert out.splitlines()[-1] == f"critic {name}: 8 ok, 0 failed, 0 skipped"
