@@ -1,14 +1,17 @@
 """The worlds that come with the core: editable `building.yaml` files in the folder `data`."""
 
 from pathlib import Path
+from typing import Literal
 
 import attrs
 
+from mrpbench_core.api.component import option
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.model.world import World
 
 FOLDER = Path(__file__).parent / "data"
+CASES = ("corridor", "swap", "roundabout", "alcove", "door")
 
 
 @attrs.frozen(kw_only=True)
@@ -27,3 +30,41 @@ class Warehouse(WorldSource):
     def load(self) -> World:
         """Read the packaged file."""
         return Rmf(file=FOLDER / "warehouse.building.yaml").load()
+
+
+@attrs.frozen(kw_only=True)
+class Airport(WorldSource):
+    """A terminal with two concourses, 56 gates, shops and lounges, 282 × 64 m, 210 places."""
+
+    def load(self) -> World:
+        """Read the packaged file."""
+        return Rmf(file=FOLDER / "airport.building.yaml").load()
+
+
+@attrs.frozen(kw_only=True)
+class Household(WorldSource):
+    """A furnished flat of five rooms on a hall, 12.4 × 9.2 m, 28 places; doors and passages are 0.7 m wide."""
+
+    def load(self) -> World:
+        """Read the packaged file."""
+        return Rmf(file=FOLDER / "household.building.yaml", clearance=0.3).load()
+
+
+@attrs.frozen(kw_only=True)
+class Bottlenecks(WorldSource):
+    """Minimal hard cases in which robots must give way to one another; passages are 0.7 m wide.
+
+    `corridor`: two rooms, 4.8 m apart, joined by a corridor for one robot. `swap`: a room two robots wide.
+    `roundabout`: a one-way ring with four arms. `alcove`: a corridor with one place to let another robot pass.
+    `door`: two rooms and one narrow door.
+    """
+
+    case: Literal["corridor", "swap", "roundabout", "alcove", "door"] = option(
+        "corridor", help="Which case: one level of the file.", validator=attrs.validators.in_(CASES)
+    )
+
+    def load(self) -> World:
+        """Read the packaged file."""
+        world = Rmf(file=FOLDER / "bottlenecks.building.yaml", level=self.case).load()
+        notes = tuple(note for note in world.notes if not note.startswith("only level"))
+        return attrs.evolve(world, name=f"bottlenecks_{self.case}", notes=notes)

@@ -4,7 +4,7 @@ import pytest
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
-from mrpbench_core.builtin.worlds.shipped import Office, Warehouse
+from mrpbench_core.builtin.worlds.shipped import CASES, Airport, Bottlenecks, Household, Office, Warehouse
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.world import check_world, size
@@ -14,20 +14,26 @@ from mrpbench_core.model.fleet import Fleet
 BURGERS = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
 
 
-@pytest.fixture(params=[Office, Warehouse])
+NARROW = [Household(), *(Bottlenecks(case=case) for case in CASES)]
+ROOMY = [Office(), Warehouse(), Airport()]
+
+
+@pytest.fixture(params=[*ROOMY, *NARROW], ids=repr)
 def world(request):
-    return request.param().load()
+    return request.param.load()
 
 
 def test_the_worlds_are_as_large_as_the_papers():
     assert size(Office().load()) == pytest.approx((21.5, 12.0))
     assert size(Warehouse().load()) == pytest.approx((22.0, 27.0))
+    assert size(Airport().load()) == pytest.approx((282.22, 64.35), rel=0.01)
 
 
 def test_the_worlds_have_as_many_places_and_lanes_as_the_papers():
-    assert [(len(world.vertices), len(world.lanes)) for world in (Office().load(), Warehouse().load())] == [
+    assert [(len(world.vertices), len(world.lanes)) for world in (source.load() for source in ROOMY)] == [
         (29, 32),
         (54, 59),
+        (210, 211),
     ]
 
 
@@ -48,6 +54,28 @@ def test_places_and_lanes_keep_clear_of_walls(world):
     assert keeps_clear(world.levels[0], point[lane[:, 0]], point[lane[:, 1]], 0.3).all()
 
 
+def test_their_doors_and_furniture_are_there():
+    flat = Household().load().levels[0]
+    assert [door.width - flat.wall_thickness for door in flat.doors] == pytest.approx([0.7] * 6)
+    assert len(flat.obstacles) == 28
+    assert [door.name for door in Bottlenecks(case="door").load().levels[0].doors] == ["narrow_door"]
+    assert len(Airport().load().levels[0].obstacles) > 300
+
+
+def test_the_cases_are_as_narrow_as_they_say():
+    """Two robots side by side fit nowhere on the lane that is the bottleneck; one does."""
+    for case, (a, b) in {
+        "corridor": ((2.8, 1.2), (7.2, 1.2)),
+        "alcove": ((0.4, 0.8), (2.8, 0.8)),
+        "door": ((2.8, 1.2), (2.8, 1.2)),
+        "roundabout": ((3.6, 1.3), (3.6, 1.9)),
+    }.items():
+        level = Bottlenecks(case=case).load().levels[0]
+        ends = np.array([a]), np.array([b])
+        assert keeps_clear(level, *ends, 0.349).all(), case
+        assert not keeps_clear(level, *ends, 0.36).any(), case
+
+
 @pytest.mark.parametrize(
     "roadmap",
     [
@@ -65,14 +93,18 @@ def test_every_place_can_be_reached_from_every_other(world, roadmap):
     assert len(set(components(len(built.position), built.edges))) == 1
 
 
-def test_nothing_is_left_out_of_their_roadmaps(world):
+def test_nothing_is_wrong_with_them(world):
     for roadmap in (Lanes(), GridRoadmap(), Graph()):
-        built = roadmap.build(world, BURGERS)
-        assert built.notes == ()
-        assert check_world(world, built, 0.125).faults == ()
+        assert check_world(world, roadmap.build(world, BURGERS), 0.125).faults == ()
 
 
-@pytest.mark.parametrize(("source", "paper"), [(Office, 333), (Warehouse, 788)])
+@pytest.mark.parametrize("source", ROOMY, ids=repr)
+def test_nothing_is_left_out_of_the_roadmaps_of_roomy_worlds(source):
+    for roadmap in (Lanes(), GridRoadmap(), Graph()):
+        assert roadmap.build(source.load(), BURGERS).notes == ()
+
+
+@pytest.mark.parametrize(("source", "paper"), [(Office, 333), (Warehouse, 788), (Airport, 7645)])
 def test_roads_have_about_as_many_cells_as_the_papers(source, paper):
     built = Lanes(cell_size=0.4, compatible="mrp_bench").build(source().load(), BURGERS)
     assert len(built.position) == pytest.approx(paper, rel=0.2)
