@@ -51,11 +51,11 @@ def _columns(results: Results, run_id: str) -> dict[str, Any]:
 
 def _draw(recording: Recording, file: Path) -> None:
     from mrpbench_core.report.picture import draw_world
-    from mrpbench_core.report.replay.motion import read_poses
+    from mrpbench_core.report.replay.motion import read_level
 
     context = recording.context()
-    truth = read_poses(recording)[1]
-    draw_world(context.world, file=file, fleet=context.fleet, routes=context.routes, truth=truth)
+    _, truth, level = read_level(recording)
+    draw_world(context.world, file=file, fleet=context.fleet, routes=context.routes, truth=truth, level=level)
     print(f"wrote {file}")
 
 

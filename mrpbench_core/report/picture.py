@@ -46,7 +46,7 @@ def draw_world(
         roadmap: shade the cells of its raster.
         fleet: draw robots in their true size at their starts.
         routes: planned paths, dashed; start as a circle, goal as a star, both with the robot's number.
-        truth: driven paths f8[T,n,3], solid.
+        truth: driven paths f8[T,n,3], solid; NaN where unknown.
         level: which level; routes and paths are drawn wherever they lead.
 
     Raises:
@@ -121,6 +121,7 @@ def _bounds(world: World, truth: Float | None, level: int) -> tuple[Float, Float
     if truth is not None:
         points.append(truth[..., :2].reshape(-1, 2))
     everything = np.concatenate(points)
+    everything = everything[np.isfinite(everything).all(axis=1)]
     if not len(everything):
         return np.zeros(2), np.ones(2)
     low, high = everything.min(axis=0), everything.max(axis=0)

@@ -9,7 +9,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.report.picture import COLOURS, world_figure
-from mrpbench_core.report.replay.motion import read_poses
+from mrpbench_core.report.replay.motion import read_level
 from mrpbench_core.store.recording import Recording
 
 PIXELS = 800
@@ -27,18 +27,18 @@ CROWD = 60
 
 
 def write_gif(recording: Recording, file: Path) -> None:
-    """Animate the robots of level 0 with their trails.
+    """Animate the robots, with their trails, on the level where they are most.
 
     Raises:
         InputError: matplotlib is missing, nothing was recorded, or the file cannot be written.
     """
     context = recording.context()
-    times, poses = read_poses(recording)
+    times, poses, level = read_level(recording)
     speed = max(1.0, (times[-1] - times[0]) / LENGTH_S)
     moments = np.arange(times[0], times[-1] + 1e-9, speed * FRAME_MS / 1000)
     if moments[-1] < times[-1]:
         moments = np.append(moments, times[-1])
-    figure, axes = world_figure(context.world, truth=poses, faint=True, pixels=PIXELS)
+    figure, axes = world_figure(context.world, truth=poses, level=level, faint=True, pixels=PIXELS)
     frames = _Frames(figure, axes, context.fleet, len(poses[0]))
     images = [frames.draw(poses, times, moment, f"{moment:.1f} s  ×{speed:.3g}") for moment in moments]
     shared = _share_palette(images)

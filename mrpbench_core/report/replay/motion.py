@@ -26,6 +26,16 @@ def read_poses(recording: Recording) -> tuple[Float, Float]:
     return times, recording.channel(name)
 
 
+def read_level(recording: Recording) -> tuple[Float, Float, int]:
+    """As `read_poses`, on the level where the robots are most; poses elsewhere are NaN; and that level."""
+    times, poses = read_poses(recording)
+    if "level" not in recording.channels:
+        return times, poses, 0
+    levels = recording.channel("level")
+    level = int(np.bincount(levels.ravel()).argmax())
+    return times, np.where((levels == level)[..., None], poses, np.nan), level
+
+
 def pack_motion(recording: Recording, packing: Packing) -> None:
     """Pack times, poses, estimates that differ from them, progress and mode."""
     times, poses = read_poses(recording)

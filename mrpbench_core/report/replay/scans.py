@@ -1,10 +1,10 @@
 """Scans of a recording, thinned to what a page can carry."""
 
-from typing import Any
+from collections.abc import Iterator
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.arrays import Float, Int, Int32
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording
 
@@ -30,34 +30,35 @@ def pack_scans(recording: Recording, packing: Packing, ranges: int = RANGES) -> 
     order = np.lexsort((times, robots))
     first = np.searchsorted(robots[order], np.arange(robots.max() + 2))
     turn = np.arange(len(order)) - first[robots[order]]
-    beams = next(chunk["scan_ranges"].shape[1] for chunk in recording.chunks() if "scan_ranges" in chunk)
+    beams = max(ranges.shape[1] for ranges in _parts(recording))  # chunks without long scans are narrower
     beam_step = max(1, min(beams // BEAMS, -(-len(order) * beams // ranges)))
     scan_step = max(1, -(-len(order) * -(-beams // beam_step) // ranges))
     chosen = order[turn % scan_step == 0]
     packing.add_metres("scan_time", times[chosen])
     packing.add("scan_robot", robots[chosen])
-    packing.add("scan_ranges", _chosen(recording, chosen, beam_step), QUANTUM)
+    packing.add("scan_ranges", _chosen(recording, chosen, beam_step, beams), QUANTUM)
     return {"beam_step": beam_step, "scan_step": scan_step}
 
 
-def _chosen(recording: Recording, chosen: Int, beam_step: int) -> Any:
+def _chosen(recording: Recording, chosen: Int, beam_step: int, beams: int) -> Int32:
     """The chosen rows, chunk by chunk: all scans of a long run may not fit into memory."""
-    rows = np.empty(0)
+    rows = np.zeros((len(chosen), -(-beams // beam_step)), np.int32)
     place = np.argsort(chosen)
     wanted = chosen[place]
     done = 0
-    for chunk in recording.chunks():
-        if "scan_ranges" not in chunk:
-            continue
-        part = chunk["scan_ranges"][:, ::beam_step]
-        if not rows.size:
-            rows = np.zeros((len(chosen), part.shape[1]), np.int32)
-        low, high = np.searchsorted(wanted, [done, done + len(part)])
-        rows[place[low:high], : part.shape[1]] = _steps(part[wanted[low:high] - done])
-        done += len(part)
+    for ranges in _parts(recording):
+        low, high = np.searchsorted(wanted, [done, done + len(ranges)])
+        steps = _steps(ranges[wanted[low:high] - done, ::beam_step])
+        rows[place[low:high], : steps.shape[1]] = steps
+        done += len(ranges)
     return rows
 
 
-def _steps(ranges: Float) -> Any:
+def _parts(recording: Recording) -> Iterator[Float]:
+    return (chunk["scan_ranges"] for chunk in recording.chunks() if "scan_ranges" in chunk)
+
+
+def _steps(ranges: Float) -> Int32:
     known = np.isfinite(ranges)
-    return np.where(known, np.clip(np.rint(np.where(known, ranges, 0) / QUANTUM), 1, 65535), 0).astype(np.int32)
+    steps = np.clip(np.rint(np.where(known, ranges, 0) / QUANTUM), 1, 65535)
+    return np.where(known, steps, 0).astype(np.int32)
