@@ -72,7 +72,7 @@ class _Session(ControllerSession):
             end_x, end_y = path[-1]
             away = math.hypot(end_x - x, end_y - y)
             if away <= _BACK_TO_END:
-                return self._near_end(observation.yaw, yaw, left, speed)
+                return self._near_end(observation, yaw, left, speed)
             if left == 0:
                 path, left = [(x, y), path[-1]], away
         aim_x, aim_y = carrot(path, x, y, self._options.lookahead_dist)
@@ -86,12 +86,12 @@ class _Session(ControllerSession):
         wanted = self._limited(wanted, speed)
         return wanted, self._limited_turn(wanted * curvature, turn_rate)
 
-    def _near_end(self, wanted: float, yaw: float, left: float, speed: float) -> tuple[float, float]:
+    def _near_end(self, observation: Observation, yaw: float, left: float, speed: float) -> tuple[float, float]:
         """Creep to the very end, then take the yaw that is wanted there."""
-        creep = stopping_speed(left, self._robot.acceleration, self._period)
-        if math.isnan(wanted):
+        creep = min(stopping_speed(left, self._robot.acceleration, self._period), observation.speed)
+        if math.isnan(observation.yaw):
             return self._limited(creep, speed), 0.0
-        return 0.0, self._turn(math.remainder(wanted - yaw, math.tau))
+        return 0.0, self._turn(math.remainder(observation.yaw - yaw, math.tau))
 
     def _must_turn(self, error: float) -> bool:
         """Turn on the spot once the heading is far off, and then until it is nearly right."""
