@@ -52,8 +52,8 @@ format: install ## rewrite the sources in the house style
 	$(BIN)/ruff format .
 	$(BIN)/clang-format -i $(filter %.cpp %.hpp,$(NATIVE))
 
-lock: ## renew the pinned versions, for uv and for pip
-	uv lock --upgrade
+lock: ## write the pinned versions, for uv and for pip; UPGRADE=1 takes the newest
+	uv lock $(if $(UPGRADE),--upgrade)
 	uv export --quiet --locked --all-groups --no-emit-workspace --no-hashes --no-header --no-annotate --output-file pinned.txt
 
 clean: ## remove what builds made
