@@ -24,6 +24,9 @@ class Column:
     description: str
     source: str = ""
     """Paper or standard that defines it."""
+    requires: frozenset[str] = frozenset()
+    """What this number needs beside `Metric.requires`; where it is missing, only this column is null. Recordings of
+    real fleets lack what only a simulator knows."""
 
 
 class Metric(Component):
@@ -32,7 +35,8 @@ class Metric(Component):
     group: ClassVar[str] = "mrpbench.metrics"
     columns: ClassVar[tuple[Column, ...]]
     requires: ClassVar[frozenset[str]] = frozenset()
-    """Channels of the recording, and `plan`. Where one is missing, every column is null with that reason, never 0."""
+    """Channels of the recording, `plan`, and `path` (the paths that robots were to follow are known). Where one is
+    missing, every column is null with that reason, never 0."""
 
     @abstractmethod
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:

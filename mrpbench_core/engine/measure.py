@@ -8,17 +8,27 @@ from mrpbench_core.model.run import FinishedRun
 
 
 def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, Any], dict[str, str]]:
-    """Values by `<metric>.<column>`, and for each metric that could not be measured the reason."""
+    """Values by `<metric>.<column>`, and the reason for each metric or `<metric>.<column>` that cannot be measured."""
     values: dict[str, Any] = {}
     reasons: dict[str, str] = {}
     for name, metric in metrics.items():
-        lacking = sorted(channel for channel in metric.requires if not run.has(channel))
-        if lacking:
-            reasons[name] = "not executed" if not run.executed and lacking != ["plan"] else f"no {', '.join(lacking)}"
+        reason = _obstacle(metric.requires, run) or (None if metric.requires or run.planned else "planned by others")
+        if reason is not None:
+            reasons[name] = reason
             values |= {f"{name}.{column.name}": None for column in metric.columns}
             continue
         measured = metric.measure(run)
         for column in metric.columns:
-            value = measured.get(column.name)
-            values[f"{name}.{column.name}"] = None if isinstance(value, float) and value != value else value
+            key, value = f"{name}.{column.name}", measured.get(column.name)
+            if (reason := _obstacle(column.requires, run)) is not None:
+                reasons[key], value = reason, None
+            values[key] = None if isinstance(value, float) and value != value else value
     return values, reasons
+
+
+def _obstacle(requires: frozenset[str], run: FinishedRun) -> str | None:
+    """Why what is required is not there, or None if it is."""
+    lacking = sorted(channel for channel in requires if not run.has(channel))
+    if not lacking:
+        return None
+    return "not executed" if not run.executed and lacking != ["plan"] else f"no {', '.join(lacking)}"

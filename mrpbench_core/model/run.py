@@ -44,11 +44,15 @@ class FinishedRun:
     channels: Mapping[str, Callable[[], NDArray[Any]]] = attrs.field(factory=dict)
     """Loads a whole channel by name; see `mrpbench_core.model.recording`."""
     timing: Mapping[str, float | bool | None] = attrs.field(factory=dict)
+    planned: bool = True
+    """False for what others drove: nothing is known of planning, not even that it failed."""
 
     def channel(self, name: str) -> NDArray[Any]:
         """The whole of a channel."""
         return self.channels[name]()
 
     def has(self, name: str) -> bool:
-        """Tell whether the recording holds a channel (or, for `plan`, whether there is a plan)."""
-        return self.context.result.plan is not None if name == "plan" else name in self.channels
+        """Tell whether the recording holds a channel; for `plan` and `path`, whether these are known."""
+        if name == "plan":
+            return self.context.result.plan is not None
+        return self.planned if name == "path" else name in self.channels

@@ -46,3 +46,31 @@ def test_without_a_plan_the_reason_says_so(run_context):
     values, reasons = measure(METRICS, FinishedRun(context=failed, executed=False))
     assert set(values.values()) == {None}
     assert reasons == {"length": "not executed", "plan": "no plan"}
+
+
+def test_a_column_without_its_channel_is_null_alone(run_context):
+    @attrs.frozen(kw_only=True)
+    class Touches(Length):
+        columns = (*Length.columns, Column("touches", "", "lower", "How many.", requires=frozenset({"contact"})))
+
+        def measure(self, run):
+            return {"length_s": 2.0, "touches": 0}
+
+    run = FinishedRun(context=run_context, executed=True, channels={"time": lambda: np.arange(3.0)})
+    values, reasons = measure({"m": Touches()}, run)
+    assert values == {"m.length_s": 2.0, "m.odd": None, "m.touches": None}
+    assert reasons == {"m.touches": "no contact"}
+
+
+def test_what_others_planned_is_not_taken_for_a_failure(run_context):
+    @attrs.frozen(kw_only=True)
+    class Solved(Length):
+        columns = (Column("solved", "", "higher", "Whether."),)
+        requires = frozenset()
+
+        def measure(self, run):
+            return {"solved": run.context.result.plan is not None}
+
+    values, reasons = measure({"m": Solved()}, FinishedRun(context=run_context, executed=True, planned=False))
+    assert values == {"m.solved": None}
+    assert reasons == {"m": "planned by others"}

@@ -11,6 +11,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
+from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.run import FinishedRun
 from mrpbench_metrics_standard.contacts import episodes
 from mrpbench_metrics_standard.original import COLUMNS, measure_as_original
@@ -18,6 +19,7 @@ from mrpbench_metrics_standard.progress import arrival_times, blocked_times, pro
 from mrpbench_metrics_standard.proximity import closest
 
 _POSITIVE = attrs.validators.gt(0)
+PROGRESS, CONTACTS = frozenset({"reached"}), frozenset({"contact_time", "contact"})
 
 
 @attrs.frozen(kw_only=True)
@@ -25,14 +27,28 @@ class Execution(Metric):
     """Measures the recording of a run: ours, and as the original MRP-Bench defines it (`mrp_bench.*`)."""
 
     columns: ClassVar[tuple[Column, ...]] = (
-        Column("success", "", "higher", "every robot completed its path within the limits"),
+        Column("success", "", "higher", "every robot completed its path within the limits", requires=PROGRESS),
         Column(
-            "duration_s", "s", "lower", "from the start until the last robot completed its path; null unless all did"
+            "duration_s",
+            "s",
+            "lower",
+            "from the start until the last robot completed its path; null unless all did",
+            requires=PROGRESS,
         ),
-        Column("goals_reached", "", "higher", "robots that completed their path at some time"),
-        Column("min_distance_m", "m", "higher", "least distance between the centres of two robots on one level"),
+        Column("goals_reached", "", "higher", "robots that completed their path at some time", requires=PROGRESS),
         Column(
-            "min_clearance_m", "m", "higher", "least gap between the circumscribed discs of two robots on one level"
+            "min_distance_m",
+            "m",
+            "higher",
+            "least distance between the centres of two robots on one level",
+            requires=frozenset({"level"}),
+        ),
+        Column(
+            "min_clearance_m",
+            "m",
+            "higher",
+            "least gap between the circumscribed discs of two robots on one level",
+            requires=frozenset({"level"}),
         ),
         Column(
             "time_blocked_s",
@@ -40,19 +56,33 @@ class Execution(Metric):
             "lower",
             "sum over robots of the time, before they complete their path, at which they have advanced along it by "
             "less than `blocked_distance` during the last `blocked_window`; planned waits count",
+            requires=PROGRESS | {"path"},
         ),
-        Column("time_blocked_max_s", "s", "lower", "the largest of the robots' times blocked"),
+        Column(
+            "time_blocked_max_s",
+            "s",
+            "lower",
+            "the largest of the robots' times blocked",
+            requires=PROGRESS | {"path"},
+        ),
         Column(
             "robot_contacts",
             "",
             "lower",
             "episodes of two robots touching; touches of a pair less than `contact_pause` apart are one episode",
+            requires=CONTACTS,
         ),
-        Column("wall_contacts", "", "lower", "episodes of a robot touching a wall or obstacle, counted likewise"),
+        Column(
+            "wall_contacts",
+            "",
+            "lower",
+            "episodes of a robot touching a wall or obstacle, counted likewise",
+            requires=CONTACTS,
+        ),
         Column("distance_m", "m", "lower", "length of the ways all robots truly drove, straight between samples"),
         *COLUMNS,
     )
-    requires: ClassVar[frozenset[str]] = frozenset({"time", "truth", "level", "reached", "contact_time", "contact"})
+    requires: ClassVar[frozenset[str]] = frozenset({"time", "truth"})
 
     blocked_window: float = option(5.0, help="time over which progress is looked at", unit="s", validator=_POSITIVE)
     blocked_distance: float = option(
@@ -75,34 +105,24 @@ class Execution(Metric):
     )
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
-        """Return all columns; all are null where a channel is missing, or empty, or positions are not finite."""
-        nothing = {column.name: None for column in self.columns}
+        """Return all columns; all are null where there are no samples, or positions are not finite."""
+        values: dict[str, Value] = {column.name: None for column in self.columns}
         if not all(run.has(channel) for channel in self.requires):
-            return nothing
+            return values
         context = run.context
-        time, truth, reached = run.channel("time"), run.channel("truth"), run.channel("reached")
+        time, truth = run.channel("time"), run.channel("truth")
         if not len(time) or not np.isfinite(truth).all():
-            return nothing
-        arrival = arrival_times(time, reached, context.routes)
-        blocked = blocked_times(
-            time, progress(truth, reached, context.routes), arrival, self.blocked_window, self.blocked_distance
-        )
-        distance, clearance = closest(truth[..., :2], run.channel("level"), context.fleet.radii)
-        between, walls = episodes(run.channel("contact_time"), run.channel("contact"), self.contact_pause)
-        complete = bool(np.isfinite(arrival).all())
+            return values
         step = np.hypot(*np.moveaxis(np.diff(truth[..., :2], axis=0), -1, 0))
-        values: dict[str, Value] = {
-            "success": complete,
-            "duration_s": float(arrival.max(initial=time[0]) - time[0]) if complete else None,
-            "goals_reached": int(np.isfinite(arrival).sum()),
-            "min_distance_m": distance,
-            "min_clearance_m": clearance,
-            "time_blocked_s": math.fsum(blocked),
-            "time_blocked_max_s": float(blocked.max(initial=0.0)),
-            "robot_contacts": between,
-            "wall_contacts": walls,
-            "distance_m": math.fsum(step.ravel()),
-        }
+        values["distance_m"] = math.fsum(step.ravel())
+        if run.has("reached"):
+            values |= self._progress(run, time, truth)
+        if run.has("level"):
+            nearest = closest(truth[..., :2], run.channel("level"), context.fleet.radii)
+            values["min_distance_m"], values["min_clearance_m"] = nearest
+        if all(run.has(channel) for channel in CONTACTS):
+            touches = episodes(run.channel("contact_time"), run.channel("contact"), self.contact_pause)
+            values["robot_contacts"], values["wall_contacts"] = touches
         grid = context.problem.roadmap.grid
         cell_size = self.mrp_bench_cell_size or (grid.cell_size if grid else 0.35)
         goal = np.array([place[:2] for place in context.goal]).reshape(-1, 2)
@@ -110,3 +130,19 @@ class Execution(Metric):
         return values | measure_as_original(
             time, truth[..., :2], start, goal, self.mrp_bench_tolerance, cell_size, self.mrp_bench_timeout
         )
+
+    def _progress(self, run: FinishedRun, time: Float, truth: Float) -> dict[str, Value]:
+        reached, routes = run.channel("reached"), run.context.routes
+        arrival = arrival_times(time, reached, routes)
+        complete = bool(np.isfinite(arrival).all())
+        values: dict[str, Value] = {
+            "success": complete,
+            "duration_s": float(arrival.max(initial=time[0]) - time[0]) if complete else None,
+            "goals_reached": int(np.isfinite(arrival).sum()),
+        }
+        if run.has("path"):
+            along = progress(truth, reached, routes)
+            blocked = blocked_times(time, along, arrival, self.blocked_window, self.blocked_distance)
+            values["time_blocked_s"] = math.fsum(blocked)
+            values["time_blocked_max_s"] = float(blocked.max(initial=0.0))
+        return values

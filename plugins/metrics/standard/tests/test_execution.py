@@ -148,7 +148,7 @@ def test_the_order_of_many_robots_does_not_matter(executed, permuted, data, coun
     assert WINDOW.measure(permuted(run, order)) == WINDOW.measure(run)
 
 
-@pytest.mark.parametrize("damage", ["truth", "contact", "time", "nan", "empty"])
+@pytest.mark.parametrize("damage", ["truth", "time", "nan", "empty"])
 def test_what_cannot_be_measured_is_null_never_zero(crossing, damage):
     channels = dict(crossing.channels)
     if damage == "nan":
@@ -162,6 +162,23 @@ def test_what_cannot_be_measured_is_null_never_zero(crossing, damage):
     values = Execution().measure(attrs.evolve(crossing, channels=channels))
     assert set(values) == {column.name for column in Execution.columns}
     assert set(values.values()) == {None}
+
+
+@pytest.mark.parametrize("missing", ["reached", "level", "contact"])
+def test_without_a_channel_only_the_columns_that_need_it_are_null(crossing, missing):
+    channels = {name: load for name, load in crossing.channels.items() if name != missing}
+    values = Execution().measure(attrs.evolve(crossing, channels=channels))
+    whole = Execution().measure(crossing)
+    null = {column.name for column in Execution.columns if missing in column.requires}
+    assert null
+    assert {name for name in values if values[name] != whole[name]} == null
+    assert all(values[name] is None for name in null)
+
+
+def test_time_blocked_is_null_where_paths_are_unknown(crossing):
+    values = Execution().measure(attrs.evolve(crossing, planned=False))
+    assert (values["time_blocked_s"], values["time_blocked_max_s"]) == (None, None)
+    assert values["success"] is not None
 
 
 def test_every_column_is_measured_and_no_other(crossing):
