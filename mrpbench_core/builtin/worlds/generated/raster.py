@@ -1,0 +1,35 @@
+"""What generated worlds share: a raster is the whole world."""
+
+import numpy as np
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.world import Level, World
+
+CELL_SIZE = 0.4
+"""metres; wide enough for one small robot."""
+LIMIT = 10_000_000
+"""Cells beyond which a world is refused: surely a slip."""
+
+
+def free_raster(rows: int, columns: int) -> Bool:
+    """A raster bool[rows, columns] without a blocked cell.
+
+    Raises:
+        InputError: it would have too many cells.
+    """
+    if rows * columns > LIMIT:
+        raise InputError(f"the world would have {rows} × {columns} cells; the limit is {LIMIT}")
+    return np.zeros((rows, columns), bool)
+
+
+def raster_world(name: str, blocked: Bool, cell_size: float) -> World:
+    """A world of one level, no places: scenarios draw from all cells."""
+    return World(name=name, levels=(Level(name="L1", occupancy=Occupancy(blocked=blocked, cell_size=cell_size)),))
+
+
+def chances(seed: int, count: int) -> Float:
+    """Random numbers f8[count] in [0, 1), the same in every version of NumPy."""
+    drawn: Float = np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed % 2**64))).random(count)
+    return drawn
