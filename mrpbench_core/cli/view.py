@@ -4,9 +4,15 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+import attrs
+
+from mrpbench_core.api.planner import Planner
 from mrpbench_core.cli.reference import HELP, find_run
+from mrpbench_core.config.canonical import scalar
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import load as load_yaml
+from mrpbench_core.plugins.local import is_local
+from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.replay.page import write_page
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
@@ -27,7 +33,8 @@ def run(arguments: argparse.Namespace) -> int:
     page = Path(arguments.out) if arguments.out else results.folder.path / f"replay-{run_id[:12]}.html"
     recording = Recording(results.folder.run(run_id).recording)
     try:
-        write_page(recording, record, page, _columns(results, run_id))
+        planner = _planner(record["config"].get("planner", "none"))
+        write_page(recording, record, page, columns=_columns(results, run_id), planner=planner)
         print(f"wrote {page}")
         if arguments.png:
             _draw(recording, Path(arguments.png))
@@ -47,6 +54,23 @@ def _columns(results: Results, run_id: str) -> dict[str, Any]:
     except (InputError, AttributeError):  # merged folders may lack it; figures are then shown without units
         return {}
     return columns if isinstance(columns, dict) else {}
+
+
+def _planner(block: Any) -> str:
+    """The planner's name, and the plain options that are not at their defaults if it is here to tell."""
+    if not isinstance(block, dict):
+        return str(block)
+    name = str(block["plugin"])
+    if is_local(name):  # its file may have changed or gone
+        return name
+    try:
+        planner: Any = Registry(Planner).get(name)  # type: ignore[type-abstract]
+    except InputError:
+        return name
+    defaults = {field.alias: scalar(field.default) for field in attrs.fields(planner)}
+    plain = {key: value for key, value in block.items() if isinstance(value, str | int | float)}
+    chosen = [f"{key}={value}" for key, value in plain.items() if key in defaults and value != defaults[key]]
+    return " ".join([name, *chosen])
 
 
 def _draw(recording: Recording, file: Path) -> None:

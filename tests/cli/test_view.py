@@ -8,7 +8,7 @@ world: {plugin: movingai, file: tiny.map}
 roadmap: grid
 scenario: {plugin: random, robots: 2}
 assigner: identity
-planner: example
+planner: {plugin: prioritized, restarts: 7}
 simulator: kinematic
 metrics: [execution]
 recording: {scans: true}
@@ -33,6 +33,7 @@ def test_a_run_becomes_a_page_beside_its_results(driven, tmp_path):
     run = json.loads(text.split('id="run">')[1].split("</script>")[0])
     metrics = {metric["name"]: metric for metric in run["facts"]["metrics"]}
     assert run["facts"]["status"] == "succeeded"
+    assert run["facts"]["planner"] == "prioritized restarts=7", "defaults go without saying"
     assert metrics["execution.duration_s"]["unit"] == "s", "units come from the invocation"
     assert 'id="scans"' in text
 

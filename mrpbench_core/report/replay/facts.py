@@ -14,23 +14,26 @@ STAGES = (
     "simulator",
     "localizer",
 )
+FEW = 2
+"""Options of a stage up to which they are shown beside its name."""
 
 
-def facts_of(record: Mapping[str, Any], columns: Mapping[str, Any]) -> dict[str, Any]:
+def facts_of(record: Mapping[str, Any], columns: Mapping[str, Any], planner: str) -> dict[str, Any]:
     """The parts of a run's record that the page shows.
 
     Args:
         record: as in `mrpbench_core.store.results`.
         columns: unit, direction and description of metrics, as an invocation keeps them.
+        planner: what to call the planner.
     """
     config = record.get("config") or {}
+    named = {stage: _summary(config[stage]) for stage in STAGES if config.get(stage)} | {"planner": planner}
     return {
         "run_id": record["run_id"],
         "status": record["status"],
         "error": record.get("error"),
-        "planner": _summary(config.get("planner")),
-        "choices": [[stage, _summary(config[stage])] for stage in STAGES if config.get(stage)]
-        + [["seed", str(record.get("seed", ""))], ["repeat", str(record.get("repeat", ""))]],
+        "planner": planner,
+        "choices": [*named.items(), *((key, str(record.get(key, ""))) for key in ("seed", "repeat"))],
         "metrics": [
             {"name": name, "value": value, **_column(columns.get(name))}
             for name, value in (record.get("metrics") or {}).items()
@@ -54,12 +57,12 @@ def _timing(name: str) -> dict[str, str]:
 
 
 def _summary(block: Any) -> str:
-    """`eecbs w=1.2`: a component and its plain options."""
+    """`lanes cell_size=0.4`: a component, and its plain options if they are few."""
     if not isinstance(block, Mapping):
         return str(block)
     options = {key: value for key, value in block.items() if key != "plugin" and _is_plain(value)}
     words = [str(block.get("plugin", "")), *(f"{key}={value}" for key, value in options.items())]
-    return " ".join(words[:4] if len(words) <= 4 else words[:1])
+    return " ".join(words if len(words) <= FEW + 1 else words[:1])
 
 
 def _is_plain(value: Any) -> bool:

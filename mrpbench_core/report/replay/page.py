@@ -19,7 +19,12 @@ from mrpbench_core.store.recording import Recording
 
 
 def write_page(
-    recording: Recording, record: Mapping[str, Any], file: Path, columns: Mapping[str, Any] | None = None
+    recording: Recording,
+    record: Mapping[str, Any],
+    file: Path,
+    *,
+    columns: Mapping[str, Any] | None = None,
+    planner: str = "",
 ) -> None:
     """Write one run as a self-contained HTML page.
 
@@ -28,6 +33,7 @@ def write_page(
         record: the run's record.
         file: where to.
         columns: units and descriptions of metrics.
+        planner: what to call the planner.
 
     Raises:
         InputError: nothing was recorded, or the file cannot be written.
@@ -37,7 +43,7 @@ def write_page(
     pack_motion(recording, motion)
     thinned = pack_scans(recording, scans)
     data = {
-        "facts": facts_of(record, columns or {}),
+        "facts": facts_of(record, columns or {}, planner),
         "world": pack_world(context.world, motion),
         "robots": pack_robots(context, motion),
         "events": read_events(recording, context),

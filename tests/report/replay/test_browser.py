@@ -47,7 +47,7 @@ def show(browser, store, record, tmp_path):
 
     def load(rows, **context):
         file = tmp_path / "a.html"
-        write_page(store(rows, **context), record, file)
+        write_page(store(rows, **context), record, file, planner="eecbs w=1.2")
         browser.get_log("browser")
         browser.get_log("performance")
         browser.get(file.as_uri())

@@ -19,7 +19,7 @@ VOID = {"meta", "link", "input", "br"}
 @pytest.fixture
 def page(store, chunk, record, tmp_path):
     columns = {"execution.duration_s": {"unit": "s", "description": "how long <it> took"}}
-    write_page(store(chunk), record, tmp_path / "a.html", columns)
+    write_page(store(chunk), record, tmp_path / "a.html", columns=columns, planner="eecbs w=1.2")
     return (tmp_path / "a.html").read_text(encoding="utf-8")
 
 
