@@ -21,4 +21,5 @@ def find_run(text: str) -> tuple[Results, dict[str, Any]]:
         return results, results[prefix]
     except KeyError as error:
         ids = " ".join(record["run_id"] for record, _ in zip(results, range(5), strict=False))
-        raise InputError(f"{text}: {error.args[0]}", hint=f"there are {ids} …" if ids else "it is empty") from None
+        hint = f"as DIR:PREFIX; there are {ids} …" if ids else "it is empty"
+        raise InputError(f"{text}: {error.args[0]}", hint=hint) from None

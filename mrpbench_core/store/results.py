@@ -69,7 +69,8 @@ class Results:
         if entry is None:
             found = [known for known in self._entries if known.startswith(run_id)]
             if len(found) != 1:
-                raise KeyError(f"{len(found) or 'no'} runs begin with {run_id!r}")
+                which = f"begin with {run_id!r}" if run_id else "are here, one must be named"
+                raise KeyError(f"{len(found) or 'no'} runs {which}")
             entry = self._entries[found[0]]
         return read_at(entry.shard, entry.offset)
 
