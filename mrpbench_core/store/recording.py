@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import RunContext
-from mrpbench_core.store.codec import decode, encode
 
 FORMAT = 1
 """Raised when a reader of the old format would misread the new one."""

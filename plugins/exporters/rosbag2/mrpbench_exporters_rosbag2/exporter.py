@@ -13,6 +13,7 @@ from mrpbench_core.api.exporter import Exporter, ExporterSession
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2 import motion
+from mrpbench_exporters_rosbag2.advance import advance
 from mrpbench_exporters_rosbag2.bag import Bag, Storage, Version
 from mrpbench_exporters_rosbag2.blocks import AXES, Blocks
 from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS, contacts, events
@@ -122,6 +123,8 @@ def sources(context: RunContext) -> Iterator[Source]:
         yield motion.odometry(index, name)
         yield motion.ground_truth(index, name, context.world)
         yield motion.command(index, name)
+    if robots:
+        yield advance(len(robots))
     yield robot_markers(context)
     for index, (name, robot) in enumerate(robots):
         if robot.lidar:

@@ -10,11 +10,13 @@ from mrpbench_exporters_rosbag2.frames import transform
 from mrpbench_exporters_rosbag2.messages import Topic, message, serialize
 from mrpbench_exporters_rosbag2.plans import goal, goal_markers, plan
 from mrpbench_exporters_rosbag2.scenery import navigation_graph, occupancy_map
+from mrpbench_exporters_rosbag2.whole import whole
 
 
 def opening(context: RunContext, stamp: int, cell_size: float) -> Iterator[tuple[Topic, bytes]]:
     """Every message of the start, stamped `stamp` (nanoseconds)."""
     yield _run(context)
+    yield whole(context)
     for index in range(len(context.world.levels)):
         yield occupancy_map(context.world, index, stamp, cell_size)
     if context.world.vertices:

@@ -11,8 +11,10 @@ FLEET = (
     "/goals",
     "/map",
     "/navigation_graph",
+    "/progress",
     "/robots",
     "/run",
+    "/run_data",
     "/tf",
     "/tf_static",
 )

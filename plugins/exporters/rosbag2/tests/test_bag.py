@@ -17,7 +17,7 @@ from rosbags.typesys import Stores, get_typestore
 from mrpbench_core.files.errors import InputError
 
 TEXT = Topic("/text", "std_msgs/String")
-LATCHED = ("/map", "/run", "/navigation_graph", "/tf_static", "/goals", "/plan", "/goal_pose")
+LATCHED = ("/map", "/run", "/run_data", "/navigation_graph", "/tf_static", "/goals", "/plan", "/goal_pose")
 
 
 def text(content):

@@ -102,7 +102,7 @@ def test_the_navigation_graph_is_drawn_with_its_names(bag):
 def test_a_run_without_a_plan_has_neither_plans_nor_goals(context, tmp_path, read):
     unplanned = attrs.evolve(context, result=PlanResult(status=PlanStatus.TIMEOUT), routes=(), goal=())
     Rosbag2().open(unplanned, tmp_path / "bag").close()
-    assert set(read(tmp_path / "bag")) == {"/run", "/map", "/navigation_graph", "/tf_static"}
+    assert set(read(tmp_path / "bag")) == {"/run", "/run_data", "/map", "/navigation_graph", "/tf_static"}
 
 
 def test_every_level_has_its_map(context, tmp_path, read):

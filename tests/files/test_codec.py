@@ -4,8 +4,8 @@ import json
 
 import attrs
 
+from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.model.world import Area, Door, Lane, Level, Lift, Obstacle, Vertex, World
-from mrpbench_core.store.codec import decode, encode
 
 
 def test_a_world_with_everything_comes_back_equal():
