@@ -43,13 +43,16 @@ def pack_robots(context: RunContext, packing: Packing) -> dict[str, Any]:
     """Robot models as JSON; each robot's model, and its route, packed."""
     models, kind = context.fleet.profiles
     packing.add("kind", kind)
-    routes = context.routes
-    packing.add("route_first", np.cumsum([0, *(len(route.waypoint) for route in routes)]))
+    routes = context.routes  # none where nothing was planned
+    lengths = [len(route.waypoint) for route in routes] or [0] * len(context.fleet)
+    packing.add("route_first", np.cumsum([0, *lengths]))
     waypoints = np.concatenate([route.waypoint[:, :2] for route in routes] or [np.empty((0, 2))])
     packing.add_metres("route_x", waypoints[:, 0])
     packing.add_metres("route_y", waypoints[:, 1])
     packing.add("route_level", [level for route in routes for level in route.level.tolist()])
-    return {"names": list(context.fleet.names), "models": [_model(model) for model in models]}
+    tasks = context.scenario.tasks
+    goals = [tasks[task].name if task >= 0 else "" for task in context.assigned]
+    return {"names": list(context.fleet.names), "goals": goals, "models": [_model(model) for model in models]}
 
 
 def _model(model: RobotModel) -> dict[str, Any]:

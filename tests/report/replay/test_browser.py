@@ -3,6 +3,7 @@
 import shutil
 import time
 
+import attrs
 import numpy as np
 import pytest
 
@@ -178,7 +179,10 @@ def test_a_click_on_a_robot_follows_it(show, chunk):
     mouse.move_to_element_with_offset(canvas, *offset).click().perform()
     settle(browser)
     assert ask(browser, "replay.shown.selected") == 0
-    assert "robot_0" in browser.find_element(By.ID, "card").text
+    card = browser.find_element(By.ID, "card").text
+    assert "robot_0" in card
+    assert "1 of 2 reached" in card
+    assert "1.50, 0.50 m" in card, "the goal of a task without name"
     for moment in (2.5, 3.3):
         browser.execute_script(f"replay.clock.seek({moment})")
         settle(browser)
@@ -235,6 +239,25 @@ def test_the_wheel_zooms_about_the_pointer_and_a_drag_moves_the_map(show, chunk)
     browser.find_element(By.ID, "fit").click()
     settle(browser)
     assert ask(browser, "replay.view.scale") == pytest.approx(scale)
+
+
+def test_two_fingers_zoom(show, chunk):
+    browser = show(chunk)
+    settle(browser)
+    scale = ask(browser, "replay.view.scale")
+    x, y = 480, 400
+
+    def touch(kind, gap):
+        points = [{"x": x - gap, "y": y, "id": 0}, {"x": x + gap, "y": y, "id": 1}] if gap else []
+        browser.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": points})
+
+    touch("touchStart", 50)
+    for gap in (60, 75, 90, 100):
+        touch("touchMove", gap)
+    touch("touchEnd", 0)
+    settle(browser)
+    assert ask(browser, "replay.view.scale") == pytest.approx(2 * scale, rel=0.05)
+    assert ask(browser, "replay.shown.selected") == -1
 
 
 def test_layers_and_colours_change_what_is_drawn(show, chunk):
@@ -312,10 +335,13 @@ def test_one_sample_is_a_run_too(show, chunk):
     assert browser.find_element(By.ID, "now").text == "0:00.0"
 
 
-def test_poses_alone_are_enough(show, chunk):
-    browser = show({"time": chunk["time"], "truth": chunk["truth"]})
+def test_poses_alone_are_enough(show, chunk, run_context):
+    browser = show(
+        {"time": chunk["time"], "truth": chunk["truth"]}, context=attrs.evolve(run_context, routes=(), goal=())
+    )
     browser.execute_script("replay.clock.seek(1); replay.shown.select(0)")
     settle(browser)
+    assert "goal\n–" in browser.find_element(By.ID, "card").text
     assert not browser.find_elements(By.ID, "layer-lidar")
     assert not browser.find_elements(By.ID, "layer-reserved")
     assert pixels(browser) > 100

@@ -89,7 +89,7 @@ export class FleetPanel {
     const degrees = Math.round((run.pose.yaw[robot] * 180) / Math.PI);
     const heading = ((degrees % 360) + 360) % 360;
     setText(cells.pose, `${run.pose.x[robot].toFixed(2)}, ${run.pose.y[robot].toFixed(2)} m · ${heading}°`);
-    setText(cells.goal, run.goal(robot) || "–");
+    setText(cells.goal, run.goal(robot));
     setText(cells.model, run.model(robot).name);
   }
 

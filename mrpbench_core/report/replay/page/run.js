@@ -20,6 +20,7 @@ export class Run {
     this.begin = this.time[0];
     this.end = this.time[this.samples - 1];
     this.names = data.robots.names;
+    this.goals = data.robots.goals;
     this.count = this.names.length;
     this.models = data.robots.models;
     this.kind = arrays.kind.values;
@@ -81,7 +82,7 @@ export class Run {
 
   /** Number of path segments of a robot. */
   segments(robot) {
-    return this.routeFirst[robot + 1] - this.routeFirst[robot] - 1;
+    return Math.max(this.routeFirst[robot + 1] - this.routeFirst[robot] - 1, 0);
   }
 
   state(robot, sample = this.latest) {
@@ -106,13 +107,11 @@ export class Run {
     return this.contacts.filter(([first, last]) => first <= this.now && this.now <= last + after);
   }
 
-  /** Name of the place at the end of a robot's route, or "". */
+  /** Where a robot's route ends: the name of its task, or metres. */
   goal(robot) {
     const last = this.routeFirst[robot + 1] - 1;
-    const place = this.world.vertices.find(
-      ([x, y, level, name]) =>
-        name && level === this.routeLevel[last] && Math.hypot(x - this.routeX[last], y - this.routeY[last]) < 0.05,
-    );
-    return place ? place[3].replaceAll("_", " ") : "";
+    if (last < this.routeFirst[robot]) return "–";
+    const place = `${this.routeX[last].toFixed(2)}, ${this.routeY[last].toFixed(2)} m`;
+    return this.goals[robot]?.replaceAll("_", " ") || place;
   }
 }
