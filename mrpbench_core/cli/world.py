@@ -1,6 +1,7 @@
 """`mrpbench world FILE|NAME`: facts and checks of a map, and its picture."""
 
 import argparse
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,16 +12,21 @@ if TYPE_CHECKING:
     from mrpbench_core.api.roadmap import RoadmapBuilder
     from mrpbench_core.api.world import WorldSource
     from mrpbench_core.checking.world import WorldFacts
+    from mrpbench_core.model.occupancy import Occupancy
+    from mrpbench_core.model.roadmap import Roadmap
     from mrpbench_core.model.world import World
 
 SHOWN = 20
 """Faults and notes that a table lists."""
-LOADERS = {".map": "movingai", ".yaml": "rmf", ".yml": "rmf"}
+RESOLUTION = 0.05
+"""metres per pixel of a converted map."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("world", metavar="FILE|NAME", help="a .building.yaml or .map file, or a built-in world")
+    parser.add_argument(
+        "world", metavar="FILE|NAME", help="a .building.yaml, .map or map_server .yaml file, or a built-in world"
+    )
     parser.add_argument("--level", help="the one level of a building to load; default: all")
     parser.add_argument("--roadmap", metavar="NAME", help="lanes (default where there are lanes), grid or graph")
     parser.add_argument("--cell-size", type=float, metavar="M", help="of lanes and grid; default: 0.4 m")
@@ -28,6 +34,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--robot", default="turtlebot3_burger", help="the robot to fit in (default: %(default)s)")
     parser.add_argument(
         "--render", type=Path, metavar="PNG", help="draw the world and its roadmap, further levels beside it"
+    )
+    parser.add_argument(
+        "--convert",
+        type=Path,
+        metavar="FILE",
+        help="write everything solid as a ROS map (.yaml and .pgm), or the roadmap's raster as a MovingAI .map",
     )
     parser.add_argument("--json", action="store_true", help="print as JSON")
 
@@ -50,6 +62,8 @@ def run(arguments: argparse.Namespace) -> int:
             if index:
                 file = file.with_name(f"{file.stem}-{level.name}{file.suffix}")
             draw_world(world, roadmap=roadmap, file=file, level=index)
+    if arguments.convert is not None:
+        _convert(arguments.convert, world, roadmap, arguments.cell_size)
     if arguments.json:
         import attrs
 
@@ -63,12 +77,24 @@ def _source(name: str, level: str | None) -> "WorldSource":
     from mrpbench_core.api.world import WorldSource
     from mrpbench_core.plugins.registry import Registry
 
-    loader = LOADERS.get(Path(name).suffix)
+    loader = _loader(Path(name))
     options: dict[str, Any] = {"file": Path(name)} if loader else {}
     if level is not None:
         options["level"] = level
     source: WorldSource = _make(Registry(WorldSource).get(loader or name), loader or name, options)  # type: ignore[type-abstract]
     return source
+
+
+def _loader(file: Path) -> str | None:
+    """What reads a file; None for the name of a world."""
+    if file.suffix == ".map":
+        return "movingai"
+    if file.suffix not in (".yaml", ".yml"):
+        return None
+    from mrpbench_core.files.yaml import load
+
+    data = load(file).data
+    return "ros_map" if isinstance(data, dict) and "resolution" in data else "rmf"
 
 
 def _builder(arguments: argparse.Namespace, world: "World") -> "RoadmapBuilder":
@@ -80,6 +106,41 @@ def _builder(arguments: argparse.Namespace, world: "World") -> "RoadmapBuilder":
     options = {key: value for key, value in given.items() if value is not None}
     builder: RoadmapBuilder = _make(Registry(RoadmapBuilder).get(name), name, options)  # type: ignore[type-abstract]
     return builder
+
+
+def _convert(file: Path, world: "World", roadmap: "Roadmap", cell_size: float | None) -> None:
+    """Write level 0 in the form that the file's suffix names."""
+    from mrpbench_core.checking.occupancy import rasterise
+    from mrpbench_core.files.raster import write_movingai_map, write_ros_map
+
+    if file.suffix in (".yaml", ".yml"):
+        own = world.levels[0].occupancy
+        size = cell_size or (RESOLUTION if own is None else own.cell_size)
+        write_ros_map(file, rasterise(world.levels[0], size, "touched"))
+    elif file.suffix == ".map":
+        write_movingai_map(file, _planned_raster(roadmap))
+    else:
+        raise InputError(f"cannot convert to {file.suffix or 'a file without suffix'}", hint="to .yaml or .map")
+
+
+def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
+    import numpy as np
+
+    from mrpbench_core.model.occupancy import Occupancy
+
+    if roadmap.grid is None:
+        raise InputError("this roadmap has no raster to write", hint="take --roadmap lanes or grid")
+    blocked = np.ones(roadmap.grid.shape, bool)
+    row, column = roadmap.grid.cell.T
+    blocked[row, column] = False
+    pairs = sum(int((~a & ~b).sum()) for a, b in ((blocked[:, 1:], blocked[:, :-1]), (blocked[1:], blocked[:-1])))
+    walled = pairs - len(roadmap.edges) // 2
+    if walled:
+        print(
+            f"{walled} pairs of neighbouring cells have something between them, which a .map cannot say",
+            file=sys.stderr,
+        )
+    return Occupancy(blocked=blocked, cell_size=roadmap.grid.cell_size, origin=roadmap.grid.origin)
 
 
 def _make(component: Any, name: str, options: dict[str, Any]) -> Any:

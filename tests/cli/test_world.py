@@ -60,9 +60,45 @@ def test_a_picture_is_written(invoke, tmp_path):
     assert (tmp_path / "office.png").read_bytes().startswith(b"\x89PNG")
 
 
+def test_a_world_becomes_a_ros_map_and_is_read_again(invoke, tmp_path):
+    pytest.importorskip("PIL")
+    invoke("office", "--convert", tmp_path / "office.yaml")
+    facts = json.loads(invoke(tmp_path / "office.yaml", "--json"))
+    assert facts["name"] == "office"
+    assert (facts["width"], facts["height"]) == pytest.approx((21.5, 12.0), abs=0.06)
+    assert facts["free"] > 800
+
+
+def test_the_roadmap_becomes_a_moving_ai_map(invoke, tmp_path, capsys):
+    file = tmp_path / "office.map"
+    before = json.loads(invoke("office", "--json", "--convert", file))
+    after = json.loads(invoke(file, "--json"))
+    assert (after["cells"], after["free"]) == (before["cells"], before["free"])
+    again = tmp_path / "again.map"
+    invoke(file, "--convert", again)
+    assert again.read_text() == file.read_text()
+
+
+def test_what_a_map_cannot_say_is_said(invoke, tmp_path, capsys):
+    parser = argparse.ArgumentParser()
+    command.configure(parser)
+    command.run(parser.parse_args(["household", "--cell-size", "0.4", "--roadmap", "grid",
+                                   "--convert", str(tmp_path / "a.map")]))  # fmt: skip
+    assert "pairs of neighbouring cells have something between them" in capsys.readouterr().err
+
+
+def test_further_levels_are_drawn_beside_the_first(invoke, tmp_path, shared_data):
+    pytest.importorskip("matplotlib")
+    invoke(shared_data / "rmf/rmf_demos/hotel.building.yaml", "--render", tmp_path / "hotel.png")
+    assert sorted(file.name for file in tmp_path.iterdir()) == ["hotel-L2.png", "hotel-L3.png", "hotel.png"]
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
+        (["office", "--convert", "office.png"], "cannot convert to .png (to .yaml or .map)"),
+        (["office", "--roadmap", "graph", "--convert", "a.map"], "this roadmap has no raster to write"),
+        (["office", "--convert", "no/such/a.map"], "no/such/a.map: cannot be written"),
         (["offise"], "did you mean 'office'"),
         (["missing.map"], "missing.map: no such file"),
         (["missing.building.yaml"], "missing.building.yaml: no such file"),

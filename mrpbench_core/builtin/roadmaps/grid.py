@@ -35,7 +35,7 @@ class GridRoadmap(RoadmapBuilder):
 
     cell_size: float | None = option(
         None,
-        help="Side of a cell; by default that of the world's own raster, else 0.4 m.",
+        help="Side of a cell; by default that of the world's own raster if robots fit into one, else 0.4 m.",
         unit="m",
         validator=attrs.validators.optional(attrs.validators.gt(0)),
     )
@@ -49,7 +49,7 @@ class GridRoadmap(RoadmapBuilder):
         level = world.levels[0]
         radius = float(fleet.radii.max())
         own = level.occupancy
-        if own is not None and self.cell_size in (None, own.cell_size):
+        if own is not None and (self.cell_size or _default(own, radius)) == own.cell_size:
             cells = connect(own)
             if 2 * radius <= own.cell_size and not solids(
                 level
@@ -60,6 +60,11 @@ class GridRoadmap(RoadmapBuilder):
         cells = without_contacts(cells, level, radius)
         cells, place = only_reachable(cells, places(cells, world))
         return cell_roadmap(cells, place, world, fleet, [])
+
+
+def _default(own: Occupancy, radius: float) -> float:
+    """A map from a lidar has cells much smaller than robots: too many to plan on."""
+    return own.cell_size if 2 * radius <= own.cell_size else max(own.cell_size, DEFAULT_CELL_SIZE)
 
 
 def _open_raster(world: World, cell_size: float) -> Occupancy:

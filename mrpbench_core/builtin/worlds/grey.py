@@ -1,0 +1,48 @@
+"""Images as grey values; needs the extra `images`."""
+
+import warnings
+from pathlib import Path
+
+import attrs
+import numpy as np
+
+from mrpbench_core.builtin.worlds.building.node import Node
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.arrays import Bool, Float
+
+
+@attrs.frozen(eq=False)
+class Grey:
+    """An image; row 0 is its top."""
+
+    lightness: Float
+    """f8[rows, columns], 0 black to 1 white; the mean of the colours."""
+    transparent: Bool
+    """bool[rows, columns]."""
+
+
+def read_grey(file: Path, named: Node) -> Grey:
+    """Read an image, named by the value `named`.
+
+    Raises:
+        InputError: Pillow is missing, or the file is missing or no image.
+    """
+    try:
+        from PIL import Image
+    except ImportError:
+        raise named.error("images need Pillow", "pip install 'mrpbench-core[images]'") from None
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", Image.DecompressionBombWarning)
+            with Image.open(file) as image:
+                if image.mode.startswith("I"):  # 16 bits
+                    values = np.asarray(image, float)
+                    return Grey(np.clip(values / 65535, 0, 1), np.zeros(values.shape, bool))
+                colours = np.asarray(image.convert("RGBA"), float)
+    except FileNotFoundError:
+        raise named.error(f"there is no image {file}") from None
+    except (Image.DecompressionBombWarning, Image.DecompressionBombError):
+        raise named.error(f"image {file} is too large") from None
+    except (OSError, ValueError, SyntaxError) as error:  # what Pillow raises at broken files
+        raise InputError(f"is no image that Pillow reads: {' '.join(str(error).split())}", file=file) from None
+    return Grey(colours[..., :3].mean(axis=2) / 255, colours[..., 3] == 0)

@@ -1,0 +1,102 @@
+"""Worlds of the ROS `map_server`: an image and a YAML file that says what its grey values mean.
+
+Facts: the documentation of `nav2_map_server` (docs.nav2.org) and of ROS 1's `map_server` (wiki.ros.org/map_server).
+"""
+
+import math
+from typing import Literal
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.component import Path, option
+from mrpbench_core.api.world import WorldSource
+from mrpbench_core.builtin.worlds.building.node import Node
+from mrpbench_core.builtin.worlds.grey import Grey, read_grey
+from mrpbench_core.builtin.worlds.turned import turned
+from mrpbench_core.files import yaml
+from mrpbench_core.model.arrays import Bool
+from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.world import Level, World
+
+KEYS = ("image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate", "mode")
+MODES = ("trinary", "scale", "raw")
+
+
+@attrs.frozen(kw_only=True)
+class RosMap(WorldSource):
+    """A `map_server` map. Blocked is what is occupied, and, unless `unknown` is free, what is unknown.
+
+    A pixel is occupied when its darkness (with `negate`: lightness) is above `occupied_thresh` and free below
+    `free_thresh`. Between them it is unknown in the mode `trinary`; free in `scale`, as only certain obstacles stop
+    Nav2's planners. In the mode `raw` the grey value itself is the occupancy in percent, above 100 unknown. Pixels that
+    are transparent are unknown. Where the origin has a yaw, the map is turned about the lower left corner of the image;
+    by other than quarter turns it is sampled anew.
+    """
+
+    file: Path = option(help="The .yaml file.")
+    image: Path | None = option(
+        None, help="The image, instead of the one that the file names; then it counts for the identity of runs."
+    )
+    unknown: Literal["blocked", "free"] = option(
+        "blocked", help="What unknown cells are.", validator=attrs.validators.in_(["blocked", "free"])
+    )
+
+    def load(self) -> World:
+        """Read the raster; no walls, no places, no lanes."""
+        document = yaml.load(self.file)
+        top = Node(document, document.data)
+        fields = top.fields()
+        for key in ("resolution", "origin", *(() if self.image else ("image",))):
+            if key not in fields:
+                raise top.error(f"has no {key!r}", "a ROS map_server file?")
+        size = fields["resolution"].number()
+        if size <= 0:
+            raise fields["resolution"].error("resolution should be positive")
+        x, y, *yaw = (value.number() for value in fields["origin"].items(least=2))
+        image = self.image or self.file.parent / fields["image"].text()
+        blocked = self._blocked(fields, read_grey(image, fields.get("image", top)))
+        occupancy = Occupancy(blocked=blocked[::-1], cell_size=size, origin=(x, y))
+        notes = [f"key {key!r} is not known and has no effect." for key in fields if key not in KEYS]
+        angle = math.remainder(yaw[0] if yaw else 0.0, 2 * math.pi)
+        if not math.isclose(angle, round(angle / (math.pi / 2)) * math.pi / 2, abs_tol=1e-6):
+            notes.append(f"the map is turned by {math.degrees(angle):.2f}° and sampled anew.")
+        level = Level(name="L1", occupancy=turned(occupancy, angle))
+        return World(name=self.file.name.split(".")[0], levels=(level,), notes=tuple(notes))
+
+    def _blocked(self, fields: dict[str, Node], grey: Grey) -> Bool:
+        """bool[rows, columns], row 0 at the top."""
+        high, low = _share(fields, "occupied_thresh", 0.65), _share(fields, "free_thresh", 0.25)
+        if low > high:
+            raise fields["free_thresh" if "free_thresh" in fields else "occupied_thresh"].error(
+                f"free_thresh {low:g} should not exceed occupied_thresh {high:g}"
+            )
+        mode = fields["mode"].text() if "mode" in fields else "trinary"
+        if mode not in MODES:
+            raise fields["mode"].error(f"mode {mode!r} is not known", f"modes: {', '.join(MODES)}")
+        if mode == "raw":
+            percent = np.rint(grey.lightness * 255)
+            occupied, unknown = (percent >= high * 100) & (percent <= 100), percent > 100
+        else:
+            occupancy = grey.lightness if _flag(fields, "negate") else 1 - grey.lightness
+            occupied = occupancy > high
+            unknown = (occupancy >= low) & ~occupied if mode == "trinary" else np.zeros_like(occupied)
+        unknown |= grey.transparent
+        blocked: Bool = occupied & ~unknown if self.unknown == "free" else occupied | unknown
+        return blocked
+
+
+def _share(fields: dict[str, Node], key: str, default: float) -> float:
+    if key not in fields:
+        return default
+    value = fields[key].number()
+    if not 0 <= value <= 1:
+        raise fields[key].error(f"{key} should lie between 0 and 1, not {value:g}")
+    return value
+
+
+def _flag(fields: dict[str, Node], key: str) -> bool:
+    value = fields[key].value if key in fields else False
+    if value not in (0, 1):
+        raise fields[key].error(f"{key} should be 0 or 1, not {value!r}")
+    return bool(value)

@@ -1,0 +1,37 @@
+"""Rasters turned about their lower left corner."""
+
+import math
+
+import numpy as np
+
+from mrpbench_core.model.occupancy import Occupancy
+
+TOLERANCE = 1e-6
+"""radians."""
+
+
+def turned(occupancy: Occupancy, angle: float) -> Occupancy:
+    """The raster turned counter-clockwise about its origin by `angle` radians, on axes parallel to x and y.
+
+    Quarter turns are exact. Else each new cell takes the value at its centre; what lies beyond the raster is blocked.
+    """
+    (rows, columns), size = occupancy.shape, occupancy.cell_size
+    cosine, sine = math.cos(angle), math.sin(angle)
+    corners = np.array([(0, 0), (columns, 0), (columns, rows), (0, rows)]) * size
+    around = corners @ np.array([(cosine, sine), (-sine, cosine)])
+    low, high = around.min(axis=0), around.max(axis=0)
+    quarters = round(angle / (math.pi / 2))
+    x, y = occupancy.origin
+    origin = (x + float(low[0]), y + float(low[1]))
+    if abs(angle - quarters * math.pi / 2) <= TOLERANCE:
+        # row 0 is the lowest: seen from above, `rot90` turns the other way
+        blocked = np.rot90(occupancy.blocked, -quarters)
+        return Occupancy(blocked=blocked, cell_size=size, origin=origin)
+    shape = np.ceil((high - low) / size - 1e-9).astype(int)
+    column, row = np.meshgrid(np.arange(shape[0]), np.arange(shape[1]))
+    dx, dy = low[0] + (column + 0.5) * size, low[1] + (row + 0.5) * size
+    across = np.floor((dx * cosine + dy * sine) / size).astype(int)
+    up = np.floor((dy * cosine - dx * sine) / size).astype(int)
+    inside = (across >= 0) & (across < columns) & (up >= 0) & (up < rows)
+    blocked = ~inside | occupancy.blocked[np.where(inside, up, 0), np.where(inside, across, 0)]
+    return Occupancy(blocked=blocked, cell_size=size, origin=origin)

@@ -1,0 +1,47 @@
+"""Writes rasters as files of others: ROS map_server (`.yaml` with `.pgm`) and MovingAI (`.map`)."""
+
+from pathlib import Path
+
+import numpy as np
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.occupancy import Occupancy
+
+FREE, OCCUPIED = 254, 0
+"""Grey values that map_saver of Nav2 writes."""
+
+
+def write_ros_map(file: Path, occupancy: Occupancy) -> None:
+    """Write `file` (.yaml) and the image beside it; row 0 of the image is the highest y.
+
+    Raises:
+        InputError: it cannot be written.
+    """
+    image = file.with_suffix(".pgm")
+    rows, columns = occupancy.shape
+    grey = np.where(occupancy.blocked[::-1], OCCUPIED, FREE).astype(np.uint8)
+    x, y = occupancy.origin
+    text = (
+        f"image: {image.name}\nmode: trinary\nresolution: {occupancy.cell_size!r}\norigin: [{x!r}, {y!r}, 0]\n"
+        "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"
+    )
+    _write(image, f"P5\n{columns} {rows}\n255\n".encode() + grey.tobytes())
+    _write(file, text.encode())
+
+
+def write_movingai_map(file: Path, occupancy: Occupancy) -> None:
+    """Write a MovingAI `.map`: `.` passable, `@` blocked; its first line is the highest y.
+
+    Raises:
+        InputError: it cannot be written.
+    """
+    rows, columns = occupancy.shape
+    lines = ["".join("@" if cell else "." for cell in row) for row in occupancy.blocked[::-1].tolist()]
+    _write(file, "\n".join(["type octile", f"height {rows}", f"width {columns}", "map", *lines, ""]).encode())
+
+
+def _write(file: Path, content: bytes) -> None:
+    try:
+        file.write_bytes(content)
+    except OSError as error:
+        raise InputError(f"cannot be written: {error.strerror or error}", file=file) from None
