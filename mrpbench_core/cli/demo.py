@@ -8,6 +8,7 @@ from typing import Any
 from mrpbench_core.cli.progress import Printed
 from mrpbench_core.cli.report import print_report
 from mrpbench_core.cli.run import plugins_line
+from mrpbench_core.cli.view import write_replay
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.invoke import prepare
 from mrpbench_core.engine.study import run_study
@@ -58,6 +59,7 @@ def _configuration() -> dict[str, Any]:
         **chosen,
         "dispatcher": "adg",
         "export": ["rosbag2"] if _works("exporter", "rosbag2") else [],
+        "recording": {"scans": True},
         "limits": {"planning": 20.0},
     }
 
@@ -79,22 +81,25 @@ def _show(results: Results) -> None:
     print(f"results    {_near(results.folder.path)}")
     if paths.recording.is_file():
         print(f"recording  {_near(paths.recording)}")
+        recording = Recording(paths.recording)
+        replay = results.folder.path / "replay.html"
+        write_replay(recording, results, record, replay)
+        print(f"replay     {_near(replay)}")
         try:
-            print(f"picture    {_near(_draw(paths.recording, results.folder.path / 'demo.png'))}")
+            print(f"picture    {_near(_draw(recording, results.folder.path / 'demo.png'))}")
         except InputError as error:
             print(f"picture    none: {error}")
+        recording.close()
     if paths.exports.is_dir():
         for bag in sorted(paths.exports.iterdir()):
             print(f"bag        {_near(bag)}")
 
 
-def _draw(file: Path, picture: Path) -> Path:
+def _draw(recording: Recording, picture: Path) -> Path:
     from mrpbench_core.report.picture import draw_world
 
-    recording = Recording(file)
     context = recording.context()
     truth = recording.channel("truth")
-    recording.close()
     draw_world(context.world, file=picture, fleet=context.fleet, routes=context.routes, truth=truth)
     return picture
 

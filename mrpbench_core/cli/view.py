@@ -33,8 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
     page = Path(arguments.out) if arguments.out else results.folder.path / f"replay-{run_id[:12]}.html"
     recording = Recording(results.folder.run(run_id).recording)
     try:
-        planner = _planner(record["config"].get("planner", "none"))
-        write_page(recording, record, page, columns=_columns(results, run_id), planner=planner)
+        write_replay(recording, results, record, page)
         print(f"wrote {page}")
         if arguments.png:
             _draw(recording, Path(arguments.png))
@@ -43,6 +42,12 @@ def run(arguments: argparse.Namespace) -> int:
     finally:
         recording.close()
     return 0
+
+
+def write_replay(recording: Recording, results: Results, record: dict[str, Any], page: Path) -> None:
+    """Write the page of a recorded run, with its metrics' units and its planner's options."""
+    planner = _planner(record["config"].get("planner", "none"))
+    write_page(recording, record, page, columns=_columns(results, record["run_id"]), planner=planner)
 
 
 def _columns(results: Results, run_id: str) -> dict[str, Any]:

@@ -16,10 +16,11 @@ def test_the_whole_stack_runs_and_leaves_something_to_see(mrpbench, monkeypatch)
     assert record["status"] == "succeeded"
     assert record["metrics"]["execution.goals_reached"] == 5
     assert record["metrics"]["execution.robot_contacts"] == 0
-    lines = dict(line.split(maxsplit=1) for line in output.splitlines()[-4:])
+    lines = dict(line.split(maxsplit=1) for line in output.splitlines()[-5:])
     assert Path(lines["picture"]).read_bytes().startswith(b"\x89PNG")
     assert any(Path(lines["bag"]).glob("*.mcap"))
     assert Path(lines["recording"]).is_file()
+    assert "<canvas" in Path(lines["replay"]).read_text()
 
     code, output, errors = mrpbench("export", f"results/demo:{record['run_id'][:4]}", "--to", "rosbag2", "--out", "bag")
     assert (code, output, errors) == (0, "wrote bag\n", "")
