@@ -6,7 +6,7 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.api import KINDS
+from mrpbench_core.api import KINDS, Metric
 from mrpbench_core.api.component import Component
 from mrpbench_core.cli.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
@@ -19,6 +19,8 @@ def show(name: str, as_json: bool) -> None:
     """Print a plugin, named `NAME` or, where several kinds have one of that name, `KIND:NAME`."""
     cls = _find(name)
     facts: dict[str, Any] = origin(cls) | {"description": inspect.getdoc(cls) or ""} | _traits(cls)
+    if issubclass(cls, Metric):
+        facts["columns"] = [attrs.asdict(column) for column in cls.columns]
     facts["options"] = [_option(field) for field in _fields(cls)]
     if as_json:
         print_json(facts)
@@ -29,11 +31,17 @@ def show(name: str, as_json: bool) -> None:
         if key in facts:
             print(f"{key}: {', '.join(facts[key]) or 'nothing'}")
     print()
-    if not facts["options"]:
+    if "columns" in facts:
+        _print_rows("column", ("name", "unit", "better", "description", "source"), facts["columns"])
+        print()
+    if facts["options"]:
+        _print_rows("option", ("name", "default", "unit", "type", "help"), facts["options"])
+    else:
         print("It has no options.")
-        return
-    keys = ("name", "default", "unit", "type", "help")
-    print_table(["option", *keys[1:]], [[entry[key] for key in keys] for entry in facts["options"]])
+
+
+def _print_rows(first: str, keys: tuple[str, ...], rows: list[dict[str, Any]]) -> None:
+    print_table([first, *keys[1:]], [[row[key] for key in keys] for row in rows])
 
 
 def _find(name: str) -> type[Component]:

@@ -29,3 +29,11 @@ def test_a_name_of_several_kinds_wants_its_kind(mrpbench):
     assert code == 2
     assert "scenario:movingai or world:movingai" in errors
     assert mrpbench("plugins", "show", "world:movingai")[1].startswith("world movingai")
+
+
+def test_the_columns_of_a_metric_are_defined(mrpbench):
+    facts = json.loads(mrpbench("plugins", "show", "metric:execution", "--json")[1])
+    duration = next(column for column in facts["columns"] if column["name"] == "duration_s")
+    assert (duration["unit"], duration["better"]) == ("s", "lower")
+    assert all(column["description"] for column in facts["columns"])
+    assert "mrp_bench.duration_s" in mrpbench("plugins", "show", "metric:execution")[1]
