@@ -1,1 +1,1 @@
-"""Solvers of mrpbench in C++. `mrpbench_native.mapf`: multi-agent path finding."""
+"""Parts of mrpbench in C++. `mapf`: multi-agent path finding; `sim`: robots, contacts and lidars in the plane."""

@@ -1,0 +1,127 @@
+// Python bindings of the simulator: arrays in, arrays out. Nothing here decides anything.
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "mrpbench_sim/caster.hpp"
+#include "mrpbench_sim/plane.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using namespace mrpbench::sim;
+
+namespace {
+
+template <class T>
+using Vector = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+template <int columns>
+using Matrix = nb::ndarray<const double, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
+template <class T>
+using Output = nb::ndarray<nb::numpy, T, nb::ndim<2>>;
+
+static_assert(sizeof(Segment) == 4 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
+static_assert(sizeof(Twist) == 2 * sizeof(double) && sizeof(Point) == 2 * sizeof(double));
+
+/// The rows of an array as what they are.
+template <class Row, class Array>
+std::span<const Row> rows(const Array& array) {
+  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
+}
+
+template <class Row, class Array>
+std::vector<Row> copy(const Array& array) {
+  const auto found = rows<Row>(array);
+  return {found.begin(), found.end()};
+}
+
+/// A new array that owns its values.
+template <class T>
+Output<T> own(std::unique_ptr<T[]> values, std::size_t count, std::size_t columns) {
+  T* const data = values.release();
+  nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<T*>(p); });
+  return Output<T>(data, {count, columns}, owner);
+}
+
+template <class T, class Row>
+Output<T> copied(const std::vector<Row>& rows_of) {
+  constexpr std::size_t columns = sizeof(Row) / sizeof(T);
+  auto values = std::make_unique<T[]>(rows_of.size() * columns);
+  std::copy_n(reinterpret_cast<const T*>(rows_of.data()), rows_of.size() * columns, values.get());
+  return own(std::move(values), rows_of.size(), columns);
+}
+
+void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+void construct_plane(Plane* self, const Matrix<4>& segments, const Vector<double>& radius, const Matrix<2>& limit,
+                     const Matrix<2>& acceleration, const Vector<double>& wheel_separation, const Matrix<3>& pose,
+                     double period, double slip, double actuation, std::uint64_t seed) {
+  const std::size_t count = pose.shape(0);
+  require(limit.shape(0) == count && acceleration.shape(0) == count && wheel_separation.size() == count,
+          "limits, accelerations and wheel separations are those of the robots");
+  std::vector<Drive> drives;
+  for (std::size_t i = 0; i < count; ++i) {
+    drives.push_back({rows<Twist>(limit)[i], rows<Twist>(acceleration)[i], wheel_separation.data()[i]});
+  }
+  new (self) Plane(copy<Segment>(segments), copy<double>(radius), std::move(drives), copy<Pose>(pose), period,
+                   {slip, actuation, seed});
+}
+
+void step(Plane& self, const Matrix<2>& twist, const std::optional<Matrix<2>>& movers) {
+  require(!movers || movers->shape(0) == self.mover_count(), "one place for each mover");
+  const auto places = movers ? rows<Point>(*movers) : std::span<const Point>{};
+  const nb::gil_scoped_release release;
+  self.step(rows<Twist>(twist), places);
+}
+
+Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, const Matrix<3>& pose,
+                    const Matrix<2>& movers, const Vector<double>& radius) {
+  const std::size_t count = pose.shape(0), beams = static_cast<std::size_t>(self.beams());
+  require(radius.size() == count + movers.shape(0), "each robot and mover has a radius");
+  for (const std::int32_t robot : rows<std::int32_t>(robots)) {
+    require(robot >= 0 && static_cast<std::size_t>(robot) < count, "there is no such robot");
+  }
+  auto ranges = std::make_unique_for_overwrite<double[]>(robots.size() * beams);
+  {
+    const nb::gil_scoped_release release;
+    std::vector<Point> centres;
+    for (const Pose& it : rows<Pose>(pose)) centres.push_back({it.x, it.y});
+    for (const Point& it : rows<Point>(movers)) centres.push_back(it);
+    self.scan(rows<std::int32_t>(robots), rows<Pose>(pose), centres, rows<double>(radius),
+              {ranges.get(), robots.size() * beams});
+  }
+  return own(std::move(ranges), robots.size(), beams);
+}
+
+}  // namespace
+
+NB_MODULE(sim, module) {
+  module.doc() = "Robots, contacts and lidars in the plane, in C++.";
+
+  nb::class_<Plane>(module, "Plane")
+      .def("__init__", &construct_plane, nb::kw_only(), "segments"_a, "radius"_a, "limit"_a, "acceleration"_a,
+           "wheel_separation"_a, "pose"_a, "period"_a, "slip"_a, "actuation"_a, "seed"_a)
+      .def("step", &step, "twist"_a, "movers"_a = nb::none())
+      .def_prop_ro(
+          "pose", [](const Plane& self) { return copied<double>(self.poses()); }, nb::rv_policy::automatic)
+      .def_prop_ro(
+          "twist", [](const Plane& self) { return copied<double>(self.twists()); }, nb::rv_policy::automatic)
+      .def_prop_ro(
+          "contacts", [](const Plane& self) { return copied<std::int32_t>(self.touches()); }, nb::rv_policy::automatic);
+
+  nb::class_<Caster>(module, "Caster")
+      .def(
+          "__init__",
+          [](Caster* self, const Matrix<4>& segments, int beams, double range, double min_range, double forward,
+             double leftward) {
+            new (self) Caster(copy<Segment>(segments), Lidar{beams, range, min_range, {forward, leftward}});
+          },
+          nb::kw_only(), "segments"_a, "beams"_a, "range"_a, "min_range"_a, "forward"_a, "leftward"_a)
+      .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a);
+}

@@ -1,0 +1,54 @@
+// A planar lidar among segments and discs. Everything near updates only the beams inside the angle it fills, in closed
+// form; the exact test of the core's `kinematic` simulator decides at the ends of that angle.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mrpbench_sim/plane.hpp"
+#include "mrpbench_sim/segment_buckets.hpp"
+
+namespace mrpbench::sim {
+
+struct Lidar {
+  int beams = 360;
+  double range = 3.5, min_range = 0.12;
+  /// Of the sensor in the robot's frame.
+  Point mount;
+};
+
+class Caster {
+ public:
+  Caster(std::vector<Segment> segments, const Lidar& lidar);
+
+  /// Ranges in metres of the lidars of `scanning`, row by row; infinity = no return. `centres` and `radius` are those
+  /// of all discs, of which the first are the robots; none sees itself.
+  void scan(std::span<const int> scanning, std::span<const Pose> poses, std::span<const Point> centres,
+            std::span<const double> radius, std::span<double> ranges) const;
+
+  int beams() const { return lidar_.beams; }
+
+ private:
+  struct Wall {
+    Point start, along;
+    double reach;  // (range * length)^2
+  };
+  /// Beams first, first + 1, ..., which may be negative or more than there are.
+  struct Span {
+    long first, count;
+  };
+
+  void see_wall(const Wall& wall, Point origin, Point facing, double* nearness) const;
+  void see_disc(Point offset, double radius, Point facing, double* nearness) const;
+  Span between(Point right, Point left) const;
+  std::size_t beam(long index) const;
+
+  Lidar lidar_;
+  std::vector<Wall> walls_;
+  SegmentBuckets buckets_;
+  std::vector<double> cosine_, sine_;
+  double per_radian_, padding_;
+  long edge_;
+};
+
+}  // namespace mrpbench::sim

@@ -1,0 +1,60 @@
+// Robots with differential drives in a plane of walls and movers.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mrpbench_sim/contacts.hpp"
+#include "mrpbench_sim/drive.hpp"
+
+namespace mrpbench::sim {
+
+struct Pose {
+  double x = 0, y = 0, yaw = 0;
+};
+
+/// What is random; all off at 0.
+struct Chance {
+  /// Mean share of its travel that a wheel loses; drawn for each wheel and period, uniformly up to twice the mean.
+  double slip = 0;
+  /// Standard deviation of the relative error of speed and turn rate, drawn for each period.
+  double actuation = 0;
+  std::uint64_t seed = 0;
+};
+
+class Plane {
+ public:
+  /// The first of the radii are the robots', the others the movers', which are nowhere until `step` says where.
+  /// Throws std::invalid_argument for sizes that do not fit and numbers that make no sense.
+  Plane(std::vector<Segment> segments, std::vector<double> radius, std::vector<Drive> drives, std::vector<Pose> poses,
+        double period, Chance chance);
+
+  /// Advance by one control period. `movers` may be empty, which leaves them where they are.
+  void step(std::span<const Twist> commands, std::span<const Point> movers);
+
+  const std::vector<Pose>& poses() const { return poses_; }
+  /// Over ground.
+  const std::vector<Twist>& twists() const { return twists_; }
+  /// Of the last step, in order, each once.
+  const std::vector<Touch>& touches() const { return touches_; }
+  std::size_t mover_count() const { return centres_.size() - poses_.size(); }
+
+ private:
+  void command(std::span<const Twist> commands);
+  void advance(double dt);
+
+  std::vector<Drive> drives_;
+  std::vector<Pose> poses_;
+  std::vector<Twist> driven_, twists_, wanted_;
+  std::vector<Slip> slips_;
+  std::vector<Point> centres_, before_, free_, heading_;
+  std::vector<Touch> touches_;
+  double period_;
+  int substeps_ = 1;
+  std::uint64_t periods_ = 0;
+  Chance chance_;
+  Contacts contacts_;
+};
+
+}  // namespace mrpbench::sim

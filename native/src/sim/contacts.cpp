@@ -1,0 +1,130 @@
+#include "mrpbench_sim/contacts.hpp"
+
+#include <algorithm>
+
+namespace mrpbench::sim {
+
+namespace {
+
+constexpr int kRounds = 20;
+constexpr double kTouch = 1e-9;
+
+/// Straight from a segment, solid on its left, to a point; to its right from a point on it.
+Point away(const Segment& wall, Point centre) {
+  const Point offset = gap(wall, centre);
+  const double distance = length(offset);
+  if (distance > 0) return offset * (1 / distance);
+  const Point along = wall.end - wall.start;
+  return Point{along.y, -along.x} * (1 / std::max(length(along), 1e-300));
+}
+
+}  // namespace
+
+Contacts::Contacts(std::vector<Segment> segments, std::vector<double> radius, int robots)
+    : neighbours_(std::move(segments), std::move(radius), robots),
+      is_active_(static_cast<std::size_t>(robots)),
+      is_back_(static_cast<std::size_t>(robots)) {}
+
+void Contacts::separate(std::span<const Point> before, std::span<Point> centres, std::vector<Touch>& touches) {
+  for (int round = 0; round < kRounds; ++round) {
+    neighbours_.refresh(centres);
+    activate(round == 0);
+    shifts_.clear();
+    for (const int robot : active_) {
+      Point shift;
+      if (push(robot, centres, shift, touches)) shifts_.push_back({robot, shift});
+    }
+    if (shifts_.empty()) return;
+    for (const Shift& it : shifts_) {
+      Point& centre = centres[static_cast<std::size_t>(it.robot)];
+      centre = centre + it.by;
+    }
+  }
+  take_back(before, centres);
+}
+
+/// After the first round only what was pushed, and what is near it, can overlap.
+void Contacts::activate(bool all) {
+  active_.clear();
+  if (all) {
+    for (int robot = 0; robot < neighbours_.robots(); ++robot) active_.push_back(robot);
+    return;
+  }
+  std::fill(is_active_.begin(), is_active_.end(), 0);
+  const auto add = [&](int robot) {
+    char& known = is_active_[static_cast<std::size_t>(robot)];
+    if (!known) active_.push_back(robot);
+    known = 1;
+  };
+  for (const Shift& it : shifts_) {
+    add(it.robot);
+    for (const int other : neighbours_.discs(it.robot)) {
+      if (other < neighbours_.robots()) add(other);
+    }
+  }
+}
+
+/// Whether a robot overlaps anything, and where that pushes it: robots share the way, movers and walls do not yield.
+bool Contacts::push(int robot, std::span<const Point> centres, Point& shift, std::vector<Touch>& touches) const {
+  bool pushed = false;
+  const Point centre = centres[static_cast<std::size_t>(robot)];
+  for (const int other : neighbours_.discs(robot)) {
+    // Always seen from the lower index, so that both robots of a pair find the same to the last bit.
+    const int low = std::min(robot, other), high = std::max(robot, other);
+    const Point offset = centres[static_cast<std::size_t>(high)] - centres[static_cast<std::size_t>(low)];
+    const double spacing = neighbours_.radius(low) + neighbours_.radius(high);
+    if (dot(offset, offset) > spacing * spacing) continue;
+    const double distance = length(offset);
+    if (!(distance < spacing - kTouch)) continue;
+    pushed = true;
+    const bool both = high < neighbours_.robots();
+    if (robot == low) touches.push_back({low, both ? high : -1});
+    const Point direction = distance > 0 ? offset * (1 / distance) : Point{1, 0};
+    const double way = (spacing - distance) * (both ? 0.5 : 1.0);
+    shift = robot == low ? shift - direction * way : shift + direction * way;
+  }
+  // Of all walls a robot is in, it is pushed out of the one it is deepest in; rounds see to the others.
+  double deepest = kTouch;
+  int wall = -1;
+  for (const int it : neighbours_.walls(robot)) {
+    const double deep = neighbours_.radius(robot) - length(gap(neighbours_.segment(it), centre));
+    if (deep < deepest || deep <= kTouch) continue;
+    deepest = deep;
+    wall = it;
+  }
+  if (wall < 0) return pushed;
+  touches.push_back({robot, -1});
+  shift = away(neighbours_.segment(wall), centre) * deepest;
+  return true;
+}
+
+/// Undo the motion of robots that still overlap by too much, and of those that this leaves no room for.
+void Contacts::take_back(std::span<const Point> before, std::span<Point> centres) {
+  std::fill(is_back_.begin(), is_back_.end(), 0);
+  do {
+    neighbours_.refresh(centres);
+    active_.clear();
+    for (int robot = 0; robot < neighbours_.robots(); ++robot) {
+      if (!is_back_[static_cast<std::size_t>(robot)] && stuck(robot, centres)) active_.push_back(robot);
+    }
+    for (const int robot : active_) {
+      const auto at = static_cast<std::size_t>(robot);
+      is_back_[at] = 1;
+      centres[at] = before[at];
+    }
+  } while (!active_.empty());
+}
+
+bool Contacts::stuck(int robot, std::span<const Point> centres) const {
+  const Point centre = centres[static_cast<std::size_t>(robot)];
+  for (const int other : neighbours_.discs(robot)) {
+    const double spacing = neighbours_.radius(robot) + neighbours_.radius(other);
+    if (length(centres[static_cast<std::size_t>(other)] - centre) < spacing - kTolerance) return true;
+  }
+  for (const int wall : neighbours_.walls(robot)) {
+    if (neighbours_.radius(robot) - length(gap(neighbours_.segment(wall), centre)) > kTolerance) return true;
+  }
+  return false;
+}
+
+}  // namespace mrpbench::sim

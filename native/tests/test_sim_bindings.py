@@ -1,0 +1,132 @@
+import ast
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+from mrpbench_native import sim
+
+NOTHING = np.empty((0, 4))
+NOBODY = np.empty((0, 2))
+
+
+def plane(robots=1, **changes):
+    arguments = {
+        "segments": NOTHING,
+        "radius": np.full(robots, 0.1),
+        "limit": np.tile([0.5, 2.0], (robots, 1)),
+        "acceleration": np.tile([2.5, 3.2], (robots, 1)),
+        "wheel_separation": np.full(robots, 0.16),
+        "pose": np.column_stack([np.arange(robots), np.zeros(robots), np.zeros(robots)]),
+        "period": 0.05,
+        "slip": 0.0,
+        "actuation": 0.0,
+        "seed": 0,
+    }
+    return sim.Plane(**{**arguments, **changes})
+
+
+def caster(**changes):
+    arguments = {
+        "segments": NOTHING,
+        "beams": 8,
+        "range": 3.5,
+        "min_range": 0.1,
+        "forward": 0.0,
+        "leftward": 0.0,
+    }
+    return sim.Caster(**{**arguments, **changes})
+
+
+def test_arrays_handed_out_are_copies():
+    it = plane(2)
+    pose, twist, contacts = it.pose, it.twist, it.contacts
+    it.step(np.full((2, 2), 0.2))
+    assert not twist.any()
+    assert pose.tolist() == [[0, 0, 0], [1, 0, 0]]
+    assert it.pose[0, 0] > 0
+    assert contacts.shape == (0, 2)
+    assert contacts.dtype == np.int32
+
+
+def test_contacts_are_robot_and_what_it_touched():
+    it = plane(2, radius=np.array([0.6, 0.6, 0.2]))
+    it.step(np.zeros((2, 2)), np.array([[-0.7, 0.0]]))
+    assert it.contacts.tolist() == [[0, -1], [0, 1]]
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"limit": np.zeros((2, 2))}, "those of the robots"),
+        ({"radius": np.empty(0)}, "each robot has a radius"),
+        ({"radius": np.array([-1.0])}, "radii must be positive"),
+        ({"pose": np.array([[np.nan, 0, 0]])}, "poses must be finite"),
+        ({"acceleration": np.zeros((1, 2))}, "accelerations must be positive"),
+        ({"wheel_separation": np.zeros(1)}, "wheel separations"),
+        ({"period": 0.0}, "period"),
+        ({"slip": 0.7}, "slip"),
+        ({"actuation": -0.1}, "actuation"),
+    ],
+)
+def test_planes_that_make_no_sense_are_refused(changes, message):
+    with pytest.raises(ValueError, match=message):
+        plane(**changes)
+
+
+def test_steps_that_make_no_sense_are_refused():
+    it = plane(1, radius=np.array([0.1, 0.3]))
+    with pytest.raises(ValueError, match="one twist for each robot"):
+        it.step(np.zeros((2, 2)))
+    with pytest.raises(ValueError, match="finite"):
+        it.step(np.array([[np.inf, 0]]))
+    with pytest.raises(ValueError, match="one place for each mover"):
+        it.step(np.zeros((1, 2)), np.zeros((2, 2)))
+
+
+def test_scans_that_make_no_sense_are_refused():
+    with pytest.raises(ValueError, match="beam"):
+        caster(beams=0)
+    with pytest.raises(ValueError, match="range"):
+        caster(range=np.inf)
+    for robots in ([1], [-1]):
+        with pytest.raises(ValueError, match="no such robot"):
+            caster().scan(np.array(robots, np.int32), np.zeros((1, 3)), NOBODY, np.ones(1))
+    with pytest.raises(ValueError, match="radius"):
+        caster().scan(np.array([0], np.int32), np.zeros((1, 3)), NOBODY, np.ones(2))
+
+
+def test_nothing_to_scan_gives_no_rows():
+    assert caster().scan(np.empty(0, np.int32), np.zeros((1, 3)), NOBODY, np.ones(1)).shape == (0, 8)
+
+
+def test_other_threads_run_meanwhile():
+    it = caster(beams=20_000)
+    robots = np.arange(400, dtype=np.int32)
+    pose = np.random.default_rng(0).uniform(0, 10, (400, 3))
+    done = threading.Event()
+
+    def work():
+        for _ in range(5):
+            it.scan(robots, pose, NOBODY, np.full(400, 0.1))
+        done.set()
+
+    worker = threading.Thread(target=work)
+    worker.start()
+    turns = 0
+    while not done.is_set():
+        turns += 1
+        time.sleep(0.001)
+    worker.join()
+    assert turns > 5
+
+
+def test_the_stub_names_what_the_module_has():
+    stub = ast.parse((Path(__file__).parent.parent / "python/mrpbench_native/sim.pyi").read_text())
+    for item in stub.body:
+        if isinstance(item, ast.ClassDef):
+            declared = {member.name for member in item.body if isinstance(member, ast.FunctionDef)} - {"__init__"}
+            assert declared == {name for name in dir(getattr(sim, item.name)) if not name.startswith("_")}
+    declared = {item.name for item in stub.body if isinstance(item, ast.FunctionDef | ast.ClassDef)}
+    assert declared == {name for name in dir(sim) if not name.startswith("_")}
