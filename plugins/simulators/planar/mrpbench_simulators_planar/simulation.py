@@ -1,0 +1,102 @@
+"""A native plane in motion."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from mrpbench_native.sim import Caster, Plane
+
+from mrpbench_core.api import Simulation
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Inputs, ScanBatch, State
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.scan_schedule import ScanSchedule
+from mrpbench_core.model.solids import segments
+from mrpbench_core.model.world import World
+
+
+class PlanarSimulation(Simulation):
+    """Robots, walls and movers. To all that it touches and all that see it a robot is its circumscribed disc."""
+
+    def __init__(
+        self,
+        slip: float,
+        actuation_noise: float,
+        world: World,
+        fleet: Fleet,
+        placements: Float,
+        seed: int,
+        period: float,
+        movers: Sequence[float],
+    ) -> None:
+        robots, solids = fleet.robots, segments(world)
+        self._radius = np.concatenate([fleet.radii, np.asarray(movers, float)])
+        self._plane = Plane(
+            segments=solids,
+            radius=self._radius,
+            limit=_table([(robot.max_speed, robot.max_turn_rate) for robot in robots]),
+            acceleration=_table([(robot.acceleration, robot.turn_acceleration) for robot in robots]),
+            wheel_separation=np.array([robot.wheel_separation for robot in robots], float),
+            pose=np.array(placements, float).reshape(-1, 3),
+            period=period,
+            slip=slip,
+            actuation=actuation_noise,
+            seed=seed % 2**64,
+        )
+        self._period, self._periods = period, 0
+        self._schedule = ScanSchedule(fleet, period)
+        self._casters = {
+            lidar: Caster(
+                segments=solids,
+                beams=lidar.beams,
+                range=lidar.range,
+                min_range=lidar.min_range,
+                forward=lidar.mount[0],
+                leftward=lidar.mount[1],
+            )
+            for lidar in self._schedule.lidars
+        }
+        self._movers = np.full((len(movers), 2), np.inf)
+        self._level = np.zeros(len(robots), np.int16)
+        self._state = self._observe()
+        self._scans = self._take_scans()
+
+    @property
+    def state(self) -> State:
+        """The truth now."""
+        return self._state
+
+    def step(self, inputs: Inputs) -> State:
+        """Advance by one control period."""
+        if inputs.movers is not None:
+            self._movers = np.ascontiguousarray(inputs.movers[:, :2])
+        self._plane.step(inputs.twist, self._movers)
+        self._periods += 1
+        self._state = self._observe()
+        self._scans += self._take_scans()
+        return self._state
+
+    def _observe(self) -> State:
+        plane = self._plane
+        return State(pose=plane.pose, twist=plane.twist, level=self._level, contacts=plane.contacts)
+
+    def scans(self) -> tuple[ScanBatch, ...]:
+        """Scans taken since the last call."""
+        taken, self._scans = self._scans, ()
+        return taken
+
+    def _take_scans(self) -> tuple[ScanBatch, ...]:
+        """Scans due now."""
+        stamp = self._periods * self._period
+        batches = []
+        for lidar, robots in self._schedule.due(self._periods):
+            scanning = np.array(robots, np.int32)
+            ranges = self._casters[lidar].scan(scanning, self._state.pose, self._movers, self._radius)
+            batches.append(ScanBatch(stamp=stamp, robot=scanning, ranges=ranges))
+        return tuple(batches)
+
+    def close(self) -> None:
+        """Nothing is held."""
+
+
+def _table(rows: list[tuple[float, float]]) -> Float:
+    return np.array(rows, float).reshape(-1, 2)

@@ -1,0 +1,34 @@
+"""The recipe: what the built-in `kinematic` does, for a thousand robots, with wheels that may slip."""
+
+from collections.abc import Sequence
+
+import attrs
+from attrs.validators import and_, ge, le
+
+from mrpbench_core.api import Simulation, Simulator, option
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.world import World
+from mrpbench_simulators_planar.simulation import PlanarSimulation
+
+
+@attrs.frozen(kw_only=True)
+class Planar(Simulator):
+    """Differential drives with limits, discs that touch, lidars; in C++; level 0 of the world."""
+
+    slip: float = option(
+        0.0,
+        help="mean share of its travel that a wheel loses; each wheel's is drawn every period, from 0 to twice that",
+        validator=and_(ge(0), le(0.5)),
+    )
+    actuation_noise: float = option(
+        0.0,
+        help="standard deviation of the relative error of speed and turn rate, drawn every period",
+        validator=ge(0),
+    )
+
+    def open(
+        self, world: World, fleet: Fleet, placements: Float, seed: int, period: float, movers: Sequence[float] = ()
+    ) -> Simulation:
+        """Place the robots. A robot's slip and noise are functions of `seed`, its index and the period alone."""
+        return PlanarSimulation(self.slip, self.actuation_noise, world, fleet, placements, seed, period, movers)
