@@ -14,13 +14,16 @@ from mrpbench_core.plugins.installed import installed
 from mrpbench_core.plugins.provenance import origin
 from mrpbench_core.plugins.registry import Registry
 
+COLUMN = ("name", "unit", "better", "description", "source")
+"""What is told of a metric's column."""
+
 
 def show(name: str, as_json: bool) -> None:
     """Print a plugin, named `NAME` or, where several kinds have one of that name, `KIND:NAME`."""
     cls = _find(name)
     facts: dict[str, Any] = origin(cls) | {"description": inspect.getdoc(cls) or ""} | _traits(cls)
     if issubclass(cls, Metric):
-        facts["columns"] = [attrs.asdict(column) for column in cls.columns]
+        facts["columns"] = [{key: getattr(column, key) for key in COLUMN} for column in cls.columns]
     facts["options"] = [_option(field) for field in _fields(cls)]
     if as_json:
         print_json(facts)
@@ -32,7 +35,7 @@ def show(name: str, as_json: bool) -> None:
             print(f"{key}: {', '.join(facts[key]) or 'nothing'}")
     print()
     if "columns" in facts:
-        _print_rows("column", ("name", "unit", "better", "description", "source"), facts["columns"])
+        _print_rows("column", COLUMN, facts["columns"])
         print()
     if facts["options"]:
         _print_rows("option", ("name", "default", "unit", "type", "help"), facts["options"])
