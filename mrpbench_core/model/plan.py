@@ -71,6 +71,8 @@ class PlanStatus(StrEnum):
     """Proved: no plan exists."""
     GAVE_UP = "gave_up"
     """An incomplete planner found none, which proves nothing."""
+    UNKNOWN = "unknown"
+    """Of recordings of other fleets: whether and how anyone planned is not known. No planner returns it."""
 
 
 @attrs.frozen(kw_only=True)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.model.execution import Route
 from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.plan import PlanResult
+from mrpbench_core.model.plan import PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.scenario import Scenario
 from mrpbench_core.model.world import World
@@ -44,12 +44,15 @@ class FinishedRun:
     channels: Mapping[str, Callable[[], NDArray[Any]]] = attrs.field(factory=dict)
     """Loads a whole channel by name; see `mrpbench_core.model.recording`."""
     timing: Mapping[str, float | bool | None] = attrs.field(factory=dict)
-    planned: bool = True
-    """False for what others drove: nothing is known of planning, not even that it failed."""
 
     def channel(self, name: str) -> NDArray[Any]:
         """The whole of a channel."""
         return self.channels[name]()
+
+    @property
+    def planned(self) -> bool:
+        """False for what others drove: nothing is known of planning, not even that it failed."""
+        return self.context.result.status != PlanStatus.UNKNOWN
 
     def has(self, name: str) -> bool:
         """Tell whether the recording holds a channel; for `plan` and `path`, whether these are known."""

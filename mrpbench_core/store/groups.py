@@ -76,15 +76,14 @@ def _is_measure(key: str, record: dict[str, Any]) -> bool:
 
 
 def _varying(records: Iterable[dict[str, Any]]) -> list[str]:
-    """Options that are not the same in all records."""
-    first: dict[str, str] | None = None
+    """Options that are not the same in all records that have them.
+
+    Records of runs have all options of their plugins; those of analysed bags lack what nobody knows.
+    """
+    first: dict[str, str] = {}
     varying: dict[str, None] = {}
     for record in records:
         flat = {key: repr(value) for key, value in flatten({"config": record["config"]}).items()}
-        if first is None:
-            first = flat
-        elif flat != first:
-            differing = [key for key in {**first, **flat} if first.get(key) != flat.get(key)]
-            varying |= dict.fromkeys(differing)
+        varying |= dict.fromkeys(key for key, value in flat.items() if first.setdefault(key, value) != value)
     fixed = tuple(f"config.{key}" for key in NO_AXES)
     return [key for key in varying if not any(key == name or key.startswith(f"{name}.") for name in fixed)]

@@ -5,6 +5,7 @@ import numpy as np
 
 from mrpbench_core.api import Column, Metric
 from mrpbench_core.engine.measure import measure
+from mrpbench_core.model.plan import PlanResult, PlanStatus
 from mrpbench_core.model.run import FinishedRun
 
 
@@ -71,6 +72,7 @@ def test_what_others_planned_is_not_taken_for_a_failure(run_context):
         def measure(self, run):
             return {"solved": run.context.result.plan is not None}
 
-    values, reasons = measure({"m": Solved()}, FinishedRun(context=run_context, executed=True, planned=False))
+    foreign = attrs.evolve(run_context, result=PlanResult(status=PlanStatus.UNKNOWN))
+    values, reasons = measure({"m": Solved()}, FinishedRun(context=foreign, executed=True))
     assert values == {"m.solved": None}
     assert reasons == {"m": "planned by others"}

@@ -7,6 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_metrics_standard import Execution
 
+from mrpbench_core.model.plan import PlanResult, PlanStatus
+
 WINDOW = Execution(blocked_window=2.0, blocked_distance=0.5)
 
 
@@ -176,7 +178,8 @@ def test_without_a_channel_only_the_columns_that_need_it_are_null(crossing, miss
 
 
 def test_time_blocked_is_null_where_paths_are_unknown(crossing):
-    values = Execution().measure(attrs.evolve(crossing, planned=False))
+    context = attrs.evolve(crossing.context, result=PlanResult(status=PlanStatus.UNKNOWN))
+    values = Execution().measure(attrs.evolve(crossing, context=context))
     assert (values["time_blocked_s"], values["time_blocked_max_s"]) == (None, None)
     assert values["success"] is not None
 

@@ -1,0 +1,1 @@
+"""Reads bags of any fleet back."""

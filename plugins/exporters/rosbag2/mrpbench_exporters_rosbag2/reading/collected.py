@@ -1,0 +1,121 @@
+"""What a bag says about poses, by robot and source, collected in one pass."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+import attrs
+
+from mrpbench_exporters_rosbag2.messages import SECOND
+from mrpbench_exporters_rosbag2.reading.names import robot_in
+from mrpbench_exporters_rosbag2.reading.series import Series
+
+POSES = tuple(
+    f"{package}/msg/{name}"
+    for package, name in (
+        ("nav_msgs", "Odometry"),
+        ("geometry_msgs", "PoseStamped"),
+        ("geometry_msgs", "PoseWithCovarianceStamped"),
+    )
+)
+TRANSFORMS, FLEET = "tf2_msgs/msg/TFMessage", "rmf_fleet_msgs/msg/FleetState"
+
+Take = Callable[[int, Any], None]
+"""Takes in a message with its log time."""
+
+
+@attrs.define(kw_only=True)
+class Collected:
+    """Series by source."""
+
+    poses: dict[tuple[str, str], Series] = attrs.field(factory=dict)
+    """By robot and source."""
+    frames: dict[tuple[str, str], Series] = attrs.field(factory=dict)
+    """Transforms by tree (the robot whose topic it is, '' = that of all) and child frame."""
+    static: dict[tuple[str, str], Series] = attrs.field(factory=dict)
+    """Those that are said once."""
+
+    @property
+    def series(self) -> Iterator[Series]:
+        """All that have a clock."""
+        yield from self.poses.values()
+        yield from self.frames.values()
+
+    def of_pose(self, robot: str, source: str, topic: str) -> Take:
+        """Takes messages with a pose."""
+        series = self.poses.setdefault((robot, source), Series(topic))
+
+        def take(logged: int, message: Any) -> None:
+            pose = message.pose
+            pose = getattr(pose, "pose", pose)  # some have a covariance beside it
+            series.frame = message.header.frame_id.lstrip("/")
+            series.add(nanoseconds(message.header.stamp), logged, pose.position, pose.orientation)
+
+        return take
+
+    def of_fleet(self, topic: str, fleet: str) -> Take:
+        """Takes states of a fleet of Open-RMF; `fleet` = the only one wanted, or ''."""
+
+        def take(logged: int, message: Any) -> None:
+            if fleet in ("", message.name):
+                for robot in message.robots:
+                    at = robot.location
+                    series = self.poses.setdefault((robot.name, "fleet_states"), Series(topic))
+                    series.put(nanoseconds(at.t), logged, (at.x, at.y, at.yaw, math.nan), at.level_name)
+
+        return take
+
+    def of_transforms(self, tree: str, topic: str, static: bool) -> Take:
+        """Takes transforms; of a frame with two parents, those of the first."""
+        kept = self.static if static else self.frames
+
+        def take(logged: int, message: Any) -> None:
+            for said in message.transforms:
+                child, parent = said.child_frame_id.lstrip("/"), said.header.frame_id.lstrip("/")
+                series = kept.get((tree, child))
+                if series is None:
+                    series = kept[tree, child] = Series(f"{topic}: {parent} to {child}", parent)
+                if series.frame == parent:
+                    place = said.transform
+                    series.add(nanoseconds(said.header.stamp), logged, place.translation, place.rotation)
+
+        return take
+
+
+@attrs.frozen(kw_only=True)
+class Patterns:
+    """Which topics say what; see the options of the importer."""
+
+    by_source: Mapping[str, tuple[str, ...]]
+    tf: tuple[str, ...]
+    fleet_states: tuple[str, ...]
+    fleet: str
+
+    def takers(self, topics: Mapping[str, str], into: Collected) -> dict[str, Take]:
+        """Who takes in the messages of each topic that says something about poses; `topics` give types by name."""
+        found: dict[str, Take] = {}
+        exact: dict[str, Take] = {}
+        robots = set()
+        for topic, kind in topics.items():
+            if kind in POSES:
+                for source, patterns in self.by_source.items():
+                    if (robot := robot_in(topic, patterns)) is not None:
+                        found[topic] = into.of_pose(robot, source, topic)
+                        robots.add(robot)
+                        exact |= {topic: found[topic]} if source == "ground_truth" else {}
+                        break
+            elif kind == FLEET and topic in self.fleet_states:
+                found[topic] = into.of_fleet(topic, self.fleet)
+            elif kind == TRANSFORMS:
+                static = topic.endswith("_static")
+                name = topic.removesuffix("_static")
+                if name == "/tf":
+                    found[topic] = into.of_transforms("", topic, static)
+                elif (robot := robot_in(name, self.tf)) is not None:
+                    found[topic] = into.of_transforms(robot, topic, static)
+        return exact if 0 < len(exact) == len(robots) else found  # nothing is better than the truth of every robot
+
+
+def nanoseconds(stamp: Any) -> int:
+    """Of a builtin_interfaces/Time."""
+    return int(stamp.sec) * SECOND + int(stamp.nanosec)

@@ -1,0 +1,151 @@
+"""The importer `rosbag2`: from the messages of a bag to one track per robot."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import attrs
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.importer import SOURCES, Importer, Observed, Track
+from mrpbench_core.files.errors import InputError
+from mrpbench_exporters_rosbag2.messages import SECOND
+from mrpbench_exporters_rosbag2.reading.collected import Collected, Patterns
+from mrpbench_exporters_rosbag2.reading.names import natural, robot_in, wanted, without_robot
+from mrpbench_exporters_rosbag2.reading.own import Own
+from mrpbench_exporters_rosbag2.reading.series import Ordered, Span, longest_even_span
+from mrpbench_exporters_rosbag2.reading.stream import Stream
+from mrpbench_exporters_rosbag2.reading.transforms import placed
+
+SHOWN = 12
+"""Topics that a message lists."""
+
+
+@attrs.frozen(kw_only=True)
+class FromRosbag2(Importer):
+    """Reads a rosbag2 (mcap or sqlite3) of any ROS 2 distribution, with the message definitions that it holds.
+
+    In patterns, `{robot}` stands for a robot's name; where no topic fits, a lone robot is looked for in `/odom` and so
+    on. Poses of topics are read from Odometry, PoseStamped and PoseWithCovarianceStamped, by the stamps of their
+    headers; by the log time where a topic has none.
+    """
+
+    ground_truth: tuple[str, ...] = option(("/{robot}/ground_truth",), help="topics with true poses in `map`")
+    amcl_pose: tuple[str, ...] = option(("/{robot}/amcl_pose",), help="topics with poses that localization estimates")
+    odometry: tuple[str, ...] = option(("/{robot}/odom",), help="topics with odometry")
+    tf: tuple[str, ...] = option(("/{robot}/tf",), help="topics with one robot's transforms, beside `/tf` of all")
+    fleet_states: tuple[str, ...] = option(("/fleet_states",), help="topics with rmf_fleet_msgs/FleetState")
+    fleet: str = option("", help="the fleet whose states are read, of several; empty = all")
+    map_frame: str = option("map", help="the frame in which the world is given")
+    base_frames: tuple[str, ...] = option(
+        ("{robot}/base_footprint", "{robot}/base_link"), help="frames of the robots' bases, the first that there is"
+    )
+
+    def read(self, path: Path, robots: tuple[str, ...] = ()) -> Observed:
+        """Return what the bag at `path`, a folder or one storage file, holds."""
+        with Stream(path) as stream:
+            topics = stream.topics
+            for alone in (False, True):
+                patterns, bases = self._patterns(alone)
+                collected, own = Collected(), Own(topics)
+                takers = patterns.takers(topics, collected) | own.takers()
+                for topic, logged, message in stream.messages(takers):
+                    takers[topic](logged, message)
+                tracks, notes = self._tracks(collected, bases, robots, own.begin)
+                if tracks:
+                    return Observed(
+                        tracks=tuple(tracks),
+                        context=own.context,
+                        channels=own.channels(),
+                        notes=tuple(dict.fromkeys((*stream.notes, *own.notes, *notes))),
+                    )
+            raise self._nothing(path, robots, topics, stream.notes)
+
+    def _patterns(self, alone: bool) -> tuple[Patterns, tuple[str, ...]]:
+        """The patterns of topics, and those of base frames; of a lone robot, or of robots that have names."""
+        by_source = {"ground_truth": self.ground_truth, "amcl_pose": self.amcl_pose, "odometry": self.odometry}
+        bases = self.base_frames
+        if alone:
+            by_source = {source: without_robot(patterns) for source, patterns in by_source.items()}
+            bases = without_robot(bases)
+        return Patterns(by_source=by_source, tf=self.tf, fleet_states=self.fleet_states, fleet=self.fleet), bases
+
+    def _tracks(
+        self, collected: Collected, bases: tuple[str, ...], chosen: tuple[str, ...], begin: int | None
+    ) -> tuple[list[Track], list[str]]:
+        """Tracks with times since `begin` (nanoseconds; None = their first pose), and what to say about them."""
+        span = longest_even_span(collected.series)
+        notes = [] if span.note is None else [span.note]
+        if span.use_log:
+            notes.append("a topic has no stamps, so log times were used for all")
+        notes += [f"{one.topic}: {one.refused} poses are not finite" for one in collected.series if one.refused]
+        robots = {robot for robot, _ in collected.poses}
+        robots |= {robot for tree, child in collected.frames if (robot := self._robot(tree, child, bases)) is not None}
+        found = []
+        for robot in sorted((robot for robot in robots if wanted(robot, chosen)), key=natural):
+            for source in SOURCES:
+                if (best := self._poses(collected, span, bases, robot, source)) is not None:
+                    found.append((robot, source, *best))
+                    break
+        if begin is None:
+            begin = min((int(poses.stamps[0]) for *_, poses in found), default=0)
+        return [_track(*facts, begin) for facts in found], notes
+
+    def _robot(self, tree: str, child: str, bases: tuple[str, ...]) -> str | None:
+        if tree:
+            return tree if robot_in(child, without_robot(bases)) is not None else None
+        return robot_in(child, bases)
+
+    def _poses(
+        self, collected: Collected, span: Span, bases: tuple[str, ...], robot: str, source: str
+    ) -> tuple[str, bool, Ordered] | None:
+        """Topic, whether the poses are in `map`, and the poses of a robot by one source, or None."""
+        if source != "tf":
+            series = collected.poses.get((robot, source))
+            poses = None if series is None else series.ordered(span.use_log, span.since, span.until)
+            if series is None or poses is None:
+                return None
+            return series.topic, source != "odometry" or series.frame == self.map_frame, poses
+        for tree in ("", robot):
+            edges = dict(_edges(collected, span, tree))
+            for frame in bases:
+                base = (frame if not tree else without_robot((frame,))[0]).replace("{robot}", robot)
+                poses = placed(edges, base, self.map_frame)
+                if poses is not None:
+                    return f"{f'/{tree}' if tree else ''}/tf: {self.map_frame} to {base}", True, poses
+        return None
+
+    def _nothing(self, path: Path, robots: tuple[str, ...], topics: dict[str, str], notes: list[str]) -> InputError:
+        """Why there is not one track."""
+        listed = [f"{topic} ({kind.replace('/msg/', '/')})" for topic, kind in sorted(topics.items())]
+        more = f" and {len(listed) - SHOWN} more" if len(listed) > SHOWN else ""
+        there = f"its topics are {', '.join(listed[:SHOWN])}{more}" if listed else "it holds no messages"
+        names = f" that {' or '.join(robots)} names" if robots else ""
+        damage = f" ({'; '.join(notes)})" if notes else ""
+        return InputError(
+            f"holds no pose of any robot{names}{damage}: {there}",
+            file=path,
+            hint="name topics by patterns, e.g. --option 'odometry=[/{robot}/odometry/filtered]'",
+        )
+
+
+def _edges(collected: Collected, span: Span, tree: str) -> Iterator[tuple[str, tuple[str, Ordered]]]:
+    """Frames of a tree with their parents and poses."""
+    for (owner, child), series in collected.static.items():
+        if owner == tree and (poses := series.ordered(False, -(2**63), 2**63 - 1)) is not None:
+            yield child, (series.frame, Ordered(poses.stamps[-1:], poses.rows[-1:]))
+    for (owner, child), series in collected.frames.items():
+        if owner == tree and (poses := series.ordered(span.use_log, span.since, span.until)) is not None:
+            yield child, (series.frame, poses)
+
+
+def _track(robot: str, source: str, topic: str, placed_in_map: bool, poses: Ordered, begin: int) -> Track:
+    return Track(
+        robot=robot,
+        source=source,
+        topic=topic,
+        placed=placed_in_map,
+        time=(poses.stamps - begin) / SECOND,
+        pose=poses.rows[:, :3],
+        height=poses.rows[:, 3],
+        levels=poses.levels,
+    )

@@ -1,0 +1,138 @@
+"""Messages of a bag, in the order of recording, as long as there are some that can be read."""
+
+from collections.abc import Collection, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from rosbags.interfaces import Connection, MessageDefinitionFormat
+from rosbags.rosbag2 import Reader
+from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_exporters_rosbag2.messages import TYPES
+from mrpbench_exporters_rosbag2.reading.salvage import is_cut_off, salvage
+
+STORAGES = (".mcap", ".db3")
+IDL_SEPARATOR = "=" * 80 + "\n"
+
+
+class Stream:
+    """A bag that is open for reading; a context manager."""
+
+    def __init__(self, path: Path) -> None:
+        """Open a bag's folder, or one storage file.
+
+        Raises:
+            InputError: nothing of it can be read.
+        """
+        self.path = path
+        self.notes: list[str] = []
+        self._stack = ExitStack()
+        self._types: dict[str, Typestore | None] = {}
+        try:
+            self.readers = self._open()
+        except BaseException:
+            self._stack.close()
+            raise
+
+    def __enter__(self) -> "Stream":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+
+    @property
+    def topics(self) -> dict[str, str]:
+        """Message type (`nav_msgs/msg/Odometry`) of each topic that has messages."""
+        return {found.topic: found.msgtype for found in self._connections() if found.msgcount}
+
+    def messages(self, topics: Collection[str]) -> Iterator[tuple[str, int, Any]]:
+        """Topic, log time (nanoseconds) and message. What cannot be read ends up in `notes`."""
+        for reader in self.readers:
+            wanted = [found for found in reader.connections if found.topic in topics and self._definition(found)]
+            count = 0
+            try:
+                for connection, stamp, data in reader.messages(wanted) if wanted else ():
+                    store = self._definition(connection)
+                    assert store is not None
+                    message = store.deserialize_cdr(data, connection.msgtype)
+                    count += 1
+                    yield connection.topic, stamp, message
+            except Exception as error:  # noqa: BLE001 - of zstd, SQLite, struct, …: whatever damaged bytes lead to
+                self.notes.append(
+                    f"{Path(str(reader.path)).name} is damaged ({_words(error)}): of what is wanted, only the first "
+                    f"{count} messages can be read"
+                )
+
+    def _connections(self) -> list[Connection]:
+        return [connection for reader in self.readers for connection in reader.connections]
+
+    def _definition(self, connection: Connection) -> Typestore | None:
+        """What reads a connection's messages: by the bag's own definition, else by ROS 2's of that name."""
+        name = connection.msgtype
+        if name not in self._types:
+            self._types[name] = self._find(connection)
+        return self._types[name]
+
+    def _find(self, connection: Connection) -> Typestore | None:
+        name, definition = connection.msgtype, connection.msgdef
+        try:
+            if definition.format == MessageDefinitionFormat.MSG:
+                types = get_types_from_msg(definition.data, name)
+            elif definition.format == MessageDefinitionFormat.IDL:
+                types = {}
+                for part in filter(str.strip, definition.data.split(IDL_SEPARATOR)):
+                    types |= get_types_from_idl(part.partition("\n")[2] if part.startswith("IDL: ") else part)
+            elif name in TYPES.fielddefs:
+                return TYPES
+            else:
+                self.notes.append(f"{connection.topic}: the bag does not define its type {name}, so it was not read")
+                return None
+            store = get_typestore(Stores.EMPTY)
+            store.register(types)
+        except Exception as error:  # noqa: BLE001 - a parser's error about text from the bag
+            self.notes.append(f"{connection.topic}: its type {name} is not understood ({_words(error)})")
+            return None
+        return store
+
+    def _open(self) -> list[Reader]:
+        if not self.path.exists():
+            raise InputError("there is no such bag", file=self.path)
+        try:
+            return [self._reader(self.path)]
+        except InputError as error:
+            files = [self.path] if self.path.is_file() else sorted(self.path.iterdir())
+            files = [file for file in files if file.suffix in STORAGES]
+            if not files:
+                raise InputError("is no rosbag2", file=self.path, hint="give the folder with metadata.yaml") from error
+            reason = error.message
+        readers = []
+        for file in files:
+            try:
+                if file.suffix == ".mcap" and is_cut_off(file):
+                    self.notes.append(f"{file.name} is cut off; what is whole of it was read")
+                    file = salvage(file, Path(self._stack.enter_context(TemporaryDirectory())))
+                elif file != self.path:
+                    self.notes.append(f"read without metadata.yaml ({reason})")
+                readers.append(self._reader(file))
+            except (InputError, OSError) as error:
+                reason = error.message if isinstance(error, InputError) else str(error)
+                self.notes.append(f"{file.name}: {reason}")
+        if not readers:
+            raise InputError(f"nothing of it can be read: {reason}", file=self.path)
+        return readers
+
+    def _reader(self, path: Path) -> Reader:
+        try:
+            reader = Reader(path)
+            self._stack.enter_context(reader)
+        except Exception as error:  # as in `messages`
+            raise InputError(_words(error), file=path) from error
+        return reader
+
+
+def _words(error: Exception) -> str:
+    return " ".join(str(error).split())[:200].rstrip(".") or type(error).__name__
