@@ -8,7 +8,7 @@ import numpy as np
 
 from mrpbench_core.checking.tiles import Tiles
 from mrpbench_core.model.arrays import Bool, Float, Int
-from mrpbench_core.model.geometry import segment_distance
+from mrpbench_core.model.geometry import inside, segment_distance
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.solids import wall_boxes
 from mrpbench_core.model.world import Level
@@ -45,14 +45,7 @@ def _touches(outline: Float, start: Float, end: Float, radius: float) -> Bool:
     """bool[k] for outlines f8[k or 1,sides,2]: does the swept disc meet the polygon?"""
     after = np.roll(outline, -1, axis=1)
     gap = segment_distance(outline, after, start[:, None], end[:, None]).min(axis=1)
-    # even-odd rule: a ray to the right from an inner point crosses the outline an odd number of times
-    x, y = start[:, None, 0], start[:, None, 1]
-    straddles = (outline[..., 1] > y) != (after[..., 1] > y)
-    rise = after[..., 1] - outline[..., 1]
-    share = (y - outline[..., 1]) / np.where(rise != 0, rise, 1.0)
-    crossing = outline[..., 0] + share * (after[..., 0] - outline[..., 0])
-    inside = (straddles & (x < crossing)).sum(axis=1) % 2 == 1
-    touching: Bool = inside | (gap <= max(radius - TOLERANCE, 0.0))
+    touching: Bool = inside(outline, start) | (gap <= max(radius - TOLERANCE, 0.0))
     return touching
 
 

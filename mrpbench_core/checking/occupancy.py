@@ -8,6 +8,7 @@ import numpy as np
 
 from mrpbench_core.checking.clearance import solids
 from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.model.geometry import inside
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.world import Level
 
@@ -50,10 +51,10 @@ def rasterise(
             continue
         cells = np.stack(np.meshgrid(rows, columns, indexing="ij"), axis=-1).reshape(-1, 2)
         centres = blank.centres(cells)
-        inside = _holds(outline, centres)
+        solid = inside(outline, centres)
         if rule == "touched":
-            inside |= _crosses(outline, centres, cell_size / 2 * (1 - HAIR))
-        blocked[first[0] : last[0], first[1] : last[1]] |= inside.reshape(len(rows), len(columns))
+            solid |= _crosses(outline, centres, cell_size / 2 * (1 - HAIR))
+        blocked[first[0] : last[0], first[1] : last[1]] |= solid.reshape(len(rows), len(columns))
     return attrs.evolve(blank, blocked=blocked)
 
 
@@ -72,17 +73,6 @@ def _reach(raster: Occupancy, outline: Float) -> tuple[Int, Int]:
     first = np.clip(raster.cells(outline.min(axis=0))[0], 0, raster.shape)
     last = np.clip(raster.cells(outline.max(axis=0))[0] + 1, 0, raster.shape)
     return first, last
-
-
-def _holds(outline: Float, points: Float) -> Bool:
-    """bool[k]: which points f8[k,2] lie inside, by the even-odd rule."""
-    after = np.roll(outline, -1, axis=0)
-    x, y = points[:, None, 0], points[:, None, 1]
-    straddles = (outline[:, 1] > y) != (after[:, 1] > y)
-    rise = after[:, 1] - outline[:, 1]
-    share = (y - outline[:, 1]) / np.where(rise != 0, rise, 1.0)
-    inside: Bool = (straddles & (x < outline[:, 0] + share * (after[:, 0] - outline[:, 0]))).sum(axis=1) % 2 == 1
-    return inside
 
 
 def _crosses(outline: Float, centres: Float, half: float) -> Bool:

@@ -6,6 +6,7 @@ import numpy as np
 from mrpbench_core.checking.clearance import keeps_clear, solids
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import called, crossings, duplicates, unique_edges, vertices_on_lanes
+from mrpbench_core.checking.passages import narrow_passages
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.world import World
 
@@ -40,6 +41,8 @@ class WorldFacts:
     roadmap_components: int
     faults: tuple[str, ...]
     """What is wrong with the map, one sentence each."""
+    narrow: tuple[str, ...]
+    """Passages narrower than the robot, one sentence each."""
     notes: tuple[str, ...]
     """What loader and roadmap left out or assumed."""
 
@@ -70,6 +73,7 @@ def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
         roadmap_edges=len(roadmap.edges),
         roadmap_components=len(np.unique(components(len(roadmap.position), roadmap.edges))),
         faults=(*_graph_faults(world), *_clearance_faults(world, radius), *_roadmap_faults(world, roadmap)),
+        narrow=tuple(_narrow(world, 2 * radius)),
         notes=(*world.notes, *roadmap.notes),
     )
 
@@ -127,6 +131,19 @@ def _clearance_faults(world: World, radius: float) -> list[str]:
             for a, b in blocked
         ),
     ]
+
+
+def _narrow(world: World, width: float) -> list[str]:
+    return [
+        f"the passage at ({passage.x:.2f}, {passage.y:.2f}){_on(world, index)} is {passage.width:.3f} m wide, "
+        f"the robot needs {width:.3f} m"
+        for index, level in enumerate(world.levels)
+        for passage in narrow_passages(level, width)
+    ]
+
+
+def _on(world: World, level: int) -> str:
+    return f" on level {world.levels[level].name}" if len(world.levels) > 1 else ""
 
 
 def _roadmap_faults(world: World, roadmap: Roadmap) -> list[str]:

@@ -176,7 +176,7 @@ def _print(facts: "WorldFacts") -> None:
         ),
     ]
     print_table(["fact", "value"], rows, facts.name)
-    for title, sentences in (("faults", facts.faults), ("notes", facts.notes)):
+    for title, sentences in (("faults", facts.faults), ("narrow passages", facts.narrow), ("notes", facts.notes)):
         if sentences:
             print(f"{title}:")
             for sentence in sentences[:SHOWN]:

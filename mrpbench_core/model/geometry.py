@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.arrays import Bool, Float
 
 
 def point_segment_distance(points: Float, start: Float, end: Float) -> Float:
@@ -25,6 +25,19 @@ def segment_distance(a: Float, b: Float, c: Float, d: Float) -> Float:
     crossing = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
     result: Float = np.where(crossing, 0.0, distance)
     return result
+
+
+def inside(outline: Float, points: Float) -> Bool:
+    """Tell bool[...] whether `points` f8[...,2] lie inside closed polygons f8[...,k,2] (broadcast), by the even-odd
+    rule: a ray to the right from an inner point crosses the outline an odd number of times.
+    """
+    after = np.roll(outline, -1, axis=-2)
+    rise, along = after[..., 1] - outline[..., 1], after[..., 0] - outline[..., 0]
+    dx, dy = points[..., None, 0] - outline[..., 0], points[..., None, 1] - outline[..., 1]
+    straddles = (dy < 0) != (points[..., None, 1] < after[..., 1])
+    left_of = np.where(rise > 0, dx * rise < dy * along, dx * rise > dy * along)
+    odd: Bool = (straddles & left_of).sum(axis=-1) % 2 == 1
+    return odd
 
 
 def side(start: Float, end: Float, point: Float) -> Float:

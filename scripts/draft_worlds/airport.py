@@ -63,7 +63,7 @@ def gates(level: Level, side: str, y: float, outward: int) -> None:
         for dx in (-2.6, 2.6) if turn else ():
             for dy in (10, 12.5):
                 level.model("WaitingChair", x + dx, y + outward * dy)
-        for dx in () if turn else (-2.0, 0.0, 2.0):
+        for dx in () if turn else (-2.4, 0.0, 2.4):
             level.model("WaitingChair", x + dx, y + outward * 11.5, pi / 2)
         walls.append(x + 5)
     level.remark(f"gates of the {side} concourse")

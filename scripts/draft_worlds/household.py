@@ -95,7 +95,7 @@ def furniture(level: Level) -> None:
     level.model("CoffeeTable", 5.35, 7.4)
     level.model("Drawer", 7.45, 5.1)
     level.model("AdjTable", 9.2, 8.45)
-    level.model("OfficeChairBlue", 8.35, 7.6)
+    level.model("OfficeChairBlue", 8.35, 7.4)
     level.model("Bookshelf", 11.9, 7.6, pi / 2)
     level.model("Bookshelf", 11.9, 6.6, pi / 2)
     level.model("MiniSofa", 11.65, 5.3)

@@ -1,3 +1,4 @@
+import attrs
 import numpy as np
 import pytest
 
@@ -69,6 +70,27 @@ def test_every_kind_of_fault_is_named():
         "in_wall cannot be reached on the roadmap",
         "tight cannot be reached on the roadmap",
     )
+
+
+def test_narrow_passages_and_all_levels_are_reported():
+    walls = [[0, 0, 2, 0], [2.3, 0, 4, 0]]
+    world = attrs.evolve(
+        world_of(("a", 1, 1), walls=walls),
+        levels=(Level(name="G", walls=walls), Level(name="U", walls=[[0, 0, 9, 0]])),
+    )
+    facts = check_world(world, roadmap_of([[1, 1]], place=[0]), 0.125)
+    assert (facts.levels, facts.walls) == (2, 3)
+    assert facts.width == pytest.approx(9.1)
+    assert facts.narrow == ("the passage at (2.15, -0.05) on level G is 0.200 m wide, the robot needs 0.250 m",)
+    assert check_world(world, roadmap_of([[1, 1]], place=[0]), 0.09).narrow == ()
+
+
+def test_faults_on_upper_levels_are_found():
+    level = Level(name="U", walls=[[0, 0, 9, 0]])
+    world = attrs.evolve(world_of(("a", 1, 0), ("b", 5, 3), lanes=[(0, 1)]), levels=(Level(name="G"), level))
+    world = attrs.evolve(world, vertices=tuple(attrs.evolve(vertex, level=1) for vertex in world.vertices))
+    faults = check_world(world, roadmap_of([[1, 1]], place=[-1, -1]), 0.1).faults
+    assert faults == ("a lies inside something solid", "lane a – b passes something solid nearer than 0.100 m")
 
 
 def test_size_covers_rasters_obstacles_and_places():
