@@ -93,6 +93,8 @@ def test_scans_that_make_no_sense_are_refused():
     for robots in ([1], [-1]):
         with pytest.raises(ValueError, match="no such robot"):
             caster().scan(np.array(robots, np.int32), np.zeros((1, 3)), NOBODY, np.ones(1))
+    with pytest.raises(ValueError, match="finite"):
+        caster().scan(np.array([0], np.int32), np.full((1, 3), np.nan), NOBODY, np.ones(1))
     with pytest.raises(ValueError, match="radius"):
         caster().scan(np.array([0], np.int32), np.zeros((1, 3)), NOBODY, np.ones(2))
 

@@ -10,12 +10,19 @@
 
 namespace mrpbench::sim {
 
+/// Metres from the origin along either axis; what is farther is nowhere.
+constexpr double kFarthest = 1e9;
+
+inline bool somewhere(Point p) {
+  return std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest;
+}
+
 /// Points by square cells of the plane, in a table as large as their number asks for. Memory is kept between builds.
 class DiscHash {
  public:
   explicit DiscHash(double cell) : cell_(cell) {}
 
-  /// Points that are not finite, or absurdly far away, are left out.
+  /// Points that are nowhere are left out.
   void build(std::span<const Point> points);
 
   /// Calls `visit(index)` once for every point within `reach` of `centre`, and for some that are farther.

@@ -70,6 +70,7 @@ void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, st
   for (std::size_t row = 0; row < scanning.size(); ++row) {
     const int robot = scanning[row];
     const Pose& pose = poses[static_cast<std::size_t>(robot)];
+    if (!somewhere({pose.x, pose.y}) || !std::isfinite(pose.yaw)) throw std::invalid_argument("poses must be finite");
     const Point facing{std::cos(pose.yaw), std::sin(pose.yaw)};
     const Point origin = Point{pose.x, pose.y} + Point{facing.x * lidar_.mount.x - facing.y * lidar_.mount.y,
                                                        facing.y * lidar_.mount.x + facing.x * lidar_.mount.y};

@@ -2,18 +2,11 @@
 
 namespace mrpbench::sim {
 
-namespace {
-
-/// Metres from the origin; what is farther is nowhere.
-constexpr double kFarthest = 1e9;
-
-}  // namespace
-
 void DiscHash::build(std::span<const Point> points) {
   found_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point p = points[i];
-    if (!(std::abs(p.x) < kFarthest && std::abs(p.y) < kFarthest)) continue;
+    if (!somewhere(p)) continue;
     found_.push_back({cell(p.x), cell(p.y), static_cast<int>(i)});
   }
   std::size_t slots = 1;

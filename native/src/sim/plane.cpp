@@ -32,7 +32,7 @@ void require_sound(const std::vector<double>& radius, const std::vector<Drive>& 
   require(chance.actuation >= 0 && std::isfinite(chance.actuation), "actuation noise must not be negative");
   for (const double it : radius) require(it > 0 && std::isfinite(it), "radii must be positive");
   for (const Pose& it : poses) {
-    require(std::isfinite(it.x) && std::isfinite(it.y) && std::isfinite(it.yaw), "poses must be finite");
+    require(somewhere({it.x, it.y}) && std::isfinite(it.yaw), "poses must be finite");
   }
   for (const Drive& it : drives) {
     require(it.limit.ahead >= 0 && it.limit.turn >= 0 && std::isfinite(it.limit.ahead) && std::isfinite(it.limit.turn),
