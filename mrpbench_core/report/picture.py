@@ -23,6 +23,8 @@ CROWDED = 100
 _DPI = 160
 _MARGINS = (84, 20, 60, 44)
 """Left, right, bottom, top, pixels."""
+_DOT = 3
+"""Pixels around a place that no name covers."""
 _LEAST = 250
 """Pixels of the shorter side of the map."""
 _WALL, _LANE, _ROAD, _NAME, _DOOR = "#3b4252", "#9db4c8", "#e8f0f6", "#51606e", "#b07d2b"
@@ -90,7 +92,8 @@ def world_figure(
         _solids(axes, world.levels[level])
         _lifts(axes, world, level)
         _lanes(axes, world, level)
-        _names(figure, axes, _labels(world, level), faint=faint)
+        places = np.array([(v.x, v.y) for v in world.vertices if v.level == level]).reshape(-1, 2)
+        _names(figure, axes, _labels(world, level), places, faint=faint)
     return figure, axes
 
 
@@ -273,7 +276,7 @@ def _legend(axes: Any, planned: bool, driven: bool) -> None:
     axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=4, frameon=False, borderpad=0)
 
 
-def _names(figure: Any, axes: Any, named: dict[tuple[float, float], str], *, faint: bool) -> None:
+def _names(figure: Any, axes: Any, named: dict[tuple[float, float], str], places: Float, *, faint: bool) -> None:
     """Names of places, each above, below or beside its vertex; one that fits nowhere is left out."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.patheffects import withStroke
@@ -281,7 +284,8 @@ def _names(figure: Any, axes: Any, named: dict[tuple[float, float], str], *, fai
     canvas: Any = FigureCanvasAgg(figure)
     renderer = canvas.get_renderer()
     axes.apply_aspect()  # settles where the axes are, on which positions in pixels depend
-    taken = np.empty((0, 4))
+    dots = axes.transData.transform(places)
+    taken = np.hstack([dots - _DOT, dots + _DOT])  # left, bottom, right, top in pixels
     size = 5.5 if len(named) <= CROWDED else 4.0
     inside = axes.get_window_extent(renderer)
     offsets = (
