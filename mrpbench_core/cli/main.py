@@ -25,6 +25,7 @@ COMMANDS = {
     "report": "print tables of results",
     "view": "write a replay of a run that any browser opens",
     "export": "write a stored run in another format",
+    "analyze": "measure a bag of a real or otherwise simulated fleet",
     "scenario": "freeze the instances a study draws, for publication",
     "world": "facts and checks of a map",
     "plugins": "list what is installed, or show one plugin's options",

@@ -51,7 +51,7 @@ def run(arguments: argparse.Namespace) -> int:
     from mrpbench_core.model.fleet import Fleet
 
     fleet = Fleet(robots=(load_robot(arguments.robot),))
-    world = _source(arguments.world, arguments.level).load()
+    world = world_source(arguments.world, arguments.level).load()
     roadmap = _builder(arguments, world).build(world, fleet)
     facts = check_world(world, roadmap, fleet.robots[0].radius)
     if arguments.render is not None:
@@ -73,7 +73,12 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _source(name: str, level: str | None) -> "WorldSource":
+def world_source(name: str, level: str | None = None) -> "WorldSource":
+    """The source of a world that is named as on the command line.
+
+    Raises:
+        InputError: there is none of that name.
+    """
     from mrpbench_core.api.world import WorldSource
     from mrpbench_core.plugins.registry import Registry
 

@@ -26,6 +26,20 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
     return values, reasons
 
 
+def describe(metrics: Mapping[str, Metric]) -> dict[str, dict[str, str]]:
+    """What is known of each column, by `<metric>.<column>`, for readers of records."""
+    return {
+        f"{name}.{column.name}": {
+            "unit": column.unit,
+            "better": column.better,
+            "description": column.description,
+            "source": column.source,
+        }
+        for name, metric in metrics.items()
+        for column in metric.columns
+    }
+
+
 def _obstacle(requires: frozenset[str], run: FinishedRun) -> str | None:
     """Why what is required is not there, or None if it is."""
     lacking = sorted(channel for channel in requires if not run.has(channel))

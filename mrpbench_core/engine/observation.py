@@ -60,8 +60,17 @@ def observe_own(observed: Observed, context: RunContext) -> Observation:
     return Observation(context=context, channels={**observed.channels, "truth": truth}, notes=observed.notes, gaps=())
 
 
-def observe(observed: Observed, world: World, fleet: Fleet, scenario: Scenario, sampling: Sampling) -> Observation:
-    """The run of a recording of any fleet: robot i is the scenario's robot i and has its task i.
+def observe(
+    observed: Observed,
+    world: World,
+    fleet: Fleet,
+    scenario: Scenario,
+    sampling: Sampling,
+    assigned: tuple[int, ...] | None = None,
+) -> Observation:
+    """The run of a recording of any fleet: track i is that of the scenario's robot i.
+
+    `assigned` gives the task of each robot, -1 = none; by default robot i has task i.
 
     Nothing is known of plans. A robot has reached its goals one after another, each when it is first seen within the
     tolerance of it (and on its level, where levels are known).
@@ -90,12 +99,14 @@ def observe(observed: Observed, world: World, fleet: Fleet, scenario: Scenario, 
         notes.append("the recording does not tell the world's levels apart")
     else:
         channels["level"] = level
-    tasks = [scenario.tasks[robot] if robot < len(scenario.tasks) else None for robot in range(len(fleet))]
+    if assigned is None:
+        assigned = tuple(robot if robot < len(scenario.tasks) else -1 for robot in range(len(fleet)))
+    tasks = [scenario.tasks[task] if task >= 0 else None for task in assigned]
     channels["reached"] = np.stack(
         [_reached(truth[:, robot], level, robot, task, sampling.tolerance) for robot, task in enumerate(tasks)], axis=1
     )
     return Observation(
-        context=_context(world, fleet, scenario, tasks, 1 / sampling.rate),
+        context=attrs.evolve(_context(world, fleet, scenario, tasks, 1 / sampling.rate), assigned=assigned),
         channels=channels,
         notes=tuple(notes),
         gaps=tuple(gaps),
@@ -217,5 +228,4 @@ def _context(world: World, fleet: Fleet, scenario: Scenario, tasks: list[Task | 
         routes=tuple(routes),
         goal=tuple(ends),
         period=period,
-        assigned=tuple(robot if task else -1 for robot, task in enumerate(tasks)),
     )

@@ -12,6 +12,7 @@ import attrs
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.config.study import RunPoint, Study
 from mrpbench_core.engine.machine import machine
+from mrpbench_core.engine.measure import describe
 from mrpbench_core.engine.progress import Progress
 from mrpbench_core.engine.record import code_of
 from mrpbench_core.engine.schedule import Schedule
@@ -117,16 +118,7 @@ def _facts(study: Study, request: Request, invocation: str) -> dict[str, Any]:
         "process": os.getpid(),
         "machine": machine(),
         "versions": {name: version for code in codes for name, version in code["versions"].items()},
-        "columns": {
-            f"{name}.{column.name}": {
-                "unit": column.unit,
-                "better": column.better,
-                "description": column.description,
-                "source": column.source,
-            }
-            for name, metric in metrics.items()
-            for column in metric.columns
-        },
+        "columns": describe(metrics),
         "overrides": list(request.overrides),
         "study": study.document,
     }

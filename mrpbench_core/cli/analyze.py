@@ -1,0 +1,124 @@
+"""`mrpbench analyze BAG`: the metrics of runs, on a recording of a real or otherwise simulated fleet."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from mrpbench_core.cli.arguments import read_options
+from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.files.errors import InputError
+
+SHOWN = 20
+"""Notes that are printed."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.epilog = (
+        "World and scenario need not be named where mrpbench itself wrote the bag. Without a plan, a robot has reached"
+        " a goal when it is first seen within --tolerance of it. Topics are found by patterns, which are options of the"
+        " importer: `mrpbench plugins show importer:rosbag2`."
+    )
+    parser.add_argument("bag", type=Path, metavar="BAG", help="a rosbag2: its folder, or one .mcap or .db3 file")
+    parser.add_argument("--world", metavar="FILE|NAME", help="a world's file, or a built-in world")
+    parser.add_argument(
+        "--scenario", type=Path, metavar="FILE", help="as `mrpbench scenario CONFIG --write FILE` writes"
+    )
+    parser.add_argument(
+        "--robots", default="", metavar="A,B,…", help="names or patterns of the robots, in the scenario's order"
+    )
+    parser.add_argument("--robot", default="turtlebot3_burger", metavar="MODEL", help="model (default: %(default)s)")
+    parser.add_argument("--fleet", metavar="NAME", help="the fleet in /fleet_states, of several")
+    parser.add_argument(
+        "--start-time", type=float, metavar="S", help="leave out what is before, seconds from the start"
+    )
+    parser.add_argument("--end-time", type=float, metavar="S", help="leave out what is after")
+    parser.add_argument("--rate", type=float, default=10.0, metavar="HZ", help="of samples (default: %(default)g)")
+    parser.add_argument(
+        "--max-gap",
+        type=float,
+        default=2.0,
+        metavar="S",
+        help="time without poses after which a robot that has moved was anywhere (default: %(default)g)",
+    )
+    parser.add_argument(
+        "--tolerance", type=float, default=0.25, metavar="M", help="radius of goals (default: %(default)g)"
+    )
+    parser.add_argument("--metrics", default="planning,execution", metavar="A,B", help="default: %(default)s")
+    parser.add_argument("--importer", default="rosbag2", metavar="NAME", help="what reads BAG (default: %(default)s)")
+    parser.add_argument("--option", action="append", default=[], metavar="K=V", help="an option of the importer")
+    parser.add_argument("--label", default="recorded", help="its `simulator` in tables (default: %(default)s)")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="results folder (default: results/<name of BAG>)")
+    parser.add_argument("--json", action="store_true", help="print the record as JSON")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Measure, keep, print."""
+    from mrpbench_core.api.importer import Importer
+    from mrpbench_core.api.metric import Metric
+    from mrpbench_core.cli.world import world_source
+    from mrpbench_core.engine.analysis import Analysis, analyze
+    from mrpbench_core.engine.observation import Sampling
+
+    for name in ("rate", "max_gap", "tolerance"):
+        if not 0 < getattr(arguments, name) < float("inf"):
+            raise InputError(f"--{name.replace('_', '-')}: must be above 0, got {getattr(arguments, name):g}")
+    options = {"plugin": arguments.importer, **read_options(arguments.option, "--option")}
+    if arguments.fleet is not None:
+        options["fleet"] = arguments.fleet
+    analysis = Analysis(
+        bag=arguments.bag,
+        importer=_component(Importer, options, "--importer"),
+        metrics={name: _component(Metric, {"plugin": name}, "--metrics") for name in _names(arguments.metrics)},
+        world=None if arguments.world is None else world_source(arguments.world),
+        scenario=arguments.scenario,
+        robot=arguments.robot,
+        robots=_names(arguments.robots),
+        sampling=Sampling(
+            rate=arguments.rate,
+            max_gap=arguments.max_gap,
+            tolerance=arguments.tolerance,
+            since=arguments.start_time,
+            until=arguments.end_time,
+        ),
+        label=arguments.label,
+        out=arguments.out or Path("results") / arguments.bag.resolve().stem,
+    )
+    record = analyze(analysis)
+    if arguments.json:
+        print_json(record)
+    else:
+        _print(record, analysis.out)
+    return 0
+
+
+def _names(text: str) -> tuple[str, ...]:
+    return tuple(name.strip() for name in text.split(",") if name.strip())
+
+
+def _component(kind: Any, options: dict[str, Any], key: str) -> Any:
+    from mrpbench_core.config.items import Where, from_data
+    from mrpbench_core.config.structure import structure_component
+
+    return structure_component(kind, from_data(options, Where()), key, Path.cwd())
+
+
+def _print(record: dict[str, Any], out: Path) -> None:
+    reasons = record["unmeasured"]
+    rows = []
+    for key, value in record["metrics"].items():
+        reason = reasons.get(key) or reasons.get(key.partition(".")[0]) or ""
+        rows.append([key, f"{value:.6g}" if isinstance(value, float) else value, "" if value is not None else reason])
+    print_table(["metric", "value", "null because"], rows)
+    print(f"{record['status']}, scenario {record['scenario_id']}")
+    sources: dict[str, list[str]] = {}
+    for robot, source in record["analysis"]["sources"].items():
+        sources.setdefault(source.partition(":")[0], []).append(robot)
+    for source, robots in sources.items():
+        print(f"positions from {source}: {len(robots)} robots ({', '.join(robots[:SHOWN])})")
+    notes = record["analysis"]["notes"]
+    for note in notes[:SHOWN]:
+        print(f"note: {note}")
+    if len(notes) > SHOWN:
+        print(f"… {len(notes) - SHOWN} more notes; --json lists all")
+    print(f"{out}:{record['run_id']}")
