@@ -23,9 +23,12 @@ def required(kind, name, folder):
     """Options of plugins that have no defaults for them."""
     (folder / "tiny.map").write_text(MAP)
     (folder / "tiny.scen").write_text(INSTANCES)
+    (folder / "tiny.pgm").write_text("P2 2 1 255 0 255")
+    (folder / "tiny.yaml").write_text("image: tiny.pgm\nresolution: 1\norigin: [0, 0, 0]\n")
     places = [vertex.name for vertex in office().vertices if vertex.name]
     return {
         ("world", "movingai"): {"file": folder / "tiny.map"},
+        ("world", "ros_map"): {"file": folder / "tiny.yaml"},
         ("world", "rmf"): {"file": FOLDER / "office.building.yaml"},
         ("scenario", "random"): {"robots": 3},
         ("scenario", "named"): {"starts": tuple(places[:2]), "goals": tuple(places[2:4])},
