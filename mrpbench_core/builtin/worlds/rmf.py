@@ -98,13 +98,13 @@ def _storey(node: Node, frame: Frame, notes: Notes) -> Storey:
 def _bare_level(name: str, storey: Storey, index: int, lifts: tuple[Lift, ...], notes: Notes) -> Level:
     elevation = storey.node.fields().get("elevation")
     shafts = [lift for lift in lifts if index in lift.levels]
-    holes = read_areas(storey.node, "holes", storey.positions)
+    holes = read_areas(storey.node, "holes", storey.positions, notes)
     return Level(
         name=name,
         elevation=0.0 if elevation is None else elevation.number(),
         walls=read_walls(storey.node, storey.positions, notes),
         doors=tuple(storey.doors),
-        floors=read_areas(storey.node, "floors", storey.positions),
+        floors=read_areas(storey.node, "floors", storey.positions, notes),
         holes=tuple(hole for hole in holes if not any(_is_shaft(hole, lift) for lift in shafts)),
     )
 

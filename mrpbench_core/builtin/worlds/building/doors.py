@@ -37,7 +37,8 @@ def read_doors(level: Node, positions: Float, notes: Notes) -> tuple[Door, ...]:
         parameters = read_parameters(rest[0], DOOR, "door", notes) if rest else {}
         (x1, y1), (x2, y2) = (positions[item.index(len(positions), "door")].tolist() for item in (start, end))
         if (x1, y1) == (x2, y2):
-            raise node.error("door of zero length: its two vertices are one point")
+            notes.add("door of zero length is left out")
+            continue
         doors.append(Door(start=(x1, y1), end=(x2, y2), **_motion(parameters, node, notes)))
     return tuple(doors)
 

@@ -1,16 +1,18 @@
 """Floors of a building file, and the holes in them."""
 
 from mrpbench_core.builtin.worlds.building.node import Node
+from mrpbench_core.builtin.worlds.building.notes import Notes
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.world import Area
 
 
-def read_areas(level: Node, key: str, positions: Float) -> tuple[Area, ...]:
+def read_areas(level: Node, key: str, positions: Float, notes: Notes) -> tuple[Area, ...]:
     """The polygons under `floors` or `holes`; how they look does not matter to us."""
     areas = []
     for node in level.section(key):
         corners = node.section("vertices")
         if len(corners) < 3:
-            raise node.error(f"{key.removesuffix('s')} with fewer than three vertices")
+            notes.add(f"{key[:-1]} with fewer than three vertices is left out")
+            continue
         areas.append(Area(polygon=positions[[corner.index(len(positions), key[:-1]) for corner in corners]]))
     return tuple(areas)
