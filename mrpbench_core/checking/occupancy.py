@@ -7,11 +7,14 @@ import attrs
 import numpy as np
 
 from mrpbench_core.checking.clearance import solids
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.geometry import inside
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.world import Level
 
+LIMIT = 100_000_000
+"""Cells."""
 HAIR = 1e-9
 """Share of a cell: what only touches the border of a cell is not in it."""
 
@@ -32,6 +35,9 @@ def rasterise(
             solid reaches into it.
         origin: of the raster; by default the lower left corner of everything solid.
         shape: rows and columns; by default as many as reach over everything solid.
+
+    Raises:
+        InputError: it would have more than `LIMIT` cells.
     """
     own = level.occupancy
     outlines = solids(level)
@@ -42,6 +48,8 @@ def rasterise(
     if shape is None:
         across, up = ((high - origin) / cell_size - HAIR).tolist()
         shape = (max(1, math.ceil(up)), max(1, math.ceil(across)))
+    if shape[0] * shape[1] > LIMIT:
+        raise InputError(f"a raster of {shape[0]} × {shape[1]} cells is too large", hint="choose larger cells")
     blank = Occupancy(blocked=np.zeros(shape, bool), cell_size=cell_size, origin=origin)
     blocked = blank.blocked.copy() if own is None else _resampled(own, blank, rule)
     for outline in outlines:

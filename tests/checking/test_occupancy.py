@@ -6,6 +6,7 @@ from hypothesis import strategies as st
 from mrpbench_core.builtin.worlds.shipped import Household
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.occupancy import rasterise
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.world import Area, Level, Obstacle
 
@@ -81,6 +82,11 @@ def test_a_level_that_is_a_raster_stays_what_it_is():
     assert wider.blocked[:, 0].all(), "beyond its edge it is solid"
     assert wider.blocked[:, 5].all()
     np.testing.assert_array_equal(wider.blocked[:, 1:5], own.blocked)
+
+
+def test_a_raster_too_large_is_refused():
+    with pytest.raises(InputError, match="20 × 100000020 cells is too large"):
+        rasterise(Level(name="", walls=[[0, 0, 5e5, 0]]), 0.005)
 
 
 def test_a_furnished_flat_covers_what_it_covers():
