@@ -26,16 +26,18 @@ std::vector<Segment> lines(std::uint64_t seed, int count, double size) {
 }  // namespace
 
 TEST("hashing finds everything in reach, once") {
-  for (const double cell : {0.05, 0.5, 3.0}) {
-    const std::vector<Point> points = scattered(5, 300, 20);
-    DiscHash hash(cell);
-    hash.build(points);
-    for (const Point& centre : scattered(6, 50, 24)) {
-      std::multiset<int> found;
-      hash.near(centre, 1.5, [&](int index) { found.insert(index); });
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const auto times = found.count(static_cast<int>(i));
-        CHECK(length(points[i] - centre) <= 1.5 ? times == 1 : times <= 1);
+  for (const int count : {30, 100, 300, 1000}) {
+    const std::vector<Point> points = scattered(5, count, 20);
+    for (const double cell : {0.05, 0.3, 0.5, 1.0, 3.0}) {
+      DiscHash hash(cell);
+      hash.build(points);
+      for (const Point& centre : scattered(6, 50, 24)) {
+        std::multiset<int> found;
+        hash.near(centre, 1.5, [&](int index) { found.insert(index); });
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          const auto times = found.count(static_cast<int>(i));
+          CHECK(length(points[i] - centre) <= 1.5 ? times == 1 : times <= 1);
+        }
       }
     }
   }
@@ -72,7 +74,7 @@ TEST("buckets hold every segment in reach, in order") {
 TEST("lists hold all that touches while discs wander") {
   const int robots = 60;
   std::vector<double> radius(robots, 0.2);
-  radius.push_back(0.5);  // a mover
+  radius.push_back(0.25);  // a mover
   Neighbours neighbours(lines(13, 30, 8), radius, robots);
   std::vector<Point> centres = scattered(14, robots + 1, 8);
   const std::vector<Segment> walls = lines(13, 30, 8);

@@ -97,8 +97,34 @@ TEST("movers push, are not pushed, and are nowhere at first") {
   for (int period = 1; period <= 100; ++period) {
     it.step(std::vector<Twist>{{0, 0}}, std::vector<Point>{{-0.6 + 0.01 * period, 0}});
   }
-  CHECK(std::abs(it.poses()[0].x - (0.4 + 0.3 + kRadius)) <= kTolerance);
+  CHECK(std::abs(it.poses()[0].x - (0.4 + 0.3 + kRadius)) <= 1e-9);
   CHECK(it.touches() == (std::vector<Touch>{{0, -1}}));
+}
+
+TEST("a push goes through a row of robots") {
+  Plane it = plane({}, {{0, 0, 0}, {0.3, 0, 0}, {0.6, 0, 0}}, {0.3});
+  for (int period = 1; period <= 2500; ++period) {  // slowly: a fast push does not get through in one period
+    it.step(std::vector<Twist>(3), std::vector<Point>{{-0.6 + 0.0002 * period, 0}});
+  }
+  for (int i = 0; i < 3; ++i) {
+    const double wanted = -0.1 + 0.3 + kRadius + 2 * kRadius * i;
+    CHECK(std::abs(it.poses()[static_cast<std::size_t>(i)].x - wanted) < 0.001);
+  }
+  CHECK(it.touches() == (std::vector<Touch>{{0, -1}, {0, 1}, {1, 2}}));
+}
+
+TEST("within one period a push goes on to those that did not overlap at first") {
+  Plane it = plane({}, {{0, 0, 0}, {0.22, 0, 0}, {0.465, 0, 0}});
+  it.step(std::vector<Twist>(3), {});
+  CHECK(it.touches() == (std::vector<Touch>{{0, 1}, {1, 2}}));
+  CHECK(it.poses()[2].x > 0.467);
+}
+
+TEST("a robot that drives into a wall stands, and is as slow as it looks") {
+  Plane it = plane(room(0.5), {{0, 0, 0}});
+  for (int period = 0; period < 60; ++period) it.step(std::vector<Twist>{{0.4, 0}}, {});
+  CHECK(std::abs(it.poses()[0].x - (0.5 - kRadius)) <= 1e-9);
+  CHECK(std::abs(it.twists()[0].ahead) < 1e-9);
 }
 
 TEST("a robot on the spot of another one, or on a wall, gets off") {

@@ -44,6 +44,7 @@ def test_robots_that_touch_walls_and_each_other_move_as_in_the_kinematic_simulat
     assert touched > 300
     assert [state.contacts.tolist() for state in ours] == [state.contacts.tolist() for state in theirs]
     assert np.abs(poses(ours) - poses(theirs))[..., :2].max() < 1e-6
+    assert np.allclose([state.twist for state in ours], [state.twist for state in theirs], rtol=0, atol=1e-4)
 
 
 def test_a_mover_that_walks_through_pushes_as_in_the_kinematic_simulator():
