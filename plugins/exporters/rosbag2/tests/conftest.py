@@ -1,5 +1,6 @@
 """A run made by hand: two robots on a triangle of places in a room with an inner wall."""
 
+import importlib.util
 from pathlib import Path
 
 import numpy as np
@@ -129,3 +130,12 @@ def read():
         return found
 
     return reading
+
+
+@pytest.fixture
+def foreign(tmp_path):
+    """Begins a bag as another stack would record it; see `foreign.py`."""
+    spec = importlib.util.spec_from_file_location("foreign_bags", Path(__file__).with_name("foreign.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return lambda *options: module.Foreign(tmp_path / "foreign", *options)

@@ -1,11 +1,13 @@
-"""Makes an mcap file that was cut off readable: everything up to its last whole record, with a proper end.
+"""Makes readable copies of damaged storage files, with what comes before the damage.
 
-The format: https://mcap.dev/spec. A file is magic, records (opcode u1, length u8, content), magic. The end need not
-have an index; readers then go through the whole file.
+Of mcap that is everything up to the last whole record, with a proper end. The format: https://mcap.dev/spec. A file is
+magic, records (opcode u1, length u8, content), magic. The end need not have an index; readers then go through it all.
 """
 
 import shutil
+import sqlite3
 import struct
+from contextlib import closing, suppress
 from pathlib import Path
 
 MAGIC = b"\x89MCAP0\r\n"
@@ -13,17 +15,30 @@ FOOTER, DATA_END = 0x02, 0x0F
 END = struct.pack("<BQI", DATA_END, 4, 0) + struct.pack("<BQQQI", FOOTER, 20, 0, 0, 0) + MAGIC
 
 
-def is_cut_off(file: Path) -> bool:
-    """Tell whether this is an mcap file without an end."""
-    with file.open("rb") as stream:
-        if stream.read(len(MAGIC)) != MAGIC:
-            return False
-        stream.seek(-len(MAGIC), 2)
-        return stream.read() != MAGIC
-
-
 def salvage(file: Path, folder: Path) -> Path:
-    """A readable copy in `folder`."""
+    """A copy in `folder`, which can be read if anything can."""
+    return _mcap(file, folder) if file.suffix == ".mcap" else _sqlite(file, folder)
+
+
+def _sqlite(file: Path, folder: Path) -> Path:
+    """All tables, row by row until one cannot be read."""
+    copy = folder / file.name
+    with (
+        closing(sqlite3.connect(f"{file.resolve().as_uri()}?immutable=1", uri=True)) as old,
+        closing(sqlite3.connect(copy)) as new,
+        suppress(sqlite3.DatabaseError),
+    ):
+        tables = old.execute("SELECT name, sql FROM sqlite_schema WHERE type = 'table'").fetchall()
+        for name, text in sorted(tables, key=lambda table: table[0] == "messages"):  # the damage is most likely there
+            new.execute(text)
+            with suppress(sqlite3.DatabaseError):
+                for row in old.execute(f'SELECT * FROM "{name}"'):  # noqa: S608 - its own table
+                    new.execute(f'INSERT INTO "{name}" VALUES ({", ".join("?" * len(row))})', row)  # noqa: S608
+            new.commit()
+    return copy
+
+
+def _mcap(file: Path, folder: Path) -> Path:
     copy = folder / file.name
     shutil.copyfile(file, copy)
     size = copy.stat().st_size

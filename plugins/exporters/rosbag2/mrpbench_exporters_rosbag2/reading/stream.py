@@ -1,7 +1,7 @@
 """Messages of a bag, in the order of recording, as long as there are some that can be read."""
 
 from collections.abc import Collection, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -13,7 +13,7 @@ from rosbags.typesys.store import Typestore
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_exporters_rosbag2.messages import TYPES
-from mrpbench_exporters_rosbag2.reading.salvage import is_cut_off, salvage
+from mrpbench_exporters_rosbag2.reading.salvage import salvage
 
 STORAGES = (".mcap", ".db3")
 IDL_SEPARATOR = "=" * 80 + "\n"
@@ -112,15 +112,14 @@ class Stream:
         readers = []
         for file in files:
             try:
-                if file.suffix == ".mcap" and is_cut_off(file):
-                    self.notes.append(f"{file.name} is cut off; what is whole of it was read")
-                    file = salvage(file, Path(self._stack.enter_context(TemporaryDirectory())))
-                elif file != self.path:
-                    self.notes.append(f"read without metadata.yaml ({reason})")
                 readers.append(self._reader(file))
-            except (InputError, OSError) as error:
-                reason = error.message if isinstance(error, InputError) else str(error)
-                self.notes.append(f"{file.name}: {reason}")
+                self.notes.append(f"read without metadata.yaml ({reason})")
+            except InputError as error:
+                reason = error.message
+                with suppress(InputError, OSError):
+                    copy = salvage(file, Path(self._stack.enter_context(TemporaryDirectory())))
+                    readers.append(self._reader(copy))
+                    self.notes.append(f"{file.name} is damaged ({reason}): what is before the damage was read")
         if not readers:
             raise InputError(f"nothing of it can be read: {reason}", file=self.path)
         return readers

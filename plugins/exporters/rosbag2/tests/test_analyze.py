@@ -1,0 +1,203 @@
+"""`mrpbench analyze` on bags, from the command line to the table."""
+
+import json
+
+import numpy as np
+import pytest
+
+from mrpbench_core import load, run
+from mrpbench_core.cli.main import main
+from mrpbench_core.files.scenario import write_scenario
+from mrpbench_core.model.scenario import Scenario, Task
+from mrpbench_core.store.recording import Recording
+
+NAN = float("nan")
+MAP = "type octile\nheight 6\nwidth 12\nmap\n" + "............\n" * 6
+STUDY = {
+    "name": "simulated",
+    "world": {"plugin": "movingai", "file": "free.map"},
+    "roadmap": "grid",
+    "scenario": {"plugin": "random", "robots": 3},
+    "assigner": "identity",
+    "planner": "example",
+    "export": ["rosbag2"],
+}
+SCENARIO = Scenario(
+    start=[[1.0, 1.0, 0.0], [1.0, 2.0, 0.0]],
+    start_level=[0, 0],
+    tasks=(Task(goals=[[5.0, 1.0, NAN]]), Task(goals=[[3.0, 2.0, NAN], [5.0, 2.0, NAN]], levels=[0, 0])),
+)
+
+
+@pytest.fixture
+def analyze(tmp_path, monkeypatch, capsys):
+    """Analyses a bag in a folder with a map and a scenario: exit code, record (None on failure) and errors."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "free.map").write_text(MAP)
+    write_scenario(tmp_path / "two.yaml", SCENARIO)
+
+    def invoke(bag, *words, known=False):
+        place = [] if known else ["--world", "free.map", "--scenario", "two.yaml"]
+        code = main(["analyze", str(bag), *place, "--out", "measured", "--json", *map(str, words)])
+        said = capsys.readouterr()
+        return code, json.loads(said.out) if said.out else None, said.err
+
+    return invoke
+
+
+def passing(bag, speed=0.5, seconds=10.0, only=("a", "b"), **shift):
+    """Two robots drive 4 m side by side, `b` half as fast."""
+    for t in np.arange(0, seconds + 0.05, 0.1):
+        for index, name in enumerate("ab"):
+            if name in only:
+                x = 1.0 + min(4.0, speed / (1 + index) * t)
+                bag.amcl(f"/{name}/amcl_pose", 1.7e9 + t + shift.get(name, 0.0), x, 1.0 + index, 0.0)
+    return bag
+
+
+def test_a_run_comes_back_with_its_numbers(analyze, capsys):
+    (record,) = run(STUDY)
+    code, found, _ = analyze(f"results/simulated/exports/{record['run_id']}/rosbag2", known=True)
+    assert (code, found["status"], found["unmeasured"]) == (0, record["status"], {})
+    assert found["scenario_id"] == record["scenario_id"]
+    assert found["run_id"] != record["run_id"]
+    assert found["metrics"].keys() == record["metrics"].keys()
+    for name, value in record["metrics"].items():
+        assert found["metrics"][name] == pytest.approx(value, abs=1e-6), name
+    assert main(["report", "results/simulated", "measured"]) == 0
+    table = capsys.readouterr().out
+    assert "kinematic" in table
+    assert "recorded" in table
+
+
+def test_what_no_bag_shows_is_null_with_the_reason(analyze, foreign):
+    code, found, _ = analyze(passing(foreign(), seconds=20).close())
+    values, reasons = found["metrics"], found["unmeasured"]
+    assert (code, found["status"]) == (0, "succeeded")
+    assert {name for name in values if name.startswith("planning.") and values[name] is not None} == set()
+    null = {name for name, value in values.items() if value is None and not name.startswith("planning.")}
+    assert null == {f"execution.{name}" for name in ("time_blocked_s", "time_blocked_max_s")} | {
+        "execution.robot_contacts",
+        "execution.wall_contacts",
+    }
+    assert reasons == {
+        "planning": "planned by others",
+        "execution.time_blocked_s": "no path",
+        "execution.time_blocked_max_s": "no path",
+        "execution.robot_contacts": "no contact, contact_time",
+        "execution.wall_contacts": "no contact, contact_time",
+    }
+
+
+def test_numbers_of_a_foreign_bag_are_what_was_driven(analyze, foreign):
+    _, found, _ = analyze(passing(foreign(), seconds=20).close())
+    values = found["metrics"]
+    assert values["execution.goals_reached"] == 2
+    assert values["execution.duration_s"] == pytest.approx(15.0)  # 3.75 m at 0.25 m/s
+    assert values["execution.distance_m"] == pytest.approx(8.0, abs=1e-6)
+    assert values["execution.min_distance_m"] == pytest.approx(1.0, abs=1e-6)
+    assert values["execution.mrp_bench.duration_s"] == pytest.approx(13.5 - 1.5, abs=0.51)
+    assert found["scenario_id"] == SCENARIO.id
+    assert found["analysis"]["sources"] == {name: f"amcl_pose: /{name}/amcl_pose" for name in "ab"}
+
+
+def test_a_goal_that_nobody_is_seen_at_is_missed(analyze, foreign):
+    _, found, _ = analyze(passing(foreign(), seconds=12).close())
+    assert found["status"] == "goals_missed"
+    assert found["metrics"]["execution.goals_reached"] == 1
+    assert found["metrics"]["execution.duration_s"] is None
+    assert "1 of 2 robots" in found["error"]["message"]
+
+
+def test_robots_that_appear_late_are_held_where_they_appear(analyze, foreign):
+    _, found, _ = analyze(passing(foreign(), seconds=20, b=5.0).close())
+    (late, early) = found["analysis"]["notes"]
+    assert late.startswith("a is last seen 5.0 s before the end") or early.startswith("a is last seen 5.0 s")
+    assert "b appears 5.0 s late" in late + early
+    assert found["metrics"]["execution.duration_s"] == pytest.approx(20.0)
+
+
+def test_robots_that_moved_unseen_have_no_distances(analyze, foreign):
+    bag = foreign()
+    for t in np.arange(0, 20.05, 0.1):
+        x = 1.0 + min(4.0, 0.5 * t)
+        if not 3 < t < 6:
+            bag.amcl("/a/amcl_pose", t, x, 1.0, 0)
+        if not 11 < t < 15:  # stands, as AMCL is silent then
+            bag.amcl("/b/amcl_pose", t, x, 2.0, 0)
+    code, found, _ = analyze(bag.close())
+    assert (code, found["metrics"]["execution.min_distance_m"]) == (0, None)
+    assert found["unmeasured"]["execution"] == "a moved 1.50 m unseen from 3.0 to 6.0 s"
+    _, found, _ = analyze(bag.path, "--start-time", 6)
+    assert found["metrics"]["execution.min_distance_m"] == pytest.approx(1.0)
+    _, found, _ = analyze(bag.path, "--max-gap", 4)
+    assert found["metrics"]["execution.min_distance_m"] == pytest.approx(1.0)
+
+
+def test_odometry_of_a_frame_of_its_own_begins_at_the_start(analyze, foreign):
+    bag = foreign()
+    for t in np.arange(0, 10.05, 0.1):
+        bag.odometry("/a/odom", t, 7.0, 3.0 + 0.4 * t, np.pi / 2)  # ahead, wherever that is
+        bag.odometry("/b/odom", t, 0.4 * t, 0.0, 0.0)
+    _, found, _ = analyze(bag.close())
+    assert found["metrics"]["execution.goals_reached"] == 2
+    assert found["metrics"]["execution.min_distance_m"] == pytest.approx(1.0)
+    assert "in no frame of the map" in found["analysis"]["notes"][0]
+
+
+def test_robots_are_put_in_the_scenarios_order(analyze, foreign):
+    bag = passing(foreign(), seconds=20)
+    bag.amcl("/visitor/amcl_pose", 1.7e9, 0, 0, 0)
+    code, _, error = analyze(bag.close())
+    assert code == 2
+    assert "the scenario has 2 robots, the recording shows 3: a, b, visitor" in error
+    _, found, _ = analyze(bag.path, "--robots", "b,a")
+    assert list(found["analysis"]["sources"]) == ["b", "a"]
+    assert found["metrics"]["execution.goals_reached"] == 0
+    _, found, _ = analyze(bag.path, "--robots", "[ab]")
+    assert found["metrics"]["execution.goals_reached"] == 2
+
+
+def test_the_recording_is_kept_and_analysing_again_is_another_attempt(analyze, foreign, tmp_path):
+    bag = passing(foreign(), seconds=20).close()
+    _, first, _ = analyze(bag)
+    _, again, _ = analyze(bag, "--metrics", "execution")
+    assert (again["run_id"], first["attempt"], again["attempt"]) == (first["run_id"], 1, 2)
+    _, other, _ = analyze(bag, "--rate", 5)
+    assert other["run_id"] != first["run_id"]
+    results = load(tmp_path / "measured")
+    assert len(results) == 2
+    recording = Recording(results.folder.run(other["run_id"]).recording)
+    assert recording.channel("truth").shape == (101, 2, 3)
+    assert recording.context().run_id == other["run_id"]
+    recording.close()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--start-time", 30), "poses begin at 0 and end at 20 s"),
+        (("--rate", 0), "--rate: must be above 0"),
+        (("--metrics", "nonsense"), "no metric is called 'nonsense'"),
+        (("--robots", "z"), "holds no pose of any robot that z names"),
+        (("--option", "odometri=[x]"), "odometri"),
+    ],
+)
+def test_mistakes_are_one_line(analyze, foreign, words, message):
+    code, found, error = analyze(passing(foreign(), seconds=20).close(), *words)
+    assert (code, found) == (2, None)
+    assert message in error
+    assert error.count("\n") == 1
+
+
+def test_a_foreign_bag_needs_world_and_scenario(analyze, foreign):
+    code, _, error = analyze(passing(foreign()).close(), known=True)
+    assert code == 2
+    assert "needs --world" in error
+
+
+def test_a_bag_of_another_scenario_is_refused(analyze):
+    (record,) = run(STUDY)
+    code, _, error = analyze(f"results/simulated/exports/{record['run_id']}/rosbag2")
+    assert code == 2
+    assert f"the recording was made of {record['scenario_id']}" in error
