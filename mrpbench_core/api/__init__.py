@@ -8,6 +8,7 @@ from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSe
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.api.exporter import Exporter, ExporterSession
 from mrpbench_core.api.hooks import hookimpl
+from mrpbench_core.api.importer import Importer, Observed, Track
 from mrpbench_core.api.localizer import Localizer, LocalizerSession
 from mrpbench_core.api.metric import Column, Metric, Value
 from mrpbench_core.api.navigator import Navigator, NavigatorSession
@@ -31,6 +32,7 @@ KINDS: dict[str, type[Component]] = {
     "crowd": Crowd,
     "metric": Metric,
     "exporter": Exporter,
+    "importer": Importer,
     "executor": ExecutorSource,
 }
 """Every kind by its one word; the entry-point group is the class's `group`."""
@@ -52,17 +54,20 @@ __all__ = [
     "Exporter",
     "ExporterSession",
     "FleetControllerSession",
+    "Importer",
     "Localizer",
     "LocalizerSession",
     "Metric",
     "Navigator",
     "NavigatorSession",
+    "Observed",
     "Planner",
     "Promise",
     "RoadmapBuilder",
     "ScenarioSource",
     "Simulation",
     "Simulator",
+    "Track",
     "Value",
     "WorldSource",
     "hookimpl",

@@ -17,6 +17,7 @@ GROUPS = {
     "crowd": "mrpbench.crowds",
     "metric": "mrpbench.metrics",
     "exporter": "mrpbench.exporters",
+    "importer": "mrpbench.importers",
     "executor": "mrpbench.executors",
 }
 """Entry-point group of each kind."""

@@ -9,6 +9,7 @@ from mrpbench_core.testing.crowd import CrowdConformance
 from mrpbench_core.testing.dispatcher import DispatcherConformance
 from mrpbench_core.testing.executor import ExecutorConformance
 from mrpbench_core.testing.exporter import ExporterConformance
+from mrpbench_core.testing.importer import ImporterConformance
 from mrpbench_core.testing.localizer import LocalizerConformance
 from mrpbench_core.testing.metric import MetricConformance
 from mrpbench_core.testing.navigator import NavigatorConformance
@@ -32,6 +33,7 @@ SUITES: dict[str, type[ComponentConformance]] = {
     "crowd": CrowdConformance,
     "metric": MetricConformance,
     "exporter": ExporterConformance,
+    "importer": ImporterConformance,
     "executor": ExecutorConformance,
 }
 
