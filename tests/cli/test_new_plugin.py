@@ -1,12 +1,11 @@
 """`mrpbench new-plugin`: what it writes installs, is found, passes its checks, and is gone when uninstalled."""
 
-import importlib.util
 import json
 import os
 import shutil
 import subprocess
 import sys
-import tomllib
+import zipfile
 from pathlib import Path
 
 import pytest
@@ -17,26 +16,11 @@ OPTIONS = {"scenario": ["robots=2"]}
 
 
 def install(folder: Path, site: Path) -> None:
-    """By pip where the build backend is at hand, else as pip would leave it."""
-    site.mkdir()
-    if importlib.util.find_spec("hatchling"):
-        words = ["install", "--quiet", "--no-deps", "--no-build-isolation", "--target", str(site), str(folder)]
-        subprocess.run([sys.executable, "-m", "pip", *words], check=True, timeout=100)
-        return
-    project = tomllib.loads((folder / "pyproject.toml").read_text())
-    facts = project["project"]
-    (package,) = project["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
-    shutil.copytree(folder / package, site / package)
-    info = site / f"{package}-{facts['version']}.dist-info"
-    info.mkdir()
-    lines = ["Metadata-Version: 2.1", f"Name: {facts['name']}", f"Version: {facts['version']}"]
-    lines += [f"Requires-Dist: {requirement}" for requirement in facts["dependencies"]]
-    (info / "METADATA").write_text("\n".join(lines) + "\n")
-    text = "".join(
-        f"[{group}]\n" + "".join(f"{name} = {value}\n" for name, value in entries.items())
-        for group, entries in facts["entry-points"].items()
-    )
-    (info / "entry_points.txt").write_text(text)
+    """Put a built wheel on the path: what pip does, which an environment made by uv lacks."""
+    command = [sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", str(site.parent), str(folder)]
+    subprocess.run(command, check=True, capture_output=True, timeout=100)
+    (wheel,) = site.parent.glob("*.whl")
+    zipfile.ZipFile(wheel).extractall(site)
 
 
 @pytest.fixture
