@@ -101,7 +101,8 @@ def _list(studies: Sequence[Study], requests: Sequence[Request], as_json: bool) 
         return
     axes = list(dict.fromkeys(key for entry in found for key in entry["axes"]))
     rows = [
-        [entry["run_id"][:SHORT], entry["attempt"], *(word(entry["axes"].get(key)) for key in axes)] for entry in found
+        [entry["run_id"][:SHORT], entry["attempt"], *(word(entry["axes"].get(key, "–")) for key in axes)]
+        for entry in found
     ]
     print_table(
         ["run", "attempt", *axes], rows, f"{len(rows)} of {sum(len(study.runs) for study in studies)} runs to do"

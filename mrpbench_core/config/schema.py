@@ -70,7 +70,7 @@ class _Schema:
         if field.metadata.get("help"):
             found = {**found, "description": field.metadata["help"]}
         default = written if written is not attrs.NOTHING else field.default
-        if isinstance(default, bool | int | float | str | enum.Enum):
+        if default is not attrs.NOTHING and isinstance(default, bool | int | float | str | enum.Enum):
             found = {**found, "default": scalar(default)}
         return found
 

@@ -9,6 +9,7 @@ import numpy as np
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution import drive, measure_recording
 from mrpbench_core.engine.measure import measure
+from mrpbench_core.engine.plain import readable
 from mrpbench_core.engine.planning import STATUS, call_planner, judge
 from mrpbench_core.engine.preparation import Announce, Ended, Setting, assign, pose_problem, set_scene
 from mrpbench_core.engine.routes import build_routes, speed_limits
@@ -64,7 +65,7 @@ def execute(
         ended = error
     record["status"] = "succeeded" if ended is None else ended.status
     if ended is not None:
-        record["error"] = {"stage": ended.stage, "message": str(ended)}
+        record["error"] = {"stage": ended.stage, "message": readable(str(ended))}
     return record
 
 

@@ -13,10 +13,21 @@ def plain(value: Any) -> Any:
         return plain(value.tolist())
     if isinstance(value, float):
         return float(value) if math.isfinite(value) else None
-    if value is None or isinstance(value, str | int):
+    if value is None or isinstance(value, int):
         return value
     if isinstance(value, Mapping):
-        return {str(key): plain(item) for key, item in value.items()}
+        return {_storable(str(key)): plain(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [plain(item) for item in value]
-    return str(value)
+    return _storable(str(value))
+
+
+def readable(text: str) -> str:
+    """The same in one line that does nothing to a terminal: control characters and the like are escaped."""
+    line = " ".join(text.split())
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+
+
+def _storable(text: str) -> str:
+    """The same with halves of surrogate pairs, which no file can hold, escaped."""
+    return text.encode(errors="backslashreplace").decode()

@@ -10,6 +10,7 @@ import attrs
 
 from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
 
@@ -23,7 +24,7 @@ STATUS = {
 
 
 def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[PlanResult, dict[str, Any]]:
-    """The planner's result, and the timing of the call alone: wall, CPU and peak memory of this process."""
+    """What the planner returned, sound or not, and timing of the call alone: wall, CPU, peak memory of the process."""
     _reset_peak()
     before = _resident()
     began, cpu = time.perf_counter(), time.process_time()
@@ -32,7 +33,7 @@ def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[Pl
         "planning_s": time.perf_counter() - began,
         "planning_cpu_s": time.process_time() - cpu,
         "planning_peak_bytes": max(0, _peak() - before),
-        "clock_bound": result.clock_bound,
+        "clock_bound": bool(getattr(result, "clock_bound", False)),
     }
     return result, timing
 
@@ -43,6 +44,8 @@ def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanR
     Soundness of the paths is asked of every planner; freedom from conflicts, bounds and optimality of those that
     promise them.
     """
+    if fault := result_fault(result):
+        return PlanResult(status=PlanStatus.GAVE_UP), fault
     if result.plan is None:
         return result, None if result.status != PlanStatus.SOLVED else "says it solved the problem but gives no plan"
     report = check_plan(problem, result.plan)

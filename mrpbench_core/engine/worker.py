@@ -19,11 +19,12 @@ from typing import Any
 
 import psutil
 
+import mrpbench_core
 from mrpbench_core.config.study import unpack
 from mrpbench_core.engine.lifeline import hold
 from mrpbench_core.engine.machine import machine
 from mrpbench_core.engine.pipeline import Observers, execute
-from mrpbench_core.engine.plain import plain
+from mrpbench_core.engine.plain import plain, readable
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.plugins.hooks import Hooks, load_hooks
 from mrpbench_core.store.paths import RunPaths
@@ -84,7 +85,7 @@ def _execute(job: dict[str, Any], say: Say, hooks: Hooks) -> dict[str, Any]:
     try:
         record = plain(execute(unpack(job["parcel"]), job["run_id"], paths, announce, observers))
     except (InputError, InputErrors) as error:
-        return {"mistake": str(error)}
+        return {"mistake": plain(str(error))}
     except OSError as error:
         traceback.print_exc()
         if error.errno in (errno.ENOSPC, errno.EDQUOT):
@@ -92,7 +93,7 @@ def _execute(job: dict[str, Any], say: Say, hooks: Hooks) -> dict[str, Any]:
         return {"status": "crashed", "message": describe(error)}
     except MemoryError as error:
         traceback.print_exc()
-        return {"status": "out_of_memory", "message": str(error) or "no memory left"}
+        return {"status": "out_of_memory", "message": readable(str(error)) or "no memory left"}
     except BaseException as error:  # noqa: BLE001 - a plugin may raise anything, even SystemExit
         traceback.print_exc()
         return {"status": "crashed", "message": describe(error)}
@@ -101,10 +102,11 @@ def _execute(job: dict[str, Any], say: Say, hooks: Hooks) -> dict[str, Any]:
 
 def describe(error: BaseException) -> str:
     """One line: what was raised, and the innermost place outside the core."""
-    text = " ".join(str(error).split())[:300]
+    text = readable(str(error))[:300]
     frames = traceback.extract_tb(error.__traceback__)
-    own = str(Path(__file__).parent)
-    place = next((frame for frame in reversed(frames) if not frame.filename.startswith(own)), None)
+    own = str(Path(mrpbench_core.__file__).parent), "<"  # attrs compiles without a file
+    outside = [frame for frame in frames if not frame.filename.startswith(own)]
+    place = next(reversed(outside or frames[-1:]), None)
     where = "" if place is None else f" ({Path(place.filename).name}:{place.lineno})"
     return f"{type(error).__name__}{': ' + text if text else ''}{where}"
 

@@ -92,3 +92,7 @@ def test_a_broken_plugin_is_left_out(toy, install):
 
 def test_the_installed_plugins_have_a_schema():
     jsonschema.Draft202012Validator.check_schema(schema())
+
+
+def test_what_is_required_has_no_default():
+    assert "default" not in schema()["properties"]["world"]

@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 
-from mrpbench_core.engine.plain import plain
+from mrpbench_core.engine.plain import plain, readable
 
 
 class Colour(enum.StrEnum):
@@ -34,3 +34,13 @@ def test_everything_becomes_json():
         "d": {"x": "frozenset()"},
     }
     assert json.loads(json.dumps(plain(value), allow_nan=False)) == expected
+
+
+def test_text_that_no_file_can_hold_is_escaped():
+    found = plain({"\ud800": "Größe \udcff\n"})
+    assert found == {"\\ud800": "Größe \\udcff\n"}
+    json.dumps(found, ensure_ascii=False).encode()
+
+
+def test_a_message_is_one_line_that_does_nothing_to_a_terminal():
+    assert readable("Größe\n is \x1b[31mred\x00 \ud800") == "Größe is \\x1b[31mred\\x00 \\ud800"

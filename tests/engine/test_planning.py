@@ -79,3 +79,9 @@ def test_timing_is_that_of_the_call(run_context):
     _, timing = call_planner(Careful(result=run_context.result), run_context.problem, BUDGET)
     assert timing["planning_s"] < 1
     assert timing["planning_peak_bytes"] >= 0
+
+
+def test_what_is_no_result_is_a_fault_and_watchers_still_get_one(run_context):
+    result, fault = judged(Fixed, run_context.problem, None)
+    assert fault == "returned None instead of a PlanResult"
+    assert result.plan is None

@@ -1,0 +1,45 @@
+"""Tells whether what a planner returned is a result at all; `check_plan` then looks at its paths."""
+
+import numbers
+from collections.abc import Mapping
+from typing import Any
+
+from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus
+
+RETURNED = tuple(status for status in PlanStatus if status != PlanStatus.UNKNOWN)
+"""What a planner may say."""
+
+
+def result_fault(result: Any) -> str | None:
+    """The first thing of a wrong type in what a planner returned, or None."""
+    if not isinstance(result, PlanResult):
+        return f"returned {_kind(result)} instead of a PlanResult"
+    if result.status not in RETURNED:
+        return f"returned the status {str(result.status)[:40]!r}, which does not exist"
+    if result.plan is not None and (fault := _plan_fault(result.plan)):
+        return fault
+    if not isinstance(result.lower_bound, numbers.Real):
+        return f"returned {_kind(result.lower_bound)} as lower bound"
+    if not isinstance(result.statistics, Mapping):
+        return f"returned {_kind(result.statistics)} instead of a mapping as statistics"
+    return None
+
+
+def _plan_fault(plan: Any) -> str | None:
+    if not isinstance(plan, Plan):
+        return f"returned {_kind(plan)} instead of a Plan"
+    if not isinstance(plan.paths, tuple | list):
+        return f"returned a plan with {_kind(plan.paths)} instead of a tuple of paths"
+    for robot, path in enumerate(plan.paths):
+        if not isinstance(path, Path):
+            return f"robot {robot}: {_kind(path)} instead of a Path"
+        if not path.edge.ndim == path.enter.ndim == path.leave.ndim == 1:
+            return f"robot {robot}: edge, enter and leave are not all one-dimensional"
+    return None
+
+
+def _kind(value: Any) -> str:
+    """A value in a few words."""
+    if value is None:
+        return "None"
+    return f"the class {value.__name__}" if isinstance(value, type) else f"a value of type {type(value).__name__}"

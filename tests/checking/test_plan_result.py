@@ -1,0 +1,44 @@
+"""What is no result of a planner is told from what is one."""
+
+import numpy as np
+import pytest
+
+from mrpbench_core.checking.plan_result import result_fault
+from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus
+
+STAY = Path(edge=[], enter=[], leave=[])
+FLAT = Path(edge=np.zeros((1, 1)), enter=np.zeros((1, 1)), leave=np.ones((1, 1)))
+
+
+def solved(**values):
+    return PlanResult(**{"status": PlanStatus.SOLVED, "plan": Plan(paths=(STAY,)), **values})
+
+
+@pytest.mark.parametrize(
+    ("returned", "said"),
+    [
+        (None, "None instead of a PlanResult"),
+        ({"status": "solved"}, "type dict instead of a PlanResult"),
+        (PlanResult, "the class PlanResult instead of a PlanResult"),
+        (solved(status="done"), "status 'done'"),
+        (solved(status=PlanStatus.UNKNOWN), "status 'unknown'"),
+        (solved(status=[]), "status '[]'"),
+        (solved(plan=[STAY]), "type list instead of a Plan"),
+        (solved(plan=Plan(paths=None)), "None instead of a tuple of paths"),
+        (solved(plan=Plan(paths=(STAY, None))), "robot 1: None instead of a Path"),
+        (solved(plan=Plan(paths=(FLAT,))), "robot 0: edge, enter and leave are not all one-dimensional"),
+        (solved(lower_bound="low"), "type str as lower bound"),
+        (solved(statistics=[1]), "type list instead of a mapping"),
+    ],
+)
+def test_the_first_thing_of_a_wrong_type_is_named(returned, said):
+    fault = result_fault(returned)
+    assert fault is not None
+    assert said in fault
+
+
+@pytest.mark.parametrize(
+    "returned", [solved(), solved(plan=None), PlanResult(status=PlanStatus.GAVE_UP, lower_bound=np.float64(np.inf))]
+)
+def test_a_result_is_a_result(returned):
+    assert result_fault(returned) is None
