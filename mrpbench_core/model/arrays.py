@@ -15,10 +15,21 @@ Bool = NDArray[np.bool_]
 
 
 def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None) -> NDArray[Any]:
-    """Return a read-only copy of `values` as `dtype`; `columns` shapes an empty list as (0, columns)."""
-    array = np.array(values, dtype=dtype, order="C")
-    if columns is not None:
-        array = array.reshape(-1, columns)
+    """Return a read-only copy of `values` as `dtype`; `columns` shapes an empty list as (0, columns).
+
+    Raises:
+        ValueError: there are not so many columns, or integers are wanted and some value is none, or too large.
+    """
+    given = np.asarray(values)
+    whole = np.dtype(dtype).kind in "iu" and given.dtype.kind in "iuf" and given.dtype != np.dtype(dtype)
+    with np.errstate(invalid="ignore"):
+        array = np.array(given, dtype=dtype, order="C")
+    if whole and (array != given).any():  # NumPy would cut off or wrap round in silence
+        raise ValueError(f"expected whole numbers that fit in {array.dtype}, got {given[array != given][0]}")
+    if columns is not None and array.size == 0:
+        array = array.reshape(0, columns)
+    elif columns is not None and array.shape[1:] != (columns,):  # reshaping would hide rows and columns mixed up
+        raise ValueError(f"expected an array of {columns} columns, got the shape {array.shape}")
     array.flags.writeable = False
     return array
 
