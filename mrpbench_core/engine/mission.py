@@ -12,6 +12,7 @@ from mrpbench_core.api.localizer import Localizer
 from mrpbench_core.api.navigator import Navigator
 from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.answers import Answers
 from mrpbench_core.engine.noise import SensorNoise
 from mrpbench_core.engine.recorder import Recorder
 from mrpbench_core.engine.seeds import seed_of
@@ -89,6 +90,7 @@ def execute_plan(
         stepped: called after every period.
 
     Raises:
+        BrokenContractError: a component returned what its contract rules out.
         DispatchError: the dispatcher refuses the plan.
         MissionError: a component asked for what this loop cannot do.
     """
@@ -97,7 +99,8 @@ def execute_plan(
     robots = len(context.fleet)
     period = context.period
     length = np.array([len(path) for path in plan.paths])
-    state = simulation.state
+    answers = Answers(length)
+    state = answers.state(simulation.state)
     dispatcher = stack.dispatcher.start(context.problem, plan)
     localizer = stack.localizer.start(context.fleet, context.world, state.pose, seed_of(*seeds, "localizer"))
     navigator = stack.navigator.start(
@@ -113,9 +116,9 @@ def execute_plan(
     while True:
         now = step * period
         odometry = noise.odometry(state)
-        scans = noise.scans(simulation.scans())
+        scans = noise.scans(answers.scans(simulation.scans()))
         truth = state.pose if stack.localizer.needs_truth else None
-        estimate = localizer.update(now, odometry, scans, truth)
+        estimate = answers.estimate(localizer.update(now, odometry, scans, truth))
         view = FleetView(
             revision=0,
             reached=motion.reached,
@@ -124,11 +127,13 @@ def execute_plan(
             level=state.level,
             mode=motion.mode,
         )
-        orders = dispatcher.update(now, view)
+        orders = answers.orders(dispatcher.update(now, view))
         if orders.replan is not None:
             raise MissionError(f"the dispatcher asked for a new plan ({orders.replan}), which is not available yet")
+        if orders.requests:
+            raise MissionError(f"the dispatcher asked for {orders.requests[0][1]}, and nothing grants that yet")
         observation = FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
-        motion = navigator.step(now, observation, orders)
+        motion = answers.motion(navigator.step(now, observation, orders))
         arrived = bool((motion.reached >= length).all())
         gave_up = motion.mode == Mode.ABORTED
         over = arrived or bool((gave_up | (motion.reached >= length)).all()) or now >= limit_s
@@ -141,6 +146,6 @@ def execute_plan(
             recorder.flush()
             return Outcome(arrived=arrived, aborted=bool(gave_up.any()), simulated_s=now)
         held = (now < noise.start_delay)[:, None]
-        state = simulation.step(Inputs(twist=np.where(held, 0.0, motion.twist)))
+        state = answers.state(simulation.step(Inputs(twist=np.where(held, 0.0, motion.twist))))
         step += 1
         recorder.contacts(step * period, state)
