@@ -28,27 +28,26 @@ class RecordingWriter:
         self.file = file
         self.temporary = file.with_name(f".{file.name}.partial")
         file.parent.mkdir(parents=True, exist_ok=True)
-        self._zip = zipfile.ZipFile(self.temporary, "w", zipfile.ZIP_DEFLATED, compresslevel=1)
+        self._zip = zipfile.ZipFile(self.temporary, "w")
         self._chunks = 0
         self._arrays = 0
         data = encode(context, self._keep)
-        self._zip.writestr("context.json", json.dumps({"format": FORMAT, "context": data}))
+        self._put("context.json", json.dumps({"format": FORMAT, "context": data}).encode())
 
     def _keep(self, array: NDArray[Any]) -> str:
         name = f"context/{self._arrays}.npy"
         self._arrays += 1
-        self._put(name, array)
+        self._put(name, _npy(array))
         return name
 
-    def _put(self, name: str, array: NDArray[Any]) -> None:
-        buffer = BytesIO()
-        np.save(buffer, array, allow_pickle=False)
-        self._zip.writestr(name, buffer.getbuffer())
+    def _put(self, name: str, content: bytes) -> None:
+        """Add a file without a date, so that equal recordings are equal byte by byte."""
+        self._zip.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, compresslevel=1)
 
     def write(self, chunk: Chunk) -> None:
         """Append rows to channels."""
         for channel, rows in chunk.items():
-            self._put(f"{channel}/{self._chunks:06d}.npy", rows)
+            self._put(f"{channel}/{self._chunks:06d}.npy", _npy(rows))
         self._chunks += 1
 
     def close(self) -> None:
@@ -60,6 +59,12 @@ class RecordingWriter:
         """Drop the unfinished file."""
         self._zip.close()
         self.temporary.unlink(missing_ok=True)
+
+
+def _npy(array: NDArray[Any]) -> bytes:
+    buffer = BytesIO()
+    np.save(buffer, array, allow_pickle=False)
+    return buffer.getvalue()
 
 
 class Recording:
