@@ -4,14 +4,24 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int32
+from mrpbench_core.model.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution import Route
 
 
 def arrival_times(time: Float, reached: Int32, routes: Sequence[Route]) -> Float:
     """Time f8[n] of the first sample at which each robot has completed all segments of its path; NaN = never."""
-    arrived = reached >= np.array([len(route.speed) for route in routes])
-    return np.where(arrived.any(axis=0), time[arrived.argmax(axis=0)], np.nan)
+    return completion_times(time, reached, np.array([len(route.speed) for route in routes], int))
+
+
+def completion_times(time: Float, reached: Int32, needed: Int) -> Float:
+    """Time f8[n] of the first sample at which each robot has completed `needed` i8[n] segments; NaN = never."""
+    done = reached >= needed
+    return np.where(done.any(axis=0), time[done.argmax(axis=0)], np.nan)
+
+
+def under_way(time: Float, arrival: Float) -> Bool:
+    """Tell bool[T,n] which robots have not arrived yet at each sample."""
+    return ~(time[:, None] >= arrival)  # true for ever where the arrival is NaN
 
 
 def progress(truth: Float, reached: Int32, routes: Sequence[Route]) -> Float:
@@ -29,18 +39,22 @@ def progress(truth: Float, reached: Int32, routes: Sequence[Route]) -> Float:
     return along
 
 
-def blocked_times(time: Float, along: Float, arrival: Float, window: float, distance: float) -> Float:
-    """Seconds f8[n] for which each robot is blocked.
+def blocked_intervals(time: Float, along: Float, arrival: Float, window: float, distance: float) -> Bool:
+    """Tell bool[T,n] whether the time from the sample before counts as blocked for each robot.
 
-    The time between two samples counts when, at the later one, the robot has not arrived, `window` seconds have passed
-    since the start, and it has advanced less than `distance` metres in the last `window` seconds. Positions between
-    samples are interpolated.
+    It does when, at the sample, the robot has not arrived, `window` seconds have passed since the start, and it has
+    advanced less than `distance` metres in the last `window` seconds. Positions between samples are interpolated.
     """
-    spent = np.diff(time, prepend=time[0])
-    old_enough = time - time[0] >= window - 1e-9
-    blocked = np.empty(along.shape[1])
+    before = np.empty(along.shape)
     for robot in range(along.shape[1]):
-        advanced = along[:, robot] - np.interp(time - window, time, along[:, robot])
-        under_way = ~(time >= arrival[robot])  # true for ever where the arrival is NaN
-        blocked[robot] = spent[old_enough & under_way & (advanced < distance)].sum()
+        before[:, robot] = np.interp(time - window, time, along[:, robot])
+    old_enough = time - time[0] >= window - 1e-9
+    blocked: Bool = old_enough[:, None] & under_way(time, arrival) & (along - before < distance)
     return blocked
+
+
+def blocked_times(time: Float, along: Float, arrival: Float, window: float, distance: float) -> Float:
+    """Seconds f8[n] for which each robot is blocked."""
+    spent = np.diff(time, prepend=time[0])
+    blocked = blocked_intervals(time, along, arrival, window, distance)
+    return np.array([spent[own].sum() for own in blocked.T], float)

@@ -1,0 +1,60 @@
+"""How much later than planned robots arrive."""
+
+from collections.abc import Mapping
+from typing import ClassVar
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import Column, Metric, Value
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.run import FinishedRun
+from mrpbench_metrics_standard.distribution import mean, percentile
+from mrpbench_metrics_standard.progress import completion_times
+from mrpbench_metrics_standard.samples import measurable, nulls
+
+
+@attrs.frozen(kw_only=True)
+class Delay(Metric):
+    """Compares when robots completed their last move with when the first plan has them complete it.
+
+    Robots that never arrive have no delay (theirs is censored): read the others beside `robots`.
+    """
+
+    columns: ClassVar[tuple[Column, ...]] = (
+        Column("robots", "", "higher", "robots that completed their last planned move: those whose delay is known"),
+        Column(
+            "mean_s",
+            "s",
+            "lower",
+            "mean over these robots of the time from the start until the first sample at which the last planned move "
+            "is completed, less the time at which the plan has it completed; robots that need not move have delay 0",
+        ),
+        Column("p95_s", "s", "lower", "95th percentile of these delays, linear between robots"),
+        Column("max_s", "s", "lower", "the largest of these delays"),
+    )
+    requires: ClassVar[frozenset[str]] = frozenset({"time", "reached", "plan"})
+
+    def measure(self, run: FinishedRun) -> Mapping[str, Value]:
+        """Return all columns; delays are null where no robot arrived."""
+        if not measurable(self, run):
+            return nulls(self)
+        delay = delays(run)
+        known = delay[np.isfinite(delay)]
+        return {
+            "robots": len(known),
+            "mean_s": mean(known),
+            "p95_s": percentile(known, 95),
+            "max_s": percentile(known, 100),
+        }
+
+
+def delays(run: FinishedRun) -> Float:
+    """Seconds f8[n] by which each robot completed its last planned move late; NaN = never completed."""
+    plan, time = run.context.result.plan, run.channel("time")
+    assert plan is not None
+    moves = [np.flatnonzero(path.edge >= 0) for path in plan.paths]
+    needed = np.array([own[-1] + 1 if len(own) else 0 for own in moves], int)
+    planned = np.array([path.arrival for path in plan.paths]) * run.context.problem.roadmap.tick
+    late: Float = completion_times(time, run.channel("reached"), needed) - time[0] - planned
+    return late

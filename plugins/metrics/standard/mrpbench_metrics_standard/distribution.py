@@ -1,0 +1,20 @@
+"""Mean and percentiles of robots, samples or tasks.
+
+Sums are exactly rounded (`math.fsum`), so that no result depends on the order of robots or the layout of arrays.
+"""
+
+import math
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Float
+
+
+def mean(values: Float) -> float | None:
+    """Arithmetic mean; null of nothing."""
+    return math.fsum(values) / len(values) if len(values) else None
+
+
+def percentile(values: Float, share: float) -> float | None:
+    """Percentile, linear between the two nearest values (type 7 of Hyndman and Fan, 1996); null of nothing."""
+    return float(np.percentile(values, share)) if len(values) else None

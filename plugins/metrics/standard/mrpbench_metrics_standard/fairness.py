@@ -1,0 +1,63 @@
+"""How evenly delays fall on robots.
+
+Jain, Chiu, Hawe, "A Quantitative Measure of Fairness and Discrimination for Resource Allocation in Shared Computer
+Systems", DEC Research Report TR-301, 1984.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import ClassVar
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import Column, Metric, Value
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.run import FinishedRun
+from mrpbench_metrics_standard.delay import delays
+from mrpbench_metrics_standard.samples import measurable, nulls
+
+JAIN = "Jain, Chiu, Hawe, A Quantitative Measure of Fairness and Discrimination, DEC-TR-301, 1984"
+
+
+@attrs.frozen(kw_only=True)
+class Fairness(Metric):
+    """Measures how evenly delays (see `delay`) are shared; a robot that is early counts as having delay 0."""
+
+    columns: ClassVar[tuple[Column, ...]] = (
+        Column(
+            "jain",
+            "",
+            "higher",
+            "square of the sum of the n delays over n times the sum of their squares: 1 if all are the same, 1/n if "
+            "one robot has it all; null unless every robot arrived",
+            JAIN,
+        ),
+        Column(
+            "max_over_mean",
+            "",
+            "lower",
+            "largest delay over mean delay; null unless every robot arrived and one was late",
+        ),
+    )
+    requires: ClassVar[frozenset[str]] = frozenset({"time", "reached", "plan"})
+
+    def measure(self, run: FinishedRun) -> Mapping[str, Value]:
+        """Return both columns; null where a delay is unknown, since what is censored is the largest."""
+        if not measurable(self, run):
+            return nulls(self)
+        delay = delays(run)
+        if not len(delay) or not np.isfinite(delay).all():
+            return nulls(self)
+        late = np.maximum(delay, 0.0)
+        worst = float(late.max())
+        return {"jain": jain(late), "max_over_mean": worst * len(late) / math.fsum(late) if worst > 0 else None}
+
+
+def jain(shares: Float) -> float:
+    """Jain's index of non-negative shares f8[n], n >= 1; 1 where nobody has anything."""
+    most = float(shares.max())
+    if most == 0:
+        return 1.0
+    scaled = shares / most  # neither overflow nor underflow of squares
+    return math.fsum(scaled) ** 2 / (len(scaled) * math.fsum(scaled**2))
