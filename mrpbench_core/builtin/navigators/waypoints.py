@@ -99,7 +99,7 @@ class _Session(NavigatorSession):
         twist = np.zeros((len(self._followers), 2))
         for robot, command in self._controllers.command(seen).items():
             if command is not None:
-                twist[robot] = command
+                twist[robot, 0], twist[robot, 1] = command  # a bare number is refused, not taken for both
         return Motion(
             twist=twist,
             reached=np.array([follower.reached for follower in self._followers], np.int32),

@@ -65,6 +65,14 @@ def test_a_robot_whose_controller_knows_no_way_stands(fleet):
     assert motion.twist.tolist() == [[0, 0], [0, 0]]
 
 
+@pytest.mark.parametrize("command", [0.2, (0.2,), (0.1, 0.2, 0.3)])
+def test_a_command_that_is_no_pair_is_refused(fleet, command):
+    session, controllers = fleet
+    controllers[0].command = lambda observation: command
+    with pytest.raises((TypeError, ValueError), match="unpack"):
+        session.step(0.0, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+
+
 def test_a_controller_gets_its_own_scan_and_only_once(fleet):
     session, controllers = fleet
     scan = ScanBatch(stamp=0.0, robot=[1, 0], ranges=[[1.0, 2.0], [3.0, 4.0]])
