@@ -11,6 +11,8 @@ from mrpbench_core.model.recording import Chunk
 
 SAMPLES = 256
 """Periodic samples per chunk."""
+SCANS = 4096
+"""Scans per chunk: a thousand robots take that many in a second."""
 
 IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
     "contact_time": ("f8", ()),
@@ -77,6 +79,8 @@ class Recorder:
                 self._rows["scan_time"].append(batch.stamp)
                 self._rows["scan_robot"].append(robot)
                 self._rows["scan_ranges"].append(ranges)
+        if len(self._rows.get("scan_time", ())) >= SCANS:
+            self.flush()
 
     def events(self, events: Sequence[Event]) -> None:
         """Record events."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.engine.recorder import SAMPLES, Recorder
+from mrpbench_core.engine.recorder import SAMPLES, SCANS, Recorder
 from mrpbench_core.model.execution import Estimate, Event, Motion, Odometry, Orders, ScanBatch, State
 
 
@@ -62,3 +62,14 @@ def test_contacts_events_and_scans_of_unlike_lidars_are_kept():
     assert joined(chunks, "contact").tolist() == [[0, 1], [1, -1]]
     assert joined(chunks, "event_detail").tolist() == ["left"]
     np.testing.assert_array_equal(joined(chunks, "scan_ranges"), [[1, 2, np.nan], [3, 4, np.inf]])
+
+
+def test_scans_of_many_robots_are_handed_on_before_the_end():
+    chunks = []
+    recorder = Recorder(10.0, 0.05, chunks.append)
+    batch = ScanBatch(stamp=0.0, robot=np.arange(100), ranges=np.ones((100, 3)))
+    for _ in range(2 * SCANS // 100 + 2):
+        recorder.scans((batch,))
+    recorder.flush()
+    assert max(len(chunk.get("scan_time", ())) for chunk in chunks) < SCANS + 100
+    assert len(joined(chunks, "scan_ranges")) == 100 * (2 * SCANS // 100 + 2)
