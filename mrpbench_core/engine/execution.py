@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.api.dispatcher import DispatchError
+from mrpbench_core.api.exporter import ExporterSession
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.mission import MissionError, Outcome, Stack, execute_plan
@@ -34,17 +35,19 @@ def drive(
     writer = RecordingWriter(paths.recording, context)
     if config.export:
         paths.exports.mkdir(parents=True, exist_ok=True)
-    exports = [exporter.open(context, paths.exports / name) for name, exporter in config.export.items()]
+    exports: list[ExporterSession] = []
 
     def sink(chunk: Chunk) -> None:
         writer.write({name: rows for name, rows in chunk.items() if config.recording.scans or name[:5] != "scan_"})
         for session in exports:
             session.write(chunk)
 
-    recorder = Recorder(config.recording.rate, context.period, sink)
-    began = time.perf_counter()
     ended: Ended | None
     try:
+        for name, exporter in config.export.items():
+            exports.append(exporter.open(context, paths.exports / name))
+        recorder = Recorder(config.recording.rate, context.period, sink)
+        began = time.perf_counter()
         outcome = _simulate(config, context, recorder, stepped)
         ended = _judge(outcome, config)
         timing["execution_wall_s"] = time.perf_counter() - began

@@ -134,6 +134,8 @@ def execute_plan(
             raise MissionError(f"the dispatcher asked for {orders.requests[0][1]}, and nothing grants that yet")
         observation = FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
         motion = answers.motion(navigator.step(now, observation, orders))
+        held = (now < noise.start_delay)[:, None]
+        motion = attrs.evolve(motion, twist=np.where(held, 0.0, motion.twist))
         arrived = bool((motion.reached >= length).all())
         gave_up = motion.mode == Mode.ABORTED
         over = arrived or bool((gave_up | (motion.reached >= length)).all()) or now >= limit_s
@@ -145,7 +147,6 @@ def execute_plan(
         if over:
             recorder.flush()
             return Outcome(arrived=arrived, aborted=bool(gave_up.any()), simulated_s=now)
-        held = (now < noise.start_delay)[:, None]
-        state = answers.state(simulation.step(Inputs(twist=np.where(held, 0.0, motion.twist))))
+        state = answers.state(simulation.step(Inputs(twist=motion.twist)))
         step += 1
         recorder.contacts(step * period, state)
