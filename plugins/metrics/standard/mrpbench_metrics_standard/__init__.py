@@ -1,10 +1,25 @@
 """Metrics of plans and of their execution."""
 
+from mrpbench_metrics_standard.contact import Contact
 from mrpbench_metrics_standard.deadlock import Deadlock
 from mrpbench_metrics_standard.delay import Delay
 from mrpbench_metrics_standard.execution import Execution
 from mrpbench_metrics_standard.fairness import Fairness
 from mrpbench_metrics_standard.planning import Planning
+from mrpbench_metrics_standard.smoothness import Smoothness
+from mrpbench_metrics_standard.stops import Stops
 from mrpbench_metrics_standard.throughput import Throughput
+from mrpbench_metrics_standard.tracking import Tracking
 
-__all__ = ["Deadlock", "Delay", "Execution", "Fairness", "Planning", "Throughput"]
+__all__ = [
+    "Contact",
+    "Deadlock",
+    "Delay",
+    "Execution",
+    "Fairness",
+    "Planning",
+    "Smoothness",
+    "Stops",
+    "Throughput",
+    "Tracking",
+]

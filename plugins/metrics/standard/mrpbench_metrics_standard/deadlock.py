@@ -8,7 +8,6 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
-from mrpbench_core.model.arrays import Bool
 from mrpbench_core.model.run import FinishedRun
 from mrpbench_metrics_standard.progress import arrival_times, blocked_intervals, progress, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
@@ -55,8 +54,7 @@ class Deadlock(Metric):
         going = under_way(time, arrival)
         blocked = blocked_intervals(time, along, arrival, self.window, self.distance)
         # Interval k ends at sample k; there is none before the first.
-        stuck: Bool = going.any(axis=1) & np.logical_or(blocked, ~going).all(axis=1)
-        stuck = stuck[1:, None]
+        stuck = np.stack([going.any(axis=1) & (blocked | ~going).all(axis=1)], axis=1)[1:]
         _, first, after = spells(stuck)
         lasted = time[after] - time[first]
         return {
