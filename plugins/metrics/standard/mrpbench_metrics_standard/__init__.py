@@ -1,8 +1,10 @@
 """Metrics of plans and of their execution."""
 
+from mrpbench_metrics_standard.clearance import Clearance
 from mrpbench_metrics_standard.contact import Contact
 from mrpbench_metrics_standard.deadlock import Deadlock
 from mrpbench_metrics_standard.delay import Delay
+from mrpbench_metrics_standard.efficiency import Efficiency
 from mrpbench_metrics_standard.execution import Execution
 from mrpbench_metrics_standard.fairness import Fairness
 from mrpbench_metrics_standard.planning import Planning
@@ -12,9 +14,11 @@ from mrpbench_metrics_standard.throughput import Throughput
 from mrpbench_metrics_standard.tracking import Tracking
 
 __all__ = [
+    "Clearance",
     "Contact",
     "Deadlock",
     "Delay",
+    "Efficiency",
     "Execution",
     "Fairness",
     "Planning",
