@@ -5,6 +5,7 @@ exit code. Mistakes of the user are raised as `InputError` and printed here, one
 """
 
 import argparse
+import errno
 import importlib
 import logging
 import os
@@ -63,6 +64,12 @@ def main(argv: Sequence[str] | None = None) -> int:
     except BrokenPipeError:  # `| head` has seen enough; keep Python from flushing into it at exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = 0
+    except OSError as error:
+        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+            code = _defect(error)
+        else:  # of what was printed, or of a file that was being written
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            code = _mistakes([InputError(f"cannot write: {error.strerror}", file=error.filename)])
     except Exception as error:  # noqa: BLE001 - the last resort: one line, and the rest where it can be found
         code = _defect(error)
     return code

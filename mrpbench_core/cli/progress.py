@@ -1,5 +1,6 @@
 """What `mrpbench run` prints while it runs: a live line on a terminal, one line per finished run elsewhere."""
 
+import shutil
 import sys
 import time
 from collections import Counter
@@ -86,7 +87,9 @@ class Printed(Progress):
         left = (now - self._began) / done * (self._total - done) if done else 0.0
         eta = f" · {_clock(left)} left" if done else ""
         going = " ".join(run_id[:SHORT] for run_id in self._going)
-        print(f"\r\x1b[K[{done}/{self._total}] {counts}{eta} · {going}"[:118], end="", flush=True)
+        line = f"[{done}/{self._total}] {counts}{eta} · {going}"
+        width = shutil.get_terminal_size().columns - 1  # a line that wraps cannot be taken back
+        print("\r\x1b[K" + line[:width], end="", flush=True)
 
 
 def word(value: Any) -> str:

@@ -5,6 +5,7 @@ import signal
 import sys
 from collections import Counter
 from collections.abc import Sequence
+from contextlib import closing
 from typing import Any
 
 from mrpbench_core.cli.arguments import add_configuration, read_options, split_words
@@ -47,6 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     files, overrides = split_words(arguments.words)
     options = read_options(arguments.executor_option, "--executor-option")
     studies = load_studies(files, overrides)
+    progress = Printed()
     requests = [
         prepare(
             study,
@@ -57,7 +59,7 @@ def run(arguments: argparse.Namespace) -> int:
             executor_options=options,
             shard=arguments.shard,
             rerun=arguments.rerun,
-            progress=Printed(),
+            progress=progress,
         )
         for study in studies
     ]
@@ -68,12 +70,13 @@ def run(arguments: argparse.Namespace) -> int:
         return int(any(study.errors for study in studies))
     print(plugins_line(studies), flush=True)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs so
-    return max(_run_one(study, request) for study, request in zip(studies, requests, strict=True))
+    return max(_run_one(study, request, progress) for study, request in zip(studies, requests, strict=True))
 
 
-def _run_one(study: Study, request: Request) -> int:
+def _run_one(study: Study, request: Request, progress: Printed) -> int:
     try:
-        done = run_study(study, request)
+        with closing(progress):
+            done = run_study(study, request)
     except KeyboardInterrupt:
         sys.stderr.write(
             f"interrupted; what is finished is kept in {request.out}, the same command goes on from there\n"

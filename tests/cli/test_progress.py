@@ -34,6 +34,16 @@ def test_a_terminal_has_one_line_that_counts_and_lines_for_what_went_wrong(capsy
     assert output.endswith("\r\x1b[K")
 
 
+def test_the_live_line_does_not_wrap(capsys, monkeypatch):
+    monkeypatch.setattr(progress, "REFRESH_S", 0.0)
+    monkeypatch.setenv("COLUMNS", "40")
+    shown = Printed(live=True)
+    for number in range(9):
+        shown.started(types.SimpleNamespace(run_id=f"{number:016d}", axes={}))
+    lines = capsys.readouterr().out.split("\r\x1b[K")
+    assert max(map(len, lines)) == 39
+
+
 @pytest.mark.parametrize(
     ("value", "text"),
     [
