@@ -45,8 +45,8 @@ class Stay(NamedTuple):
         return self.tail != self.head
 
 
-def find_conflicts(problem: Problem, plan: Plan, limit: int) -> list[Conflict]:
-    """The first `limit` conflicts between robots of a plan whose paths are sound, in order of time."""
+def find_conflicts(problem: Problem, plan: Plan, limit: int | None = None) -> list[Conflict]:
+    """The first `limit` conflicts (None = all) between robots of a plan whose paths are sound, in order of time."""
     stays = [stay for robot in range(len(problem)) for stay in _stays(problem, plan, robot)]
     horizon = FOREVER if problem.horizon is None else problem.horizon
     found = [conflict for conflict in _pairs(problem, stays) if conflict.tick <= horizon]

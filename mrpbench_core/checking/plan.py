@@ -23,8 +23,8 @@ class PlanReport:
         return not self.faults and not self.conflicts
 
 
-def check_plan(problem: Problem, plan: Plan, conflict_limit: int = 10_000) -> PlanReport:
-    """Check every path and, if all are sound, every pair of robots; stops after `conflict_limit` conflicts."""
+def check_plan(problem: Problem, plan: Plan, conflict_limit: int | None = None) -> PlanReport:
+    """Check every path and, if all are sound, every pair of robots; keeps `conflict_limit` conflicts, None = all."""
     if len(plan.paths) != len(problem):
         return PlanReport(faults=(f"{len(plan.paths)} paths for {len(problem)} robots",))
     faults = [

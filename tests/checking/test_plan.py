@@ -195,3 +195,12 @@ def test_robots_that_disappear_at_their_goals_let_others_end_there(make, lane):
     assert check_plan(gone, Plan(paths=paths)).valid
     waits = Plan(paths=(make.path(lane, (0, 1, 1), (1, 1, 2)), paths[1]))
     assert not check_plan(gone, waits).valid  # it disappears only when its path ends
+
+
+def test_all_conflicts_are_counted_unless_told_otherwise(make):
+    robots = 150
+    problem = make.problem(make.grid(1, 2), [0] * robots)
+    nothing = Path(edge=[], enter=[], leave=[])
+    pairs = robots * (robots - 1) // 2
+    assert len(check_plan(problem, Plan(paths=(nothing,) * robots)).conflicts) == pairs > 10_000
+    assert len(check_plan(problem, Plan(paths=(nothing,) * robots), conflict_limit=3).conflicts) == 3
