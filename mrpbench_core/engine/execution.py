@@ -67,12 +67,12 @@ def drive(
     return ended
 
 
-def measure_recording(config: RunConfig, file: Path) -> dict[str, Any]:
-    """Metrics of a stored recording."""
+def measure_recording(config: RunConfig, file: Path) -> tuple[dict[str, Any], dict[str, str]]:
+    """Metrics of a stored recording, and why some cannot be measured."""
     recording = Recording(file)
     try:
         run = FinishedRun(context=recording.context(), executed=True, channels=recording.channels)
-        return measure(config.metrics, run)[0]
+        return measure(config.metrics, run)
     finally:
         recording.close()
 

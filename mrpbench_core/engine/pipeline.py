@@ -55,12 +55,14 @@ def execute(
         if ended is None and config.simulator is not None:
             ended = drive(config, context, paths, announce, record["timing"], _stepper(observers))
             announce("metrics", {})
-            record["metrics"] = measure_recording(config, paths.recording)
+            record["executed"] = True
+            record["metrics"], record["unmeasured"] = measure_recording(config, paths.recording)
             if config.recording.keep == "none" or (config.recording.keep == "failed" and ended is None):
                 paths.recording.unlink()
         else:
             announce("metrics", {})
-            record["metrics"], _ = measure(config.metrics, FinishedRun(context=context, executed=False))
+            run = FinishedRun(context=context, executed=False)
+            record["metrics"], record["unmeasured"] = measure(config.metrics, run)
     except Ended as error:
         ended = error
     record["status"] = "succeeded" if ended is None else ended.status
@@ -79,6 +81,7 @@ def _plan(
     budget = Budget(wall_s=config.limits.planning, memory_bytes=config.limits.memory)
     result, spent = call_planner(config.planner, problem, budget)
     timing |= spent
+    announce("checking", {})  # which is no part of the planner's time
     result, fault = judge(config.planner, problem, result)
     observers.planned(problem=problem, result=result)
     if fault is not None:

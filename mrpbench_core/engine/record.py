@@ -27,8 +27,9 @@ def complete(point: RunPoint, attempt: int, outcome: Outcome, workers: int) -> d
         "timing": {**made["timing"], "concurrent_workers": workers},
         "provenance": {**code_of(point), "machine": outcome.machine or machine(), "live": False},
     }
-    if made.get("error"):
-        record["error"] = made["error"]
+    for key in ("unmeasured", "error"):
+        if made.get(key):
+            record[key] = made[key]
     return record
 
 

@@ -74,6 +74,8 @@ class Schedule:
             return
         record = complete(point, attempt, outcome, self.workers)
         try:
+            if not _left_a_recording(outcome):
+                self.folder.forget(point.run_id)
             self.shard.write(record)
         except OSError as error:
             raise InputError(f"cannot be written: {error.strerror}", file=self.shard.path) from error
@@ -97,3 +99,10 @@ class Schedule:
         finally:
             close_slots(self.invocation)
             executor.shutdown(wait=True, cancel_futures=True)
+
+
+def _left_a_recording(outcome: Outcome) -> bool:
+    """Tell whether the run was executed to its end; also where a metric failed afterwards."""
+    if outcome.record is None:
+        return outcome.failure is not None and outcome.failure.stage == "metrics"
+    return bool(outcome.record.get("executed"))

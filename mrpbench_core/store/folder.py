@@ -71,6 +71,12 @@ class ResultsFolder:
         except OSError as error:
             raise InputError(f"cannot be made: {error.strerror}", file=error.filename or self.path) from error
 
+    def forget(self, run_id: str) -> None:
+        """Remove what an earlier attempt recorded: it would pass for that of the last, which was not executed."""
+        paths = self.run(run_id)
+        paths.recording.unlink(missing_ok=True)
+        shutil.rmtree(paths.exports, ignore_errors=True)
+
     def sweep(self) -> None:
         """Remove unfinished files of an invocation that was killed; only under the lock."""
         for part in ("recordings", "exports"):

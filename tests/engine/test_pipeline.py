@@ -35,7 +35,8 @@ def digest(file: Path) -> str:
 
 def test_a_run_goes_through_every_stage_and_succeeds(tmp_path):
     record, stages = execute_first(tmp_path)
-    assert stages == ["world", "roadmap", "scenario", "assignment", "planning", "execution", "export", "metrics"]
+    before, after = ["world", "roadmap", "scenario", "assignment"], ["execution", "export", "metrics"]
+    assert stages == [*before, "planning", "checking", *after]  # the limit of planning ends with the planner
     assert record["status"] == "succeeded"
     assert record["metrics"]["execution.success"] is True
     assert record["metrics"]["execution.goals_reached"] == 3
@@ -76,6 +77,7 @@ def test_without_a_simulator_the_run_ends_after_planning(tmp_path):
     assert "execution" not in stages
     assert record["metrics"]["planning.solved"] is True
     assert record["metrics"]["execution.duration_s"] is None
+    assert record["unmeasured"] == {"execution": "not executed"}
     assert not (tmp_path / "run.zip").exists()
 
 

@@ -48,6 +48,20 @@ def test_failed_runs_are_done_again_as_the_next_attempt_when_asked(study):
     assert sum(len(file.read_text().splitlines()) for file in Path("out/runs").iterdir()) == 5
 
 
+@pytest.mark.parametrize("does", ["nothing", "exit"])
+def test_the_recording_of_an_earlier_attempt_does_not_pass_for_that_of_the_last(study, does):
+    study["planner"]["does"] = does
+    (record,) = run(study, out="out")
+    stale = [Path(f"out/recordings/{record['run_id']}.zip"), Path(f"out/exports/{record['run_id']}/bag")]
+    for file in stale:
+        file.parent.mkdir(exist_ok=True)
+        file.touch()
+    run(study, out="out")
+    assert all(file.exists() for file in stale)
+    run(study, out="out", rerun="all")
+    assert not any(file.exists() for file in stale)
+
+
 def test_a_changed_local_source_is_noticed(study):
     study["planner"]["does"] = "nothing"
     run(study, out="out")
