@@ -1,4 +1,4 @@
-"""Holds what components return, every control period, against their contracts.
+"""Holds what components return, most of it every control period, against their contracts.
 
 Arrays of a wrong shape broadcast, and comparisons with NaN are false: without this a defect of a plugin would not stop
 the run but spoil its numbers.
@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.model.arrays import Int32
 from mrpbench_core.model.execution import Estimate, Mode, Motion, Orders, ScanBatch, State
+from mrpbench_core.model.scenario import Scenario
 
 
 class BrokenContractError(Exception):
@@ -105,6 +106,19 @@ class Answers:
     def _no_robot(self, who: str, what: str, bad: NDArray[np.bool_]) -> None:
         if bad.any():
             _refuse(who, f"for robot {int(bad.argmax())}: {what}")
+
+
+def check_drawn(scenario: Scenario, robots: int) -> Scenario:
+    """Of a scenario, which others rely on for the number of robots."""
+    if not len(scenario.start) == len(scenario.start_level) == robots:
+        _refuse("the scenario", f"{len(scenario.start)} starts for {robots} robots")
+    for place, rows in (
+        ("start", scenario.start),
+        *((f"goal of {task.name!r}", task.goals) for task in scenario.tasks),
+    ):
+        if not len(rows) or not np.isfinite(rows[:, :2]).all():
+            _refuse("the scenario", f"a {place} that is nowhere")
+    return scenario
 
 
 def _refuse(who: str, what: str) -> NoReturn:

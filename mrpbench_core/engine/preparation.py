@@ -11,6 +11,7 @@ from mrpbench_core.api.assigner import AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
 from mrpbench_core.checking.scenario import check_scenario, check_travel
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.answers import check_drawn
 from mrpbench_core.engine.costs import cost_matrix
 from mrpbench_core.engine.fleet import build_fleet
 from mrpbench_core.engine.problem import build_problem, goal_vertices
@@ -62,7 +63,7 @@ def set_scene(config: RunConfig, announce: Announce) -> Setting:
     announce("roadmap", {})
     roadmap = config.roadmap.build(world, fleet)
     announce("scenario", {})
-    scenario = config.scenario.draw(world, roadmap, fleet, config.seed)
+    scenario = check_drawn(config.scenario.draw(world, roadmap, fleet, config.seed), len(fleet))
     if any(task.release > 0 for task in scenario.tasks) or len(scenario.tasks) > len(fleet):
         raise InputError("scenario: tasks released over time, or more tasks than robots, cannot be executed yet")
     start = roadmap.locate(scenario.start[:, :2], scenario.start_level)

@@ -4,8 +4,9 @@ import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.engine.answers import Answers, BrokenContractError
+from mrpbench_core.engine.answers import Answers, BrokenContractError, check_drawn
 from mrpbench_core.model.execution import Estimate, Motion, Orders, ScanBatch, State
+from mrpbench_core.model.scenario import Scenario, Task
 
 STATE = State(pose=np.zeros((2, 3)), twist=np.zeros((2, 2)), level=[0, 0], contacts=[[0, 1], [1, -1]])
 SCAN = ScanBatch(stamp=0.0, robot=[1], ranges=[[1.0, np.inf]])
@@ -104,3 +105,17 @@ def test_other_things_than_the_contract_names_are_refused():
     for check in (answers().state, answers().estimate, answers().orders, answers().motion):
         with pytest.raises(BrokenContractError, match="returned NoneType instead of"):
             check(None)
+
+
+@pytest.mark.parametrize(
+    ("start", "goal", "message"),
+    [
+        ([[0, 0, 0]], [1, 1, np.nan], "1 starts for 2 robots"),
+        ([[0, 0, 0], [np.nan, 0, 0]], [1, 1, np.nan], "a start that is nowhere"),
+        ([[0, 0, 0], [1, 0, np.nan]], [np.inf, 1, 0], "a goal of 'dock' that is nowhere"),
+    ],
+)
+def test_scenarios_that_are_none_are_refused(start, goal, message):
+    scenario = Scenario(start=start, start_level=[0] * len(start), tasks=(Task(goals=[goal], name="dock"),))
+    with pytest.raises(BrokenContractError, match=f"the scenario returned {message}"):
+        check_drawn(scenario, 2)
