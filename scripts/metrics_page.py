@@ -1,0 +1,46 @@
+"""Prints docs/metrics.md from the columns of the metrics: `python scripts/metrics_page.py > docs/metrics.md`."""
+
+import importlib
+import inspect
+import tomllib
+from pathlib import Path
+
+HEAD = """\
+# Metrics
+Written by `scripts/metrics_page.py` from what each metric says of itself. `planning` and `execution` are measured by
+default; others are named in the configuration, with options where the defaults do not fit:
+```yaml
+metrics: [planning, execution, delay, {plugin: stops, least: 1 s}]
+```
+In records and tables a column is `<metric>.<column>`. Times are simulated seconds, never wall time. What cannot be
+measured is null, never zero. `requires` names the channels of the recording (see [results](results.md)), `plan` (there
+is one) or `path` (what robots were to follow is known) without which a metric, or one column of it, is null. Samples
+come at `recording.rate`, so times are known to a sample.
+"""
+
+
+def page() -> str:
+    """The page as Markdown."""
+    project = Path(__file__).parents[1] / "plugins/metrics/standard/pyproject.toml"
+    entries = tomllib.loads(project.read_text())["project"]["entry-points"]["mrpbench.metrics"]
+    parts = [HEAD]
+    for name, where in sorted(entries.items()):
+        module, _, attribute = where.partition(":")
+        metric = getattr(importlib.import_module(module), attribute)
+        parts += [f"\n## {name}\n{inspect.getdoc(metric)}\n"]
+        if metric.requires:
+            parts += [f"\nRequires {_words(metric.requires)}.\n"]
+        parts += ["\n| column | unit | better | definition |\n|---|---|---|---|\n"]
+        for column in metric.columns:
+            notes = f" (requires {_words(column.requires)})" if column.requires else ""
+            source = f" [{column.source}]" if column.source else ""
+            parts += [f"| `{column.name}` | {column.unit} | {column.better} | {column.description}{notes}{source} |\n"]
+    return "".join(parts)
+
+
+def _words(required: frozenset[str]) -> str:
+    return ", ".join(f"`{name}`" for name in sorted(required))
+
+
+if __name__ == "__main__":
+    print(page(), end="")
