@@ -42,7 +42,8 @@ class Throughput(Metric):
             return nulls(self)
         context, time = run.context, run.channel("time")
         assigned = np.array(context.assigned or range(len(context.routes)), int)
-        released = np.array([context.scenario.tasks[task].release if task >= 0 else np.nan for task in assigned])
+        tasks = context.scenario.tasks
+        released = np.array([tasks[task].release if task in range(len(tasks)) else np.nan for task in assigned])
         served = arrival_times(time, run.channel("reached"), context.routes) - np.maximum(released, time[0])
         served = served[np.isfinite(served)]
         hours = float(time[-1] - time[0]) / 3600

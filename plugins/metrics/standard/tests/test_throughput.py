@@ -45,3 +45,10 @@ def test_nothing_served_has_no_service_time(executed):
 
 def test_one_sample_has_no_rate(executed):
     assert Throughput().measure(executed([0], [[(0, 0)]], [[0]], [POINTS]))["tasks_per_hour"] is None
+
+
+def test_a_robot_without_a_task_completes_none(serving):
+    scenario = attrs.evolve(serving.context.scenario, tasks=serving.context.scenario.tasks[:2])
+    run = attrs.evolve(serving, context=attrs.evolve(serving.context, scenario=scenario))
+    values = Throughput().measure(run)
+    assert (values["tasks"], values["service_max_s"]) == (2, 4)
