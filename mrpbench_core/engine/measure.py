@@ -1,10 +1,16 @@
 """Applies metrics to a finished run; what cannot be measured is null with the reason."""
 
+import traceback
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from mrpbench_core.api.metric import Metric
+from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.run import FinishedRun
+
+NUMBER = int | float | np.integer | np.floating | np.bool_
 
 
 def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, Any], dict[str, str]]:
@@ -17,13 +23,29 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
             reasons[name] = reason
             values |= {f"{name}.{column.name}": None for column in metric.columns}
             continue
-        measured = metric.measure(run)
+        measured, reason = _measured(metric, run)
+        if reason is not None:
+            reasons[name] = reason
         for column in metric.columns:
             key, value = f"{name}.{column.name}", measured.get(column.name)
             if (reason := _obstacle(column.requires, run)) is not None:
                 reasons[key], value = reason, None
+            elif not isinstance(value, NUMBER | None):
+                reasons[key], value = f"the metric returned {type(value).__name__} instead of a number", None
             values[key] = None if isinstance(value, float) and value != value else value
     return values, reasons
+
+
+def _measured(metric: Metric, run: FinishedRun) -> tuple[Mapping[str, Any], str | None]:
+    """What a metric returns, or why it returned nothing: its defects must not cost the run or the other metrics."""
+    try:
+        measured = metric.measure(run)
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - a plugin may raise anything
+        traceback.print_exc()  # into the run's log
+        return {}, f"the metric raised {one_line(error)}"
+    if not isinstance(measured, Mapping):
+        return {}, f"the metric returned {type(measured).__name__} instead of a mapping"
+    return measured, None
 
 
 def describe(metrics: Mapping[str, Metric]) -> dict[str, dict[str, str]]:

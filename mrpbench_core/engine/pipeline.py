@@ -10,7 +10,7 @@ from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution import drive, measure_recording
 from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.plain import readable
-from mrpbench_core.engine.planning import STATUS, call_planner, judge
+from mrpbench_core.engine.planning import STATUS, call_planner, judge, left_for_planning
 from mrpbench_core.engine.preparation import Announce, Ended, Setting, assign, pose_problem, set_scene
 from mrpbench_core.engine.routes import build_routes, speed_limits
 from mrpbench_core.model.execution import State
@@ -78,7 +78,7 @@ def _plan(
     if reason := config.planner.skip(problem):
         raise Ended("skipped", "planning", reason)
     announce("planning", {"limit_s": config.limits.planning})
-    budget = Budget(wall_s=config.limits.planning, memory_bytes=config.limits.memory)
+    budget = Budget(wall_s=config.limits.planning, memory_bytes=left_for_planning(config.limits.memory))
     result, spent = call_planner(config.planner, problem, budget)
     timing |= spent
     announce("checking", {})  # which is no part of the planner's time

@@ -11,6 +11,7 @@ import attrs
 from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.checking.plan_result import result_fault
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
 
@@ -28,7 +29,10 @@ def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[Pl
     _reset_peak()
     before = _resident()
     began, cpu = time.perf_counter(), time.process_time()
-    result = planner.plan(problem, budget)
+    try:
+        result = planner.plan(problem, budget)
+    except InputError as error:  # no mistake of the user's any more: the problem was sound
+        raise RuntimeError(f"the planner raised InputError: {error}") from error
     timing = {
         "planning_s": time.perf_counter() - began,
         "planning_cpu_s": time.process_time() - cpu,
@@ -36,6 +40,11 @@ def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[Pl
         "clock_bound": bool(getattr(result, "clock_bound", False)),
     }
     return result, timing
+
+
+def left_for_planning(limit_bytes: int) -> int:
+    """What of a run's memory limit a planner may use, so that it stops by itself before the run is killed."""
+    return max(1, int(0.9 * limit_bytes) - _resident())
 
 
 def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:

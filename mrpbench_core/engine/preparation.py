@@ -111,7 +111,8 @@ def pose_problem(setting: Setting, assigned: tuple[int, ...]) -> Problem:
     Raises:
         Ended: robots stand on one another, or a goal is blocked, shared or unreachable.
     """
-    goals = tuple(tuple((vertex,) for vertex in setting.goals[task]) if task >= 0 else () for task in assigned)
+    anywhere = (tuple(range(len(setting.roadmap.position))),)  # for a robot without a task, which may have to make way
+    goals = tuple(tuple((vertex,) for vertex in setting.goals[task]) if task >= 0 else anywhere for task in assigned)
     problem = build_problem(setting.roadmap, setting.fleet, setting.start, goals)
     names = _task_names(setting)
     goal_names = [names[task] if task >= 0 else "" for task in assigned]

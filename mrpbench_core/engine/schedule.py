@@ -46,10 +46,13 @@ class Schedule:
         with self._ending(executor):
             while self._hand_out(executor):
                 done = wait(self._going, return_when=FIRST_COMPLETED).done
-                outcomes = [(*self._going.pop(future), future.result()) for future in done]
+                ended = [(*self._going.pop(future), future) for future in done]
                 self._hand_out(executor)  # before storing, so that no worker waits for the disk
-                for point, attempt, outcome in outcomes:
-                    self._take(point, attempt, outcome)
+                for point, attempt, future in ended:
+                    if future.exception() is None:
+                        self._take(point, attempt, future.result())
+                for _, _, future in ended:
+                    future.result()  # an executor's own failure ends the study, after what is finished was stored
 
     def _hand_out(self, executor: Executor) -> bool:
         """Tell whether any run is going on."""

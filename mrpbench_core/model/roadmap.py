@@ -67,11 +67,11 @@ class Roadmap:
     def locate(self, points: Float, levels: Int16) -> Int32:
         """The vertex that stands for each of `points` f8[n,2] on `levels` i2[n]; -1 = none.
 
-        On a raster it is the vertex of the cell that holds the point, otherwise the nearest vertex within 1 mm,
-        otherwise the nearest vertex of all.
+        On a raster it is the vertex of the cell that holds the point, otherwise the nearest vertex within 1 m.
         """
         if self.grid is None:
-            return np.array([self.nearest(x, y, lvl)[0] for (x, y), lvl in zip(points, levels, strict=True)], "i4")
+            found = [self.nearest(x, y, level) for (x, y), level in zip(points, levels, strict=True)]
+            return np.array([vertex if distance <= 1.0 else -1 for vertex, distance in found], "i4")
         rows, columns = self.grid.shape
         table = np.full(rows * columns, -1, "i4")
         table[self.grid.cell[:, 0] * columns + self.grid.cell[:, 1]] = np.arange(len(self.grid.cell))

@@ -76,3 +76,32 @@ def test_what_others_planned_is_not_taken_for_a_failure(run_context):
     values, reasons = measure({"m": Solved()}, FinishedRun(context=foreign, executed=True))
     assert values == {"m.solved": None}
     assert reasons == {"m": "planned by others"}
+
+
+@attrs.frozen(kw_only=True)
+class Broken(Length):
+    returns: object = None
+    requires = frozenset()
+
+    def measure(self, run):
+        if self.returns is None:
+            raise ValueError("no idea")
+        return self.returns
+
+
+def test_a_metric_that_raises_costs_neither_the_run_nor_the_others(run_context):
+    run = FinishedRun(context=run_context, executed=True, channels={"time": lambda: np.arange(3.0)})
+    values, reasons = measure({"broken": Broken(), **METRICS}, run)
+    assert values["broken.length_s"] is None
+    assert values["length.length_s"] == 2.0
+    assert reasons == {"broken": "the metric raised ValueError: no idea"}
+
+
+def test_what_is_no_number_is_null_and_said(run_context):
+    run = FinishedRun(context=run_context, executed=True)
+    text = {"broken": Broken(returns={"length_s": "long", "odd": 1})}
+    values, reasons = measure(text, run)
+    assert values == {"broken.length_s": None, "broken.odd": 1}
+    assert reasons == {"broken.length_s": "the metric returned str instead of a number"}
+    _, reasons = measure({"broken": Broken(returns=[1])}, run)
+    assert reasons == {"broken": "the metric returned list instead of a mapping"}

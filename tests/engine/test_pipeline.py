@@ -8,6 +8,8 @@ import pytest
 
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import Observers, execute
+from mrpbench_core.files.scenario import write_scenario
+from mrpbench_core.model.scenario import Scenario, Task
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 
@@ -135,3 +137,19 @@ def test_other_dispatchers_drive_a_single_robot_too(tmp_path, dispatcher):
 def test_a_slow_dispatch_takes_as_long_as_the_plan(tmp_path):
     record, _ = execute_first(tmp_path, "scenario.robots=1", dispatcher="timed")
     assert record["metrics"]["execution.duration_s"] > record["metrics"]["planning.makespan"] - 2.0
+
+
+def test_a_robot_without_a_task_makes_way_and_does_not_hinder_planning(tmp_path):
+    file = tmp_path / "two_tasks.yaml"
+    scenario = load_study(FIRST).runs[0].config.scenario
+    world = load_study(FIRST).runs[0].config.world.load()
+    places = {vertex.name: (vertex.x, vertex.y, float("nan")) for vertex in world.vertices}
+    assert scenario.size() == 3
+    start = [places[name] for name in ("kitchen", "lounge", "sofa")]
+    tasks = tuple(Task(goals=[places[name]]) for name in ("workshop", "archive"))
+    write_scenario(file, Scenario(start=start, start_level=[0, 0, 0], tasks=tasks))
+    record, _ = execute_first(
+        tmp_path, scenario={"plugin": "file", "file": str(file)}, planner="cbs", assigner="hungarian"
+    )
+    assert record["status"] == "succeeded", record
+    assert record["metrics"]["execution.success"] is True

@@ -33,7 +33,9 @@ class Random(ScenarioSource):
     first of more robots of one kind start and end, on the same seed, where fewer do.
     """
 
-    robots: int = option(help="number of robots", validator=attrs.validators.ge(1))
+    robots: int = option(
+        help="number of robots", validator=attrs.validators.and_(attrs.validators.ge(1), attrs.validators.le(10**6))
+    )
     compatible: Literal["mrp_bench"] | None = option(
         None,
         help="mrp_bench: the draw of the original, random.sample after random.seed(seed) for starts and seed + 1 for "

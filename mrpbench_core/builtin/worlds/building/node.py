@@ -67,7 +67,8 @@ class Node:
         """The index of a vertex of a level with `count` vertices, named by a `what`."""
         index = self.integer()
         if not 0 <= index < count:
-            raise self.error(f"{what} to vertex {index}, but the level's vertices are 0 to {count - 1}")
+            known = f"the level's vertices are 0 to {count - 1}" if count else "the level has no vertices"
+            raise self.error(f"{what} to vertex {index}, but {known}")
         return index
 
     def error(self, message: str, hint: str | None = None, *, key: bool = False) -> InputError:
