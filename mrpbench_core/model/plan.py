@@ -83,7 +83,7 @@ class PlanResult:
     plan: Plan | None = None
     assignment: tuple[int, ...] | None = None
     """Index of the candidate goal set each robot took, when the planner assigns."""
-    lower_bound: float = float("nan")
+    lower_bound: float = attrs.field(default=float("nan"), eq=repr)  # NaN equals NaN
     """Proved lower bound on the sum of costs, in ticks; NaN if the planner proves none."""
     clock_bound: bool = False
     """The plan depends on when the clock ended the search (anytime planners)."""
