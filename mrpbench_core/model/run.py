@@ -43,7 +43,6 @@ class FinishedRun:
     """False when the run ended after planning (`simulator: none`, or no plan to execute)."""
     channels: Mapping[str, Callable[[], NDArray[Any]]] = attrs.field(factory=dict)
     """Loads a whole channel by name; see `mrpbench_core.model.recording`."""
-    timing: Mapping[str, float | bool | None] = attrs.field(factory=dict)
 
     def channel(self, name: str) -> NDArray[Any]:
         """The whole of a channel."""
