@@ -67,11 +67,26 @@ class FleetEntry:
 
 @attrs.frozen(kw_only=True)
 class Noise:
-    """What the engine adds to the simulator's exact output."""
+    """What the engine adds to the simulator's exact output, and takes from the exactness of commands."""
 
     lidar: float = option(0.0, help="standard deviation of each range", unit="m", validator=validators.ge(0))
+    lidar_dropout: float = option(
+        0.0, help="share of returns that are lost", validator=validators.and_(validators.ge(0), validators.le(1))
+    )
     odometry: float = option(
-        0.0, help="standard deviation of each step's distance and turn, relative to them", validator=validators.ge(0)
+        0.0,
+        help="standard deviation in metres of what a wheel measures over 1 m; grows with the square root of the way",
+        validator=validators.ge(0),
+    )
+    odometry_bias: float = option(
+        0.0,
+        help="standard deviation of each wheel's wrong scale, drawn once per run: 0.01 = one percent of every way",
+        validator=validators.ge(0),
+    )
+    actuation: float = option(
+        0.0,
+        help="standard deviation of the relative error of speed and turn rate, drawn every control period",
+        validator=validators.ge(0),
     )
     start_jitter: float = option(
         0.0, help="each robot starts up to this late, uniformly", unit="s", validator=validators.ge(0)
@@ -137,7 +152,7 @@ class RunConfig:
     control_rate: float = option(
         20.0, help="how often dispatcher, navigator and controller act", unit="Hz", validator=validators.gt(0)
     )
-    noise: Noise = option(Noise(), help="what is added to the simulator's exact output")
+    noise: Noise = option(Noise(), help="errors of sensors, motors and starts")
     metrics: Mapping[str, Metric] = block(("planning", "execution"), help="what is measured")
     export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")
     recording: Recording = option(Recording(), help="what is kept of an execution")

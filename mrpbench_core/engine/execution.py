@@ -10,7 +10,7 @@ from mrpbench_core.api.exporter import ExporterSession
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.mission import MissionError, Outcome, Stack, execute_plan
-from mrpbench_core.engine.noise import SensorNoise
+from mrpbench_core.engine.noise import Disturbances
 from mrpbench_core.engine.preparation import Announce, Ended
 from mrpbench_core.engine.recorder import Recorder
 from mrpbench_core.engine.routes import placements
@@ -84,7 +84,7 @@ def _simulate(
     stack = Stack.of(config)
     seeds = (config.seed, config.repeat)
     poses = placements(context.routes, context.scenario.start[:, 2])
-    noise = SensorNoise(config.noise.lidar, config.noise.odometry, config.noise.start_jitter, poses, *seeds)
+    noise = Disturbances(config.noise, context.fleet, poses, context.period, *seeds)
     seed = seed_of(*seeds, "simulator")
     with config.simulator.open(context.world, context.fleet, poses, seed, context.period) as simulation:
         return execute_plan(context, stack, simulation, noise, recorder, config.limits.execution, seeds, stepped)

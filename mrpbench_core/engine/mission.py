@@ -13,7 +13,7 @@ from mrpbench_core.api.navigator import Navigator
 from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.answers import Answers
-from mrpbench_core.engine.noise import SensorNoise
+from mrpbench_core.engine.noise import Disturbances
 from mrpbench_core.engine.recorder import Recorder
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
@@ -71,7 +71,7 @@ def execute_plan(
     context: RunContext,
     stack: Stack,
     simulation: Simulation,
-    noise: SensorNoise,
+    noise: Disturbances,
     recorder: Recorder,
     limit_s: float,
     seeds: tuple[int, int],
@@ -83,7 +83,7 @@ def execute_plan(
         context: world, fleet, problem, plan and routes.
         stack: the components in the loop.
         simulation: opened with the robots in place.
-        noise: what sensors add to the truth.
+        noise: errors of sensors, motors and starts.
         recorder: gets everything that happens; flushed at the end.
         limit_s: simulated seconds.
         seeds: seed and repeat of the run.
@@ -147,6 +147,6 @@ def execute_plan(
         if over:
             recorder.flush()
             return Outcome(arrived=arrived, aborted=bool(gave_up.any()), simulated_s=now)
-        state = answers.state(simulation.step(Inputs(twist=motion.twist)))
+        state = answers.state(simulation.step(Inputs(twist=noise.actuated(motion.twist))))
         step += 1
         recorder.contacts(step * period, state)

@@ -1,61 +1,106 @@
-"""Noise that the engine lays over a simulator's exact output; all zero by default."""
+"""What the engine lays over a simulator's exact output and a navigator's exact commands; all zero by default.
+
+Every draw comes from the stream of its own cause and robot, so that neither another cause nor another robot changes it.
+"""
 
 from collections.abc import Sequence
 
 import attrs
 import numpy as np
 
+from mrpbench_core.config.settings import Noise
 from mrpbench_core.engine.seeds import stream
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.execution import Odometry, ScanBatch, State
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.poses import wrapped
+
+_BLOCK = 64
+"""Periods that are drawn at once, for speed; the numbers are the same."""
 
 
-class SensorNoise:
-    """Noisy sensors and starts of one run.
+class Disturbances:
+    """Noisy sensors, motors and starts of one run.
 
-    Args:
-        lidar: standard deviation of every range, metres.
-        odometry: standard deviation of the relative error of each period's distance and turn.
-        start_jitter: each robot starts up to this many simulated seconds late, uniformly.
-        placements: f8[n,3], where odometry begins.
+    Odometry errs as a differential drive's does: each wheel measures its way with an error whose variance grows with
+    the way (K. S. Chong and L. Kleeman, "Accurate odometry and error modelling for a mobile robot", ICRA 1997), and
+    with a wrong scale (J. Borenstein and L. Feng, "Measurement and correction of systematic odometry errors in mobile
+    robots", IEEE Trans. Robotics and Automation 12, 1996). Heading errs with it, the more the closer the wheels are.
     """
 
-    def __init__(
-        self, lidar: float, odometry: float, start_jitter: float, placements: Float, seed: int, repeat: int
-    ) -> None:
-        robots = range(len(placements))
-        self._lidar = lidar
-        self._odometry = odometry
-        self._ranges = [stream(seed, repeat, "lidar", robot) for robot in robots]
-        self._wheels = [stream(seed, repeat, "odometry", robot) for robot in robots]
+    def __init__(self, size: Noise, fleet: Fleet, placements: Float, period: float, seed: int, repeat: int) -> None:
+        robots = range(len(fleet))
+
+        def streams(name: str) -> list[np.random.Generator]:
+            return [stream(seed, repeat, name, robot) for robot in robots]
+
+        self._size, self._period = size, period
+        self._half_axle = np.array([robot.wheel_separation / 2 for robot in fleet.robots])
+        self._ranges, self._dropouts = streams("lidar"), streams("lidar_dropout")
+        self._wheels, self._motors = _Normals(streams("odometry")), _Normals(streams("actuation"))
+        self._scale = 1 + size.odometry_bias * np.array(
+            [own.standard_normal(2) for own in streams("odometry_bias")]
+        ).reshape(-1, 2)
         self._truth = placements.copy()
         self._believed = placements.copy()
-        self.start_delay: Float = np.array(
-            [stream(seed, repeat, "start_jitter", robot).uniform(0, start_jitter) for robot in robots]
-        )
+        self.start_delay: Float = np.array([own.uniform(0, size.start_jitter) for own in streams("start_jitter")])
         """f8[n] simulated seconds."""
 
     def odometry(self, state: State) -> Odometry:
         """Odometry after one more control period."""
-        if not self._odometry:
+        if not (self._size.odometry or self._size.odometry_bias):
             return Odometry(pose=state.pose, twist=state.twist)
         step = state.pose - self._truth
-        turn = np.arctan2(np.sin(step[:, 2]), np.cos(step[:, 2]))
+        turn = wrapped(step[:, 2])
         heading = self._truth[:, 2] + turn / 2
         ahead = step[:, 0] * np.cos(heading) + step[:, 1] * np.sin(heading)
-        error = np.array([wheels.normal(1.0, self._odometry, 2) for wheels in self._wheels])
-        ahead, turn = ahead * error[:, 0], turn * error[:, 1]
+        wheels = np.column_stack([ahead - turn * self._half_axle, ahead + turn * self._half_axle])
+        error = wheels * (self._scale - 1)
+        if self._size.odometry:
+            error += self._size.odometry * np.sqrt(np.abs(wheels)) * self._wheels.next()
+        further = np.column_stack([error.sum(axis=1) / 2, (error[:, 1] - error[:, 0]) / (2 * self._half_axle)])
+        ahead, turn = ahead + further[:, 0], turn + further[:, 1]
         heading = self._believed[:, 2] + turn / 2
-        self._believed += np.column_stack([ahead * np.cos(heading), ahead * np.sin(heading), turn])
-        self._truth = state.pose.copy()
-        return Odometry(pose=self._believed, twist=state.twist * error)
+        self._believed = self._believed + np.column_stack([ahead * np.cos(heading), ahead * np.sin(heading), turn])
+        self._believed[:, 2] = wrapped(self._believed[:, 2])
+        self._truth = state.pose
+        return Odometry(pose=self._believed, twist=state.twist + further / self._period)
 
     def scans(self, batches: Sequence[ScanBatch]) -> tuple[ScanBatch, ...]:
-        """The same scans with noisy ranges (never below 0)."""
-        if not self._lidar:
+        """The same scans with noisy ranges (never below 0) and without some returns."""
+        if not (self._size.lidar or self._size.lidar_dropout):
             return tuple(batches)
-        return tuple(attrs.evolve(batch, ranges=np.maximum(batch.ranges + self._errors(batch), 0)) for batch in batches)
+        return tuple(attrs.evolve(batch, ranges=self._measured(batch)) for batch in batches)
 
-    def _errors(self, batch: ScanBatch) -> Float:
-        beams = batch.ranges.shape[1]
-        return np.array([self._ranges[robot].normal(0, self._lidar, beams) for robot in batch.robot])
+    def _measured(self, batch: ScanBatch) -> Float:
+        ranges, robots = batch.ranges.copy(), batch.robot.tolist()
+        if self._size.lidar:
+            errors = [self._ranges[robot].normal(0, self._size.lidar, ranges.shape[1]) for robot in robots]
+            ranges = np.maximum(ranges + np.reshape(errors, ranges.shape), 0)
+        if self._size.lidar_dropout:
+            luck = [self._dropouts[robot].random(ranges.shape[1]) for robot in robots]
+            ranges[np.reshape(luck, ranges.shape) < self._size.lidar_dropout] = np.inf
+        return ranges
+
+    def actuated(self, twist: Float) -> Float:
+        """What the motors make of the commands f8[n,2] of one control period."""
+        if not self._size.actuation:
+            return twist
+        return twist * (1 + self._size.actuation * self._motors.next())
+
+
+class _Normals:
+    """Two standard normal numbers per robot and period, each robot's from a stream of its own."""
+
+    def __init__(self, streams: list[np.random.Generator]) -> None:
+        self._streams = streams
+        self._drawn = np.empty((len(streams), 0, 2))
+        self._used = 0
+
+    def next(self) -> Float:
+        """The next f8[n,2]."""
+        if self._used == self._drawn.shape[1]:
+            drawn = [own.standard_normal((_BLOCK, 2)) for own in self._streams]
+            self._drawn, self._used = np.reshape(drawn, (len(drawn), _BLOCK, 2)), 0
+        self._used += 1
+        return self._drawn[:, self._used - 1]

@@ -79,7 +79,7 @@ class Odometry:
     """Where the robots believe to have driven."""
 
     pose: Float = array("f8", 3)
-    """f8[n,3] in each robot's odometry frame, which starts at its true placement."""
+    """f8[n,3] in a frame of each robot's own that never moves. Where it lies says nothing: only differences count."""
     twist: Float = array("f8", 2)
     """f8[n,2]: m/s forward, rad/s counter-clockwise."""
 

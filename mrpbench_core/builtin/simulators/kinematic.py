@@ -17,6 +17,7 @@ from mrpbench_core.builtin.simulators.nearby import Nearby
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
 from mrpbench_core.model.fleet import Fleet, Lidar
+from mrpbench_core.model.poses import wrapped
 from mrpbench_core.model.scan_schedule import ScanSchedule
 from mrpbench_core.model.solids import segments
 from mrpbench_core.model.world import World
@@ -90,7 +91,7 @@ class _Plane(Simulation):
         for robot in np.flatnonzero((after != free).any(axis=1)).tolist():
             if robot < len(self._twist):  # what was pushed is as fast as it really went
                 self._twist[robot, 0] = ((after[robot] - before[robot]) * direction[robot]).sum() / dt
-        yaw = np.remainder(self._pose[:, 2] + turn + np.pi, 2 * np.pi) - np.pi
+        yaw = wrapped(self._pose[:, 2] + turn)
         self._pose = np.column_stack([after[: len(yaw)], yaw])
         return contacts
 

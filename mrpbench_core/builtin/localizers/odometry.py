@@ -1,0 +1,32 @@
+"""Robots that know where they began, and count the turns of their wheels."""
+
+from collections.abc import Sequence
+
+import attrs
+
+from mrpbench_core.api import Localizer, LocalizerSession
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Estimate, Odometry, ScanBatch
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.poses import composed, relative
+from mrpbench_core.model.world import World
+
+
+class _Session(LocalizerSession):
+    def __init__(self, placements: Float) -> None:
+        self._placements = placements
+        self._first: Float | None = None
+
+    def update(self, now: float, odometry: Odometry, scans: Sequence[ScanBatch], truth: Float | None) -> Estimate:  # noqa: ARG002
+        if self._first is None:
+            self._first = odometry.pose.copy()
+        return Estimate(pose=composed(self._placements, relative(self._first, odometry.pose)))
+
+
+@attrs.frozen(kw_only=True)
+class DeadReckoning(Localizer):
+    """The estimate is the placement and what odometry added to it; its error grows without bound."""
+
+    def start(self, fleet: Fleet, world: World, placements: Float, seed: int) -> LocalizerSession:  # noqa: ARG002
+        """Begin at the placements; nothing here is random."""
+        return _Session(placements.copy())
