@@ -78,7 +78,11 @@ def _plan(
     if reason := config.planner.skip(problem):
         raise Ended("skipped", "planning", reason)
     announce("planning", {"limit_s": config.limits.planning})
-    budget = Budget(wall_s=config.limits.planning, memory_bytes=left_for_planning(config.limits.memory))
+    budget = Budget(
+        wall_s=config.limits.planning,
+        memory_bytes=left_for_planning(config.limits.memory),
+        iterations=config.limits.iterations,
+    )
     result, spent = call_planner(config.planner, problem, budget)
     timing |= spent
     announce("checking", {})  # which is no part of the planner's time

@@ -33,13 +33,27 @@ def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[Pl
         result = planner.plan(problem, budget)
     except InputError as error:  # no mistake of the user's any more: the problem was sound
         raise RuntimeError(f"the planner raised InputError: {error}") from error
-    timing = {
+    timing: dict[str, Any] = {
         "planning_s": time.perf_counter() - began,
         "planning_cpu_s": time.process_time() - cpu,
         "planning_peak_bytes": max(0, _peak() - before),
-        "clock_bound": bool(getattr(result, "clock_bound", False)),
+        "clock_bound": _clock_bound(result),
     }
+    if history := _history(result):
+        timing["planning_history"] = history
     return result, timing
+
+
+def _clock_bound(result: Any) -> bool:
+    """The clock, not the search, decided what came out."""
+    return isinstance(result, PlanResult) and (bool(result.clock_bound) or result.status == PlanStatus.TIMEOUT)
+
+
+def _history(result: Any) -> list[list[float | None]]:
+    """The anytime curve as rows [seconds, cost, lower bound]; null for what is not known. [] for what is no curve."""
+    if result_fault(result) is not None:
+        return []
+    return [[value if math.isfinite(value) else None for value in attrs.astuple(point)] for point in result.history]
 
 
 def left_for_planning(limit_bytes: int) -> int:
@@ -60,6 +74,8 @@ def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanR
     report = check_plan(problem, result.plan)
     if report.faults:
         return result, report.faults[0]
+    if result.status == PlanStatus.TIMEOUT:  # but not without a plan: a success that depends on the clock
+        result = attrs.evolve(result, status=PlanStatus.SOLVED, clock_bound=True)
     statistics = {**result.statistics, "conflicts": float(len(report.conflicts))}
     result = attrs.evolve(result, statistics=statistics)
     if report.conflicts and Promise.CONFLICT_FREE in planner.promises:

@@ -76,6 +76,18 @@ class PlanStatus(StrEnum):
 
 
 @attrs.frozen(kw_only=True)
+class Progress:
+    """One point of an anytime curve: what a planner had after some time."""
+
+    seconds: float
+    """wall seconds since the call."""
+    cost: float
+    """Of the best plan until then: sum of costs in ticks, or whatever the planner minimises instead; inf = none."""
+    lower_bound: float = float("nan")
+    """Proved until then, of the same cost; NaN if none."""
+
+
+@attrs.frozen(kw_only=True)
 class PlanResult:
     """Outcome of one call of a planner."""
 
@@ -89,6 +101,8 @@ class PlanResult:
     """The plan depends on when the clock ended the search (anytime planners)."""
     statistics: Mapping[str, float] = attrs.field(factory=dict)
     """e.g. `expansions`, `generated`, `low_level_expansions`."""
+    history: tuple[Progress, ...] = attrs.field(default=(), eq=False)  # wall times: no two runs have the same
+    """How plan and bound became better, oldest first; () if the planner does not say. In a record: `timing`."""
 
 
 @attrs.frozen(kw_only=True)

@@ -23,6 +23,7 @@ template <class T, int columns>
 using Matrix = nb::ndarray<const T, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
 template <class T>
 using Output = nb::ndarray<nb::numpy, const T, nb::ndim<1>>;
+using Points = nb::ndarray<nb::numpy, const double, nb::shape<-1, 3>>;
 
 template <class T, class Array>
 std::vector<T> copy(const Array& array) {
@@ -148,6 +149,11 @@ struct Answer {
   }
 };
 
+Points history(const Answer& it) {
+  static_assert(sizeof(Progress) == 3 * sizeof(double));
+  return Points(&it.result.history.data()->seconds, {it.result.history.size(), 3});
+}
+
 template <class T>
 T choose(const std::map<std::string, T>& choices, const std::string& name) {
   const auto place = choices.find(name);
@@ -208,6 +214,10 @@ NB_MODULE(mapf, module) {
           "lower_bound", [](const Answer& it) { return it.result.lower_bound; },
           "Proved lower bound on the sum of arrival times in ticks, NaN if none.")
       .def_prop_ro("statistics", &Answer::statistics, "Counters; failed_robot is -1 where no robot is to blame.")
+      .def_prop_ro(
+          "clock_bound", [](const Answer& it) { return it.result.clock_bound; },
+          "The clock ended the search for a better plan.")
+      .def_prop_ro("history", &history, "f8[...,3]: seconds, cost of the best plan until then, lower bound.")
       .def_prop_ro(
           "first", [](const Answer& it) { return view(it.first); }, "i8[n+1], or [0] without a plan.")
       .def_prop_ro(

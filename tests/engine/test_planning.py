@@ -7,7 +7,7 @@ import pytest
 
 from mrpbench_core.api import Planner, Promise
 from mrpbench_core.engine.planning import call_planner, judge
-from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus, Progress
 
 BUDGET = Budget(wall_s=1.0, memory_bytes=1 << 30)
 COLLIDING = Plan(paths=(Path(edge=[0], enter=[0], leave=[1]), Path(edge=[-1, 2], enter=[0, 2], leave=[2, 3])))
@@ -73,6 +73,24 @@ def test_costs_are_held_against_the_lower_bound(run_context, planner, bound, hol
 def test_solved_without_a_plan_is_a_fault(run_context):
     _, fault = judged(Careful, run_context.problem, PlanResult(status=PlanStatus.SOLVED))
     assert fault == "says it solved the problem but gives no plan"
+
+
+def test_a_plan_at_the_deadline_is_a_success_that_depends_on_the_clock(run_context):
+    late = attrs.evolve(run_context.result, status=PlanStatus.TIMEOUT, lower_bound=2.0)
+    result, fault = judged(Optimal, run_context.problem, late)
+    assert fault is None
+    assert result.status is PlanStatus.SOLVED
+    assert result.clock_bound
+    _, timing = call_planner(Optimal(result=late), run_context.problem, BUDGET)
+    assert timing["clock_bound"] is True
+
+
+def test_the_anytime_curve_is_part_of_the_timing(run_context):
+    curve = (Progress(seconds=0.5, cost=float("inf"), lower_bound=2.0), Progress(seconds=1.5, cost=4.0))
+    _, timing = call_planner(Fixed(result=attrs.evolve(run_context.result, history=curve)), run_context.problem, BUDGET)
+    assert timing["planning_history"] == [[0.5, None, 2.0], [1.5, 4.0, None]]
+    _, timing = call_planner(Fixed(result=run_context.result), run_context.problem, BUDGET)
+    assert "planning_history" not in timing
 
 
 def test_timing_is_that_of_the_call(run_context):

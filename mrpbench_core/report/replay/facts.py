@@ -41,6 +41,7 @@ def facts_of(record: Mapping[str, Any], columns: Mapping[str, Any], planner: str
         + [
             {"name": f"timing.{name}", "value": value, **_timing(name)}
             for name, value in (record.get("timing") or {}).items()
+            if name != "planning_history"  # a curve, no figure
         ],
         "config": config,
     }

@@ -17,11 +17,14 @@ struct LimitReached {
 class Limits {
  public:
   /// The clock starts now. `memory_bytes` bounds what the solver itself counts.
-  Limits(double wall_s, std::int64_t memory_bytes) : memory_left_(memory_bytes) {
+  Limits(double wall_s, std::int64_t memory_bytes) : begin_(Clock::now()), memory_left_(memory_bytes) {
     using Duration = std::chrono::duration<double>;
     limited_ = wall_s < 1e9;
-    if (limited_) end_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(Duration(wall_s > 0 ? wall_s : 0));
+    if (limited_) end_ = begin_ + std::chrono::duration_cast<Clock::duration>(Duration(wall_s > 0 ? wall_s : 0));
   }
+
+  /// Wall seconds since the clock started.
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
   /// Call once per step of a loop whose steps take microseconds at most; reads the clock every 64th time.
   void check() {
@@ -45,6 +48,7 @@ class Limits {
 
  private:
   using Clock = std::chrono::steady_clock;
+  Clock::time_point begin_;
   bool limited_;
   Clock::time_point end_;
   std::int64_t memory_left_;

@@ -21,9 +21,18 @@ struct Statistics {
 
 using Path = std::vector<Occupation>;
 
+/// A point of an anytime curve: what the solver had after some time.
+struct Progress {
+  double seconds;
+  double cost;  // what the solver minimises; infinity = no plan yet
+  double lower_bound;
+};
+
 struct Result {
   Status status = Status::gave_up;
-  std::vector<Path> paths;  // one per robot if solved
+  bool clock_bound = false;       // solved, but the clock ended the search for a better plan
+  std::vector<Progress> history;  // of solvers that improve their plan or bound, oldest first
+  std::vector<Path> paths;        // one per robot if solved
   double lower_bound = std::numeric_limits<double>::quiet_NaN();
   Statistics statistics;
 };

@@ -46,6 +46,12 @@ class Answer:
     def statistics(self) -> dict[str, int]:
         """Counters; failed_robot is -1 where no robot is to blame."""
     @property
+    def clock_bound(self) -> bool:
+        """The clock ended the search for a better plan."""
+    @property
+    def history(self) -> NDArray[np.float64]:
+        """f8[...,3]: seconds, cost of the best plan until then, lower bound."""
+    @property
     def first(self) -> NDArray[np.int64]:
         """i8[n+1], or [0] without a plan."""
     @property

@@ -8,7 +8,7 @@ import numpy as np
 from mrpbench_native import mapf
 
 from mrpbench_core.model.conflicts import exclusions
-from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus, Progress
 from mrpbench_core.model.problem import Feature, Problem
 
 SUPPORTED = frozenset(
@@ -28,13 +28,19 @@ def solve(problem: Problem, budget: Budget, solver: Callable[[mapf.Instance, flo
     """Call `solver(instance, wall_s, memory_bytes)` with what is left of `budget` after the conversion."""
     start = time.monotonic()
     instance = _instance(problem)
-    answer = solver(instance, budget.wall_s - (time.monotonic() - start), budget.memory_bytes)
+    converted = time.monotonic() - start
+    answer = solver(instance, budget.wall_s - converted, budget.memory_bytes)
     status = PlanStatus(answer.status)
     return PlanResult(
         status=status,
         plan=_plan(answer) if status is PlanStatus.SOLVED else None,
         lower_bound=answer.lower_bound,
+        clock_bound=answer.clock_bound,
         statistics={name: value for name, value in answer.statistics.items() if name != "failed_robot" or value >= 0},
+        history=tuple(
+            Progress(seconds=converted + seconds, cost=cost, lower_bound=bound)
+            for seconds, cost, bound in answer.history.tolist()
+        ),
     )
 
 
