@@ -1,0 +1,138 @@
+"""Parameter files of Nav2: ROS 2 parameter files, of which blocks are read one parameter at a time.
+
+A parameter `scale` of the critic `PathAlign` is written `PathAlign.scale: 32.0`, or nested, which means the same.
+"""
+
+import difflib
+import math
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from typing import Any
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.yaml import Document, Steps, load
+
+PARAMETERS = "ros__parameters"
+
+
+class Nav2Block:
+    """A block of parameters. It remembers what was taken, so that what nobody knows can be named at the end.
+
+    Args:
+        title: the words for it in messages, e.g. `FollowPath`.
+        data: names and values, nested or dotted.
+        document: the file it stands in, if any, and `steps` to it.
+    """
+
+    def __init__(
+        self, title: str, data: Mapping[str, Any], document: Document | None = None, steps: Steps = ()
+    ) -> None:
+        self.title = title
+        self._document = document
+        self._values = _flat(data, steps)
+        self._taken: set[str] = set()
+
+    def __contains__(self, name: str) -> bool:
+        return name in self._values
+
+    def take(self, name: str, kind: type, default: Any = None) -> Any:
+        """The value of a parameter as `kind` (bool, int, float, str or tuple), or `default` where it is not given.
+
+        Raises:
+            InputError: it is something else.
+        """
+        self._taken.add(name)
+        if name not in self._values:
+            return default
+        value = self._values[name][0]
+        if kind is float and isinstance(value, int) and not isinstance(value, bool):
+            value = float(value)
+        if kind is tuple and isinstance(value, list):
+            value = tuple(value)
+        right = isinstance(value, kind) and not (kind is int and isinstance(value, bool))
+        if not right or (kind is float and not math.isfinite(value)):
+            raise self.error(f"expected {_WORDS[kind]}, got {value!r}", name)
+        return value
+
+    def ignore(self, *names: str) -> None:
+        """Take note that these parameters, and all below them, mean nothing here."""
+        for name in self._values:
+            if any(name == other or name.startswith(f"{other}.") for other in names):
+                self._taken.add(name)
+
+    def refuse_unknown(self, known: Collection[str] = ()) -> None:
+        """Raise InputError, naming them all, when there are parameters that nobody took; `known` ones are proposed."""
+        unknown = [name for name in self._values if name not in self._taken]
+        if not unknown:
+            return
+        close = difflib.get_close_matches(unknown[0], [*self._taken, *known], n=1)
+        several = len(unknown) > 1
+        names = ", ".join(repr(name) for name in unknown)
+        hint = f"did you mean {close[0]!r}?" if close and not several else None
+        raise self.error(f"unknown parameter{'s' * several} {names}", unknown[0], hint=hint)
+
+    def error(self, message: str, name: str, hint: str | None = None) -> InputError:
+        """An InputError located at a parameter."""
+        words = f"{self.title}: {name}: {message}" if not message.startswith("unknown") else f"{self.title}: {message}"
+        if self._document is None:
+            return InputError(words, hint=hint)
+        steps = self._values[name][1] if name in self._values else ()
+        return self._document.error(words, steps, key=True, hint=hint)
+
+
+def nav2_block(file: Path, node: str, *prefix: str) -> Nav2Block | None:
+    """The parameters of a node, or of a plugin of it, e.g. `controller_server`, `FollowPath`; None = there are none.
+
+    Raises:
+        InputError: the file cannot be read or is not a ROS 2 parameter file.
+    """
+    document = load(file)
+    steps = _find(document.data, node)
+    if steps is None:
+        if not _has_parameters(document.data):
+            raise document.error(f"is not a ROS 2 parameter file: no {PARAMETERS!r} anywhere")
+        return None
+    data = document.data
+    for step in steps:
+        data = data[step]
+    for step in prefix:
+        steps = (*steps, step)
+        if not isinstance(data, dict) or step not in data:
+            return None
+        data = data[step]
+    if not isinstance(data, dict):
+        raise document.error("must be a mapping of parameters", steps)
+    return Nav2Block(".".join((node, *prefix)), data, document, steps)
+
+
+_WORDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a text", tuple: "a list"}
+
+
+def _find(data: Any, node: str) -> Steps | None:
+    """Steps to the parameters of a node, in whichever namespace it stands."""
+    if not isinstance(data, dict):
+        return None
+    for key, value in data.items():
+        if key.rpartition("/")[2] == node and isinstance(value, dict) and PARAMETERS in value:
+            return (key, PARAMETERS)
+        if key != PARAMETERS and (inner := _find(value, node)) is not None:
+            return (key, *inner)
+    return None
+
+
+def _has_parameters(data: Any) -> bool:
+    if not isinstance(data, dict):
+        return False
+    return PARAMETERS in data or any(_has_parameters(value) for value in data.values())
+
+
+def _flat(data: Mapping[str, Any], steps: Steps) -> dict[str, tuple[Any, Steps]]:
+    """Values and their steps by dotted name."""
+    found: dict[str, tuple[Any, Steps]] = {}
+    for key, value in data.items():
+        here = (*steps, key)
+        if isinstance(value, Mapping):
+            found |= {f"{key}.{name}": inner for name, inner in _flat(value, here).items()}
+        else:
+            found[key] = (value, here)
+    return found
