@@ -163,7 +163,7 @@ def _together(begin: Int, end: Int, chunk: int = 1 << 18) -> Iterator[tuple[Int,
 
 
 def _crowded(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
-    """Rule 6, with the time before a tick's instant as its odd half: an open interval of ticks is a closed one there."""
+    """Rule 6 in half ticks: even ones are instants, odd ones lie between, and all intervals are closed."""
     edges = problem.roadmap.edges
     for resource in problem.roadmap.resources:
         parts = {(vertex, vertex) for vertex in resource.vertices} | {tuple(edges[edge]) for edge in resource.edges}

@@ -102,11 +102,12 @@ class Facilities:
 
     def outlines(self, state: Mapping[str, float], level: int) -> Float:
         """Outlines f8[S,4] of all leaves on a level, solid on their left as in `mrpbench_core.model.solids`."""
-        parts = [np.empty((0, 4))]
-        for gate in self.gates:
-            if level in gate.levels:
-                parts.append(wall_boxes(leaves(gate.door, self.opening(gate, state, level)), gate.door.thickness))
-        return np.concatenate(parts)
+        parts = [
+            wall_boxes(leaves(gate.door, self.opening(gate, state, level)), gate.door.thickness)
+            for gate in self.gates
+            if level in gate.levels
+        ]
+        return np.concatenate([np.empty((0, 4)), *parts])
 
     def opening(self, gate: Gate, state: Mapping[str, float], level: int) -> float:
         """How far a door is open on a level: the doors of a lift are shut where the cabin is not."""
@@ -131,7 +132,9 @@ def _heights(world: World, lift: Lift) -> dict[int, float]:
 
 
 def _gates(world: World) -> tuple[Gate, ...]:
-    drawn = [(level, index, door) for level, storey in enumerate(world.levels) for index, door in enumerate(storey.doors)]
+    drawn = [
+        (level, index, door) for level, storey in enumerate(world.levels) for index, door in enumerate(storey.doors)
+    ]
     count = Counter([door.name for *_, door in drawn] + [lift.name for lift in world.lifts])
     gates = []
     for level, index, door in drawn:

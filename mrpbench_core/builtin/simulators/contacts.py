@@ -102,7 +102,8 @@ def _close(centres: Float, radii: Float, leaves: Float) -> tuple[Int, Int]:
     low, high = np.minimum(leaves[:, :2], leaves[:, 2:]), np.maximum(leaves[:, :2], leaves[:, 2:])
     reach = 1.5 * radii[:, None, None]
     meet = ((centres[:, None] + reach >= low) & (centres[:, None] - reach <= high)).all(axis=2)
-    return np.nonzero(meet)
+    robot, leaf = np.nonzero(meet)
+    return robot, leaf
 
 
 def _overlap(centres: Float, radii: Float, owner: Int, walls: Float) -> Float:

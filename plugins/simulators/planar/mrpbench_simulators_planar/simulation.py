@@ -89,9 +89,7 @@ class PlanarSimulation(Simulation):
     def _observe(self) -> State:
         plane = self._plane
         pose = self._storeys.gather(plane.pose, self._level)
-        return State(
-            pose=pose, twist=plane.twist, level=self._level, contacts=plane.contacts, facilities=self._doing
-        )
+        return State(pose=pose, twist=plane.twist, level=self._level, contacts=plane.contacts, facilities=self._doing)
 
     def _operate(self, commands: Mapping[str, float]) -> None:
         """Move doors and lifts, and who is in a lift."""

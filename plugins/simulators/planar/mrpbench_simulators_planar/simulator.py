@@ -14,7 +14,7 @@ from mrpbench_simulators_planar.simulation import PlanarSimulation
 
 @attrs.frozen(kw_only=True)
 class Planar(Simulator):
-    """Differential drives with limits, discs that touch, lidars; in C++. Levels lie side by side; doors and lifts move."""
+    """Differential drives, discs that touch, lidars; in C++. Levels lie side by side; doors and lifts move."""
 
     slip: float = option(
         0.0,
@@ -38,6 +38,4 @@ class Planar(Simulator):
         levels: Int16 | None = None,
     ) -> Simulation:
         """Place the robots. A robot's slip and noise are functions of `seed`, its index and the period alone."""
-        return PlanarSimulation(
-            self.slip, self.actuation_noise, world, fleet, placements, seed, period, movers, levels
-        )
+        return PlanarSimulation(self.slip, self.actuation_noise, world, fleet, placements, seed, period, movers, levels)
