@@ -1,1 +1,3 @@
-"""Parts of mrpbench in C++. `mapf`: multi-agent path finding; `sim`: robots, contacts and lidars in the plane."""
+"""Parts of mrpbench in C++. `mapf`: multi-agent path finding; `sim`: robots, contacts and lidars in the plane;
+`amcl`: localisation.
+"""

@@ -1,0 +1,61 @@
+// Adaptive Monte Carlo localisation of a fleet: every robot its own filter, all on one map.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mrpbench_amcl/estimate.hpp"
+#include "mrpbench_amcl/likelihood_field.hpp"
+#include "mrpbench_amcl/parameters.hpp"
+#include "mrpbench_amcl/resampling.hpp"
+
+namespace mrpbench::amcl {
+
+/// Scans of several robots, row by row, by lidars of one kind.
+struct Scans {
+  std::span<const int> robots;
+  std::span<const double> ranges;
+  double range = 0, min_range = 0;
+  Point mount;
+};
+
+class Fleet {
+ public:
+  /// Throws std::invalid_argument for parameters that make no sense.
+  Fleet(const std::vector<sim::Segment>& segments, double resolution, Places places, std::vector<Pose> placements,
+        const Parameters& parameters, std::uint64_t seed);
+
+  /// Say what odometry, one pose for each robot, was at the placements; before anything else, once.
+  void begin(std::span<const Pose> odometry);
+
+  /// Learn from scans taken when odometry was `odometry`. A robot's first scan counts, then only those after a way.
+  void sense(const Scans& scans, std::span<const Pose> odometry);
+
+  /// Where a robot is: its last estimate, and what odometry has added since.
+  Pose pose(std::size_t robot, Pose odometry) const;
+  const Estimate& estimate(std::size_t robot) const { return filters_[robot].estimate; }
+  std::span<const Particle> particles(std::size_t robot) const { return filters_[robot].particles; }
+  std::size_t size() const { return filters_.size(); }
+
+ private:
+  struct Filter {
+    std::vector<Particle> particles;
+    Estimate estimate;
+    Pose odometry;
+    double slow = 0, fast = 0;
+    std::uint64_t updates = 0;
+    bool scanned = false;
+  };
+
+  void check(std::span<const Pose> odometry) const;
+  void update(Filter& filter, std::size_t robot, Pose odometry, const Ends& ends) const;
+
+  Parameters parameters_;
+  LikelihoodField field_;
+  Places places_;
+  std::uint64_t seed_;
+  std::vector<Filter> filters_;
+};
+
+}  // namespace mrpbench::amcl

@@ -1,0 +1,60 @@
+// One guess at where a robot is.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "mrpbench_sim/plane.hpp"
+
+namespace mrpbench::amcl {
+
+using sim::Point;
+using sim::Pose;
+
+struct Particle {
+  Pose pose;
+  double weight = 0;
+};
+
+/// The same angle within [-pi, pi).
+inline double wrapped(double angle) {
+  return angle - 2 * std::numbers::pi * std::floor((angle + std::numbers::pi) / (2 * std::numbers::pi));
+}
+
+/// What `pose`, given in `frame`, is in the frame that `frame` is given in.
+inline Pose composed(Pose frame, Pose pose) {
+  const double c = std::cos(frame.yaw), s = std::sin(frame.yaw);
+  return {frame.x + c * pose.x - s * pose.y, frame.y + s * pose.x + c * pose.y, wrapped(frame.yaw + pose.yaw)};
+}
+
+/// Undoes `composed`.
+inline Pose relative(Pose frame, Pose pose) {
+  const double c = std::cos(frame.yaw), s = std::sin(frame.yaw), x = pose.x - frame.x, y = pose.y - frame.y;
+  return {c * x + s * y, c * y - s * x, wrapped(pose.yaw - frame.yaw)};
+}
+
+/// The cell of the histogram in which a pose lies: half a metre wide, and ten degrees, which are 36 to a turn.
+struct Bin {
+  static constexpr double kWidth = 0.5;
+  static constexpr int kTurn = 36;
+
+  std::int64_t column = 0, row = 0, turn = 0;
+
+  static Bin of(Pose pose) {
+    const double turn = std::floor((wrapped(pose.yaw) + std::numbers::pi) / (2 * std::numbers::pi / kTurn));
+    return {static_cast<std::int64_t>(std::floor(pose.x / kWidth)),
+            static_cast<std::int64_t>(std::floor(pose.y / kWidth)), static_cast<std::int64_t>(turn) % kTurn};
+  }
+  bool operator==(const Bin&) const = default;
+};
+
+struct BinHash {
+  std::size_t operator()(const Bin& bin) const {
+    const auto mixed = static_cast<std::uint64_t>(bin.column) * 0x9E3779B97F4A7C15u +
+                       static_cast<std::uint64_t>(bin.row) * 0xC2B2AE3D27D4EB4Fu + static_cast<std::uint64_t>(bin.turn);
+    return static_cast<std::size_t>(mixed ^ (mixed >> 29));
+  }
+};
+
+}  // namespace mrpbench::amcl

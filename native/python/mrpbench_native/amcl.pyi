@@ -1,0 +1,51 @@
+"""Adaptive Monte Carlo localisation of a fleet, in C++. Plain arrays in, new arrays out; metres, radians.
+
+Everything raises ValueError for data that make no sense. One `Fleet` belongs to one thread at a time.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+class Fleet:
+    """A particle filter for each robot, all on one map."""
+
+    def __init__(
+        self,
+        *,
+        segments: NDArray[np.float64],
+        resolution: float,
+        places: NDArray[np.float64],
+        placements: NDArray[np.float64],
+        seed: int,
+        parameters: Mapping[str, float],
+    ) -> None:
+        """Particles around `placements` f8[n,3] among `segments` f8[S,4], solid on their left.
+
+        `resolution` is the side of the likelihood field's squares. Particles that recovery places anywhere are put on
+        the squares of that side around `places` f8[k,2]. `parameters` are Nav2's, by name, and `independent_beams`,
+        which is its `likelihood_field_prob`; what is not named has its default. `seed` is below 2**64; robot i's draws
+        do not depend on the others.
+        """
+    def begin(self, odometry: NDArray[np.float64]) -> None:
+        """Say what odometry f8[n,3] was at the placements; before anything else, once."""
+    def sense(
+        self,
+        robots: NDArray[np.int32],
+        ranges: NDArray[np.float64],
+        odometry: NDArray[np.float64],
+        *,
+        range: float,
+        min_range: float,
+        forward: float,
+        leftward: float,
+    ) -> None:
+        """Learn from scans f8[k,beams] of `robots` i4[k] taken when odometry of all was f8[n,3]; inf = no return."""
+    def poses(self, odometry: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Estimates f8[n,3]: of the last update, and what odometry f8[n,3] has added since."""
+    @property
+    def covariances(self) -> NDArray[np.float64]:
+        """f8[n,3,3] of the last updates."""
+    def particles(self, robot: int) -> NDArray[np.float64]:
+        """x, y, yaw, weight f8[k,4] of one robot's particles."""
