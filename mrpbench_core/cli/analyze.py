@@ -7,6 +7,7 @@ from typing import Any
 from mrpbench_core.cli.arguments import read_options
 from mrpbench_core.cli.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.text import counted
 
 SHOWN = 20
 """Notes that are printed."""
@@ -115,10 +116,10 @@ def _print(record: dict[str, Any], out: Path) -> None:
     for robot, source in record["analysis"]["sources"].items():
         sources.setdefault(source.partition(":")[0], []).append(robot)
     for source, robots in sources.items():
-        print(f"positions from {source}: {len(robots)} robots ({', '.join(robots[:SHOWN])})")
+        print(f"positions from {source}: {counted(len(robots), 'robot')} ({', '.join(robots[:SHOWN])})")
     notes = record["analysis"]["notes"]
     for note in notes[:SHOWN]:
         print(f"note: {note}")
     if len(notes) > SHOWN:
-        print(f"… {len(notes) - SHOWN} more notes; --json lists all")
+        print(f"… {counted(len(notes) - SHOWN, 'more note')}; --json lists all")
     print(f"{out}:{record['run_id']}")

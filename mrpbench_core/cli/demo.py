@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.cli.progress import Printed
-from mrpbench_core.cli.report import print_report
 from mrpbench_core.cli.run import plugins_line
+from mrpbench_core.cli.summary import print_summary
 from mrpbench_core.cli.view import write_replay
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.invoke import prepare
@@ -41,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     progress.close()
     if done.mistakes:
         raise InputError(next(iter(done.mistakes.values())))
-    print_report([done.results])
+    print_summary(done.results)
     _show(done.results)
     return int("crashed" in done.results.statuses())
 

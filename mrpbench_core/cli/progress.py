@@ -9,6 +9,8 @@ from typing import Any
 from mrpbench_core.config.study import RunPoint
 from mrpbench_core.engine.progress import Progress
 from mrpbench_core.engine.selection import Selection
+from mrpbench_core.files.text import counted
+from mrpbench_core.report.axes import word
 from mrpbench_core.store.results import Results
 
 SHORT = 12
@@ -29,9 +31,12 @@ class Printed(Progress):
 
     def selected(self, selection: Selection, results: Results) -> None:
         """Say how much there is to do."""
+        for error in results.damaged:
+            sys.stderr.write(f"{error}\n")
         self._total = len(selection.todo)
         recorded = sum(run_id in results for run_id in selection.chosen)
-        print(f"{results.folder.path}: {self._total} of {len(selection.chosen)} runs to do, {recorded} recorded")
+        chosen = counted(len(selection.chosen), "run")
+        print(f"{results.folder.path}: {self._total} of {chosen} to do, {recorded} recorded")
         if selection.changed:
             print(
                 f"{len(selection.changed)} recorded runs were made with other versions or sources of plugins"
@@ -90,17 +95,6 @@ class Printed(Progress):
         line = f"[{done}/{self._total}] {counts}{eta} · {going}"
         width = shutil.get_terminal_size().columns - 1  # a line that wraps cannot be taken back
         print("\r\x1b[K" + line[:width], end="", flush=True)
-
-
-def word(value: Any) -> str:
-    """One axis value in few characters: a block by its plugin and options."""
-    if isinstance(value, dict):
-        options = ",".join(f"{key}={word(item)}" for key, item in value.items() if key not in ("plugin", "robot"))
-        name = str(value.get("plugin", value.get("robot", "")))
-        return f"{name}[{options}]" if options else name
-    if isinstance(value, list | tuple):
-        return "[" + ",".join(map(word, value)) + "]"
-    return str(value)
 
 
 def _clock(seconds: float) -> str:

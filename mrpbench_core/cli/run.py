@@ -5,17 +5,20 @@ import signal
 import sys
 from collections import Counter
 from collections.abc import Sequence
-from contextlib import closing
+from contextlib import closing, redirect_stdout
 from typing import Any
 
 from mrpbench_core.cli.arguments import add_configuration, read_options, split_words
-from mrpbench_core.cli.progress import SHORT, Printed, word
-from mrpbench_core.cli.report import print_report
+from mrpbench_core.cli.progress import SHORT, Printed
+from mrpbench_core.cli.summary import print_summary
 from mrpbench_core.cli.table import print_json, print_table
 from mrpbench_core.config.study import Study, load_studies
 from mrpbench_core.engine.invoke import prepare
 from mrpbench_core.engine.record import code_of
 from mrpbench_core.engine.study import Done, Request, choose, run_study
+from mrpbench_core.files.text import counted
+from mrpbench_core.report.axes import word
+from mrpbench_core.store.results import Results
 
 GROUPS_SHOWN = 20
 """Rows of the table at the end."""
@@ -40,13 +43,29 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "those made with other versions; or all",
     )
     parser.add_argument("--dry-run", action="store_true", help="list what would be done, and stop")
-    parser.add_argument("--json", action="store_true", help="with --dry-run: as JSON")
+    parser.add_argument(
+        "--json",
+        action="store_true",
+        help="print what came of it (with --dry-run, the list) as JSON; the rest goes to stderr",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Do the runs."""
     files, overrides = split_words(arguments.words)
     options = read_options(arguments.executor_option, "--executor-option")
+    if arguments.json and not arguments.dry_run:
+        with redirect_stdout(sys.stderr):
+            code, done = _work(arguments, files, overrides, options)
+        print_json([_outcome(request, results) for request, results in done])
+        return code
+    return _work(arguments, files, overrides, options)[0]
+
+
+def _work(
+    arguments: argparse.Namespace, files: Sequence[str], overrides: Sequence[str], options: dict[str, Any]
+) -> tuple[int, list[tuple[Request, Results]]]:
+    """Do the runs, or list them; returns the exit code, and the results of each study that was done."""
     studies = load_studies(files, overrides)
     progress = Printed()
     requests = [
@@ -67,13 +86,19 @@ def run(arguments: argparse.Namespace) -> int:
         sys.stderr.write(f"{error}\n")
     if arguments.dry_run:
         _list(studies, requests, arguments.json)
-        return int(any(study.errors for study in studies))
+        return int(any(study.errors for study in studies)), []
     print(plugins_line(studies), flush=True)
     signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs so
-    return max(_run_one(study, request, progress) for study, request in zip(studies, requests, strict=True))
+    ended = [_run_one(study, request, progress) for study, request in zip(studies, requests, strict=True)]
+    done = [(request, results) for request, (_, results) in zip(requests, ended, strict=True)]
+    return max(code for code, _ in ended), done
 
 
-def _run_one(study: Study, request: Request, progress: Printed) -> int:
+def _outcome(request: Request, results: Results) -> dict[str, Any]:
+    return {"out": str(request.out), "runs": len(results), "statuses": results.statuses()}
+
+
+def _run_one(study: Study, request: Request, progress: Printed) -> tuple[int, Results]:
     try:
         with closing(progress):
             done = run_study(study, request)
@@ -85,9 +110,9 @@ def _run_one(study: Study, request: Request, progress: Printed) -> int:
     for mistake, runs in Counter(line for text in done.mistakes.values() for line in text.splitlines()).items():
         sys.stderr.write(f"{mistake}\n" if runs == 1 else f"{mistake} ({runs} runs)\n")
     if done.mistakes and not len(done.results):
-        return 2
+        return 2, done.results
     _summarize(done, request)
-    return int("crashed" in done.results.statuses() or bool(done.mistakes or study.errors))
+    return int("crashed" in done.results.statuses() or bool(done.mistakes or study.errors)), done.results
 
 
 def _list(studies: Sequence[Study], requests: Sequence[Request], as_json: bool) -> None:
@@ -108,7 +133,9 @@ def _list(studies: Sequence[Study], requests: Sequence[Request], as_json: bool) 
         for entry in found
     ]
     print_table(
-        ["run", "attempt", *axes], rows, f"{len(rows)} of {sum(len(study.runs) for study in studies)} runs to do"
+        ["run", "attempt", *axes],
+        rows,
+        f"{len(rows)} of {counted(sum(len(study.runs) for study in studies), 'run')} to do",
     )
 
 
@@ -127,9 +154,10 @@ def plugins_line(studies: Sequence[Study]) -> str:
 
 def _summarize(done: Done, request: Request) -> None:
     results = done.results
-    print_report([results], limit=GROUPS_SHOWN)
+    print_summary(results, limit=GROUPS_SHOWN)
     statuses = sorted(results.statuses().items(), key=lambda item: -item[1])
     counts = ", ".join(f"{count} {status}" for status, count in statuses)
-    print(f"{len(results)} runs: {counts}; results in {request.out}")
+    print(f"{counted(len(results), 'run')}: {counts}; results in {request.out}")
+    print(f"intervals, comparisons and a page: `mrpbench report {request.out}`")
     if results.statuses().get("crashed"):
         print(f"why runs crashed is in {request.out}/logs; `--rerun failed` does them again")

@@ -8,6 +8,7 @@ from mrpbench_core.config.study import load_studies
 from mrpbench_core.engine.preparation import set_scene
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import write_scenario
+from mrpbench_core.files.text import counted
 from mrpbench_core.model.scenario import Scenario
 
 
@@ -38,5 +39,5 @@ def run(arguments: argparse.Namespace) -> int:
             write_scenario(file, scenario)
         except OSError as error:
             raise InputError(f"cannot be written: {error.strerror}", file=file) from error
-        print(f"wrote {file}: scenario {scenario_id}, {len(scenario.start)} robots")
+        print(f"wrote {file}: scenario {scenario_id}, {counted(len(scenario.start), 'robot')}")
     return 0

@@ -1,9 +1,16 @@
 """Prints a table: with rich on a terminal, as aligned plain text elsewhere, or as JSON."""
 
 import json
+import shutil
 import sys
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from mrpbench_core.report.tables.table import Table
+
+GAP = 2
+"""Blanks between columns."""
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "") -> None:
@@ -22,7 +29,37 @@ def print_table(columns: Sequence[str], rows: Sequence[Sequence[Any]], title: st
             cell.rjust(width) if flush else cell.ljust(width)
             for cell, width, flush in zip(line, widths, right, strict=True)
         )
-        print("  ".join(parts).rstrip())
+        print((" " * GAP).join(parts).rstrip())
+
+
+def print_wide(table: "Table") -> None:
+    """Print a table with its note; on a terminal that is too narrow, in parts that repeat the first columns."""
+    from mrpbench_core.report.tables.table import text
+
+    rows = [[text(cell) for cell in row] for row in table.rows]
+    limit = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+    widths = [
+        max([len(part) for part in heading.replace("_", " ").replace(".", " ").split()] + [len(row[i]) for row in rows])
+        for i, heading in enumerate(table.headings)
+    ]
+    if not rows:
+        print(table.title)
+    for number, chosen in enumerate(_parts(widths, table.keys, limit) if rows else ()):
+        title = table.title if number == 0 else f"{table.title} (continued)"
+        print_table([table.headings[i] for i in chosen], [[row[i] for i in chosen] for row in rows], title)
+    print(f"  {table.note}\n")
+
+
+def _parts(widths: Sequence[int], keys: int, limit: int | None) -> list[list[int]]:
+    """Columns of each part, none wider than `limit` if that can be."""
+    first = list(range(keys))
+    parts = [[*first]]
+    for column in range(keys, len(widths)):
+        width = sum(widths[i] + GAP for i in (*parts[-1], column))
+        if limit is not None and width > limit and len(parts[-1]) > keys:
+            parts.append([*first])
+        parts[-1].append(column)
+    return parts
 
 
 def _print_rich(columns: Sequence[str], cells: Sequence[Sequence[str]], right: Sequence[bool], title: str) -> None:

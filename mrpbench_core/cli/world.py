@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from mrpbench_core.cli.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.text import counted
 
 if TYPE_CHECKING:
     from mrpbench_core.api.roadmap import RoadmapBuilder
@@ -177,7 +178,8 @@ def _print(facts: "WorldFacts") -> None:
         ("blocked", facts.blocked),
         (
             "roadmap",
-            f"{facts.roadmap_vertices} vertices, {facts.roadmap_edges} edges, {facts.roadmap_components} parts",
+            f"{facts.roadmap_vertices} vertices, {facts.roadmap_edges} edges, "
+            + counted(facts.roadmap_components, "part"),
         ),
     ]
     print_table(["fact", "value"], rows, facts.name)

@@ -80,8 +80,9 @@ class Matrix:
         size = sum(math.prod(len(axis.rows) for axis in (*block, *overrides)) for block in blocks)
         if size > POINT_LIMIT:
             raise Mistakes(root.where.error("matrix", f"describes {size} runs; at most {POINT_LIMIT} are allowed"))
+        varying = _varying([(*block, *overrides) for block in blocks])
         for block in blocks:
-            for point in _product(root, (*block, *overrides)):
+            for point in _product(root, (*block, *overrides), varying):
                 if not any(matches(point.root, entry) for entry in self.exclude):
                     yield point
 
@@ -204,11 +205,20 @@ def _without(axis: Axis, given: set[str]) -> Axis:
     return Axis(tuple(axis.names[i] for i in kept), [tuple(row[i] for i in kept) for row in axis.rows])
 
 
-def _product(root: Item, axes: Sequence[Axis]) -> Iterator[Point]:
+def _varying(blocks: Sequence[tuple[Axis, ...]]) -> set[str]:
+    """Names that tell points apart: those with several values, and those that only some blocks name."""
+    rows: dict[str, int] = {}
+    for block in blocks:
+        for axis in block:
+            for name in axis.names:
+                rows[name] = rows.get(name, 0) + len(axis.rows)
+    return {name for name, count in rows.items() if count > 1 or len(blocks) > 1}
+
+
+def _product(root: Item, axes: Sequence[Axis], varying: set[str]) -> Iterator[Point]:
     names = [name for axis in axes for name in axis.names]
     # A whole block is put in place before its options are patched, whatever the reading order.
     order = sorted(range(len(names)), key=lambda index: len(steps_of(names[index])))
-    varying = {name for axis in axes if len(axis.rows) > 1 for name in axis.names}
     for rows in itertools.product(*(axis.rows for axis in axes)):
         values = [item for row in rows for item in row]
         patched, fault = root, None

@@ -58,3 +58,8 @@ def position(text: str, end: int | None) -> tuple[int, int]:
     """Line and column, counted from 1, of the character at `end` (None = just after the text)."""
     before = text[:end]
     return before.count("\n") + 1, len(before) - before.rfind("\n")
+
+
+def counted(number: int, noun: str) -> str:
+    """`1 run`, `2 runs`."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -1,5 +1,6 @@
 """The records of a results folder: for each run, the one of its highest attempt."""
 
+import logging
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,8 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import line
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.shards import read_at, read_shard
+
+_LOG = logging.getLogger(__name__)
 
 
 @attrs.frozen
@@ -32,11 +35,13 @@ class Results:
 
     def __init__(self, folder: ResultsFolder, only: Iterable[str] | None = None) -> None:
         self.folder = folder
+        self.damaged: list[InputError] = []
+        """Lines that are no records, each with what to do. Their runs count as not done."""
         self._entries: dict[str, Entry] = {}
         wanted = None if only is None else frozenset(only)
         origins: dict[str, str] = {}  # equal texts become one object
         for shard in folder.shards():
-            for offset, record in read_shard(shard):
+            for offset, record in read_shard(shard, self.damaged):
                 run_id = record["run_id"]
                 known = self._entries.get(run_id)
                 attempt = record.get("attempt", 1)
@@ -119,4 +124,7 @@ def load(folder: Path | str) -> Results:
     results = ResultsFolder(Path(folder))
     if not (results.path / "runs").is_dir():
         raise InputError("is no results folder", file=folder, hint="give the folder that `mrpbench run` wrote")
-    return Results(results)
+    found = Results(results)
+    for error in found.damaged:
+        _LOG.warning("%s", error)
+    return found

@@ -6,13 +6,14 @@ from pathlib import Path
 import pytest
 
 from mrpbench_core.cli import progress
-from mrpbench_core.cli.progress import Printed, word
+from mrpbench_core.cli.progress import Printed
+from mrpbench_core.report.axes import word
 
 
 def test_a_terminal_has_one_line_that_counts_and_lines_for_what_went_wrong(capsys, monkeypatch):
     monkeypatch.setattr(progress, "REFRESH_S", 0.0)
     points = [types.SimpleNamespace(run_id=f"{number:016d}", axes={"seed": number}) for number in range(4)]
-    results = type("NoResults", (dict,), {"folder": types.SimpleNamespace(path=Path("out"))})()
+    results = type("NoResults", (dict,), {"damaged": (), "folder": types.SimpleNamespace(path=Path("out"))})()
     shown = Printed(live=True)
     chosen = tuple(point.run_id for point in points)
     shown.selected(types.SimpleNamespace(todo=points, chosen=chosen, changed=("x",)), results)

@@ -87,7 +87,8 @@ def test_included_points_are_added_beside_the_product(study):
     found = study(SMALL + text).runs
     drawn = [(run.config.scenario.robots, run.config.seed) for run in found]
     assert drawn == [(5, 0), (5, 0), (50, 1), (50, 2), (50, 3)]
-    assert found[-1].axes == {"seed": 3}
+    assert found[-1].axes == {"scenario.robots": 50, "planner": "astar", "seed": 3}
+    assert found[0].axes == {"planner": "astar"}
     only = study(SMALL + "matrix: {include: [{seed: 3}, {seed: 4}]}").runs
     assert [run.config.seed for run in only] == [3, 4]
 

@@ -48,10 +48,17 @@ def test_a_line_cut_off_by_a_crash_is_as_if_it_were_not_there(folder):
         assert [entry["run_id"] for entry in load(folder.path)] == ["aa", "bb"][: whole[:length].count(b"\n")]
 
 
-def test_a_corrupt_record_is_named(folder):
-    folder.shard("1").write_text(json.dumps(record("aa")) + "\n{]\n")
-    with pytest.raises(InputError, match=r"1\.jsonl:2: is not a record"):
-        load(folder.path)
+def test_a_damaged_line_is_named_and_costs_only_its_own_run(folder, caplog):
+    lines = [json.dumps(record("aa")), "{]", json.dumps(record("bb")), '"text"', ""]
+    folder.shard("1").write_text("\n".join(lines))
+    results = load(folder.path)
+    assert [entry["run_id"] for entry in results] == ["aa", "bb"]
+    assert results["bb"]["run_id"] == "bb"
+    said = [message.getMessage() for message in caplog.records]
+    assert said == [str(error) for error in results.damaged]
+    assert f"{folder.shard('1')}:2: is not a record: " in said[0]
+    assert f"{folder.shard('1')}:4: is not a record: " in said[1]
+    assert "`mrpbench run` does it again" in said[0]
 
 
 def test_copying_files_merges_folders_and_the_same_run_counts_once(folder, tmp_path):

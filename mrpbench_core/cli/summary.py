@@ -1,0 +1,61 @@
+"""The table at the end of `mrpbench run`: counts and means; intervals and comparisons are `mrpbench report`'s."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from mrpbench_core.cli.table import print_table
+from mrpbench_core.files.text import counted
+from mrpbench_core.report.axes import word
+from mrpbench_core.report.columns import MAIN
+from mrpbench_core.report.groups import Group, group_runs
+from mrpbench_core.report.outcome import LEFT_OUT
+from mrpbench_core.report.runs import PAR2, Runs, read_runs
+from mrpbench_core.store.results import Results
+
+SHOWN = tuple(column for column in MAIN if column != PAR2)
+ABREAST = 4
+"""Groups that stand side by side, one row for each column of the table."""
+
+
+def print_summary(results: Results, limit: int | None = None) -> None:
+    """Print a column for each group while they are few, else a row for each, at most `limit` of them."""
+    runs = read_runs([results], SHOWN)
+    if not len(runs):
+        return
+    groups = group_runs(runs)
+    axes = list(dict.fromkeys(key for found in groups for key in found.axes))
+    statuses = [found.statuses(runs) for found in groups]
+    table: dict[str, list[Any]] = {
+        key: [word(found.axes[key]) if key in found.axes else None for found in groups] for key in axes
+    }
+    table["runs"] = [len(found.members) for found in groups]
+    table["succeeded"] = [
+        f"{counts['succeeded']}/{len(found.counted)}" if len(found.counted) else "n/a"
+        for counts, found in zip(statuses, groups, strict=True)
+    ]
+    others = dict.fromkeys(status for counts in statuses for status in counts if status != "succeeded")
+    table |= {status: [counts[status] for counts in statuses] for status in sorted(others, key=LEFT_OUT.__contains__)}
+    table |= {key: [_mean(runs, found, key) for found in groups] for key in SHOWN if key in runs.values}
+    if len(groups) <= ABREAST:
+        numbers = [f"#{number + 1}" for number in range(len(groups))]
+        print_table(["", *numbers], [[key, *row] for key, row in table.items()])
+    else:
+        print_table(_short(list(table)), list(zip(*table.values(), strict=True))[:limit])
+    if limit is not None and len(groups) > max(limit, ABREAST):
+        print(f"… {counted(len(groups) - limit, 'more row')}")
+
+
+def _short(columns: Sequence[str]) -> list[str]:
+    """Headings without the name of the metric, where they stay different."""
+    short = [column.rpartition(".")[2] for column in columns]
+    return [end if short.count(end) == 1 else column for end, column in zip(short, columns, strict=True)]
+
+
+def _mean(runs: Runs, found: Group, key: str) -> str | None:
+    values = runs.values[key][found.counted]
+    having = values[np.isfinite(values)]
+    if not len(having):
+        return None
+    return f"{having.mean():.4g}" + ("" if len(having) == len(found.members) else f" (n={len(having)})")

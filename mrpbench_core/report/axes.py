@@ -1,0 +1,102 @@
+"""What tells configurations apart: the axes of their study, found in the configurations themselves."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from mrpbench_core.config.mistakes import did_you_mean
+from mrpbench_core.config.settings import NOT_IDENTIFYING
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.store.results import flatten
+
+SAMPLES = ("seed", "repeat")
+"""Options that tell the samples of one configuration apart."""
+NO_AXES = (*NOT_IDENTIFYING, *SAMPLES)
+NAMES = ("plugin", "robot")
+"""Main options of a block: their value alone says what they are."""
+
+Axes = dict[str, Any]
+"""Values by dotted option; an option that a configuration does not have is missing."""
+
+
+def find_axes(configs: Sequence[dict[str, Any]], by: Sequence[str] | None = None) -> list[Axes]:
+    """What sets each configuration apart from the others.
+
+    Args:
+        configs: as records keep them. Those of analysed bags lack what nobody knows.
+        by: options, or blocks of options, to which to keep; None = all that vary.
+
+    Raises:
+        InputError: an option in `by` is in no configuration.
+    """
+    flat = [{key: value for key, value in flatten(config).items() if not _is_below(key, NO_AXES)} for config in configs]
+    if by is not None:
+        known = {part for entry in flat for key in entry for part in _with_blocks(key)}
+        for name in by:
+            if name not in known:
+                raise InputError(f"--by: no run has the option {name!r}", hint=did_you_mean(name, sorted(known)))
+    varying = [key for key in _varying(flat) if by is None or _is_below(key, by)]
+    kept = _without_implied(varying, flat)
+    return [{key: entry[key] for key in kept if key in entry} for entry in flat]
+
+
+def name_axes(axes: Axes) -> str:
+    """Axes in few words: `ecbs w=1.2 robots=9`."""
+    words = []
+    for key, value in axes.items():
+        last = key.rpartition(".")[2]
+        words.append(word(value) if last in NAMES else f"{last}={word(value)}")
+    return " ".join(words)
+
+
+def factors(axes: Axes) -> dict[str, Axes]:
+    """Axes by the block they belong to: a planner and its options are one choice."""
+    found: dict[str, Axes] = {}
+    for key, value in axes.items():
+        found.setdefault(key.partition(".")[0], {})[key] = value
+    return found
+
+
+def word(value: Any) -> str:
+    """One value in few characters: a block by its plugin and options."""
+    if isinstance(value, dict):
+        options = ",".join(f"{key}={word(item)}" for key, item in value.items() if key not in NAMES)
+        name = str(value.get("plugin", value.get("robot", "")))
+        return f"{name}[{options}]" if options else name
+    if isinstance(value, list | tuple):
+        return "[" + ",".join(map(word, value)) + "]"
+    return str(value)
+
+
+def _is_below(key: str, names: Sequence[str]) -> bool:
+    return any(key == name or key.startswith(f"{name}.") for name in names)
+
+
+def _with_blocks(key: str) -> list[str]:
+    parts = key.split(".")
+    return [".".join(parts[: count + 1]) for count in range(len(parts))]
+
+
+def _varying(flat: Sequence[Axes]) -> list[str]:
+    """Options that are not the same in all configurations that have them."""
+    first: dict[str, str] = {}
+    varying: dict[str, None] = {}
+    for entry in flat:
+        for key, value in entry.items():
+            if first.setdefault(key, repr(value)) != repr(value):
+                varying[key] = None
+    return list(varying)
+
+
+def _without_implied(varying: Sequence[str], flat: Sequence[Axes]) -> list[str]:
+    """Leave out options that say no more than which plugin their block names: each plugin's own defaults, mostly."""
+    kept = []
+    for key in varying:
+        plugins = [f"{block}.plugin" for block in _with_blocks(key)[:-1]]
+        plugins = [name for name in plugins if name in varying and name != key]
+        values: dict[str, set[str]] = {}
+        for entry in flat:
+            if key in entry:
+                values.setdefault(repr([entry.get(name) for name in plugins]), set()).add(repr(entry[key]))
+        if not plugins or any(len(options) > 1 for options in values.values()):
+            kept.append(key)
+    return kept

@@ -1,0 +1,67 @@
+"""Estimates for groups of runs: over all their units, and over the units that a setting's groups have in common."""
+
+from collections.abc import Iterable
+from functools import reduce
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.arrays import Int
+from mrpbench_core.report.groups import Group, Setting
+from mrpbench_core.report.runs import Runs
+from mrpbench_core.report.statistics.estimate import Estimate
+from mrpbench_core.report.statistics.means import mean
+from mrpbench_core.report.statistics.rates import rate
+
+
+@attrs.frozen(kw_only=True)
+class Numbers:
+    """What the tables say of a group, by column."""
+
+    overall: dict[str, Estimate | None]
+    """Over every unit of the group that has a value."""
+    common: dict[str, Estimate | None]
+    """Over the units that every group of the setting has a value for."""
+
+
+def estimate(runs: Runs, group: Group, units: Int, column: str, only: Int | None = None) -> Estimate | None:
+    """Mean or rate of a column over a group's units, or over those in `only`; None where no unit has a value."""
+    numbers, values, count = group.by_unit(runs, units, column)
+    if only is not None:
+        chosen = np.isin(numbers, only)
+        count = round(count * chosen.mean()) if len(chosen) else 0
+        values = values[chosen]
+    return rate(values, max(count, len(values))) if column in runs.flags else mean(values)
+
+
+def common_units(runs: Runs, setting: Setting, column: str) -> Int:
+    """Units for which every group has a value; for success: for which every run of every group has a plan.
+
+    A group that plans but never has the value cannot have it (it was not executed, say) and is not asked. One that
+    never finds a plan is, and leaves nothing in common.
+    """
+    having = []
+    for group in setting.groups:
+        if not len(group.counted):
+            continue  # the planner was skipped: n/a
+        if column in ("succeeded", "planned"):
+            numbers, values, _ = group.by_unit(runs, setting.units, "planned")
+            having.append(numbers[values == 1])
+        else:
+            numbers, _, _ = group.by_unit(runs, setting.units, column)
+            if len(numbers) or not runs.values["planned"][group.counted].any():
+                having.append(numbers)
+    return reduce(np.intersect1d, having) if having else np.empty(0, np.int64)
+
+
+def numbers_of(runs: Runs, setting: Setting, columns: Iterable[str]) -> list[Numbers]:
+    """Estimates of every group of a setting."""
+    columns = list(columns)
+    common = {column: common_units(runs, setting, column) for column in columns}
+    return [
+        Numbers(
+            overall={column: estimate(runs, group, setting.units, column) for column in columns},
+            common={column: estimate(runs, group, setting.units, column, common[column]) for column in columns},
+        )
+        for group in setting.groups
+    ]

@@ -1,0 +1,122 @@
+"""Runs that differ only in seed and repeat, and the settings in which such groups met the same scenarios."""
+
+from collections import Counter
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.report.axes import Axes, factors, name_axes
+from mrpbench_core.report.runs import Runs
+
+
+@attrs.frozen(kw_only=True, eq=False)
+class Group:
+    """Runs of one configuration, or of several that are looked at as one."""
+
+    axes: Axes
+    """What sets it apart, by dotted option."""
+    members: Int
+    """Indices of all its runs."""
+    counted: Int
+    """Those that say something about the method."""
+
+    def statuses(self, runs: Runs) -> Counter[str]:
+        """How many runs ended in each status."""
+        return Counter(runs.status[index] for index in self.members)
+
+    def by_unit(self, runs: Runs, units: Int, column: str) -> tuple[Int, Float, int]:
+        """Units that have a value, their means over their runs, and the number of these runs."""
+        found = runs.values[column][self.counted]
+        having = np.isfinite(found)
+        numbers, place = np.unique(units[self.counted][having], return_inverse=True)
+        count = np.bincount(place, minlength=len(numbers))
+        total = np.bincount(place, weights=found[having], minlength=len(numbers))
+        return numbers, total / np.maximum(count, 1), int(having.sum())
+
+
+@attrs.frozen(kw_only=True, eq=False)
+class Setting:
+    """Groups that share scenarios, so that they can be compared pair by pair."""
+
+    name: str
+    """What sets it apart from the other settings."""
+    groups: tuple[Group, ...]
+    names: tuple[str, ...]
+    """Of each group, what sets it apart from the others here."""
+    units: Int
+    """Of each run of the folders, what it is a sample of (see `Runs.units`)."""
+    unit: str
+    """`scenarios` or `runs`."""
+
+
+def group_runs(runs: Runs, by: Sequence[str] | None = None) -> list[Group]:
+    """Groups in the order in which their first runs come.
+
+    Args:
+        runs: of one or several folders.
+        by: options that tell groups apart; None = all that vary.
+    """
+    axes = runs.axes(by)
+    numbers: dict[str, int] = {}
+    of_config = np.array([numbers.setdefault(repr(entry), len(numbers)) for entry in axes], np.int64)
+    first = {of_config[index]: axes[index] for index in range(len(axes) - 1, -1, -1)}
+    of_run = of_config[runs.config] if len(runs) else np.empty(0, np.int64)
+    order = np.argsort(of_run, kind="stable")
+    parts = np.split(order, np.cumsum(np.bincount(of_run, minlength=len(numbers)))[:-1]) if len(runs) else []
+    return [
+        Group(axes=first[number], members=part, counted=part[runs.counted[part]]) for number, part in enumerate(parts)
+    ]
+
+
+def find_settings(runs: Runs, groups: Sequence[Group]) -> list[Setting]:
+    """Put together groups that share scenarios, directly or through others."""
+    parts: list[tuple[set[int], list[Group]]] = []
+    for group in groups:
+        scenarios = set(np.unique(runs.scenario[group.members]).tolist()) - {-1}
+        touching = [part for part in parts if part[0] & scenarios]
+        parts = [part for part in parts if part not in touching]
+        merged = [member for _, members in touching for member in members]
+        parts.append((scenarios.union(*(known for known, _ in touching)), [*merged, group]))
+    order = {id(group): index for index, group in enumerate(groups)}
+    chosen = sorted(
+        (sorted(members, key=lambda one: order[id(one)]) for _, members in parts), key=lambda m: order[id(m[0])]
+    )
+    shared = [_constant(members) for members in chosen]
+    return [
+        _setting(runs, members, {key: value for key, value in axes.items() if _differs(key, shared)})
+        for members, axes in zip(chosen, shared, strict=True)
+    ]
+
+
+def differing_factors(first: Axes, second: Axes) -> list[str]:
+    """Blocks in which two groups differ; a planner and its options are one."""
+    one, other = factors(first), factors(second)
+    return [name for name in dict.fromkeys([*one, *other]) if repr(one.get(name)) != repr(other.get(name))]
+
+
+def _setting(runs: Runs, members: Sequence[Group], axes: Axes) -> Setting:
+    units, unit = runs.units(np.concatenate([group.members for group in members]))
+    constant = _constant(members)
+    own = [{key: value for key, value in group.axes.items() if key not in constant} for group in members]
+    return Setting(
+        name=name_axes(axes),
+        groups=tuple(members),
+        names=tuple(name_axes(entry) or "all runs" for entry in own),
+        units=units,
+        unit=unit,
+    )
+
+
+def _constant(members: Sequence[Group]) -> Axes:
+    """Axes that are the same in all groups."""
+    return {
+        key: value
+        for key, value in members[0].axes.items()
+        if all(repr(group.axes.get(key)) == repr(value) for group in members)
+    }
+
+
+def _differs(key: str, settings: Sequence[Axes]) -> bool:
+    return len({repr(axes.get(key)) for axes in settings}) > 1

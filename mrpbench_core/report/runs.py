@@ -1,0 +1,185 @@
+"""The runs of results folders as columns of numbers: small enough for 10^5 of them."""
+
+from array import array
+from collections.abc import Collection, Iterator, Sequence
+from typing import Any
+
+import attrs
+import numpy as np
+
+from mrpbench_core.files.jsonl import line
+from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.report.axes import NO_AXES, Axes, find_axes
+from mrpbench_core.report.outcome import LEFT_OUT, PENALTY, has_plan
+from mrpbench_core.store.results import Results
+
+PAR2 = "timing.planning_par2_s"
+"""Planning time in which a run without a plan counts with PENALTY times its limit."""
+_PLANNING = "timing.planning_"
+
+
+@attrs.frozen(kw_only=True)
+class Runs:
+    """Runs as columns: entry i of each is run i."""
+
+    run_id: list[str]
+    folder: Int
+    """Index into the folders that were read."""
+    status: list[str]
+    message: list[str]
+    """What went wrong, else empty."""
+    seed: Int
+    repeat: Int
+    scenario: Int
+    """Number of the scenario; -1 = none was drawn."""
+    counted: Bool
+    """Whether the run says something about the method."""
+    config: Int
+    """Index into `configs`."""
+    configs: list[dict[str, Any]]
+    """Different configurations, without what tells samples of one apart."""
+    values: dict[str, Float]
+    """Succeeded and planned as 0 or 1, metrics and timing; NaN = null. Planning's time and memory only of runs with a
+    plan."""
+    flags: frozenset[str]
+    """Those of `values` that are yes or no."""
+
+    def __len__(self) -> int:
+        return len(self.run_id)
+
+    def units(self, members: Int) -> tuple[Int, str]:
+        """What each run is a sample of, and the word for that: the scenario, or the run where all have the same one.
+
+        Runs whose scenario was never drawn are units of their own, which nothing can be paired with.
+
+        Args:
+            members: the runs that are looked at together.
+        """
+        known = self.scenario[members]
+        lone = self.scenario < 0
+        one = len(np.unique(known[known >= 0])) == 1
+        if one:  # samples differ in noise alone
+            pairs = np.stack([self.seed, self.repeat], axis=1)
+            number = np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1).astype(np.int64)
+        else:
+            number = self.scenario.copy()
+        number[lone] = number.max(initial=-1) + 1 + np.arange(lone.sum())
+        return number, "runs" if one else "scenarios"
+
+    def axes(self, by: Sequence[str] | None = None) -> list[Axes]:
+        """What sets each of `configs` apart."""
+        return find_axes(self.configs, by)
+
+
+def read_runs(folders: Sequence[Results], columns: Collection[str] | None = None) -> Runs:
+    """Read records once, from the first folder to the last; of a run in several folders the last counts.
+
+    Args:
+        folders: where to read.
+        columns: metrics and timing to keep; None = all.
+    """
+    reader = _Reader(columns)
+    for index, record in each_once(folders):
+        reader.add(index, record)
+    return reader.runs()
+
+
+def each_once(folders: Sequence[Results]) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Index of the folder, and record; of a run in several folders the last."""
+    for index, results in enumerate(folders):
+        for record in results:
+            if not any(record["run_id"] in later for later in folders[index + 1 :]):
+                yield index, record
+
+
+class _Reader:
+    def __init__(self, columns: Collection[str] | None) -> None:
+        self._wanted = None if columns is None else frozenset(columns)
+        self._run_id: list[str] = []
+        self._status: list[str] = []
+        self._message: list[str] = []
+        self._integers: dict[str, array[int]] = {
+            name: array("q") for name in ("folder", "seed", "repeat", "scenario", "config", "planned")
+        }
+        self._limits = array("d")
+        self._scenarios: dict[str, int] = {}
+        self._configs: dict[str, int] = {}
+        self._examples: list[dict[str, Any]] = []
+        self._values: dict[str, array[float]] = {}
+        self._numbers: set[str] = set()
+        """Columns with a value that is not yes or no."""
+
+    def add(self, folder: int, record: dict[str, Any]) -> None:
+        scenario = record.get("scenario_id")
+        self._limits.append(float((record["config"].get("limits") or {}).get("planning", np.nan)))
+        facts = {
+            "folder": folder,
+            "seed": int(record.get("seed") or 0),
+            "repeat": int(record.get("repeat") or 0),
+            "scenario": -1 if scenario is None else self._scenarios.setdefault(scenario, len(self._scenarios)),
+            "config": self._number(record["config"]),
+            "planned": int(has_plan(record)),
+        }
+        for name, value in facts.items():
+            self._integers[name].append(value)
+        timing = {f"timing.{key}": value for key, value in (record.get("timing") or {}).items()}
+        for key, value in ((record.get("metrics") or {}) | timing).items():
+            if isinstance(value, int | float) and (self._wanted is None or key in self._wanted | {"timing.planning_s"}):
+                self._column(key).append(float(value))
+                if not isinstance(value, bool):
+                    self._numbers.add(key)
+        self._run_id.append(record["run_id"])
+        self._status.append(record["status"])
+        self._message.append((record.get("error") or {}).get("message") or "")
+        for column in self._values.values():
+            if len(column) < len(self._run_id):
+                column.append(np.nan)
+
+    def _number(self, config: dict[str, Any]) -> int:
+        """Which of the configurations this is, whatever its seed and repeat."""
+        own = {key: value for key, value in config.items() if key not in NO_AXES}
+        if "limits" in own:
+            own["limits"] = {key: value for key, value in own["limits"].items() if key != "wall"}
+        number = self._configs.setdefault(line(own), len(self._configs))
+        if number == len(self._examples):
+            self._examples.append(own)
+        return number
+
+    def _column(self, key: str) -> "array[float]":
+        if key not in self._values:
+            self._values[key] = array("d", [np.nan]) * len(self._run_id)
+        return self._values[key]
+
+    def runs(self) -> Runs:
+        integers = {name: np.array(column, np.int64) for name, column in self._integers.items()}
+        planned = integers.pop("planned").astype(bool)
+        values = {key: np.array(column, float) for key, column in self._values.items()}
+        for key, column in values.items():
+            if key.startswith(_PLANNING):
+                column[~planned] = np.nan
+        if "timing.planning_s" in values:
+            penalised = np.where(planned, values["timing.planning_s"], PENALTY * np.array(self._limits, float))
+            if self._wanted is None or PAR2 in self._wanted:
+                values = _after(values, "timing.planning_s", {PAR2: penalised})
+            if self._wanted is not None and "timing.planning_s" not in self._wanted:
+                del values["timing.planning_s"]
+        outcome = {
+            "succeeded": np.array([status == "succeeded" for status in self._status], float),
+            "planned": planned.astype(float),
+        }
+        return Runs(
+            run_id=self._run_id,
+            status=self._status,
+            message=self._message,
+            counted=np.array([status not in LEFT_OUT for status in self._status], bool),
+            configs=self._examples,
+            values=outcome | values,
+            flags=frozenset(outcome) | (frozenset(values) - self._numbers - {PAR2}),
+            **integers,
+        )
+
+
+def _after(values: dict[str, Float], key: str, more: dict[str, Float]) -> dict[str, Float]:
+    items = list(values.items())
+    place = list(values).index(key) + 1
+    return dict([*items[:place], *more.items(), *items[place:]])

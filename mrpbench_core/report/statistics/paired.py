@@ -1,0 +1,145 @@
+"""Differences between two treatments that met the same units.
+
+- Rates: McNemar's exact test (Q. McNemar, Psychometrika 12, 1947). Where units were run several times their success is
+  a fraction, and the test flips the signs of the units' differences, of which McNemar's exact test is the special case.
+  Interval: D. G. Bonett, R. M. Price, "Adjusted Wald confidence interval for a difference of binomial proportions based
+  on paired data", Journal of Educational and Behavioral Statistics 37, 2012.
+- Values: F. Wilcoxon's signed-rank test (Biometrics Bulletin 1, 1945); units without a difference leave it. Interval of
+  the mean difference: bootstrap, as for means. Effect size: matched-pairs rank-biserial correlation (D. S. Kerby, "The
+  simple difference formula", Comprehensive Psychology 3, 2014).
+- Many tests: S. Holm, "A simple sequentially rejective multiple test procedure", Scandinavian Journal of Statistics 6,
+  1979; tests that cannot be significant leave the family: R. E. Tarone, "A modified Bonferroni method for discrete
+  data", Biometrics 46, 1990.
+"""
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.report.statistics.estimate import LEVEL, Estimate
+from mrpbench_core.report.statistics.means import SEED, mean
+
+FLIPS = 9999
+"""Sign flips drawn where there are too many to try all."""
+TIE = 1e-9
+"""Relative difference up to which two values count as equal: what rounding leaves of equal sums."""
+
+
+@attrs.frozen(kw_only=True)
+class Difference:
+    """Second treatment less first, over the units that both have."""
+
+    difference: Estimate
+    first: float
+    second: float
+    """Means of both over these units."""
+    above: int
+    """Units where the second is the larger."""
+    below: int
+    effect: float
+    """From -1 (second smaller everywhere) to 1; 0 = as often and as much above as below."""
+    p: float
+    """Two-sided; 1 where no unit differs."""
+
+    @property
+    def ties(self) -> int:
+        """Units without a difference."""
+        return self.difference.n - self.above - self.below
+
+    @property
+    def can_be_significant(self) -> bool:
+        """Whether the test could be, with so many units that differ, had all differed in one direction."""
+        return bool(2.0 ** (1 - self.above - self.below) <= 1 - LEVEL)
+
+
+def compare_rates(first: Float, second: Float) -> Difference | None:
+    """Compare the units' success fractions; None without units."""
+    steps = _steps(first, second)
+    if not len(steps):
+        return None
+    from scipy.stats import norm
+
+    # Bonett and Price add two units, one won by each.
+    padded = np.append(steps, (1.0, -1.0))
+    reach = float(norm.ppf((1 + LEVEL) / 2) * np.sqrt(padded.var() / len(padded)))
+    centre = float(padded.mean())
+    estimate = Estimate(float(steps.mean()), max(-1.0, centre - reach), min(1.0, centre + reach), len(steps))
+    return _difference(estimate, first, second, steps, _flip_test(steps))
+
+
+def compare_values(first: Float, second: Float) -> Difference | None:
+    """Compare the units' values; None without units."""
+    steps = _steps(first, second)
+    estimate = mean(steps)
+    if estimate is None:
+        return None
+    return _difference(estimate, first, second, steps, _signed_rank_test(steps))
+
+
+def adjust(found: Sequence[Difference]) -> list[float]:
+    """p-values adjusted for being that many.
+
+    Tests that could not be significant, as too few units differ, are not counted and get 1.
+    """
+    from statsmodels.stats.multitest import multipletests
+
+    adjusted = np.ones(len(found))
+    able = [index for index, entry in enumerate(found) if entry.can_be_significant]
+    if able:
+        adjusted[able] = multipletests([found[index].p for index in able], method="holm")[1]
+    return [float(value) for value in adjusted]
+
+
+def _steps(first: Float, second: Float) -> Float:
+    """Differences, those within rounding exactly 0."""
+    steps = second - first
+    steps[np.abs(steps) <= TIE * np.maximum(np.abs(first), np.abs(second))] = 0.0
+    return steps
+
+
+def _difference(estimate: Estimate, first: Float, second: Float, steps: Float, p: float) -> Difference:
+    return Difference(
+        difference=estimate,
+        first=float(first.mean()),
+        second=float(second.mean()),
+        above=int((steps > 0).sum()),
+        below=int((steps < 0).sum()),
+        effect=_rank_biserial(steps),
+        p=p,
+    )
+
+
+def _flip_test(steps: Float) -> float:
+    moved = steps[steps != 0]
+    if not len(moved):
+        return 1.0
+    if (np.abs(moved) == 1).all():
+        from statsmodels.stats.contingency_tables import mcnemar
+
+        gains = int((moved > 0).sum())
+        return float(mcnemar([[0, gains], [len(moved) - gains, 0]], exact=True).pvalue)
+    from scipy.stats import permutation_test
+
+    rng = np.random.default_rng(SEED)
+    found = permutation_test((moved,), np.mean, permutation_type="samples", n_resamples=FLIPS, rng=rng)
+    return float(found.pvalue)
+
+
+def _signed_rank_test(steps: Float) -> float:
+    from scipy.stats import wilcoxon
+
+    moved = steps[steps != 0]
+    return float(wilcoxon(moved).pvalue) if len(moved) else 1.0
+
+
+def _rank_biserial(steps: Float) -> float:
+    """Share of the ranks of differences that are above 0, less that below."""
+    from scipy.stats import rankdata
+
+    moved = steps[steps != 0]
+    if not len(moved):
+        return 0.0
+    ranks = rankdata(np.abs(moved))
+    return float((ranks * np.sign(moved)).sum() / ranks.sum())

@@ -1,0 +1,38 @@
+"""Rates with Wilson intervals.
+
+E. B. Wilson, "Probable inference, the law of succession, and statistical inference", JASA 22, 1927. Where a scenario
+was run several times, its runs are no independent samples; the interval is then that of the effective sample size, runs
+divided by the design effect: C. Franco, R. Little, T. Louis, E. Slud, "Comparative study of confidence intervals for
+proportions in complex sample surveys", Journal of Survey Statistics and Methodology 7, 2019.
+"""
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.report.statistics.estimate import LEVEL, Estimate
+
+
+def rate(fractions: Float, runs: int) -> Estimate | None:
+    """The mean of the units' success fractions; None without units.
+
+    Args:
+        fractions: of each unit, the share of its runs that succeeded.
+        runs: how many runs all units have together.
+    """
+    from statsmodels.stats.proportion import proportion_confint
+
+    if not len(fractions):
+        return None
+    mean = float(fractions.mean())
+    size = effective_size(fractions, runs)
+    low, high = proportion_confint(mean * size, size, alpha=1 - LEVEL, method="wilson")
+    return Estimate(mean, min(mean, float(low)), max(mean, float(high)), len(fractions))  # but for rounding, at 0 and 1
+
+
+def effective_size(fractions: Float, runs: int) -> float:
+    """How many independent runs would tell as much: at least one, at most all, of each unit's runs."""
+    units, mean = len(fractions), float(fractions.mean())
+    variance = float(fractions.var(ddof=1)) / units if units > 1 else 0.0
+    if mean in (0.0, 1.0) or variance == 0.0:  # nothing shows how alike the runs of one unit are
+        return float(units)
+    return float(np.clip(mean * (1 - mean) / variance, units, runs))

@@ -1,0 +1,218 @@
+"""The tables of a report."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mrpbench_core.report.axes import word
+from mrpbench_core.report.columns import Column
+from mrpbench_core.report.comparison import Comparison
+from mrpbench_core.report.estimates import Numbers
+from mrpbench_core.report.groups import Group, Setting
+from mrpbench_core.report.outcome import LEFT_OUT
+from mrpbench_core.report.runs import Runs
+from mrpbench_core.report.statistics.estimate import Estimate
+from mrpbench_core.report.tables.table import Cell, Shown, Table, p_value
+
+RATES = ("succeeded", "planned")
+
+
+def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]]) -> Table:
+    """How the runs of each group ended."""
+    axes = axes_of(settings)
+    rows: list[tuple[Cell, ...]] = []
+    for setting, group, found in _groups(settings, numbers):
+        statuses = group.statuses(runs)
+        failed = [f"{count} {status}" for status, count in statuses.items() if status not in {"succeeded", *LEFT_OUT}]
+        left_out = [f"{count} {status}" for status, count in statuses.items() if status in LEFT_OUT]
+        rows.append(
+            (
+                *_axes_cells(group, axes),
+                len(group.members),
+                len(np.unique(setting.units[group.counted])),
+                f"{statuses['succeeded']}/{len(group.counted)}",
+                _rate(found.overall["succeeded"]) or "n/a",
+                _rate(found.overall["planned"]),
+                ", ".join(failed) or None,
+                ", ".join(left_out) or None,
+            )
+        )
+    unit = _unit(settings)
+    return Table(
+        key="outcome",
+        title="How the runs ended",
+        headings=(*axes, "runs", unit, "succeeded", "success rate", "plans found", "else", "left out"),
+        rows=tuple(rows),
+        keys=len(axes),
+        note=(
+            "Rates: Wilson intervals, 95 %. Infeasible and skipped runs leave the denominator"
+            " and stand in the last column."
+        ),
+    )
+
+
+def means_table(
+    settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]], columns: Sequence[Column], runs: Runs
+) -> Table:
+    """Means over all units of each group that have a value."""
+    axes = axes_of(settings)
+    rows = [
+        (
+            *_axes_cells(group, axes),
+            *(_shown(found.overall[column.name], column, runs, _size(setting, group)) for column in columns),
+        )
+        for setting, group, found in _groups(settings, numbers)
+    ]
+    return Table(
+        key="overall",
+        title="Means over all runs that have the value",
+        headings=(*axes, *(column.heading for column in columns)),
+        rows=tuple(rows),
+        keys=len(axes),
+        note=(
+            f"Mean over {_unit(settings)} [95 % bootstrap interval]; n is given where not all have the value."
+            " Groups may have values for different scenarios: compare them in the next tables only."
+        ),
+    )
+
+
+def common_table(
+    settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]], columns: Sequence[Column], runs: Runs
+) -> Table | None:
+    """The same over the units that all groups of a setting have in common; None where there is nothing to compare."""
+    compared = [(setting, found) for setting, found in zip(settings, numbers, strict=True) if len(setting.groups) > 1]
+    if not compared:
+        return None
+    some = [setting for setting, _ in compared]
+    axes = axes_of(some)
+    rows = [
+        (
+            *_axes_cells(group, axes),
+            _n(found.common["succeeded"]),
+            _rate(found.common["succeeded"]),
+            *(_shown(found.common[column.name], column, runs, _n(found.common["succeeded"])) for column in columns),
+        )
+        for _, group, found in _groups(some, [found for _, found in compared])
+    ]
+    note = (
+        f"Success over the {_unit(settings)} for which every group found a plan in every run; each other column over"
+        " those for which every group has a value (n is given where they are others)."
+    )
+    everything = (
+        _n(value) == _n(entry.overall[name])
+        for _, found in compared
+        for entry in found
+        for name, value in entry.common.items()
+    )
+    if all(everything):
+        rows, note = [], f"{note} Here these are all of them: the figures are those of the overall table."
+    return Table(
+        key="common",
+        title="Normalised: over what all groups of a setting have in common",
+        headings=(*axes, _unit(some), "success rate", *(column.heading for column in columns)),
+        rows=tuple(rows),
+        keys=len(axes),
+        note=note,
+    )
+
+
+def pairs_table(comparisons: Sequence[Comparison], brief: bool = False) -> Table | None:
+    """Paired differences and tests; None where nothing was compared.
+
+    Args:
+        comparisons: all of one family.
+        brief: only count those that could not be significant.
+    """
+    if not comparisons:
+        return None
+    able = [entry for entry in comparisons if entry.found.can_be_significant]
+    shown = able if brief else comparisons
+    hidden = len(comparisons) - len(shown)
+    others = f" (the other {hidden}, in which fewer than six pairs differ, are on the page and in the files)" * bool(
+        hidden
+    )
+    named = any(entry.setting for entry in comparisons)
+    rows = []
+    for entry in sorted(shown, key=lambda entry: entry.column.name not in RATES):
+        found = entry.found
+        scale = 100 if entry.is_rate else 1
+        relative = (
+            None if entry.is_rate or not found.first else f"{100 * found.difference.value / abs(found.first):+.1f} %"
+        )
+        rows.append(
+            (
+                *([entry.setting] if named else []),
+                entry.column.name,
+                entry.first,
+                entry.second,
+                found.difference.n,
+                "/".join(map(str, entry.unpaired)),
+                _point(found.first * scale, entry.is_rate),
+                _point(found.second * scale, entry.is_rate),
+                Shown(found.difference, percent=entry.is_rate, usual=found.difference.n),
+                relative,
+                f"{found.above}/{found.ties}/{found.below}",
+                f"{found.effect:+.2f}",
+                p_value(found.p),
+                p_value(entry.p_adjusted),
+                entry.verdict,
+            )
+        )
+    return Table(
+        key="pairs",
+        title="Pair by pair: B against A on the same scenarios",
+        headings=(
+            *(["setting"] if named else []),
+            *("column", "A", "B", "pairs", "unpaired", "mean A", "mean B", "B - A", "relative", "more/same/less"),
+            *("effect", "p", "p (Holm)", "B is"),
+        ),
+        rows=tuple(rows),
+        keys=4 if named else 3,
+        note=(
+            "Rates: McNemar's exact test; values: Wilcoxon's signed-rank test; Holm's correction over the"
+            f" {len(able)} of {len(comparisons)} tests that could be significant"
+            f"{others}."
+            " Effect: matched-pairs rank-biserial correlation."
+        ),
+    )
+
+
+def axes_of(settings: Sequence[Setting]) -> list[str]:
+    """Names of all axes, in the order of their first appearance."""
+    return list(dict.fromkeys(key for setting in settings for group in setting.groups for key in group.axes))
+
+
+def _groups(settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]]) -> list[tuple[Setting, Group, Numbers]]:
+    return [
+        (setting, group, found)
+        for setting, entries in zip(settings, numbers, strict=True)
+        for group, found in zip(setting.groups, entries, strict=True)
+    ]
+
+
+def _axes_cells(group: Group, axes: Sequence[str]) -> list[Cell]:
+    return [word(group.axes[key]) if key in group.axes else None for key in axes]
+
+
+def _shown(estimate: Estimate | None, column: Column, runs: Runs, usual: int | None) -> Cell:
+    return None if estimate is None else Shown(estimate, percent=column.name in runs.flags, usual=usual)
+
+
+def _rate(estimate: Estimate | None) -> Cell:
+    return None if estimate is None else Shown(estimate, percent=True, usual=estimate.n)
+
+
+def _n(estimate: Estimate | None) -> int:
+    return 0 if estimate is None else estimate.n
+
+
+def _size(setting: Setting, group: Group) -> int:
+    return len(np.unique(setting.units[group.counted]))
+
+
+def _unit(settings: Sequence[Setting]) -> str:
+    return " or ".join(dict.fromkeys(setting.unit for setting in settings))
+
+
+def _point(value: float, percent: bool) -> str:
+    return f"{value:.0f} %" if percent else f"{value:.4g}"

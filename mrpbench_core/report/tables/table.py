@@ -1,0 +1,81 @@
+"""A table before it is written in some format."""
+
+import math
+from typing import Any
+
+import attrs
+
+from mrpbench_core.report.statistics.estimate import Estimate
+
+Cell = Any
+"""None, text, a number or a `Shown`."""
+
+
+@attrs.frozen
+class Shown:
+    """An estimate as a table shows it."""
+
+    estimate: Estimate
+    percent: bool = False
+    usual: int | None = None
+    """Number of units that the table gives elsewhere in the row; another one is written behind the interval."""
+
+    def __str__(self) -> str:
+        found, factor = self.estimate, 100.0 if self.percent else 1.0
+        value, low, high = (number * factor for number in (found.value, found.low, found.high))
+        places = 0 if self.percent else decimals(value, high - low if found.has_interval else math.nan)
+        text = fixed(value, places) + (" %" if self.percent else "")
+        if found.has_interval:
+            text += f" [{fixed(low, places)}, {fixed(high, places)}]"
+        return text if found.n == self.usual else f"{text} n={found.n}"
+
+
+@attrs.frozen(kw_only=True)
+class Table:
+    """Rows of cells under headings."""
+
+    key: str
+    """Names it in files."""
+    title: str
+    headings: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    keys: int
+    """How many of the first columns say what the row is about."""
+    note: str
+    """How to read it."""
+
+
+def text(cell: Cell) -> str:
+    """A cell in words."""
+    if cell is None:
+        return "–"
+    if isinstance(cell, float):
+        return "–" if math.isnan(cell) else f"{cell:.4g}"
+    return str(cell)
+
+
+def p_value(p: float) -> str:
+    """As journals print it."""
+    return "< 0.001" if p < 0.001 else f"{p:.3f}"
+
+
+def decimals(value: float, width: float) -> int:
+    """Decimals that show two figures of an interval's width and of the value, or four of a value without interval."""
+    if not width > 0:
+        return max(0, 3 - _magnitude(value))
+    places = 1 - _magnitude(width)
+    if value and 1 - _magnitude(value) > places:
+        places += 1
+    return min(7, max(0, places))
+
+
+def fixed(number: float, places: int) -> str:
+    """With so many decimals, or in powers of ten where that is too long; never -0."""
+    if abs(number) >= 1e7:
+        return f"{number:.3g}"
+    written = f"{number:.{places}f}"
+    return written.removeprefix("-") if float(written) == 0 else written
+
+
+def _magnitude(number: float) -> int:
+    return math.floor(math.log10(abs(number))) if number else 0

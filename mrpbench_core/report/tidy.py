@@ -1,0 +1,112 @@
+"""The numbers of a report as plain data: one entry per group and column, one per comparison."""
+
+import csv
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.report.analysis import Analysis
+from mrpbench_core.report.comparison import Comparison
+from mrpbench_core.report.statistics.estimate import Estimate
+from mrpbench_core.report.tables.build import axes_of
+
+PAIR_COLUMNS = (
+    *("setting", "column", "first", "second", "unit", "pairs", "unpaired_first", "unpaired_second"),
+    *("mean_first", "mean_second", "difference", "low", "high", "more", "same", "less"),
+    *("effect", "p", "p_adjusted", "better", "verdict"),
+)
+
+
+def groups_of(analysis: Analysis) -> list[dict[str, Any]]:
+    """Of each group: axes, counts, and estimates by column, over all its units and over those in common."""
+    found = []
+    for setting, entries in zip(analysis.settings, analysis.numbers, strict=True):
+        for group, numbers in zip(setting.groups, entries, strict=True):
+            found.append(
+                {
+                    "setting": setting.name,
+                    "axes": group.axes,
+                    "runs": len(group.members),
+                    "counted": len(group.counted),
+                    "units": len(np.unique(setting.units[group.counted])),
+                    "unit": setting.unit,
+                    "statuses": dict(group.statuses(analysis.runs)),
+                    "overall": {name: _plain(value) for name, value in numbers.overall.items()},
+                    "common": {name: _plain(value) for name, value in numbers.common.items()},
+                }
+            )
+    return found
+
+
+def pairs_of(comparisons: Iterable[Comparison]) -> list[dict[str, Any]]:
+    """Every comparison with its numbers."""
+    return [
+        {
+            "setting": entry.setting,
+            "column": entry.column.name,
+            "first": entry.first,
+            "second": entry.second,
+            "unit": entry.unit,
+            "pairs": entry.found.difference.n,
+            "unpaired_first": entry.unpaired[0],
+            "unpaired_second": entry.unpaired[1],
+            "mean_first": entry.found.first,
+            "mean_second": entry.found.second,
+            "difference": entry.found.difference.value,
+            "low": _number(entry.found.difference.low),
+            "high": _number(entry.found.difference.high),
+            "more": entry.found.above,
+            "same": entry.found.ties,
+            "less": entry.found.below,
+            "effect": entry.found.effect,
+            "p": entry.found.p,
+            "p_adjusted": entry.p_adjusted,
+            "better": entry.column.better,
+            "verdict": entry.verdict,
+        }
+        for entry in comparisons
+    ]
+
+
+def write_estimates(analysis: Analysis, file: Path) -> None:
+    """Write a CSV file with one line per group and column, over all units and over those in common."""
+    axes = axes_of(analysis.settings)
+    units = {column.name: column.unit for column in analysis.columns}
+    rows = [
+        {key: group["axes"].get(key) for key in axes}
+        | {"runs": group["runs"], "counted": group["counted"], "over": over}
+        | {"column": name, "unit": units.get(name, ""), **(value or {"n": 0})}
+        for group in groups_of(analysis)
+        for over in ("overall", "common")
+        for name, value in group[over].items()
+    ]
+    write_rows(file, rows, [*axes, "runs", "counted", "over", "column", "unit", "value", "low", "high", "n"])
+
+
+def write_rows(file: Path, rows: Iterable[Mapping[str, Any]], columns: list[str]) -> None:
+    """Write a CSV file; what is missing stays empty."""
+    try:
+        with file.open("w", newline="", encoding="utf-8") as stream:
+            writer = csv.DictWriter(stream, columns, restval="")
+            writer.writeheader()
+            writer.writerows(rows)
+    except OSError as error:
+        raise InputError(f"cannot be written: {error.strerror}", file=file) from error
+
+
+def _plain(estimate: Estimate | None) -> dict[str, Any] | None:
+    if estimate is None:
+        return None
+    return {
+        "value": estimate.value,
+        "low": _number(estimate.low),
+        "high": _number(estimate.high),
+        "n": estimate.n,
+    }
+
+
+def _number(value: float) -> float | None:
+    return value if np.isfinite(value) else None

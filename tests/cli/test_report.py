@@ -1,0 +1,86 @@
+"""`mrpbench report` and the files it writes."""
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+
+def rows(file):
+    with Path(file).open(newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+@pytest.fixture
+def study(mrpbench):
+    """Return the command line in a folder with results of four runs."""
+    with Path("tiny.yaml").open("a") as stream:
+        stream.write("  planner.order: [given, farthest_first]\n")
+    code, _, errors = mrpbench("run", "tiny.yaml")
+    assert code == 0, errors
+    return mrpbench
+
+
+def stored():
+    lines = (line for file in Path("results/tiny/runs").iterdir() for line in file.read_text().splitlines())
+    return [json.loads(line) for line in lines]
+
+
+def test_tables_have_counts_intervals_and_rules(study):
+    code, output, errors = study("report", "results/tiny")
+    assert (code, errors) == (0, "")
+    assert "2/2        100 % [34, 100]" in output
+    for words in ("How the runs ended", "Pair by pair", "seed 0", "Wilson intervals", "2 times the planning limit"):
+        assert words in output
+
+
+def test_the_files_say_what_the_tables_say(study):
+    code, output, _ = study("report", "results/tiny", "--json", "--csv", "a.csv", "--pairs-csv", "p.csv")
+    assert code == 0
+    told = json.loads(output)
+    assert [group["statuses"] for group in told["groups"]] == [{"succeeded": 2}] * 2
+    one = told["groups"][0]
+    times = [
+        r["timing"]["planning_s"] for r in stored() if r["config"]["planner"]["order"] == one["axes"]["planner.order"]
+    ]
+    assert one["overall"]["timing.planning_s"]["value"] == pytest.approx(sum(times) / 2)
+    assert one["overall"]["timing.planning_s"]["n"] == 2
+    (line,) = [
+        row
+        for row in rows("a.csv")
+        if row["column"] == "timing.planning_s" and row["over"] == "overall" and row["planner.order"] == "given"
+    ]
+    assert (line["unit"], line["n"], line["low"]) == ("s", "2", "")
+    assert [row["column"] for row in rows("p.csv")] == [pair["column"] for pair in told["pairs"]]
+    assert Path("a.csv").read_text().startswith("planner.order,runs,counted,over,column,unit,value,low,high,n\n")
+
+
+def test_tables_for_papers(study):
+    assert study("report", "results/tiny", "--markdown", "a.md", "--latex", "a.tex")[0] == 0
+    markdown, latex = Path("a.md").read_text(), Path("a.tex").read_text()
+    assert "| given | 2 | 2 | 2/2 | 100 % [34, 100] |" in markdown
+    assert r"given & 2 & 2 & 2/2 & 100 \% [34, 100] &" in latex
+    assert latex.count(r"\begin{tabular}") == latex.count(r"\end{tabular}") == latex.count(r"\toprule")
+    assert "timing.planning\\_s" in latex
+
+
+def test_runs_as_parquet(study):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    assert study("report", "results/tiny", "--parquet", "a.parquet")[0] == 0
+    table = parquet.read_table("a.parquet").to_pylist()
+    assert {row["run_id"]: row["timing.planning_s"] for row in table} == {
+        record["run_id"]: record["timing"]["planning_s"] for record in stored()
+    }
+    assert {row["config.planner.order"] for row in table} == {"given", "farthest_first"}
+
+
+def test_a_file_that_cannot_be_written_is_one_line(study):
+    code, _, errors = study("report", "results/tiny", "--csv", "no/where.csv")
+    assert (code, errors) == (2, "no/where.csv: cannot be written: No such file or directory\n")
+
+
+def test_rows_by_some_options_only(study):
+    code, output, _ = study("report", "results/tiny", "--by", "planner.plugin", "--json")
+    assert code == 0
+    assert [group["runs"] for group in json.loads(output)["groups"]] == [4]

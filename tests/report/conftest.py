@@ -1,0 +1,61 @@
+"""Results folders made of records that tests write by hand."""
+
+import json
+
+import pytest
+
+from mrpbench_core.store.results import load
+
+INVOCATION = """\
+columns:
+  planning.cost: {unit: s, better: lower, description: what it costs, source: ''}
+  execution.duration_s: {unit: s, better: lower, description: how long, source: ''}
+"""
+
+
+def made(planner="cbs", seed=0, status="succeeded", *, repeat=0, cost=None, took=1.0, **more):
+    """A record; `scenario` and others replace its entries, `config` adds to its configuration."""
+    config = {
+        "planner": {"plugin": planner},
+        "scenario": {"plugin": "random", "robots": 5},
+        "limits": {"planning": 10.0, "wall": 1800.0},
+        "seed": seed,
+        "repeat": repeat,
+        "name": "x",
+        "metrics": {},
+    } | more.pop("config", {})
+    planned = status in ("succeeded", "goals_missed", "execution_aborted")
+    return {
+        "run_id": f"{planner}-{seed}-{repeat}-{config['scenario']['robots']}-{more.pop('tag', '')}",
+        "scenario_id": more.pop("scenario", f"scenario-{seed}"),
+        "attempt": 1,
+        "config": config,
+        "seed": seed,
+        "repeat": repeat,
+        "status": status,
+        "metrics": {"planning.solved": planned, "planning.cost": cost},
+        "timing": {"planning_s": took, "clock_bound": False},
+        "provenance": {},
+    } | more
+
+
+@pytest.fixture
+def results(tmp_path):
+    """Return a function that writes records into a results folder and loads it."""
+
+    def write(records, name="results", invocation=INVOCATION):
+        folder = tmp_path / name
+        (folder / "runs").mkdir(parents=True, exist_ok=True)
+        (folder / "invocations").mkdir(exist_ok=True)
+        (folder / "invocations" / "1.yaml").write_text(invocation)
+        lines = "".join(json.dumps(record) + "\n" for record in records)
+        (folder / "runs" / "1.jsonl").write_text(lines)
+        return load(folder)
+
+    return write
+
+
+@pytest.fixture
+def record():
+    """Return a function that makes a record."""
+    return made

@@ -1,0 +1,121 @@
+"""The numbers of a report: by hand on a few records, and recomputed with pandas as a reviewer would."""
+
+import pandas as pd
+import pytest
+from scipy import stats
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.report.analysis import analyse
+
+
+def numbers(analysis, setting=0):
+    return dict(zip(analysis.settings[setting].names, analysis.numbers[setting], strict=True))
+
+
+def test_success_is_overall_and_normalised(results, record):
+    """Of four scenarios `b` has a plan for three, of which `a` drives two well: 2/4 overall, 2/3 in common."""
+    ends = {
+        "a": ["succeeded", "succeeded", "goals_missed", "goals_missed"],
+        "b": ["succeeded", "succeeded", "succeeded", "plan_timeout"],
+    }
+    found = analyse([results([record(p, seed, end) for p in ends for seed, end in enumerate(ends[p])])])
+    a, b = numbers(found)["a"], numbers(found)["b"]
+    assert (a.overall["succeeded"].value, a.overall["succeeded"].n) == (0.5, 4)
+    assert (b.overall["succeeded"].value, b.overall["planned"].value) == (0.75, 0.75)
+    assert (a.common["succeeded"].value, a.common["succeeded"].n) == (pytest.approx(2 / 3), 3)
+    assert (b.common["succeeded"].value, b.common["succeeded"].n) == (1.0, 3)
+
+
+def test_means_in_common_are_over_scenarios_for_which_all_have_a_value(results, record):
+    costs = {"a": [1.0, 2.0, 30.0], "b": [2.0, 3.0, None]}
+    records = [record(p, seed, cost=costs[p][seed]) for p in costs for seed in range(3)]
+    found = analyse([results(records)], ["planning.cost"])
+    a, b = numbers(found)["a"], numbers(found)["b"]
+    assert (a.overall["planning.cost"].value, a.overall["planning.cost"].n) == (11.0, 3)
+    assert (a.common["planning.cost"].value, a.common["planning.cost"].n) == (1.5, 2)
+    assert (b.common["planning.cost"].value, b.common["planning.cost"].n) == (2.5, 2)
+
+
+def test_a_skipped_planner_takes_nothing_from_the_others(results, record):
+    records = [record("a", seed) for seed in range(3)] + [record("b", seed, "skipped") for seed in range(3)]
+    found = analyse([results(records)])
+    assert numbers(found)["b"].overall["succeeded"] is None
+    assert numbers(found)["a"].common["succeeded"].n == 3
+    assert "n/a" in found.tables()[0].rows[1]
+
+
+def test_one_that_never_plans_leaves_nothing_in_common(results, record):
+    records = [record("a", seed, cost=1.0) for seed in range(3)]
+    records += [record("b", seed, "plan_timeout") for seed in range(3)]
+    found = analyse([results(records)], ["planning.cost"])
+    assert numbers(found)["a"].common["planning.cost"] is None
+
+
+def test_one_that_is_not_executed_is_not_asked_for_executions(results, record):
+    driven = [record("a", seed, metrics={"execution.duration_s": 5.0 + seed}) for seed in range(3)]
+    planned = [record("b", seed, metrics={"execution.duration_s": None}) for seed in range(3)]
+    found = analyse([results(driven + planned)], ["execution.duration_s"])
+    assert numbers(found)["a"].common["execution.duration_s"].n == 3
+
+
+def test_pairs_are_made_on_common_scenarios_only(results, record):
+    records = [record("a", seed, cost=float(seed)) for seed in range(8)]
+    records += [record("b", seed, cost=seed + 1.0 + seed / 10) for seed in range(2, 12)]
+    (cost,) = [
+        c for c in analyse([results(records)], ["planning.cost"]).comparisons if c.column.name == "planning.cost"
+    ]
+    assert (cost.found.difference.n, cost.unpaired) == (6, (2, 4))
+    assert cost.found.difference.value == pytest.approx(1.45)
+    assert cost.found.p == pytest.approx(2 / 2**6)
+    assert cost.verdict == "worse"  # lower is better; the only test that could be significant
+
+
+def test_only_groups_that_differ_in_one_choice_are_compared(results, record):
+    def entry(planner, rate):
+        return [
+            record(planner, seed, tag=rate, config={"planner": {"plugin": planner}, "control_rate": rate})
+            for seed in range(3)
+        ]
+
+    found = analyse([results(entry("a", 10) + entry("a", 20) + entry("b", 10))])
+    compared = {(c.first, c.second) for c in found.comparisons}
+    assert compared == {("control_rate=10 a", "control_rate=20 a"), ("control_rate=10 a", "control_rate=10 b")}
+
+
+def test_a_column_nobody_has_is_refused(results, record):
+    with pytest.raises(InputError, match=r"did you mean 'planning\.cost'"):
+        analyse([results([record(cost=1.0)])], ["planning.costs"])
+
+
+def test_a_reviewer_recomputes_the_numbers_from_the_lines(results, record, tmp_path):
+    """The ten lines of docs/statistics.md, on a study with repeats, failures, and scenarios that only one has."""
+    records = []
+    for planner, slow in (("a", 0.0), ("b", 0.7)):
+        for seed in range(12):
+            for repeat in range(3):
+                failed = planner == "b" and seed in (3, 7) and repeat != 1
+                value = None if failed else 10.0 + seed % 5 + slow * (seed % 3) + 0.1 * repeat
+                status = "plan_timeout" if failed else "succeeded"
+                records.append(record(planner, seed, status, repeat=repeat, cost=value))
+    records.append(record("a", 99, "scenario_infeasible"))
+    folder = results(records).folder.path
+    found = analyse([results(records)], ["planning.cost"])
+
+    lines = pd.concat(pd.read_json(file, lines=True) for file in (folder / "runs").glob("*.jsonl"))
+    runs = pd.concat([lines.drop(columns="metrics"), pd.json_normalize(lines["metrics"])], axis=1)
+    runs = runs[~runs["status"].isin(["scenario_infeasible", "skipped"])]
+    runs["planner"] = [config["planner"]["plugin"] for config in runs["config"]]
+    runs["succeeded"] = runs["status"] == "succeeded"
+    by_scenario = runs.groupby(["planner", "scenario_id"])[["succeeded", "planning.cost"]].mean()
+    overall = by_scenario.groupby("planner").mean()
+    pairs = by_scenario["planning.cost"].unstack("planner").dropna()
+    p = stats.wilcoxon((pairs["b"] - pairs["a"]).loc[lambda d: d.abs() > 1e-9]).pvalue
+
+    for planner, entry in numbers(found).items():
+        for column in ("succeeded", "planning.cost"):
+            assert entry.overall[column].value == pytest.approx(overall.loc[planner, column])
+        assert entry.common["planning.cost"].value == pytest.approx(pairs[planner].mean())
+        assert entry.common["planning.cost"].n == len(pairs)
+    (cost,) = [c for c in found.comparisons if c.column.name == "planning.cost"]
+    assert cost.found.difference.value == pytest.approx((pairs["b"] - pairs["a"]).mean())
+    assert cost.found.p == pytest.approx(p)

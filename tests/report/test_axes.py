@@ -1,0 +1,43 @@
+"""What tells configurations apart."""
+
+import pytest
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.report.axes import find_axes, name_axes
+
+CBS, ECBS = {"plugin": "cbs"}, {"plugin": "ecbs", "w": 1.2}
+
+
+def config(planner, **more):
+    return {"planner": planner, "seed": 3, "name": "x", **more}
+
+
+def test_options_that_only_follow_from_the_plugin_are_left_out():
+    assert find_axes([config(CBS), config(ECBS)]) == [{"planner.plugin": "cbs"}, {"planner.plugin": "ecbs"}]
+
+
+def test_an_option_that_varies_within_a_plugin_stays():
+    axes = find_axes([config(CBS), config(ECBS), config({**ECBS, "w": 1.5})])
+    assert [entry.get("planner.w") for entry in axes] == [None, 1.2, 1.5]
+
+
+def test_a_plain_option_that_varies_stays():
+    axes = find_axes([config(CBS, control_rate=20.0), config(CBS, control_rate=10.0)])
+    assert axes == [{"control_rate": 20.0}, {"control_rate": 10.0}]
+
+
+def test_what_samples_of_one_configuration_differ_in_is_no_axis():
+    assert find_axes([config(CBS), config(CBS) | {"seed": 4, "repeat": 1, "name": "y"}]) == [{}, {}]
+
+
+def test_rows_can_be_made_by_some_options_only():
+    configs = [config(CBS, scenario={"robots": 5}), config(ECBS, scenario={"robots": 9})]
+    assert find_axes(configs, ["planner"]) == [{"planner.plugin": "cbs"}, {"planner.plugin": "ecbs"}]
+    assert find_axes(configs, ["scenario.robots"]) == [{"scenario.robots": 5}, {"scenario.robots": 9}]
+    with pytest.raises(InputError, match="did you mean 'planner'"):
+        find_axes(configs, ["planer"])
+
+
+def test_axes_are_named_in_few_words():
+    assert name_axes({"planner.plugin": "ecbs", "planner.w": 1.2, "scenario.robots": 9}) == "ecbs w=1.2 robots=9"
+    assert name_axes({"fleet": [{"robot": "burger", "count": 2}]}) == "fleet=[burger[count=2]]"

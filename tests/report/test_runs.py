@@ -1,0 +1,56 @@
+"""Records as columns."""
+
+import numpy as np
+
+from mrpbench_core.report.runs import PAR2, read_runs
+
+
+def test_a_run_without_a_plan_has_no_planning_time_but_a_penalised_one(results, record):
+    failed = record(seed=1, status="plan_timeout", took=10.02)
+    crashed = record(seed=2, status="crashed", error={"stage": "planning", "message": "boom"})
+    driving = record(seed=3, status="crashed", took=2.0, error={"stage": "execution", "message": "boom"})
+    runs = read_runs([results([record(took=1.0), failed, crashed, driving])])
+    assert runs.values["planned"].tolist() == [1, 0, 0, 1]
+    assert np.allclose(runs.values["timing.planning_s"], [1, np.nan, np.nan, 2], equal_nan=True)
+    assert runs.values[PAR2].tolist() == [1, 20, 20, 2]
+    assert runs.message == ["", "", "boom", "boom"]
+
+
+def test_yes_and_no_are_told_from_numbers(results, record):
+    runs = read_runs([results([record(cost=1), record(seed=1, cost=0)])])
+    assert {"succeeded", "planned", "planning.solved", "timing.clock_bound"} == runs.flags
+
+
+def test_null_is_no_number(results, record):
+    runs = read_runs([results([record(), record(seed=1, cost=3.0)])])
+    assert np.isnan(runs.values["planning.cost"][0])
+    assert runs.values["planning.cost"][1] == 3.0
+
+
+def test_only_what_is_asked_for_is_kept(results, record):
+    runs = read_runs([results([record(cost=1.0)])], ["planning.cost"])
+    assert set(runs.values) == {"succeeded", "planned", "planning.cost"}
+
+
+def test_of_a_run_in_two_folders_the_later_counts(results, record):
+    one = results([record(cost=1.0), record(seed=1, cost=1.0)], "one")
+    two = results([record(cost=2.0)], "two")
+    runs = read_runs([one, two])
+    assert runs.values["planning.cost"].tolist() == [1.0, 2.0]
+    assert runs.folder.tolist() == [0, 1]
+
+
+def test_scenarios_are_the_samples_unless_there_is_but_one(results, record):
+    several = read_runs([results([record(seed=seed, repeat=repeat) for seed in (0, 1) for repeat in (0, 1)])])
+    units, word = several.units(np.arange(4))
+    assert (units.tolist(), word) == ([0, 0, 1, 1], "scenarios")
+    one = read_runs([results([record(repeat=repeat, scenario="same") for repeat in (0, 1, 2)], "one")])
+    units, word = one.units(np.arange(3))
+    assert (len(set(units.tolist())), word) == (3, "runs")
+
+
+def test_runs_whose_scenario_was_never_drawn_stand_alone(results, record):
+    lost = [record(seed=seed, status="crashed", scenario=None) for seed in (1, 2)]
+    runs = read_runs([results([record(), *lost])])
+    units, _ = runs.units(np.arange(3))
+    assert len(set(units.tolist())) == 3
