@@ -6,7 +6,7 @@ from types import TracebackType
 from typing import ClassVar, Self
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.arrays import Float, Int16
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.world import World
@@ -48,10 +48,18 @@ class Simulator(Component):
 
     @abstractmethod
     def open(
-        self, world: World, fleet: Fleet, placements: Float, seed: int, period: float, movers: Sequence[float] = ()
+        self,
+        world: World,
+        fleet: Fleet,
+        placements: Float,
+        seed: int,
+        period: float,
+        movers: Sequence[float] = (),
+        levels: Int16 | None = None,
     ) -> Simulation:
-        """Place robots at `placements` f8[n,3] on level 0.
+        """Place robots at `placements` f8[n,3] on `levels` i2[n] (None: all on level 0).
 
         `period` is the control period in simulated seconds; the simulator subdivides it as it likes. `movers` are the
-        radii in metres of discs that are not robots, moved by `Inputs.movers`.
+        radii in metres of discs that are not robots, moved by `Inputs.movers`. Doors are shut at first; whoever knows
+        doors and lifts says so by `State.facilities` and moves them as `mrpbench_core.model.facilities` says.
         """

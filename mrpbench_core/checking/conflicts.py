@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Iterator
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
@@ -19,7 +20,7 @@ class Conflict(NamedTuple):
     """Two robots in one another's way."""
 
     kind: str
-    """vertex | swap | overtaking | following | footprint."""
+    """vertex | swap | overtaking | following | footprint | resource."""
     robots: tuple[int, int]
     where: tuple[int, int]
     """Vertices where they meet: the two ends of the first robot's element (equal for a vertex)."""
@@ -49,7 +50,8 @@ def find_conflicts(problem: Problem, plan: Plan, limit: int | None = None) -> li
     """The first `limit` conflicts (None = all) between robots of a plan whose paths are sound, in order of time."""
     stays = [stay for robot in range(len(problem)) for stay in _stays(problem, plan, robot)]
     horizon = FOREVER if problem.horizon is None else problem.horizon
-    found = [conflict for conflict in _pairs(problem, stays) if conflict.tick <= horizon]
+    pairs = chain(_pairs(problem, stays), _crowded(problem, stays))
+    found = [conflict for conflict in pairs if conflict.tick <= horizon]
     return sorted(set(found), key=lambda conflict: (conflict.tick, conflict))[:limit]
 
 
@@ -158,6 +160,26 @@ def _together(begin: Int, end: Int, chunk: int = 1 << 18) -> Iterator[tuple[Int,
         one = np.repeat(np.arange(row, until), size)
         yield one, one + 1 + np.arange(len(one)) - np.repeat(np.cumsum(size) - size, size)
         row = until
+
+
+def _crowded(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
+    """Rule 6 in half ticks: even ones are instants, odd ones lie between, and all intervals are closed."""
+    edges = problem.roadmap.edges
+    for resource in problem.roadmap.resources:
+        parts = {(vertex, vertex) for vertex in resource.vertices} | {tuple(edges[edge]) for edge in resource.edges}
+        uses = []
+        for stay in stays:
+            if (stay.tail, stay.head) in parts:
+                first, last = 2 * stay.begin + stay.moving, 2 * stay.end - stay.moving
+                uses.append((first, last + 2 * resource.setup_ticks, stay))
+        holding: dict[int, tuple[int, Stay]] = {}
+        for first, last, stay in sorted(uses, key=lambda use: use[:2]):
+            holding = {robot: (end, since) for robot, (end, since) in holding.items() if end >= first}
+            others = [since for robot, (_, since) in holding.items() if robot != stay.robot]
+            if len(others) >= resource.capacity:
+                yield _conflict("resource", others[-1], stay)
+            end = max(last, holding[stay.robot][0]) if stay.robot in holding else last
+            holding[stay.robot] = end, stay
 
 
 def _conflict(kind: str, one: Stay, other: Stay) -> Conflict:

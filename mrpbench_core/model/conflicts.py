@@ -9,7 +9,9 @@ Time is in ticks. A robot stands at a vertex during the *closed* interval [arriv
 4. *following* (only with `rules.following: forbidden`): one is on an edge into a vertex while another is on an edge out
    of it, or both are on one directed edge;
 5. *footprint* (only with the feature `footprints`): they occupy, at the same time, two elements (vertices, or edges as
-   straight segments, also ones that share an end) that are closer than the sum of their radii.
+   straight segments, also ones that share an end) that are closer than the sum of their radii;
+6. *resource*: they are among more robots than its `capacity` that use a resource of the roadmap at one time. A robot
+   uses it while it is on one of its elements and for `setup_ticks` ticks afterwards.
 
 With unit durations, rules 1 and 2 are the vertex and edge conflicts of Stern et al., "Multi-Agent Pathfinding:
 Definitions, Variants, and Benchmarks", SoCS 2019; rule 5 is the multi-agent path finding with large agents of Li et

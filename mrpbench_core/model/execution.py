@@ -35,7 +35,7 @@ class FleetView:
     mode: Byte = array("u1")
     """u1[n] of `Mode`."""
     granted: tuple[tuple[int, str], ...] = ()
-    """(robot, resource) pairs held now."""
+    """(robot, resource) pairs that may be used now: held, with the door open or the lift there with its doors open."""
 
 
 @attrs.frozen(kw_only=True)
@@ -45,7 +45,7 @@ class Orders:
     released: Int32 = array("i4")
     """i4[n]: number of leading path segments each robot may complete; never decreases within a revision."""
     requests: tuple[tuple[int, str], ...] = ()
-    """(robot, resource) pairs wanted."""
+    """(robot, resource) pairs wanted or in use, longest wanted first. Who no longer asks lets go."""
     replan: str | None = None
     """Why a new plan is wanted, if one is."""
 
@@ -156,7 +156,8 @@ class Inputs:
     movers: Float | None = None
     """f8[m,4]: x, y, vx, vy of things that are not robots, or None."""
     facilities: Mapping[str, float] = attrs.field(factory=dict)
-    """Door or lift name -> commanded opening 0..1."""
+    """Name of a door -> commanded opening 0..1; of a lift -> height in metres that its cabin is to go to; what is not
+    named stays as it is. See `mrpbench_core.model.facilities`."""
 
 
 @attrs.frozen(kw_only=True)
@@ -171,3 +172,5 @@ class State:
     contacts: Int32 = array("i4", 2)
     """i4[k,2]: robot and what it touched during the period (a robot of higher index, or -1 = wall or obstacle)."""
     facilities: Mapping[str, float] = attrs.field(factory=dict)
+    """Name of each door -> opening 0..1; of each lift -> height of its cabin in metres. Empty from simulators that know
+    neither."""

@@ -8,15 +8,23 @@ from mrpbench_core.model.arrays import Float, Int16, Int32, array
 
 @attrs.frozen(kw_only=True)
 class Resource:
-    """A door, lift or mutex that at most `capacity` robots may hold while on its vertices or edges."""
+    """A door, lift or mutex that at most `capacity` robots use at a time (rule 6 of `mrpbench_core.model.conflicts`).
+
+    A robot uses it while it is at one of its vertices or on one of its edges. To a dispatcher it is something to ask
+    for before the first of them, see `Orders.requests`.
+    """
 
     name: str
+    """Unique on a roadmap; of a door or lift its name in `mrpbench_core.model.facilities.Facilities`."""
     kind: str
     """door | lift | mutex."""
     capacity: int = 1
     vertices: tuple[int, ...] = ()
     edges: tuple[int, ...] = ()
     setup_ticks: int = 0
+    """Ticks for which it stays in use after a robot has left it: what it takes to be ready for another."""
+    passage: tuple[int, ...] = ()
+    """Of a door: its edges that lead through the doorway. On the others, which its leaves sweep, it is to be shut."""
 
 
 @attrs.frozen(kw_only=True)

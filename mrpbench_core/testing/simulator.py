@@ -1,16 +1,19 @@
 """What every simulator must keep: two TurtleBot3 Burgers in a room of 4 × 3 m."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
+import attrs
 import numpy as np
 
 from mrpbench_core.api.simulator import Simulation, Simulator
 from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.doors import opening_time
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
 from mrpbench_core.model.geometry import point_segment_distance
+from mrpbench_core.testing.building import CABIN, DOOR, RISE, building
 from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import require
+from mrpbench_core.testing.outcome import Skip, require
 from mrpbench_core.testing.room import HALF_WALL, PERIOD, ROBOT, WIDTH, fleet, room
 
 PLACES = ((1.0, 1.0, 0.0), (1.0, 2.0, 0.0))
@@ -147,6 +150,57 @@ class SimulatorConformance(ComponentConformance):
             ):
                 require(abs(found - wanted) < close, f"the beam to {name} reads {found:.3f} m instead of {wanted:.3f}")
 
+    def test_doors_let_robots_through_when_they_are_open(self) -> None:
+        with self.open_building([(1.5, 1.5, 0.0)], [0]) as simulation:
+            self.knows_facilities(simulation)
+            drive(simulation, [STILL], 0.5)
+            newest = of(simulation.scans()[-1], 0)[0]
+            assert ROBOT.lidar is not None
+            wanted = 2.0 - DOOR.thickness / 2 - 1.5 - ROBOT.lidar.mount[0]
+            require(
+                abs(newest - wanted) < 0.03, f"the beam to a shut door reads {newest:.3f} m instead of {wanted:.3f}"
+            )
+            drive(simulation, [(ROBOT.max_speed, 0.0)], 4.0)
+            x = simulation.state.pose[0, 0]
+            require(x < 2.0, f"a robot came through a shut door, to x = {x:.2f} m")
+            opened = [state.facilities["door"] for state in drive(simulation, [STILL], 3.0, {"door": 1.0})]
+            require(opened == sorted(opened) and opened[-1] == 1, "a door that is told to open does not")
+            soonest = opening_time(DOOR) / PERIOD
+            require(opened.index(1) + 1 >= soonest - 1, f"a door opens in less than its {opening_time(DOOR):g} s")
+            drive(simulation, [(ROBOT.max_speed, 0.0)], 6.0)
+            x = simulation.state.pose[0, 0]
+            require(x > 2.3, f"a robot does not come through an open door: it is at x = {x:.2f} m")
+
+    def test_lifts_carry_who_is_in_them(self) -> None:
+        with self.open_building([(*CABIN, 0.0), (1.0, 1.0, 0.0)], [0, 0]) as simulation:
+            self.knows_facilities(simulation)
+            before = simulation.state.pose
+            states = drive(simulation, [STILL, STILL], RISE + 1.0, {"lift": RISE})
+            require(states[-1].facilities["lift"] == RISE, "a lift does not go where it is told to go")
+            require(states[-1].level.tolist() == [1, 0], f"the robots are on levels {states[-1].level} after the ride")
+            moved = np.abs(states[-1].pose - before).max()
+            require(moved < 0.02, f"a ride in a lift moved a robot by {moved:.3f} (m, rad) in its cabin")
+
+    def test_levels_have_nothing_to_do_with_one_another(self) -> None:
+        with self.open_building([(1.0, 1.0, 0.0), (1.0, 1.0, 0.0)], [0, 1]) as simulation:
+            self.knows_facilities(simulation)
+            states = [simulation.state, *drive(simulation, [STILL, STILL], 1.0)]
+            touched = any(len(state.contacts) for state in states)
+            require(not touched, "two robots at one place of two levels touch one another")
+            for scan in simulation.scans():
+                require(scan.ranges.min() > 0.5, "a robot sees what is on another level")
+            require(states[-1].level.tolist() == [0, 1], "a robot did not stay on its level")
+
+    def knows_facilities(self, simulation: Simulation) -> None:
+        """Skip unless the simulator knows doors and lifts."""
+        if not simulation.state.facilities:
+            raise Skip("it knows neither doors nor lifts: its states have no facilities")
+
+    def open_building(self, places: Sequence[tuple[float, float, float]], levels: Sequence[int]) -> Simulation:
+        """A simulation of a building of two levels."""
+        poses = np.array(places)
+        return self.make().open(building(), fleet(len(places)), poses, 0, PERIOD, levels=np.array(levels, np.int16))
+
     def test_runs_are_equal_to_the_last_bit(self) -> None:
         first, second = self.history(), self.history()
         require(first == second, "the same inputs led to other states or scans the second time")
@@ -180,9 +234,15 @@ def inputs(*twists: tuple[float, float], movers: Sequence[tuple[float, float, fl
     return Inputs(twist=np.array(twists), movers=None if movers is None else np.array(movers, float))
 
 
-def drive(simulation: Simulation, twists: Sequence[tuple[float, float]], seconds: float) -> list[State]:
+def drive(
+    simulation: Simulation,
+    twists: Sequence[tuple[float, float]],
+    seconds: float,
+    facilities: Mapping[str, float] | None = None,
+) -> list[State]:
     """The states that constant commands lead to."""
-    return [simulation.step(inputs(*twists)) for _ in range(round(seconds / PERIOD))]
+    given = attrs.evolve(inputs(*twists), facilities=facilities or {})
+    return [simulation.step(given) for _ in range(round(seconds / PERIOD))]
 
 
 def of(scan: ScanBatch, robot: int) -> Float:

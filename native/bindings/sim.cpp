@@ -81,7 +81,7 @@ void step(Plane& self, const Matrix<2>& twist, const std::optional<Matrix<2>>& m
 }
 
 Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, const Matrix<3>& pose,
-                    const Matrix<2>& movers, const Vector<double>& radius) {
+                    const Matrix<2>& movers, const Vector<double>& radius, const std::optional<Matrix<4>>& leaves) {
   const std::size_t count = pose.shape(0), beams = static_cast<std::size_t>(self.beams());
   require(radius.size() == count + movers.shape(0), "each robot and mover has a radius");
   for (const std::int32_t robot : rows<std::int32_t>(robots)) {
@@ -94,7 +94,7 @@ Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, cons
     for (const Pose& it : rows<Pose>(pose)) centres.push_back({it.x, it.y});
     for (const Point& it : rows<Point>(movers)) centres.push_back(it);
     self.scan(rows<std::int32_t>(robots), rows<Pose>(pose), centres, rows<double>(radius),
-              {ranges.get(), robots.size() * beams});
+              leaves ? rows<Segment>(*leaves) : std::span<const Segment>{}, {ranges.get(), robots.size() * beams});
   }
   return own(std::move(ranges), robots.size(), beams);
 }
@@ -108,6 +108,12 @@ NB_MODULE(sim, module) {
       .def("__init__", &construct_plane, nb::kw_only(), "segments"_a, "radius"_a, "limit"_a, "acceleration"_a,
            "wheel_separation"_a, "pose"_a, "period"_a, "slip"_a, "actuation"_a, "seed"_a)
       .def("step", &step, "twist"_a, "movers"_a = nb::none())
+      .def(
+          "set_leaves", [](Plane& self, const Matrix<4>& segments) { self.set_leaves(rows<Segment>(segments)); },
+          "segments"_a)
+      .def(
+          "place", [](Plane& self, int robot, double x, double y) { self.place(robot, {x, y}); }, "robot"_a, "x"_a,
+          "y"_a)
       .def_prop_ro(
           "pose", [](const Plane& self) { return copied<double>(self.poses()); }, nb::rv_policy::automatic)
       .def_prop_ro(
@@ -123,5 +129,5 @@ NB_MODULE(sim, module) {
             new (self) Caster(copy<Segment>(segments), Lidar{beams, range, min_range, {forward, leftward}});
           },
           nb::kw_only(), "segments"_a, "beams"_a, "range"_a, "min_range"_a, "forward"_a, "leftward"_a)
-      .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a);
+      .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a, "leaves"_a = nb::none());
 }

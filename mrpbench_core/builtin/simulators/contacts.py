@@ -25,12 +25,14 @@ class Discs:
         self._both = self._second < robots
         self._spacing = radii[self._first] + radii[self._second]
 
-    def separate(self, before: Float, after: Float) -> tuple[Float, set[tuple[int, int]]]:
+    def separate(self, before: Float, after: Float, leaves: Float) -> tuple[Float, set[tuple[int, int]]]:
         """Resolve overlaps of discs that moved from `before` to `after`, f8[n,2] each and at most `stride` apart.
+
+        `leaves` f8[k,4] are the segments of what moves: doors.
 
         Returns where they end up, and the contacts: (robot, robot of higher index, or -1 for anything else).
         """
-        owner, walls = self._walls(after)
+        owner, walls = self._walls(after, leaves)
         centres = after
         contacts: set[tuple[int, int]] = set()
         for _ in range(_ROUNDS):
@@ -41,11 +43,12 @@ class Discs:
             centres = pushed
         return self._take_back(before, centres, owner, walls), contacts
 
-    def _walls(self, centres: Float) -> tuple[Int, Float]:
+    def _walls(self, centres: Float, leaves: Float) -> tuple[Int, Float]:
         """Robots i8[k] and the segments f8[k,4] each could touch."""
         near = [self._nearby(x, y) for x, y in centres[: self._robots].tolist()]
         owner = np.repeat(np.arange(self._robots), [len(segments) for segments in near])
-        return owner, np.concatenate(near) if near else np.empty((0, 4))
+        robot, leaf = _close(centres[: self._robots], self._radii[: self._robots], leaves)
+        return np.concatenate([owner, robot]), np.concatenate([*near, leaves[leaf]])
 
     def _push(self, centres: Float, owner: Int, walls: Float) -> tuple[Float | None, set[tuple[int, int]]]:
         """Where one round of pushing leads (None when nothing overlaps), and what overlapped."""
@@ -90,6 +93,17 @@ class Discs:
         stuck[self._second[tight & self._both]] = True
         stuck[owner[_overlap(centres, self._radii, owner, walls) > TOLERANCE]] = True
         return stuck
+
+
+def _close(centres: Float, radii: Float, leaves: Float) -> tuple[Int, Int]:
+    """Pairs of a robot and a segment whose boxes, with half a robot's width to spare, meet."""
+    if not len(leaves):
+        return np.empty(0, np.int64), np.empty(0, np.int64)
+    low, high = np.minimum(leaves[:, :2], leaves[:, 2:]), np.maximum(leaves[:, :2], leaves[:, 2:])
+    reach = 1.5 * radii[:, None, None]
+    meet = ((centres[:, None] + reach >= low) & (centres[:, None] - reach <= high)).all(axis=2)
+    robot, leaf = np.nonzero(meet)
+    return robot, leaf
 
 
 def _overlap(centres: Float, radii: Float, owner: Int, walls: Float) -> Float:

@@ -5,7 +5,7 @@ follows the command as fast as its limits allow; over each sub-step it drives th
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -14,49 +14,68 @@ from mrpbench_core.api import Simulation, Simulator
 from mrpbench_core.builtin.simulators.contacts import Discs
 from mrpbench_core.builtin.simulators.lidar import scan
 from mrpbench_core.builtin.simulators.nearby import Nearby
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.arrays import Float, Int16, Int32
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
+from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.fleet import Fleet, Lidar
 from mrpbench_core.model.poses import wrapped
 from mrpbench_core.model.scan_schedule import ScanSchedule
-from mrpbench_core.model.solids import segments
+from mrpbench_core.model.storeys import Storeys
 from mrpbench_core.model.world import World
 
 
 @attrs.frozen(kw_only=True)
 class Kinematic(Simulator):
-    """Unicycles and discs in the plane; level 0 of the world."""
+    """Unicycles and discs in the plane, in which levels lie side by side; doors and lifts move."""
 
     def open(
-        self, world: World, fleet: Fleet, placements: Float, seed: int, period: float, movers: Sequence[float] = ()
+        self,
+        world: World,
+        fleet: Fleet,
+        placements: Float,
+        seed: int,
+        period: float,
+        movers: Sequence[float] = (),
+        levels: Int16 | None = None,
     ) -> Simulation:
         """Place the robots; nothing here is random."""
         del seed
-        return _Plane(segments(world), fleet, placements, period, movers)
+        return _Plane(world, fleet, placements, period, movers, levels)
 
 
 class _Plane(Simulation):
     def __init__(
-        self, solids: Float, fleet: Fleet, placements: Float, period: float, movers: Sequence[float] = ()
+        self,
+        world: World,
+        fleet: Fleet,
+        placements: Float,
+        period: float,
+        movers: Sequence[float],
+        levels: Int16 | None,
     ) -> None:
         robots = fleet.robots
+        self._robot_radii = fleet.radii
         self._radii = np.concatenate([fleet.radii, np.asarray(movers, float)])
         self._limit = np.array([(robot.max_speed, robot.max_turn_rate) for robot in robots])
         self._acceleration = np.array([(robot.acceleration, robot.turn_acceleration) for robot in robots])
         # In a sub-step nothing moves farther than a quarter of the smallest radius: nothing passes through anything.
         stride = float(self._radii.min(initial=1.0)) / 4
         self._substeps = max(1, math.ceil(period * float(self._limit[:, 0].max(initial=0.0)) / stride))
-        self._discs = Discs(self._radii, len(robots), solids, stride)
         self._period, self._periods = period, 0
         self._schedule = ScanSchedule(fleet, period)
-        self._visible = {
-            lidar: Nearby(solids, lidar.range + math.hypot(*lidar.mount[:2])) for lidar in self._schedule.lidars
-        }
+        reach = {lidar: lidar.range + math.hypot(*lidar.mount[:2]) for lidar in self._schedule.lidars}
+        self._storeys = Storeys(world, max(reach.values(), default=0.0))
+        self._discs = Discs(self._radii, len(robots), self._storeys.segments, stride)
+        self._visible = {lidar: Nearby(self._storeys.segments, far) for lidar, far in reach.items()}
+        self._facilities = Facilities(world)
+        self._doing = self._facilities.initial()
+        self._leaves = self._storeys.leaves(self._facilities, self._doing)
         self._movers = np.full((len(movers), 2), np.inf)
-        self._pose, self._twist = np.array(placements, float).reshape(-1, 3), np.zeros((len(robots), 2))
-        self._level = np.zeros(len(robots), np.int16)
+        self._level: Int16 = np.zeros(len(robots), np.int16) if levels is None else np.array(levels, np.int16)
+        self._pose = self._storeys.spread(np.array(placements, float).reshape(-1, 3), self._level)
+        self._twist = np.zeros((len(robots), 2))
         self._scans = self._take_scans()
-        self._state = State(pose=self._pose, twist=self._twist, level=self._level, contacts=np.empty((0, 2), np.int32))
+        self._state = self._observe(np.empty((0, 2), np.int32))
 
     @property
     def state(self) -> State:
@@ -66,14 +85,29 @@ class _Plane(Simulation):
         command = np.clip(inputs.twist, -self._limit, self._limit)
         if inputs.movers is not None:
             self._movers = inputs.movers[:, :2]
+        self._operate(inputs.facilities)
         contacts: set[tuple[int, int]] = set()
         for _ in range(self._substeps):
             contacts |= self._advance(command, self._period / self._substeps)
         self._periods += 1
         self._scans += self._take_scans()
-        pairs = np.array(sorted(contacts), np.int32)
-        self._state = State(pose=self._pose, twist=self._twist, level=self._level, contacts=pairs)
+        self._state = self._observe(np.array(sorted(contacts), np.int32))
         return self._state
+
+    def _observe(self, contacts: Int32) -> State:
+        pose = self._storeys.gather(self._pose, self._level)
+        return State(pose=pose, twist=self._twist, level=self._level, contacts=contacts, facilities=self._doing)
+
+    def _operate(self, commands: Mapping[str, float]) -> None:
+        """Move doors and lifts, and who is in a lift."""
+        before, pose = self._doing, self._state.pose
+        after = self._facilities.advance(before, commands, self._period, pose, self._level, self._robot_radii)
+        if after == before:
+            return
+        self._doing = after
+        self._level = self._facilities.carried(before, after, pose, self._level)
+        self._pose = self._storeys.spread(pose, self._level)
+        self._leaves = self._storeys.leaves(self._facilities, after)
 
     def _advance(self, command: Float, dt: float) -> set[tuple[int, int]]:
         change = command - self._twist
@@ -86,7 +120,7 @@ class _Plane(Simulation):
         direction = np.stack([np.cos(heading), np.sin(heading)], axis=1)
         before = np.concatenate([self._pose[:, :2], self._movers])
         free = np.concatenate([self._pose[:, :2] + direction * chord[:, None], self._movers])
-        after, contacts = self._discs.separate(before, free)
+        after, contacts = self._discs.separate(before, free, self._leaves)
         self._twist = self._twist + reached
         for robot in np.flatnonzero((after != free).any(axis=1)).tolist():
             if robot < len(self._twist):  # what was pushed is as fast as it really went
@@ -112,7 +146,10 @@ class _Plane(Simulation):
     def _scan(self, lidar: Lidar, robot: int) -> Float:
         pose = self._pose[robot]
         others = np.concatenate([np.delete(self._pose[:, :2], robot, axis=0), self._movers])
-        return scan(lidar, pose, self._visible[lidar](pose[0], pose[1]), others, np.delete(self._radii, robot))
+        visible = self._visible[lidar](pose[0], pose[1])
+        if len(self._leaves):
+            visible = np.concatenate([visible, self._leaves])
+        return scan(lidar, pose, visible, others, np.delete(self._radii, robot))
 
     def close(self) -> None:
         """Nothing is held."""

@@ -22,9 +22,9 @@ class Caster {
   Caster(std::vector<Segment> segments, const Lidar& lidar);
 
   /// Ranges in metres of the lidars of `scanning`, row by row; infinity = no return. `centres` and `radius` are those
-  /// of all discs, of which the first are the robots; none sees itself.
+  /// of all discs, of which the first are the robots; none sees itself. `leaves` are solid besides the segments.
   void scan(std::span<const int> scanning, std::span<const Pose> poses, std::span<const Point> centres,
-            std::span<const double> radius, std::span<double> ranges) const;
+            std::span<const double> radius, std::span<const Segment> leaves, std::span<double> ranges) const;
 
   int beams() const { return lidar_.beams; }
 
@@ -38,6 +38,7 @@ class Caster {
     long first, count;
   };
 
+  Wall wall(const Segment& segment) const;
   void see_wall(const Wall& wall, Point origin, Point facing, double* nearness) const;
   void see_disc(Point offset, double radius, Point facing, double* nearness) const;
   Span between(Point right, Point left) const;

@@ -22,6 +22,9 @@ class Contacts {
  public:
   Contacts(std::vector<Segment> segments, std::vector<double> radius, int robots);
 
+  /// What moves and is solid: doors.
+  void set_leaves(std::span<const Segment> leaves) { neighbours_.set_leaves(leaves); }
+
   /// Resolve overlaps of discs that moved from `before` to `centres`, in place; touches are appended, some repeatedly.
   void separate(std::span<const Point> before, std::span<Point> centres, std::vector<Touch>& touches);
 

@@ -16,6 +16,9 @@ class Neighbours {
   /// Discs with `radius`, of which the first `robots` are robots.
   Neighbours(std::vector<Segment> segments, std::vector<double> radius, int robots);
 
+  /// What is solid besides the segments given at first, from now on.
+  void set_leaves(std::span<const Segment> leaves);
+
   /// Make the lists hold for `centres`.
   void refresh(std::span<const Point> centres);
 
@@ -35,7 +38,8 @@ class Neighbours {
   }
   bool hold(std::span<const Point> centres) const;
 
-  std::vector<Segment> segments_;
+  std::vector<Segment> segments_;  // the fixed ones, then the leaves
+  std::size_t fixed_;
   std::vector<double> radius_;
   int robots_;
   double largest_, skin_;

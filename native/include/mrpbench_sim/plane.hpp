@@ -33,6 +33,12 @@ class Plane {
   /// Advance by one control period. `movers` may be empty, which leaves them where they are.
   void step(std::span<const Twist> commands, std::span<const Point> movers);
 
+  /// What moves and is solid besides the segments given at first: doors, where they are from now on.
+  void set_leaves(std::span<const Segment> leaves) { contacts_.set_leaves(leaves); }
+
+  /// Put a robot elsewhere, as it is: a lift has carried it to another level.
+  void place(int robot, Point where);
+
   const std::vector<Pose>& poses() const { return poses_; }
   /// Over ground.
   const std::vector<Twist>& twists() const { return twists_; }

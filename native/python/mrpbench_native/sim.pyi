@@ -32,6 +32,10 @@ class Plane:
         """
     def step(self, twist: NDArray[np.float64], movers: NDArray[np.float64] | None = None) -> None:
         """Advance by one control period under commands f8[n,2]; put movers at f8[m,2], or leave them."""
+    def set_leaves(self, segments: NDArray[np.float64]) -> None:
+        """What is solid besides the segments given at first, from now on: f8[S,4] of doors."""
+    def place(self, robot: int, x: float, y: float) -> None:
+        """Put a robot elsewhere, as it is: a lift has carried it to another level."""
     @property
     def pose(self) -> NDArray[np.float64]:
         """f8[n,3]."""
@@ -61,8 +65,10 @@ class Caster:
         pose: NDArray[np.float64],
         movers: NDArray[np.float64],
         radius: NDArray[np.float64],
+        leaves: NDArray[np.float64] | None = None,
     ) -> NDArray[np.float64]:
         """Ranges f8[k,beams] of `robots` i4[k] among all robots at `pose` f8[n,3] and movers at f8[m,2]; inf = none.
 
-        `radius` f8[n+m]. No robot sees itself. A mover at infinity is nowhere.
+        `radius` f8[n+m]. No robot sees itself. A mover at infinity is nowhere. `leaves` f8[S,4] are
+        solid besides the segments.
         """

@@ -50,18 +50,22 @@ Caster::Caster(std::vector<Segment> segments, const Lidar& lidar)
       per_radian_(lidar.beams / kTurn),
       padding_(kRough * per_radian_),
       edge_(1 + static_cast<long>(2 * padding_)) {
-  for (const Segment& it : segments) {
-    const Point along = it.end - it.start;
-    walls_.push_back({it.start, along, lidar.range * lidar.range * dot(along, along)});
-  }
+  for (const Segment& it : segments) walls_.push_back(wall(it));
   for (int i = 0; i < lidar.beams; ++i) {
     cosine_.push_back(std::cos(i * (kTurn / lidar.beams)));
     sine_.push_back(std::sin(i * (kTurn / lidar.beams)));
   }
 }
 
+Caster::Wall Caster::wall(const Segment& segment) const {
+  const Point along = segment.end - segment.start;
+  return {segment.start, along, lidar_.range * lidar_.range * dot(along, along)};
+}
+
 void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, std::span<const Point> centres,
-                  std::span<const double> radius, std::span<double> ranges) const {
+                  std::span<const double> radius, std::span<const Segment> leaves, std::span<double> ranges) const {
+  std::vector<Wall> moving;
+  for (const Segment& it : leaves) moving.push_back(wall(it));
   double largest = 0;
   for (const double it : radius) largest = std::max(largest, it);
   DiscHash hash((lidar_.range + largest) / 2);
@@ -80,6 +84,7 @@ void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, st
     for (const std::int32_t wall : buckets_.near(origin)) {
       see_wall(walls_[static_cast<std::size_t>(wall)], origin, facing, nearness);
     }
+    for (const Wall& it : moving) see_wall(it, origin, facing, nearness);
     hash.near(origin, lidar_.range + largest, [&](int disc) {
       const auto at = static_cast<std::size_t>(disc);
       if (disc != robot) see_disc(centres[at] - origin, radius[at], facing, nearness);

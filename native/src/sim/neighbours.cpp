@@ -19,6 +19,7 @@ double skin_of(double largest) {
 
 Neighbours::Neighbours(std::vector<Segment> segments, std::vector<double> radius, int robots)
     : segments_(std::move(segments)),
+      fixed_(segments_.size()),
       radius_(std::move(radius)),
       robots_(robots),
       largest_(largest_of(radius_)),
@@ -34,6 +35,12 @@ bool Neighbours::hold(std::span<const Point> centres) const {
     if (!(dot(moved, moved) <= limit) && centres[i] != built_for_[i]) return false;  // what is nowhere may stay there
   }
   return true;
+}
+
+void Neighbours::set_leaves(std::span<const Segment> leaves) {
+  segments_.resize(fixed_);
+  segments_.insert(segments_.end(), leaves.begin(), leaves.end());
+  built_for_.clear();
 }
 
 void Neighbours::refresh(std::span<const Point> centres) {
@@ -53,9 +60,11 @@ void Neighbours::refresh(std::span<const Point> centres) {
     });
     std::sort(discs_.begin() + static_cast<std::ptrdiff_t>(first_disc_.back()), discs_.end());
     first_disc_.push_back(discs_.size());
-    for (const int wall : buckets_.near(centre)) {
+    const auto list = [&](int wall) {
       if (length(gap(segment(wall), centre)) <= radius(robot) + skin_ / 2) walls_.push_back(wall);
-    }
+    };
+    for (const int wall : buckets_.near(centre)) list(wall);
+    for (std::size_t leaf = fixed_; leaf < segments_.size(); ++leaf) list(static_cast<int>(leaf));
     first_wall_.push_back(walls_.size());
   }
 }

@@ -81,6 +81,15 @@ void Plane::step(std::span<const Twist> commands, std::span<const Point> movers)
   ++periods_;
 }
 
+void Plane::place(int robot, Point where) {
+  require(robot >= 0 && static_cast<std::size_t>(robot) < poses_.size(), "there is no such robot");
+  require(somewhere(where), "places must be finite");
+  const auto at = static_cast<std::size_t>(robot);
+  centres_[at] = where;
+  poses_[at].x = where.x;
+  poses_[at].y = where.y;
+}
+
 /// What the drives make of commands in this period.
 void Plane::command(std::span<const Twist> commands) {
   const bool random = chance_.slip > 0 || chance_.actuation > 0;

@@ -1,16 +1,18 @@
 """A native plane in motion."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from mrpbench_native.sim import Caster, Plane
 
 from mrpbench_core.api import Simulation
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.arrays import Float, Int16
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
+from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.scan_schedule import ScanSchedule
-from mrpbench_core.model.solids import segments
+from mrpbench_core.model.storeys import Storeys
 from mrpbench_core.model.world import World
 
 
@@ -27,8 +29,17 @@ class PlanarSimulation(Simulation):
         seed: int,
         period: float,
         movers: Sequence[float],
+        levels: Int16 | None,
     ) -> None:
-        robots, solids = fleet.robots, segments(world)
+        robots = fleet.robots
+        self._schedule = ScanSchedule(fleet, period)
+        reach = max((lidar.range + math.hypot(*lidar.mount[:2]) for lidar in self._schedule.lidars), default=0.0)
+        self._storeys, self._facilities = Storeys(world, reach), Facilities(world)
+        self._doing = self._facilities.initial()
+        self._leaves = self._storeys.leaves(self._facilities, self._doing)
+        self._level: Int16 = np.zeros(len(robots), np.int16) if levels is None else np.array(levels, np.int16)
+        solids = self._storeys.segments
+        self._robot_radius = fleet.radii
         self._radius = np.concatenate([fleet.radii, np.asarray(movers, float)])
         self._plane = Plane(
             segments=solids,
@@ -36,14 +47,14 @@ class PlanarSimulation(Simulation):
             limit=_table([(robot.max_speed, robot.max_turn_rate) for robot in robots]),
             acceleration=_table([(robot.acceleration, robot.turn_acceleration) for robot in robots]),
             wheel_separation=np.array([robot.wheel_separation for robot in robots], float),
-            pose=np.array(placements, float).reshape(-1, 3),
+            pose=self._storeys.spread(np.array(placements, float).reshape(-1, 3), self._level),
             period=period,
             slip=slip,
             actuation=actuation_noise,
             seed=seed % 2**64,
         )
+        self._plane.set_leaves(self._leaves)
         self._period, self._periods = period, 0
-        self._schedule = ScanSchedule(fleet, period)
         self._casters = {
             lidar: Caster(
                 segments=solids,
@@ -56,7 +67,6 @@ class PlanarSimulation(Simulation):
             for lidar in self._schedule.lidars
         }
         self._movers = np.full((len(movers), 2), np.inf)
-        self._level = np.zeros(len(robots), np.int16)
         self._state = self._observe()
         self._scans = self._take_scans()
 
@@ -69,6 +79,7 @@ class PlanarSimulation(Simulation):
         """Advance by one control period."""
         if inputs.movers is not None:
             self._movers = np.ascontiguousarray(inputs.movers[:, :2])
+        self._operate(inputs.facilities)
         self._plane.step(inputs.twist, self._movers)
         self._periods += 1
         self._state = self._observe()
@@ -77,7 +88,21 @@ class PlanarSimulation(Simulation):
 
     def _observe(self) -> State:
         plane = self._plane
-        return State(pose=plane.pose, twist=plane.twist, level=self._level, contacts=plane.contacts)
+        pose = self._storeys.gather(plane.pose, self._level)
+        return State(pose=pose, twist=plane.twist, level=self._level, contacts=plane.contacts, facilities=self._doing)
+
+    def _operate(self, commands: Mapping[str, float]) -> None:
+        """Move doors and lifts, and who is in a lift."""
+        before, pose, level = self._doing, self._state.pose, self._level
+        after = self._facilities.advance(before, commands, self._period, pose, level, self._robot_radius)
+        if after == before:
+            return
+        self._doing, self._level = after, self._facilities.carried(before, after, pose, level)
+        self._leaves = self._storeys.leaves(self._facilities, after)
+        self._plane.set_leaves(self._leaves)
+        spread = self._storeys.spread(pose, self._level)
+        for robot in np.flatnonzero(self._level != level).tolist():
+            self._plane.place(robot, *spread[robot, :2].tolist())
 
     def scans(self) -> tuple[ScanBatch, ...]:
         """Scans taken since the last call."""
@@ -90,7 +115,7 @@ class PlanarSimulation(Simulation):
         batches = []
         for lidar, robots in self._schedule.due(self._periods):
             scanning = np.array(robots, np.int32)
-            ranges = self._casters[lidar].scan(scanning, self._state.pose, self._movers, self._radius)
+            ranges = self._casters[lidar].scan(scanning, self._plane.pose, self._movers, self._radius, self._leaves)
             batches.append(ScanBatch(stamp=stamp, robot=scanning, ranges=ranges))
         return tuple(batches)
 

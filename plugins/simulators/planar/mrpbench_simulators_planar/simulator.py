@@ -6,7 +6,7 @@ import attrs
 from attrs.validators import and_, ge, le
 
 from mrpbench_core.api import Simulation, Simulator, option
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.arrays import Float, Int16
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.world import World
 from mrpbench_simulators_planar.simulation import PlanarSimulation
@@ -14,7 +14,7 @@ from mrpbench_simulators_planar.simulation import PlanarSimulation
 
 @attrs.frozen(kw_only=True)
 class Planar(Simulator):
-    """Differential drives with limits, discs that touch, lidars; in C++; level 0 of the world."""
+    """Differential drives, discs that touch, lidars; in C++. Levels lie side by side; doors and lifts move."""
 
     slip: float = option(
         0.0,
@@ -28,7 +28,14 @@ class Planar(Simulator):
     )
 
     def open(
-        self, world: World, fleet: Fleet, placements: Float, seed: int, period: float, movers: Sequence[float] = ()
+        self,
+        world: World,
+        fleet: Fleet,
+        placements: Float,
+        seed: int,
+        period: float,
+        movers: Sequence[float] = (),
+        levels: Int16 | None = None,
     ) -> Simulation:
         """Place the robots. A robot's slip and noise are functions of `seed`, its index and the period alone."""
-        return PlanarSimulation(self.slip, self.actuation_noise, world, fleet, placements, seed, period, movers)
+        return PlanarSimulation(self.slip, self.actuation_noise, world, fleet, placements, seed, period, movers, levels)

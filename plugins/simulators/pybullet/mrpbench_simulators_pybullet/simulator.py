@@ -6,14 +6,14 @@ import attrs
 from attrs.validators import ge, gt
 
 from mrpbench_core.api import Simulation, Simulator, option
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.arrays import Float, Int16
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.world import World
 
 
 @attrs.frozen(kw_only=True)
 class PyBullet(Simulator):
-    """Rigid bodies with driven wheels among vertical walls; level 0 of the world."""
+    """Rigid bodies with driven wheels among vertical walls. Levels lie side by side; doors and lifts move."""
 
     timestep: float = option(
         1 / 240, help="physics step; shortened so that a whole number fills a control period", unit="s", validator=gt(0)
@@ -21,7 +21,14 @@ class PyBullet(Simulator):
     iterations: int = option(50, help="iterations of the constraint solver in each step", validator=ge(1))
 
     def open(
-        self, world: World, fleet: Fleet, placements: Float, seed: int, period: float, movers: Sequence[float] = ()
+        self,
+        world: World,
+        fleet: Fleet,
+        placements: Float,
+        seed: int,
+        period: float,
+        movers: Sequence[float] = (),
+        levels: Int16 | None = None,
     ) -> Simulation:
         """Place the robots; nothing here is random.
 
@@ -31,4 +38,4 @@ class PyBullet(Simulator):
         del seed
         from mrpbench_simulators_pybullet.simulation import BulletSimulation
 
-        return BulletSimulation(self, world, fleet, placements, period, movers)
+        return BulletSimulation(self, world, fleet, placements, period, movers, levels)

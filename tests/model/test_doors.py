@@ -1,0 +1,88 @@
+"""Where leaves are, by hand."""
+
+import math
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mrpbench_core.model.doors import leaves, opening_time, swept
+from mrpbench_core.model.geometry import inside, point_segment_distance
+from mrpbench_core.model.world import Door
+
+DOOR = Door(name="d", start=(0.0, 0.0), end=(2.0, 0.0))
+KINDS = ("hinged", "double_hinged", "sliding", "double_sliding", "telescope", "double_telescope")
+
+
+def where(opening, **changes):
+    return np.round(leaves(attrs.evolve(DOOR, **changes), opening), 9).tolist()
+
+
+@pytest.mark.parametrize("motion", KINDS)
+def test_shut_leaves_fill_the_doorway(motion):
+    lines = leaves(attrs.evolve(DOOR, motion=motion, right_left_ratio=1.5), 0.0)
+    gap = [point_segment_distance(np.array([x, 0.0]), lines[:, :2], lines[:, 2:]).min() for x in np.linspace(0, 2, 41)]
+    assert max(gap) < 1e-9
+    assert np.abs(lines[:, [1, 3]]).max() < 1e-9
+
+
+def test_a_hinged_leaf_turns_about_its_post():
+    assert where(1.0, motion="hinged") == [[0, 0, 0, 2]]
+    assert where(0.5, motion="hinged", motion_direction=-1) == [[0, 0, round(math.sqrt(2), 9), -round(math.sqrt(2), 9)]]
+    assert where(1.0, motion="hinged", motion_axis="end") == [[2, 0, 2, -2]]
+
+
+def test_two_hinged_leaves_open_to_one_side():
+    assert where(1.0, motion="double_hinged", right_left_ratio=3.0) == [[0, 0, 0, 0.5], [2, 0, 2, 1.5]]
+
+
+def test_sliding_leaves_go_to_their_posts_and_beyond():
+    assert where(1.0, motion="sliding") == [[-2, 0, 0, 0]]
+    assert where(0.5, motion="sliding", motion_axis="end") == [[3, 0, 1, 0]]
+    assert where(1.0, motion="double_sliding") == [[-1, 0, 0, 0], [3, 0, 2, 0]]
+    assert where(1.0, motion="telescope") == [[-1, 0, 0, 0], [-1, 0, 0, 0]]
+
+
+def test_it_takes_as_long_as_leaves_are_long():
+    times = {motion: opening_time(attrs.evolve(DOOR, motion=motion)) for motion in KINDS}
+    quarter = math.pi / 2 / 0.5
+    assert times == {
+        "hinged": quarter,
+        "double_hinged": quarter,
+        "sliding": 4.0,
+        "double_sliding": 2.0,
+        "telescope": 2.0,
+        "double_telescope": 1.0,
+    }
+
+
+@given(
+    st.sampled_from(KINDS),
+    st.sampled_from(["start", "end"]),
+    st.sampled_from([1, -1]),
+    st.floats(-170, 170),
+    st.floats(0.2, 5),
+    st.floats(0, 1),
+)
+def test_what_is_swept_holds_the_leaves_at_every_opening(motion, axis, direction, degrees, ratio, opening):
+    door = attrs.evolve(
+        DOOR,
+        motion=motion,
+        motion_axis=axis,
+        motion_direction=direction,
+        motion_degrees=degrees,
+        right_left_ratio=ratio,
+    )
+    polygons = swept(door)
+    for line in leaves(door, opening):
+        for share in (0.0, 0.5, 1.0):
+            point = line[:2] + share * (line[2:] - line[:2])
+            gap = [
+                0.0
+                if inside(polygon, point)
+                else point_segment_distance(point, polygon, np.roll(polygon, -1, axis=0)).min()
+                for polygon in polygons
+            ]
+            assert min(gap) < 0.015  # the arc is drawn by straight pieces

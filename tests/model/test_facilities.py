@@ -1,0 +1,88 @@
+"""Doors and lifts in motion."""
+
+import attrs
+import numpy as np
+import pytest
+
+from mrpbench_core.model.facilities import STOREY, Facilities, ride_time
+from mrpbench_core.model.storeys import Storeys
+from mrpbench_core.model.world import Door, Level, World
+from mrpbench_core.testing.building import CABIN, RISE, building
+
+NOBODY = np.empty((0, 3)), np.empty(0, np.int16), np.empty(0)
+
+
+@pytest.fixture
+def facilities():
+    return Facilities(building())
+
+
+def run(facilities, state, commands, seconds, robots=NOBODY, period=0.05):
+    for _ in range(round(seconds / period)):
+        state = facilities.advance(state, commands, period, *robots)
+    return state
+
+
+def test_everything_has_a_name_and_begins_shut(facilities):
+    assert facilities.names == ("door", "lift/entrance", "lift")
+    assert facilities.initial() == {"door": 0.0, "lift/entrance": 0.0, "lift": 0.0}
+
+
+def test_doors_without_a_name_or_with_one_name_get_one():
+    doors = tuple(Door(name=name, start=(0, y), end=(1, y)) for y, name in enumerate(["", "a", "b"]))
+    levels = (Level(name="L1", doors=doors), Level(name="L2", doors=doors[1:2]))
+    assert Facilities(World(name="w", levels=levels)).names == ("L1/#0", "L1/a#1", "b", "L2/a#0")
+
+
+def test_doors_and_cabins_take_their_time(facilities):
+    state = run(facilities, facilities.initial(), {"door": 1.0, "lift": RISE}, 1.0)
+    assert state == {"door": pytest.approx(0.5), "lift/entrance": 0.0, "lift": pytest.approx(1.0)}
+    state = run(facilities, state, {"door": 1.0, "lift": RISE}, 2.5)
+    assert (state["door"], state["lift"]) == (1.0, RISE)
+    assert run(facilities, state, {}, 1.0) == state
+
+
+def test_a_leaf_stops_before_a_robot_and_goes_on_when_it_is_gone(facilities):
+    opened = facilities.initial() | {"door": 1.0}
+    robot = np.array([[2.0, 1.5, 0.0]]), np.zeros(1, np.int16), np.array([0.1])
+    stopped = run(facilities, opened, {"door": 0.0}, 10.0, robot)["door"]
+    assert 0.5 < stopped < 0.7  # its edge is at y = 1 + (1 - opening)
+    assert run(facilities, opened, {"door": 0.0}, 10.0)["door"] == 0.0
+    elsewhere = robot[0], np.ones(1, np.int16), robot[2]
+    assert run(facilities, opened, {"door": 0.0}, 10.0, elsewhere)["door"] == 0.0
+
+
+def test_who_touches_a_shut_door_does_not_keep_it_shut(facilities):
+    robot = np.array([[1.885, 1.5, 0.0]]), np.zeros(1, np.int16), np.array([0.1])
+    assert run(facilities, facilities.initial(), {"door": 1.0}, 3.0, robot)["door"] == 1.0
+
+
+def test_cabins_carry_who_is_in_them_on_their_level(facilities):
+    pose = np.array([[*CABIN, 0.0], [*CABIN, 0.0], [1.0, 1.0, 0.0]])
+    before, after = facilities.initial(), facilities.initial() | {"lift": 2.0}
+    assert facilities.carried(before, after, pose, np.array([0, 1, 0], np.int16)).tolist() == [1, 1, 0]
+
+
+def test_doors_of_a_lift_are_shut_where_the_cabin_is_not(facilities):
+    here, elsewhere = (
+        facilities.outlines(facilities.initial() | {"lift/entrance": 1.0, "lift": height}, 0) for height in (0.0, RISE)
+    )
+    assert not np.array_equal(here, elsewhere)
+    assert np.array_equal(elsewhere, facilities.outlines(facilities.initial(), 0))
+
+
+def test_levels_without_elevations_lie_a_storey_apart():
+    world = building()
+    flat = attrs.evolve(world, levels=tuple(attrs.evolve(level, elevation=0.0) for level in world.levels))
+    assert Facilities(flat).heights == {"lift": {0: 0.0, 1: STOREY}}
+    assert ride_time(world, world.lifts[0], 0, 1) == pytest.approx(2 * 0.8 + RISE)
+
+
+def test_levels_lie_out_of_reach_of_one_another():
+    storeys = Storeys(building(), reach=10.0)
+    places = np.array([[0.0, 0.0, 0.3], [4.0, 3.0, 0.2]])
+    low, high = (storeys.spread(places, np.full(2, level, np.int16)) for level in (0, 1))
+    assert np.array_equal(low, places)
+    assert high[:, 0].min() - low[:, 0].max() > 10.0
+    assert storeys.gather(high, np.ones(2, np.int16)) == pytest.approx(places)
+    assert len(storeys.segments) == 2 * 6 * 4
