@@ -12,6 +12,7 @@ from mrpbench_core.api.importer import Importer, Observed, Track
 from mrpbench_core.api.localizer import Localizer, LocalizerSession
 from mrpbench_core.api.metric import Column, Metric, Value
 from mrpbench_core.api.navigator import Navigator, NavigatorSession
+from mrpbench_core.api.plan_filter import PlanFilter
 from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.api.scenario import ScenarioSource
@@ -24,6 +25,7 @@ KINDS: dict[str, type[Component]] = {
     "scenario": ScenarioSource,
     "assigner": Assigner,
     "planner": Planner,
+    "plan_filter": PlanFilter,
     "dispatcher": Dispatcher,
     "navigator": Navigator,
     "controller": Controller,
@@ -61,6 +63,7 @@ __all__ = [
     "Navigator",
     "NavigatorSession",
     "Observed",
+    "PlanFilter",
     "Planner",
     "Promise",
     "RoadmapBuilder",

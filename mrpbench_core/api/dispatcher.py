@@ -20,6 +20,8 @@ class DispatcherSession(ABC):
     def adopt(self, problem: Problem, plan: Plan) -> None:
         """Continue with a new plan that begins with what was released of the old one (`problem.commitments`).
 
+        Segments keep their indices, so progress counts for the new plan as it did for the old one.
+
         Raises:
             DispatchError: the new plan cannot be released safely from here; the old one stays in force.
         """

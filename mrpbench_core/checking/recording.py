@@ -14,6 +14,7 @@ WIDTH = {"truth": 3, "truth_twist": 2, "estimate": 3, "odometry": 5, "command": 
 TIMES = {
     "contact_time": ("contact",),
     "scan_time": ("scan_robot", "scan_ranges"),
+    "route_time": ("route_revision", "route_robot", "route_waypoint", "route_level", "route_speed"),
     "event_time": ("event_kind", "event_robot", "event_detail"),
 }
 """Channels with a time axis of their own."""
@@ -29,8 +30,8 @@ def check_recording(channels: Channels, fleet: Fleet) -> list[str]:
     """What is wrong with a recording, one sentence each; at most one for each robot, channel and rule.
 
     Times increase; shapes fit the fleet; poses and commands are finite; `released`, `reached` and `cleared` never
-    decrease (except where an event `replan` falls between two samples), nothing is reached before it is released, and
-    no start vertex is cleared before the segment to it is reached; no robot jumps farther than its speed allows.
+    decrease, nothing is reached before it is released, and no start vertex is cleared before the segment to it is
+    reached; no robot jumps farther than its speed allows.
     """
     if "time" not in channels:
         return ["has no channel time"]
@@ -78,8 +79,9 @@ def _order(channels: Channels) -> Iterator[str]:
     time = channels["time"]
     for name in ("released", "reached", "cleared"):
         if name in channels:
-            back = (np.diff(channels[name], axis=0) < 0) & ~_replanned(channels)[:, None]
-            yield from _first(back, time[1:], f"robot {{robot}}: {name} decreases at {{time:g}} s")
+            yield from _first(
+                np.diff(channels[name], axis=0) < 0, time[1:], f"robot {{robot}}: {name} decreases at {{time:g}} s"
+            )
     if "released" in channels and "reached" in channels:
         early = channels["reached"] > channels["released"]
         yield from _first(early, time, "robot {robot} reached at {time:g} s what was not released")
@@ -88,23 +90,13 @@ def _order(channels: Channels) -> Iterator[str]:
         yield from _first(early, time, "robot {robot} cleared at {time:g} s what it had not reached")
 
 
-def _replanned(channels: Channels) -> NDArray[np.bool_]:
-    """Which intervals between samples hold an event `replan`: bool[T-1]."""
-    time = channels["time"]
-    result = np.zeros(max(0, len(time) - 1), bool)
-    if "event_kind" in channels and len(result):
-        at = channels["event_time"][channels["event_kind"] == "replan"]
-        result[np.clip(np.searchsorted(time, at) - 1, 0, len(result) - 1)] = True
-    return result
-
-
 def _indices(channels: Channels, robots: int) -> Iterator[str]:
     if "contact" in channels:
         contact = channels["contact"].reshape(-1, 2)
         one, other = contact[:, 0], contact[:, 1]
         if ((one < 0) | (one >= robots) | (other < -1) | (other >= robots) | (one == other)).any():
             yield "contact names a robot that does not exist, or a robot touching itself"
-    for name, least in (("scan_robot", 0), ("event_robot", -1)):
+    for name, least in (("scan_robot", 0), ("event_robot", -1), ("route_robot", 0)):
         values = channels.get(name, np.empty(0))
         if ((values < least) | (values >= robots)).any():
             yield f"{name} names a robot that does not exist"

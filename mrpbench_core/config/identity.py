@@ -6,7 +6,7 @@ later version of a plugin adds. Files count by content. `NOT_IDENTIFYING` keys d
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ import attrs
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.canonical import plugin_name, scalar
 from mrpbench_core.config.content import content_hash
-from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING, RunConfig
+from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING, ONLY_EXECUTION, RunConfig
 from mrpbench_core.config.validation import default_of
 from mrpbench_core.model.problem import Feature
 
@@ -31,10 +31,10 @@ def run_id(config: RunConfig, folder: Path) -> str:
 
 def choices(config: RunConfig, folder: Path) -> dict[str, Any]:
     """What identifies a run, as plain data."""
-    chosen = {}
+    chosen, ignored = {}, _ignored(config)
     for field in attrs.fields(RunConfig):
-        if field.name not in _ignored(config) and _differs(config, field):
-            chosen[field.name] = _chosen(getattr(config, field.name), folder, field.name)
+        if field.name not in ignored and _differs(config, field):
+            chosen[field.name] = _chosen(getattr(config, field.name), folder, field.name, ignored)
     return {name: value for name, value in chosen.items() if value != {} and not _is_default_plugin(name, value)}
 
 
@@ -43,31 +43,31 @@ def _ignored(config: RunConfig) -> set[str]:
     if getattr(config.planner, "assign", False) is True and Feature.GOAL_SETS in config.planner.supports:
         ignored.add("assigner")  # the planner chooses among all goals itself
     if config.simulator is None:
-        ignored |= {name for name in EXECUTION if getattr(config, name) is None}
+        ignored |= {name for name in EXECUTION if getattr(config, name) is None} | set(ONLY_EXECUTION)
     return ignored
 
 
 def _is_default_plugin(name: str, value: Any) -> bool:
     default = attrs.fields_dict(RunConfig)[name].metadata.get("written_default")
-    return isinstance(default, str) and value == {"plugin": default}
+    return isinstance(default, str) and value == (None if default == "none" else {"plugin": default})
 
 
-def _chosen(value: Any, folder: Path, key: str) -> Any:
+def _chosen(value: Any, folder: Path, key: str, ignored: Set[str]) -> Any:
     if isinstance(value, Path):
         return content_hash(value)
     if attrs.has(type(value)):
         named = {"plugin": plugin_name(value, folder)} if isinstance(value, Component) else {}
         return named | {
-            field.alias: _chosen(getattr(value, field.name), folder, f"{key}.{field.alias}")
+            field.alias: _chosen(getattr(value, field.name), folder, f"{key}.{field.alias}", ignored)
             for field in attrs.fields(type(value))
-            if field.init and f"{key}.{field.alias}" not in NOT_IDENTIFYING and _differs(value, field)
+            if field.init and f"{key}.{field.alias}" not in ignored and _differs(value, field)
         }
     if isinstance(value, Mapping):
-        return {name: _chosen(inner, folder, key) for name, inner in value.items()}
+        return {name: _chosen(inner, folder, key, ignored) for name, inner in value.items()}
     if isinstance(value, frozenset):
-        return sorted((_chosen(inner, folder, key) for inner in value), key=repr)
+        return sorted((_chosen(inner, folder, key, ignored) for inner in value), key=repr)
     if isinstance(value, tuple | list):
-        return [_chosen(inner, folder, key) for inner in value]
+        return [_chosen(inner, folder, key, ignored) for inner in value]
     return scalar(value)
 
 

@@ -15,6 +15,7 @@ from mrpbench_core.api import (
     Localizer,
     Metric,
     Navigator,
+    PlanFilter,
     Planner,
     RoadmapBuilder,
     ScenarioSource,
@@ -119,9 +120,26 @@ class Limits:
 
 @attrs.frozen(kw_only=True)
 class Replanning:
-    """What a new plan costs during execution."""
+    """When the planner is asked again during execution, and what that costs."""
 
-    latency: float = option(0.0, help="simulated time until it takes effect", unit="s", validator=validators.ge(0))
+    delay: float | None = option(
+        None,
+        help="a robot this late on the plan calls for a new one; none: never",
+        unit="s",
+        validator=validators.optional(validators.gt(0)),
+    )
+    period: float | None = option(
+        None,
+        help="a new plan this often, whatever happens; none: never",
+        unit="s",
+        validator=validators.optional(validators.gt(0)),
+    )
+    latency: float = option(
+        0.0,
+        help="simulated time until a new plan takes effect; meanwhile nothing more is released",
+        unit="s",
+        validator=validators.ge(0),
+    )
 
 
 def _is_folder_name(_: Any, field: "attrs.Attribute[str]", value: str) -> None:
@@ -147,6 +165,7 @@ class RunConfig:
     )
     assigner: Assigner = block("ortools_mip", help="decides which robot does which task")
     planner: Planner = block(help="turns the problem into one timed path per robot")
+    plan_filter: PlanFilter | None = block("none", help="thins out the waypoints of the plan before it is driven")
     dispatcher: Dispatcher | None = block(
         "adg", help="decides how far along its path each robot may go", validator=_drives
     )
@@ -162,13 +181,16 @@ class RunConfig:
     export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")
     recording: Recording = option(Recording(), help="what is kept of an execution")
     limits: Limits = option(Limits(), help="when a stage is ended")
-    replanning: Replanning = option(Replanning(), help="what a new plan costs during execution")
+    replanning: Replanning = option(Replanning(), help="when the planner is asked again during execution")
     seed: int = option(0, help="of scenario and planner", validator=validators.ge(0))
     repeat: int = option(0, help="of the noise: the same scenario again", validator=validators.ge(0))
 
 
 EXECUTION = ("dispatcher", "navigator", "controller", "localizer")
 """Without a simulator these are None unless the file names them."""
+
+ONLY_EXECUTION = ("plan_filter", "control_rate", "noise", "replanning", "limits.execution")
+"""Keys that do not change what a run does when there is no simulator."""
 
 NOT_IDENTIFYING = ("name", "metrics", "export", "recording", "limits.wall")
 """Keys that do not change what a run does."""

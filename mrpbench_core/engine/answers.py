@@ -26,7 +26,8 @@ class Answers:
     """
 
     def __init__(self, length: NDArray[Any]) -> None:
-        self._length = length
+        self.length = length
+        """Set it anew when a new plan takes effect."""
         self._robots = len(length)
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
@@ -69,7 +70,7 @@ class Answers:
         self._is(who, orders, Orders)
         self._one_each(who, "released", orders.released)
         self._no_robot(who, "released less than before", orders.released < self._released)
-        self._no_robot(who, "released more segments than there are", orders.released > self._length)
+        self._no_robot(who, "released more segments than there are", orders.released > self.length)
         self._released = orders.released
         return orders
 
@@ -119,6 +120,15 @@ def check_drawn(scenario: Scenario, robots: int) -> Scenario:
         if not len(rows) or not np.isfinite(rows[:, :2]).all():
             _refuse("the scenario", f"a {place} that is nowhere")
     return scenario
+
+
+def check_kept(kept: Any, waypoints: int) -> NDArray[np.bool_]:
+    """Of a plan filter."""
+    if not isinstance(kept, np.ndarray) or kept.dtype != bool or kept.shape != (waypoints,):
+        _refuse("the plan filter", f"something other than bool[{waypoints}]")
+    if not (kept[0] and kept[-1]):
+        _refuse("the plan filter", "a path without its start or its end")
+    return kept
 
 
 def _refuse(who: str, what: str) -> NoReturn:

@@ -11,11 +11,15 @@ from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.mission import MissionError, Outcome, Stack, execute_plan
 from mrpbench_core.engine.noise import Disturbances
+from mrpbench_core.engine.planning import call_planner, judge, left_for_planning
 from mrpbench_core.engine.preparation import Announce, Ended
 from mrpbench_core.engine.recorder import Recorder
-from mrpbench_core.engine.routes import placements
+from mrpbench_core.engine.replanning import Replans
+from mrpbench_core.engine.routes import Router, placements
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.model.execution import State
+from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
+from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import FinishedRun, RunContext
 from mrpbench_core.store.paths import RunPaths
@@ -25,6 +29,7 @@ from mrpbench_core.store.recording import Recording, RecordingWriter
 def drive(
     config: RunConfig,
     context: RunContext,
+    router: Router,
     paths: RunPaths,
     announce: Announce,
     timing: dict[str, Any],
@@ -48,7 +53,8 @@ def drive(
             exports.append(exporter.open(context, paths.exports / name))
         recorder = Recorder(config.recording.rate, context.period, sink)
         began = time.perf_counter()
-        outcome = _simulate(config, context, recorder, stepped)
+        replans = _replans(config, context, router, announce, timing)
+        outcome = _simulate(config, context, recorder, replans, stepped)
         ended = _judge(outcome, config)
         timing["execution_wall_s"] = time.perf_counter() - began
         timing["real_time_factor"] = outcome.simulated_s / timing["execution_wall_s"]
@@ -77,8 +83,31 @@ def measure_recording(config: RunConfig, file: Path) -> tuple[dict[str, Any], di
         recording.close()
 
 
+def _replans(
+    config: RunConfig, context: RunContext, router: Router, announce: Announce, timing: dict[str, Any]
+) -> Replans:
+    def ask(problem: Problem) -> tuple[PlanResult, str | None]:
+        if reason := config.planner.skip(problem):
+            return PlanResult(status=PlanStatus.GAVE_UP), f"the planner {reason}"
+        announce("replanning", {"limit_s": config.limits.planning})
+        budget = Budget(wall_s=config.limits.planning, memory_bytes=left_for_planning(config.limits.memory))
+        result, spent = call_planner(config.planner, problem, budget)
+        announce("execution", {})
+        timing["replanning_s"] = timing.get("replanning_s", 0.0) + spent["planning_s"]
+        timing["clock_bound"] = timing.get("clock_bound", False) or spent["clock_bound"]
+        result, fault = judge(config.planner, problem, result)
+        return result, fault or (f"the planner ended with {result.status}" if result.plan is None else None)
+
+    assert context.result.plan is not None
+    return Replans(config.replanning, ask, router, context.problem, context.result.plan)
+
+
 def _simulate(
-    config: RunConfig, context: RunContext, recorder: Recorder, stepped: Callable[[float, State], None]
+    config: RunConfig,
+    context: RunContext,
+    recorder: Recorder,
+    replans: Replans,
+    stepped: Callable[[float, State], None],
 ) -> Outcome:
     assert config.simulator is not None
     stack = Stack.of(config)
@@ -87,7 +116,9 @@ def _simulate(
     noise = Disturbances(config.noise, context.fleet, poses, context.period, *seeds)
     seed = seed_of(*seeds, "simulator")
     with config.simulator.open(context.world, context.fleet, poses, seed, context.period) as simulation:
-        return execute_plan(context, stack, simulation, noise, recorder, config.limits.execution, seeds, stepped)
+        return execute_plan(
+            context, stack, simulation, noise, recorder, replans, config.limits.execution, seeds, stepped
+        )
 
 
 def _judge(outcome: Outcome, config: RunConfig) -> Ended | None:

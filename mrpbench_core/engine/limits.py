@@ -42,7 +42,7 @@ class Watch:
         if now - self._began >= self._job.wall_s:
             return self.failure("wall_timeout", f"the run took longer than limits.wall, {self._job.wall_s:g} s")
         if self._limit is not None and now - self._stage_began >= self._grace(self._limit):
-            status = "plan_timeout" if self.stage == "planning" else "wall_timeout"
+            status = "plan_timeout" if self.stage in ("planning", "replanning") else "wall_timeout"
             return self.failure(status, f"did not return within {self._limit:g} s and was ended")
         return None
 

@@ -5,26 +5,31 @@ from typing import Any, Self
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from mrpbench_core.api.controller import Controller
-from mrpbench_core.api.dispatcher import Dispatcher
+from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession
 from mrpbench_core.api.localizer import Localizer
-from mrpbench_core.api.navigator import Navigator
+from mrpbench_core.api.navigator import Navigator, NavigatorSession
 from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.answers import Answers
 from mrpbench_core.engine.noise import Disturbances
 from mrpbench_core.engine.recorder import Recorder
+from mrpbench_core.engine.replanning import Replans, Revision
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.execution import (
+    Event,
     FleetObservation,
     FleetView,
     Inputs,
     Mode,
     Motion,
+    Orders,
     State,
 )
+from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.run import RunContext
 
 
@@ -73,6 +78,7 @@ def execute_plan(
     simulation: Simulation,
     noise: Disturbances,
     recorder: Recorder,
+    replans: Replans,
     limit_s: float,
     seeds: tuple[int, int],
     stepped: Callable[[float, State], Any] | None = None,
@@ -85,6 +91,7 @@ def execute_plan(
         simulation: opened with the robots in place.
         noise: errors of sensors, motors and starts.
         recorder: gets everything that happens; flushed at the end.
+        replans: asks for new plans; knows the first one.
         limit_s: simulated seconds.
         seeds: seed and repeat of the run.
         stepped: called after every period.
@@ -98,8 +105,7 @@ def execute_plan(
     assert plan is not None
     robots = len(context.fleet)
     period = context.period
-    length = np.array([len(path) for path in plan.paths])
-    answers = Answers(length)
+    answers = Answers(_length(plan))
     state = answers.state(simulation.state)
     dispatcher = stack.dispatcher.start(context.problem, plan)
     localizer = stack.localizer.start(context.fleet, context.world, state.pose, seed_of(*seeds, "localizer"))
@@ -112,7 +118,8 @@ def execute_plan(
         cleared=np.zeros(robots, "i4"),
         mode=np.full(robots, Mode.WAITING, "u1"),
     )
-    step = 0
+    orders = Orders(released=np.zeros(robots, "i4"))
+    revision = step = 0
     while True:
         now = step * period
         odometry = noise.odometry(state)
@@ -120,25 +127,34 @@ def execute_plan(
         truth = state.pose if stack.localizer.needs_truth else None
         estimate = answers.estimate(localizer.update(now, odometry, scans, truth))
         view = FleetView(
-            revision=0,
+            revision=revision,
             reached=motion.reached,
             cleared=motion.cleared,
             pose=estimate.pose,
             level=state.level,
             mode=motion.mode,
         )
-        orders = answers.orders(dispatcher.update(now, view))
-        if orders.replan is not None:
-            raise MissionError(f"the dispatcher asked for a new plan ({orders.replan}), which is not available yet")
+        if replans.pending is None:
+            orders = answers.orders(dispatcher.update(now, view))
+            if reason := replans.reason(now, view, orders.replan):
+                replans.request(now, reason, view, orders.released)
+        if new := replans.take(now):
+            recorder.events((_adopt(new, now, dispatcher, navigator, replans),))
+            if replans.plan is new.plan:
+                revision += 1
+                answers.length = _length(replans.plan)
+                recorder.routes(now, revision, new.routes)
+                orders = answers.orders(dispatcher.update(now, attrs.evolve(view, revision=revision)))
         if orders.requests:
             raise MissionError(f"the dispatcher asked for {orders.requests[0][1]}, and nothing grants that yet")
         observation = FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
         motion = answers.motion(navigator.step(now, observation, orders))
         held = (now < noise.start_delay)[:, None]
         motion = attrs.evolve(motion, twist=np.where(held, 0.0, motion.twist))
-        arrived = bool((motion.reached >= length).all())
+        at_end = motion.reached >= answers.length
         gave_up = motion.mode == Mode.ABORTED
-        over = arrived or bool((gave_up | (motion.reached >= length)).all()) or now >= limit_s
+        arrived = bool(at_end.all())
+        over = bool((at_end | gave_up).all()) or now >= limit_s
         recorder.scans(scans)
         recorder.events(motion.events)
         recorder.sample(step, now, state, estimate, odometry, orders, motion, over)
@@ -150,3 +166,26 @@ def execute_plan(
         state = answers.state(simulation.step(Inputs(twist=noise.actuated(motion.twist))))
         step += 1
         recorder.contacts(step * period, state)
+
+
+def _length(plan: Plan) -> NDArray[np.int64]:
+    """Segments i8[n] of each path."""
+    return np.array([len(path) for path in plan.paths], np.int64)
+
+
+def _adopt(
+    new: Revision, now: float, dispatcher: DispatcherSession, navigator: NavigatorSession, replans: Replans
+) -> Event:
+    """Put a new plan in force if there is one and the dispatcher takes it; returns what happened."""
+    fault = new.fault
+    if new.plan is not None and not fault:
+        try:
+            dispatcher.adopt(new.problem, new.plan)
+        except DispatchError as error:
+            fault = str(error)
+        else:
+            navigator.adopt(new.routes)
+            replans.use(new.problem, new.plan)
+            return Event(stamp=now, kind="replan", detail=new.reason)
+    replans.failed(now)
+    return Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}")

@@ -12,7 +12,8 @@ from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.plain import readable
 from mrpbench_core.engine.planning import STATUS, call_planner, judge, left_for_planning
 from mrpbench_core.engine.preparation import Announce, Ended, Setting, assign, pose_problem, set_scene
-from mrpbench_core.engine.routes import build_routes, speed_limits
+from mrpbench_core.engine.replanning import replanning_fault
+from mrpbench_core.engine.routes import Router, speed_limits
 from mrpbench_core.model.execution import State
 from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Problem
@@ -51,9 +52,10 @@ def execute(
         assigned = assign(config, setting, announce, record["timing"])
         problem = pose_problem(setting, assigned)
         result, ended = _plan(config, problem, announce, record["timing"], observers)
-        context = _context(config, run_id, setting, assigned, problem, result)
+        router = _router(config, setting, assigned, problem)
+        context = _context(config, run_id, setting, assigned, problem, result, router)
         if ended is None and config.simulator is not None:
-            ended = drive(config, context, paths, announce, record["timing"], _stepper(observers))
+            ended = drive(config, context, router, paths, announce, record["timing"], _stepper(observers))
             announce("metrics", {})
             record["executed"] = True
             record["metrics"], record["unmeasured"] = measure_recording(config, paths.recording)
@@ -75,7 +77,7 @@ def _plan(
     config: RunConfig, problem: Problem, announce: Announce, timing: dict[str, Any], observers: Observers
 ) -> tuple[PlanResult, Ended | None]:
     """Plan; the second value says how the run ended if there is nothing to execute."""
-    if reason := config.planner.skip(problem):
+    if reason := config.planner.skip(problem) or replanning_fault(config):
         raise Ended("skipped", "planning", reason)
     announce("planning", {"limit_s": config.limits.planning})
     budget = Budget(
@@ -95,6 +97,11 @@ def _plan(
     return result, None
 
 
+def _router(config: RunConfig, setting: Setting, assigned: tuple[int, ...], problem: Problem) -> Router:
+    yaw = np.array([setting.scenario.tasks[task].goals[-1, 2] if task >= 0 else np.nan for task in assigned])
+    return Router(problem, yaw, speed_limits(setting.world, setting.roadmap), config.plan_filter)
+
+
 def _context(
     config: RunConfig,
     run_id: str,
@@ -102,10 +109,9 @@ def _context(
     assigned: tuple[int, ...],
     problem: Problem,
     result: PlanResult,
+    router: Router,
 ) -> RunContext:
-    yaw = np.array([setting.scenario.tasks[task].goals[-1, 2] if task >= 0 else np.nan for task in assigned])
-    limits = speed_limits(setting.world, setting.roadmap)
-    routes = () if result.plan is None else build_routes(problem, result.plan, yaw, limits)
+    routes = () if result.plan is None else router(result.plan)
     return RunContext(
         run_id=run_id,
         world=setting.world,

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.execution import Estimate, Event, Motion, Odometry, Orders, ScanBatch, State
+from mrpbench_core.model.execution import Estimate, Event, Motion, Odometry, Orders, Route, ScanBatch, State
 from mrpbench_core.model.recording import Chunk
 
 SAMPLES = 256
@@ -17,12 +17,22 @@ SCANS = 4096
 IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
     "contact_time": ("f8", ()),
     "contact": ("i4", (2,)),
+    "route_time": ("f8", ()),
+    "route_revision": ("i4", ()),
+    "route_robot": ("i4", ()),
+    "route_waypoint": ("f8", (3,)),
+    "route_level": ("i2", ()),
+    "route_speed": ("f8", ()),
     "event_time": ("f8", ()),
     "event_kind": ("U1", ()),
     "event_robot": ("i4", ()),
     "event_detail": ("U1", ()),
 }
 """Channels that may stay empty, which is not the same as missing."""
+
+
+INTEGERS = dict.fromkeys(("contact", "scan_robot", "event_robot", "route_revision", "route_robot"), "i4")
+"""Channels whose rows come as Python's integers."""
 
 
 class Recorder:
@@ -90,6 +100,16 @@ class Recorder:
             self._rows["event_robot"].append(event.robot)
             self._rows["event_detail"].append(event.detail)
 
+    def routes(self, now: float, revision: int, routes: Sequence[Route]) -> None:
+        """Record the routes of a new plan: one row per waypoint, with the speed limit of the way to it."""
+        for robot, route in enumerate(routes):
+            self._rows["route_time"] += [now] * len(route.waypoint)
+            self._rows["route_revision"] += [revision] * len(route.waypoint)
+            self._rows["route_robot"] += [robot] * len(route.waypoint)
+            self._rows["route_waypoint"] += [*route.waypoint]
+            self._rows["route_level"] += [*route.level]
+            self._rows["route_speed"] += [np.inf, *route.speed]
+
     def flush(self) -> None:
         """Hand on what has been collected."""
         if self._rows:
@@ -104,4 +124,4 @@ def _stack(name: str, rows: list[Any]) -> np.ndarray:
         for index, row in enumerate(rows):
             padded[index, : len(row)] = row
         return padded
-    return np.array(rows, dtype={"contact": "i4", "scan_robot": "i4", "event_robot": "i4"}.get(name))
+    return np.array(rows, dtype=INTEGERS.get(name))

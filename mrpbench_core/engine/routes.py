@@ -1,33 +1,57 @@
 """From a plan on the roadmap to routes in metres."""
 
+import attrs
 import numpy as np
 
+from mrpbench_core.api.plan_filter import PlanFilter
+from mrpbench_core.engine.answers import check_kept
+from mrpbench_core.model.arrays import Bool, Float
 from mrpbench_core.model.execution import Route
-from mrpbench_core.model.plan import Plan
+from mrpbench_core.model.plan import Path, Plan
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.world import World
 
 
-def build_routes(problem: Problem, plan: Plan, final_yaw: np.ndarray, speed_limits: np.ndarray) -> tuple[Route, ...]:
-    """One route per robot: the positions and prescribed yaws of its vertices.
+@attrs.frozen
+class Router:
+    """Turns plans of one problem into routes, one per robot: the positions and prescribed yaws of its vertices."""
 
-    Args:
-        problem: gives the roadmap and the starts.
-        plan: a plan of `problem`.
-        final_yaw: f8[n] radians wanted at the end, NaN = any.
-        speed_limits: f8[E] m/s, inf = none.
-    """
-    roadmap = problem.roadmap
-    routes = []
-    for robot, path in enumerate(plan.paths):
-        vertices = path.vertices(roadmap, int(problem.start[robot]))
+    problem: Problem
+    """Gives the roadmap and the starts."""
+    final_yaw: Float
+    """f8[n] radians wanted at the end, NaN = any."""
+    speed_limits: Float
+    """f8[E] m/s, inf = none."""
+    plan_filter: PlanFilter | None = None
+
+    def __call__(self, plan: Plan) -> tuple[Route, ...]:
+        """The routes of `plan`."""
+        return tuple(self._route(robot, path) for robot, path in enumerate(plan.paths))
+
+    def _route(self, robot: int, path: Path) -> Route:
+        roadmap = self.problem.roadmap
+        vertices = path.vertices(roadmap, int(self.problem.start[robot]))
         waypoint = np.column_stack([roadmap.position[vertices], roadmap.heading[vertices]])
-        if not np.isnan(final_yaw[robot]):
-            waypoint[-1, 2] = final_yaw[robot]
-        speed = np.where(path.edge >= 0, speed_limits[path.edge] if len(speed_limits) else np.inf, np.inf)
-        routes.append(Route(waypoint=waypoint, level=roadmap.level[vertices], speed=speed))
-    return tuple(routes)
+        if not np.isnan(self.final_yaw[robot]):
+            waypoint[-1, 2] = self.final_yaw[robot]
+        if self.plan_filter is not None:
+            waypoint = _straightened(waypoint, check_kept(self.plan_filter.keep(waypoint[:, :2].copy()), len(waypoint)))
+        limits = self.speed_limits[path.edge] if len(self.speed_limits) else np.inf
+        return Route(waypoint=waypoint, level=roadmap.level[vertices], speed=np.where(path.edge >= 0, limits, np.inf))
+
+
+def _straightened(waypoint: Float, kept: Bool) -> Float:
+    """Move the waypoints f8[k,3] that are not kept onto the straight line between those that are, at even distances.
+
+    So segments keep their indices, and whoever follows the route passes the lines that were left.
+    """
+    index = np.arange(len(waypoint))
+    moved = waypoint.copy()
+    for axis in (0, 1):
+        moved[:, axis] = np.interp(index, index[kept], waypoint[kept, axis])
+    moved[~kept, 2] = np.nan
+    return moved
 
 
 def speed_limits(world: World, roadmap: Roadmap) -> np.ndarray:

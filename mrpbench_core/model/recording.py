@@ -13,6 +13,8 @@
 | `mode` | u1[n] | `Mode` |
 | `contact_time`, `contact` | f8; i4[2] | one row per pair and control period in contact: robot and other (-1 = wall) |
 | `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
+| `route_time`, `route_revision`, `route_robot` | f8; i4; i4 | one row per waypoint of each plan after the first |
+| `route_waypoint`, `route_level`, `route_speed` | f8[3]; i2; f8 | see `mrpbench_core.model.run.latest_routes` |
 | `event_time`, `event_kind`, `event_robot`, `event_detail` | f8; U; i4; U | see `Event` |
 
 Periodic channels are sampled every `1 / recording.rate` seconds, and at the start and the end of the execution.

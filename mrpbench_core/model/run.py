@@ -26,6 +26,7 @@ class RunContext:
     result: PlanResult
     """The first plan."""
     routes: tuple[Route, ...]
+    """Of the first plan; in a finished run, of the last, which begins with all that was driven before."""
     goal: tuple[tuple[float, float, float], ...]
     """Final goal x, y (metres), yaw (NaN = any) of each robot: where its path ends."""
     period: float = 0.05
@@ -58,3 +59,21 @@ class FinishedRun:
         if name == "plan":
             return self.context.result.plan is not None
         return self.planned if name == "path" else name in self.channels
+
+
+def latest_routes(routes: tuple[Route, ...], channels: Mapping[str, Callable[[], NDArray[Any]]]) -> tuple[Route, ...]:
+    """The routes of the last plan of an execution that began with `routes`, from its recording's channels `route_...`.
+
+    Every plan's routes begin with what was released of the plan before, index by index: `reached` and `cleared` refer
+    to the last routes as well as to those of their time.
+    """
+    if "route_time" not in channels or not len(revision := channels["route_revision"]()):
+        return routes
+    last = revision == revision[-1]
+    robot, waypoint, level, speed = (
+        channels[f"route_{name}"]()[last] for name in ("robot", "waypoint", "level", "speed")
+    )
+    return tuple(
+        Route(waypoint=waypoint[robot == one], level=level[robot == one], speed=speed[robot == one][1:])
+        for one in range(len(routes))
+    )

@@ -9,6 +9,7 @@ GROUPS = {
     "scenario": "mrpbench.scenarios",
     "assigner": "mrpbench.assigners",
     "planner": "mrpbench.planners",
+    "plan_filter": "mrpbench.plan_filters",
     "dispatcher": "mrpbench.dispatchers",
     "navigator": "mrpbench.navigators",
     "controller": "mrpbench.controllers",

@@ -9,13 +9,14 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.run import RunContext, latest_routes
 
 FORMAT = 1
 """Raised when a reader of the old format would misread the new one."""
@@ -92,8 +93,9 @@ class Recording:
         return array
 
     def context(self) -> RunContext:
-        """What was known before execution began."""
-        return decode(self._context, RunContext, self._load)
+        """What was known before execution began, with the routes that were driven in the end."""
+        context = decode(self._context, RunContext, self._load)
+        return attrs.evolve(context, routes=latest_routes(context.routes, self.channels))
 
     def channel(self, name: str) -> NDArray[Any]:
         """All rows of a channel."""

@@ -25,6 +25,7 @@ from mrpbench_core.testing.localizer import LocalizerConformance
 from mrpbench_core.testing.metric import MetricConformance
 from mrpbench_core.testing.navigator import NavigatorConformance
 from mrpbench_core.testing.outcome import Fault, Skip, require
+from mrpbench_core.testing.plan_filter import PlanFilterConformance
 from mrpbench_core.testing.planner import PlannerConformance
 from mrpbench_core.testing.roadmap import RoadmapConformance
 from mrpbench_core.testing.scenario import ScenarioConformance
@@ -47,6 +48,7 @@ __all__ = [
     "LocalizerConformance",
     "MetricConformance",
     "NavigatorConformance",
+    "PlanFilterConformance",
     "PlannerConformance",
     "RoadmapConformance",
     "ScenarioConformance",

@@ -13,6 +13,7 @@ from mrpbench_core.testing.importer import ImporterConformance
 from mrpbench_core.testing.localizer import LocalizerConformance
 from mrpbench_core.testing.metric import MetricConformance
 from mrpbench_core.testing.navigator import NavigatorConformance
+from mrpbench_core.testing.plan_filter import PlanFilterConformance
 from mrpbench_core.testing.planner import PlannerConformance
 from mrpbench_core.testing.roadmap import RoadmapConformance
 from mrpbench_core.testing.scenario import ScenarioConformance
@@ -25,6 +26,7 @@ SUITES: dict[str, type[ComponentConformance]] = {
     "scenario": ScenarioConformance,
     "assigner": AssignerConformance,
     "planner": PlannerConformance,
+    "plan_filter": PlanFilterConformance,
     "dispatcher": DispatcherConformance,
     "navigator": NavigatorConformance,
     "controller": ControllerConformance,

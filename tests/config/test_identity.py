@@ -123,6 +123,8 @@ def test_what_only_an_execution_needs_may_be_left_out_without_one():
     planning = BASE | {"simulator": "none"}
     assert run(planning).run_id == run(planning | {"controller": "pure_pursuit", "dispatcher": "none"}).run_id
     assert run(planning).run_id != run(planning | {"controller": "dwb"}).run_id
+    noisy = planning | {"noise": {"lidar": 0.1}, "limits": {"execution": 9}, "replanning": {"delay": 5}}
+    assert run(planning).run_id == run(noisy).run_id
 
 
 def test_the_same_work_may_be_measured_and_named_otherwise():

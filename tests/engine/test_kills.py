@@ -137,7 +137,9 @@ def test_an_interrupted_study_keeps_what_is_finished_and_goes_on(undisturbed, nu
 def test_two_invocations_on_one_folder(undisturbed):
     first = invoke()
     wait_for_records(1)
+    first.send_signal(signal.SIGSTOP)  # or it might be done before the second has begun
     code, _, errors = finish(invoke())
+    first.send_signal(signal.SIGCONT)
     assert code == 2
     assert errors.count("\n") == 1
     assert f"another invocation is working in this folder (process {first.pid} on {os.uname().nodename})" in errors

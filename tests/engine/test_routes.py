@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.engine.routes import build_routes, placements, speed_limits
+from mrpbench_core.engine.routes import Router, placements, speed_limits
 from mrpbench_core.model.world import Lane
 
 ANY = np.array([np.nan, np.nan])
@@ -11,12 +11,12 @@ ANY = np.array([np.nan, np.nan])
 
 def test_a_route_follows_the_vertices_of_the_path(run_context):
     free = np.full(4, np.inf)
-    routes = build_routes(run_context.problem, run_context.result.plan, ANY, free)
+    routes = Router(run_context.problem, ANY, free)(run_context.result.plan)
     assert routes == run_context.routes
 
 
 def test_the_last_waypoint_takes_the_yaw_of_the_goal(run_context):
-    routes = build_routes(run_context.problem, run_context.result.plan, np.array([1.5, np.nan]), np.full(4, np.inf))
+    routes = Router(run_context.problem, np.array([1.5, np.nan]), np.full(4, np.inf))(run_context.result.plan)
     assert routes[0].waypoint[-1, 2] == 1.5
     assert np.isnan(routes[1].waypoint[:, 2]).all()
 

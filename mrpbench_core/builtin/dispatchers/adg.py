@@ -27,6 +27,11 @@ class Adg(Dispatcher):
         unit="m",
         validator=attrs.validators.ge(0),
     )
+    lookahead: int = option(
+        8,
+        help="segments released at most beyond the one under way; a new plan must keep what is released",
+        validator=attrs.validators.ge(1),
+    )
 
     def start(self, problem: Problem, plan: Plan) -> "AdgSession":
         """Begin to release a plan.
@@ -35,14 +40,14 @@ class Adg(Dispatcher):
             DispatchError: the plan has faults or conflicts; or robots wait for one another in a cycle that is no ring,
                 or a ring that their footprints do not allow; or the roadmap has doors, lifts or mutexes.
         """
-        return AdgSession(self.group_margin, problem, plan)
+        return AdgSession(self, problem, plan)
 
 
 class AdgSession(DispatcherSession):
     """Releases one plan after another."""
 
-    def __init__(self, group_margin: float, problem: Problem, plan: Plan) -> None:
-        self.group_margin = group_margin
+    def __init__(self, options: Adg, problem: Problem, plan: Plan) -> None:
+        self.options = options
         self.seen = np.zeros((2, len(problem)), np.int64)
         self.released: Int32 = np.zeros(len(problem), np.int32)
         self.plan = plan
@@ -60,11 +65,12 @@ class AdgSession(DispatcherSession):
             if not np.array_equal(plan.paths[robot].edge[:count], self.plan.paths[robot].edge[:count]):
                 raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
         committed: Int32 = np.maximum(self.released, [len(path) for path in problem.commitments] or 0)
-        gates = Gates(problem, plan, self.group_margin)
+        gates = Gates(problem, plan, self.options.group_margin)
         gates.look(self.seen, np.arange(len(problem)))
         gates.check_committed(committed)
         self.plan, self.gates = plan, gates
-        self.released = np.maximum(committed, gates.released)
+        self.released = committed
+        self._release()
 
     def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - order is all that counts, not time
         """Release what the robots' progress has opened: work is done only for robots that got further."""
@@ -73,8 +79,12 @@ class AdgSession(DispatcherSession):
         self.seen = seen
         if len(changed):
             self.gates.look(seen, changed)
-            self.released = np.maximum(self.released, self.gates.released)
+            self._release()
         return Orders(released=self.released, replan=self.gates.exhausted(seen[REACHED]))
+
+    def _release(self) -> None:
+        ahead = (self.seen[REACHED] + 1 + self.options.lookahead).astype(np.int32)
+        self.released = np.maximum(self.released, np.minimum(self.gates.released, ahead))
 
 
 def _check(problem: Problem, plan: Plan) -> None:

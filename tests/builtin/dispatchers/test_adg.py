@@ -189,6 +189,14 @@ def test_only_what_the_horizon_covers_is_released_and_then_a_plan_is_asked_for(m
     assert Adg().start(*plan_without).update(0.0, make.view([3])).replan is None
 
 
+def test_no_more_is_released_than_the_lookahead(make):
+    problem, plan = make.solved(make.grid(1, 6), [[0, 1, 2, 3, 4, 5]])
+    session = Adg(lookahead=2).start(problem, plan)
+    assert session.update(0.0, make.view([0])).released.tolist() == [3]
+    assert session.update(1.0, make.view([2])).released.tolist() == [5]
+    assert session.update(2.0, make.view([4])).released.tolist() == [5]
+
+
 def test_a_new_plan_continues_what_was_released(make):
     lane = make.grid(2, 4)
     problem, plan = make.solved(lane, [[1, 2, 3], [0, 0, 1, 2]])

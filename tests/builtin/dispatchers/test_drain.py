@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.engine.commitments import commitments
 from mrpbench_core.model.plan import Budget, Path, Plan
 from mrpbench_core.model.problem import Feature, Rules, features_of
 
@@ -360,23 +361,26 @@ def test_plans_of_chance_drain(make, seed):
         event(f"rings: {floor.rings > 0}")
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=80)
 @given(SEEDS)
 def test_plans_that_change_on_the_way_drain(make, seed):
     random = np.random.default_rng(seed)
     problem, plan = draw_plan(make, random)
 
     def replan(released):
-        prefixes = tuple(
-            Path(edge=path.edge[:count], enter=path.enter[:count], leave=path.leave[:count])
-            for path, count in zip(session.plan.paths, released, strict=True)
-        )
+        now, due = floor.late, floor.late + int(random.integers(0, 40))
+        floor.late = due
+        ready = now + random.integers(0, 5, len(problem))
+        prefixes = commitments(problem, session.plan, released, floor.reached, ready, due)
         committed = attrs.evolve(problem, commitments=prefixes)
+        assert check_plan(committed, Plan(paths=prefixes)).valid, "what was released conflicts once it is retimed"
         return committed, wander(committed, random, list(prefixes), ticks=5)
 
     problem = attrs.evolve(problem, rules=attrs.evolve(problem.rules, at_goal="stay"))
     if check_plan(problem, plan).valid and (session := accepted(problem, plan, Adg().start)) is not None:
-        drain(make, session, Floor(problem, plan, random), {int(step): replan for step in random.integers(0, 60, 3)})
+        floor = Floor(problem, plan, random)
+        floor.late = int(random.integers(0, 40))
+        drain(make, session, floor, {int(step): replan for step in random.integers(0, 60, 3)})
 
 
 @settings(deadline=None, max_examples=40)

@@ -8,6 +8,7 @@ import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
 from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Route
 from mrpbench_core.model.run import FinishedRun
 from mrpbench_metrics_standard.distribution import mean, percentile
 from mrpbench_metrics_standard.progress import completion_times
@@ -53,8 +54,13 @@ def delays(run: FinishedRun) -> Float:
     """Seconds f8[n] by which each robot completed its last planned move late; NaN = never completed."""
     plan, time = run.context.result.plan, run.channel("time")
     assert plan is not None
-    moves = [np.flatnonzero(path.edge >= 0) for path in plan.paths]
-    needed = np.array([own[-1] + 1 if len(own) else 0 for own in moves], int)
+    needed = np.array([_last_move(route) for route in run.context.routes], int)
     planned = np.array([path.arrival for path in plan.paths]) * run.context.problem.roadmap.tick
     late: Float = completion_times(time, run.channel("reached"), needed) - time[0] - planned
     return late
+
+
+def _last_move(route: Route) -> int:
+    """Number of segments until the robot moves no more; a new plan may send it away from its goal once more."""
+    moved = (np.diff(route.waypoint[:, :2], axis=0) != 0).any(axis=1) | (np.diff(route.level) != 0)
+    return int(np.flatnonzero(moved)[-1]) + 1 if moved.any() else 0
