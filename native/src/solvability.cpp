@@ -49,6 +49,16 @@ class Matching {
   std::vector<int> asked_by_;  // the newcomer for whom this goal was last tried
 };
 
+/// A robot that is left without a goal of its own, though it would have to stay there.
+std::optional<int> find_missing_goal(const Instance& instance, Limits& limits) {
+  if (instance.rules().disappear_at_goal) return std::nullopt;
+  Matching matching(instance, limits);
+  for (int robot = 0; robot < instance.size(); ++robot) {
+    if (!matching.place(robot)) return robot;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<int> find_cut_off_robot(const Instance& instance, DistanceTables& tables, Limits& limits) {
@@ -69,12 +79,17 @@ std::optional<int> find_clash(const Instance& instance, const Relations& relatio
       if (stay && goals_clash(instance, relations, one, other)) return one;
     }
   }
-  if (!stay) return std::nullopt;
-  Matching matching(instance, limits);
+  return find_missing_goal(instance, limits);
+}
+
+std::optional<int> find_shared_place(const Instance& instance, Limits& limits) {
+  std::vector<char> taken(instance.roadmap().vertex_count(), false);
   for (int robot = 0; robot < instance.size(); ++robot) {
-    if (!matching.place(robot)) return robot;
+    char& place = taken[instance.robots()[robot].start];
+    if (place) return robot;
+    place = true;
   }
-  return std::nullopt;
+  return find_missing_goal(instance, limits);
 }
 
 }  // namespace mrpbench::mapf

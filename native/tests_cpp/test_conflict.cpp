@@ -1,6 +1,6 @@
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/constraint.hpp"
+#include "mrpbench_mapf/cbs/constraint.hpp"
 
 using namespace mrpbench::mapf;
 

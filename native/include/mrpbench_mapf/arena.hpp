@@ -33,32 +33,51 @@ class Arena {
     return {place, items.size()};
   }
   T& copy(const T& item) { return copy(std::span<const T>(&item, 1)).front(); }
+  /// Forget everything, keep the blocks for what comes next.
+  void clear() {
+    used_blocks_ = 0;
+    next_ = nullptr;
+    free_ = 0;
+  }
 
  private:
   struct Free {
     void operator()(void* block) const { std::free(block); }
   };
+  struct Block {
+    std::unique_ptr<void, Free> memory;
+    std::size_t bytes;
+  };
 
   void grow(std::size_t wanted) {
+    while (used_blocks_ < blocks_.size()) {
+      const Block& block = blocks_[used_blocks_++];
+      if (block.bytes / sizeof(T) >= wanted) return use(block);
+    }
     const std::size_t unit = blocks_.size() < kSmallBlocks ? kSmall : kHuge;
     const std::size_t bytes = (wanted * sizeof(T) + unit - 1) / unit * unit;
     limits_.charge(bytes);
     void* block = std::aligned_alloc(unit, bytes);
     if (block == nullptr) throw std::bad_alloc();
-    blocks_.emplace_back(block);
+    blocks_.push_back({std::unique_ptr<void, Free>(block), bytes});
+    used_blocks_ = blocks_.size();
 #ifdef MADV_HUGEPAGE
     // Giving gigabytes back to the system page by page takes seconds, past the deadline; huge pages take none.
     if (unit == kHuge) madvise(block, bytes, MADV_HUGEPAGE);
 #endif
-    next_ = static_cast<T*>(block);
-    free_ = bytes / sizeof(T);
+    use(blocks_.back());
+  }
+  void use(const Block& block) {
+    next_ = static_cast<T*>(block.memory.get());
+    free_ = block.bytes / sizeof(T);
   }
 
   static constexpr std::size_t kSmall = 1 << 16;
   static constexpr std::size_t kHuge = 1 << 21;
   static constexpr std::size_t kSmallBlocks = 16;
   Limits& limits_;
-  std::vector<std::unique_ptr<void, Free>> blocks_;
+  std::vector<Block> blocks_;
+  std::size_t used_blocks_ = 0;
   T* next_ = nullptr;
   std::size_t free_ = 0;
 };

@@ -17,7 +17,8 @@ struct LimitReached {
 class Limits {
  public:
   /// The clock starts now. `memory_bytes` bounds what the solver itself counts.
-  Limits(double wall_s, std::int64_t memory_bytes) : begin_(Clock::now()), memory_left_(memory_bytes) {
+  Limits(double wall_s, std::int64_t memory_bytes)
+      : begin_(Clock::now()), memory_limit_(memory_bytes), memory_left_(memory_bytes) {
     using Duration = std::chrono::duration<double>;
     limited_ = wall_s < 1e9;
     if (limited_) end_ = begin_ + std::chrono::duration_cast<Clock::duration>(Duration(wall_s > 0 ? wall_s : 0));
@@ -38,6 +39,9 @@ class Limits {
     memory_left_ -= static_cast<std::int64_t>(bytes);
     if (memory_left_ < 0) throw LimitReached{Status::out_of_memory};
   }
+  /// Bytes that may still be counted, and that were counted.
+  std::int64_t memory_left() const { return memory_left_; }
+  std::int64_t memory_used() const { return memory_limit_ - memory_left_; }
   /// Count how far a growing container exceeds what was counted for it before.
   void charge_growth(std::size_t& counted, std::size_t bytes) {
     if (bytes <= counted) return;
@@ -51,7 +55,7 @@ class Limits {
   Clock::time_point begin_;
   bool limited_;
   Clock::time_point end_;
-  std::int64_t memory_left_;
+  std::int64_t memory_limit_, memory_left_;
   std::uint32_t calls_ = 0;
 };
 

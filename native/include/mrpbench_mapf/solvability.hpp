@@ -15,4 +15,7 @@ std::optional<int> find_cut_off_robot(const Instance& instance, DistanceTables& 
 /// their goals also need distinct ones.
 std::optional<int> find_clash(const Instance& instance, const Relations& relations, Limits& limits);
 
+/// The same where robots exclude one another only at one vertex and nothing is committed.
+std::optional<int> find_shared_place(const Instance& instance, Limits& limits);
+
 }  // namespace mrpbench::mapf

@@ -84,5 +84,12 @@ def prioritized(
 ) -> Answer:
     """One robot after another by safe interval path planning."""
 
-def cbs(instance: Instance, *, wall_s: float, memory_bytes: int) -> Answer:
+def cbs(
+    instance: Instance,
+    *,
+    prioritize: bool = True,
+    bypass: bool = True,
+    wall_s: float,
+    memory_bytes: int,
+) -> Answer:
     """The least sum of arrival times, by conflict-based search."""

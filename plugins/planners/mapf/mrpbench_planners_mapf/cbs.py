@@ -5,6 +5,7 @@ from typing import ClassVar
 import attrs
 from mrpbench_native import mapf
 
+from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Feature, Problem
@@ -13,11 +14,11 @@ from mrpbench_planners_mapf.native import SUPPORTED, solve
 
 @attrs.frozen(kw_only=True)
 class Cbs(Planner):
-    """Plain conflict-based search (Sharon et al., AIJ 2015): the least sum of costs.
+    """Conflict-based search (Sharon et al., AIJ 2015): the least sum of costs.
 
     Optimal among plans in which every edge is crossed in exactly its duration, so robots wait at vertices only. On
     timeout `lower_bound` is what was proved until then. An instance without a solution that is not seen at once (say, a
-    swap in a dead end) runs until the budget is spent.
+    swap in a dead end) runs until the budget is spent. The options switch single techniques off, for ablations.
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED
@@ -25,10 +26,19 @@ class Cbs(Planner):
         {Promise.CONFLICT_FREE, Promise.OPTIMAL, Promise.COMPLETE, Promise.DETERMINISTIC}
     )
 
+    prioritize: bool = option(
+        True, help="Resolve conflicts first that raise the cost either way (Boyarski et al., IJCAI 2015)."
+    )
+    bypass: bool = option(
+        True, help="Take over paths as cheap with fewer conflicts instead of branching (Boyarski et al., ICAPS 2015)."
+    )
+
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
         return solve(
             problem,
             budget,
-            lambda instance, wall_s, memory_bytes: mapf.cbs(instance, wall_s=wall_s, memory_bytes=memory_bytes),
+            lambda instance, wall_s, memory_bytes: mapf.cbs(
+                instance, **attrs.asdict(self), wall_s=wall_s, memory_bytes=memory_bytes
+            ),
         )

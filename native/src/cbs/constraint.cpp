@@ -1,4 +1,4 @@
-#include "mrpbench_mapf/constraint.hpp"
+#include "mrpbench_mapf/cbs/constraint.hpp"
 
 #include <algorithm>
 
@@ -50,40 +50,6 @@ std::array<Constraint, 2> split(const PairConflict& conflict, std::span<const Oc
     ranges = split_moves(a, b, conflict.relation);
   }
   return {Constraint{conflict.one, a.element, ranges[0]}, Constraint{conflict.other, b.element, ranges[1]}};
-}
-
-ConstraintTable::ConstraintTable(const Roadmap& roadmap, const Reservations& certain, Limits& limits)
-    : certain_(certain), vertex_count_(roadmap.vertex_count()) {
-  limits.charge(static_cast<std::size_t>(roadmap.element_count()) * sizeof(std::int32_t));
-  head_.assign(roadmap.element_count(), -1);
-}
-
-void ConstraintTable::reset(int robot) {
-  robot_ = robot;
-  for (const std::int32_t element : touched_) head_[element] = -1;
-  touched_.clear();
-  entries_.clear();
-}
-
-void ConstraintTable::add(const Constraint& constraint) {
-  std::int32_t& head = head_[constraint.element];
-  if (head < 0) touched_.push_back(constraint.element);
-  entries_.push_back({constraint.range, head});
-  head = static_cast<std::int32_t>(entries_.size()) - 1;
-}
-
-void ConstraintTable::at_vertex(int vertex, std::vector<Range>& halves) const {
-  list(vertex, halves);
-  if (!certain_.empty()) certain_.at_vertex(robot_, vertex, halves);
-}
-
-void ConstraintTable::on_edge(int edge, Tick duration, std::vector<Range>& departures) const {
-  list(vertex_count_ + edge, departures);
-  if (!certain_.empty()) certain_.on_edge(robot_, edge, duration, departures);
-}
-
-void ConstraintTable::list(int element, std::vector<Range>& ranges) const {
-  for (std::int32_t k = head_[element]; k >= 0; k = entries_[k].next) ranges.push_back(entries_[k].range);
 }
 
 }  // namespace mrpbench::mapf

@@ -1,0 +1,60 @@
+// What the robots do in one node of a constraint tree, and by what they are bound there.
+#pragma once
+
+#include "mrpbench_mapf/cbs/constraint_table.hpp"
+#include "mrpbench_mapf/cbs/key.hpp"
+#include "mrpbench_mapf/cbs/timed_path.hpp"
+
+namespace mrpbench::mapf {
+
+class Situation {
+ public:
+  explicit Situation(int robots) : paths_(robots), constraints_(robots), keys_(robots) {}
+
+  void clear_constraints() {
+    for (const int robot : bound_) constraints_[robot].clear();
+    for (const int robot : bound_) keys_[robot] = {};
+    bound_.clear();
+    parked_.clear();
+    parked_key_ = {};
+  }
+  void add(const Constraint& constraint) {
+    std::vector<Constraint>& own = constraints_[constraint.robot];
+    if (own.empty()) bound_.push_back(constraint.robot);
+    own.push_back(constraint);
+    const Key key = key_of(constraint);
+    keys_[constraint.robot] += key;
+    if (constraint.kind != Constraint::Kind::finish_by) return;
+    parked_.push_back(constraint);
+    parked_key_ += key;
+  }
+  void set_path(int robot, const TimedPath& path) { paths_[robot] = path; }
+
+  const TimedPath& path(int robot) const { return paths_[robot]; }
+  std::span<const Constraint> constraints(int robot) const { return constraints_[robot]; }
+  /// The `finish_by` of all robots, which bind all the others.
+  std::span<const Constraint> parked() const { return parked_; }
+  /// Names all that binds `robot`.
+  Key key(int robot) const {
+    Key key = keys_[robot];
+    return key += parked_key_;
+  }
+  /// Reset `table` for `robot` and add all that binds it.
+  void load(int robot, ConstraintTable& table) const {
+    table.reset(robot);
+    table.add(constraints_[robot]);
+    for (const Constraint& constraint : parked_) {
+      if (constraint.robot != robot) table.add(constraint);
+    }
+  }
+
+ private:
+  std::vector<TimedPath> paths_;
+  std::vector<std::vector<Constraint>> constraints_;  // by robot
+  std::vector<Key> keys_;                             // by robot
+  std::vector<int> bound_;                            // robots with constraints
+  std::vector<Constraint> parked_;
+  Key parked_key_;
+};
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,70 @@
+// The cheapest path of one robot under the constraints of a node: A* over vertices and ticks with true distances as
+// heuristic (Silver, "Cooperative Pathfinding", AIIDE 2005), ties broken by conflicts with the other robots.
+#pragma once
+
+#include "mrpbench_mapf/cbs/avoidance_table.hpp"
+#include "mrpbench_mapf/cbs/bucket_queue.hpp"
+#include "mrpbench_mapf/cbs/constraint_table.hpp"
+#include "mrpbench_mapf/distance_table.hpp"
+
+namespace mrpbench::mapf {
+
+class SpaceTimeAstar {
+ public:
+  SpaceTimeAstar(const Space& space, Limits& limits, Statistics& statistics);
+
+  /// The path with the earliest last move of the robot that `table` was reset for, which stays at a goal for good
+  /// (unless robots disappear there). `distance` leads to its goals. Among equally early paths one with the fewest
+  /// conflicts with `others`. False if there is none.
+  bool search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others, FoundPath& path);
+
+  /// Earliest tick at which it can be at `vertex`, to which `distance` leads; kForever if not by tick `latest`.
+  Tick earliest(const ConstraintTable& table, DistanceTable& distance, int vertex, Tick latest);
+
+ private:
+  struct Node {
+    std::int32_t vertex;
+    Tick tick;
+    std::int32_t parent;  // index of a node, -1 = none
+    std::int32_t edge;    // by which it was reached, -1 = waiting
+    std::int32_t conflicts;
+  };
+  /// What is known of a vertex at a tick, or (tick -1) of a vertex once nothing changes any more.
+  struct Seen {
+    std::uint32_t epoch;
+    std::int32_t vertex;
+    Tick tick;
+    std::int32_t conflicts;  // least so far, -1 = expanded
+  };
+  static constexpr std::int32_t kUnknown = 1 << 30;
+
+  bool begin(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others, Tick least,
+             Tick latest);
+  /// Expand best first until `is_final(node)`; the index of that node, -1 = none.
+  template <class IsFinal>
+  int run(IsFinal is_final);
+  void expand(int index);
+  void push(int vertex, Tick tick, int parent, int edge, int conflicts, Tick h);
+  Seen& seen(int vertex, Tick tick);
+  void grow_seen();
+  void trace(int index, FoundPath& path);
+
+  const Space& space_;
+  const Roadmap& roadmap_;
+  Limits& limits_;
+  Statistics& statistics_;
+  // the current search
+  const ConstraintTable* table_ = nullptr;
+  DistanceTable* distance_ = nullptr;
+  const AvoidanceTable* others_ = nullptr;
+  Tick least_ = 0, latest_ = 0;
+  std::vector<Node> nodes_;
+  std::vector<std::int32_t> chain_;  // the nodes of the path that was found
+  BucketQueue<std::int32_t> open_;
+  std::vector<Seen> seen_;  // open addressing, valid entries have the present epoch
+  std::uint32_t epoch_ = 0;
+  std::size_t seen_count_ = 0;
+  std::size_t counted_ = 0;
+};
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,54 @@
+// The path of one robot as conflict-based search keeps it.
+#pragma once
+
+#include "mrpbench_mapf/arena.hpp"
+#include "mrpbench_mapf/cbs/space.hpp"
+#include "mrpbench_mapf/result.hpp"
+
+namespace mrpbench::mapf {
+
+/// One of the two spans is used: `at` where the textbook's rules suffice (`Space::textbook`), else `occupied`.
+struct TimedPath {
+  std::span<const std::int32_t> at;      // at[t] = vertex at tick t; stays at the last one, or disappears
+  std::span<const Occupation> occupied;  // as in `Result`
+  Tick cost = 0;                         // tick at which the last move ends
+  bool stays = true;                     // at the end, for good
+
+  /// Are they the very same?
+  bool operator==(const TimedPath& other) const {
+    return at.data() == other.at.data() && occupied.data() == other.occupied.data();
+  }
+  Tick last_tick() const { return static_cast<Tick>(at.size()) - 1; }
+  /// Textbook: the vertex at `tick`, -1 if the robot has disappeared.
+  int vertex(Tick tick) const { return tick <= last_tick() ? at[tick] : stays ? at.back() : -1; }
+};
+
+/// A path being made, before it is kept.
+struct FoundPath {
+  std::vector<std::int32_t> at;
+  Path occupied;
+  Tick cost = 0;
+};
+
+/// Keeps paths.
+class PathStore {
+ public:
+  PathStore(bool stays, Limits& limits) : stays_(stays), at_(limits), occupied_(limits) {}
+  TimedPath keep(const FoundPath& path) {
+    return {at_.copy(path.at), occupied_.copy(path.occupied), path.cost, stays_};
+  }
+  void clear() {
+    at_.clear();
+    occupied_.clear();
+  }
+
+ private:
+  bool stays_;
+  Arena<std::int32_t> at_;
+  Arena<Occupation> occupied_;
+};
+
+/// The path of `robot` as results contain it.
+Path occupations(const Space& space, int robot, const TimedPath& path);
+
+}  // namespace mrpbench::mapf

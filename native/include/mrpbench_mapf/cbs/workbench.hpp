@@ -1,0 +1,39 @@
+// What all nodes of a constraint tree, and the trees for pairs of robots inside it, work with.
+#pragma once
+
+#include "mrpbench_mapf/cbs/mdd_cache.hpp"
+#include "mrpbench_mapf/cbs/options.hpp"
+#include "mrpbench_mapf/cbs/situation.hpp"
+#include "mrpbench_mapf/cbs/space_time_astar.hpp"
+
+namespace mrpbench::mapf {
+
+class Workbench {
+ public:
+  Workbench(const Instance& instance, const CbsOptions& options, Limits& limits, Statistics& statistics);
+
+  /// The cheapest path of `robot` under what binds it in `situation` and `more`. False if there is none.
+  bool plan(const Situation& situation, int robot, std::span<const Constraint> more, const AvoidanceTable* others,
+            FoundPath& path);
+  /// All its cheapest paths; it has one of them in `situation`.
+  std::shared_ptr<const Mdd> mdd(const Situation& situation, int robot);
+  /// Would every one of its cheapest paths break `constraints`?
+  bool costs_more(const Situation& situation, int robot, std::span<const Constraint> constraints);
+  /// Distances to one vertex with the motion profile of `robot`.
+  DistanceTable& distance_to(int robot, int vertex);
+
+  const CbsOptions options;
+  Limits& limits;
+  Statistics& statistics;
+  const Space space;
+  DistanceTables distances;
+  SpaceTimeAstar astar;
+  ConstraintTable table, scratch;
+
+ private:
+  MddBuilder builder_;
+  MddCache mdds_;
+  std::unordered_map<std::int64_t, std::unique_ptr<DistanceTable>> distance_to_;  // by profile and vertex
+};
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,161 @@
+#include "mrpbench_mapf/cbs/space_time_astar.hpp"
+
+#include <algorithm>
+
+namespace mrpbench::mapf {
+
+SpaceTimeAstar::SpaceTimeAstar(const Space& space, Limits& limits, Statistics& statistics)
+    : space_(space), roadmap_(space.instance().roadmap()), limits_(limits), statistics_(statistics) {
+  seen_.resize(1 << 12);
+  limits.charge(seen_.size() * sizeof(Seen));
+}
+
+bool SpaceTimeAstar::search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others,
+                            FoundPath& path) {
+  const Beginning& beginning = space_.instance().beginning(table.robot());
+  const Tick stay = table.earliest_finish();
+  if (stay == kForever || !begin(table, distance, others, stay, table.latest_finish())) return false;
+  const int last = run([&](const Node& node) {
+    if (distance(node.vertex) != 0) return false;
+    const bool moved = node.tick > beginning.free_at;
+    return (moved ? node.tick : enter_tick(beginning.occupied.back())) >= table.earliest_finish(node.vertex);
+  });
+  if (last < 0) return false;
+  trace(last, path);
+  return path.cost <= table.latest_finish();
+}
+
+Tick SpaceTimeAstar::earliest(const ConstraintTable& table, DistanceTable& distance, int vertex, Tick latest) {
+  if (!begin(table, distance, nullptr, 0, latest)) return kForever;
+  const int last = run([&](const Node& node) { return node.vertex == vertex; });
+  return last < 0 ? kForever : nodes_[last].tick;
+}
+
+bool SpaceTimeAstar::begin(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others,
+                           Tick least, Tick latest) {
+  const Beginning& beginning = space_.instance().beginning(table.robot());
+  const Tick h = distance(beginning.vertex);
+  if (h == kForever || table.forbids_beginning()) return false;
+  table_ = &table;
+  distance_ = &distance;
+  others_ = others;
+  least_ = std::max(least, beginning.free_at + h);
+  latest_ = std::max(latest, beginning.free_at);  // a robot that never moves has finished before it could
+  nodes_.clear();
+  open_.clear();
+  if (++epoch_ == 0) {
+    std::ranges::fill(seen_, Seen{});
+    epoch_ = 1;
+  }
+  seen_count_ = 0;
+  push(beginning.vertex, beginning.free_at, -1, -1, 0, h);
+  return true;
+}
+
+template <class IsFinal>
+int SpaceTimeAstar::run(IsFinal is_final) {
+  int found = -1;
+  while (!open_.empty() && found < 0) {
+    limits_.check();
+    const std::int32_t index = open_.pop();
+    const Node& node = nodes_[index];
+    Seen& known = seen(node.vertex, node.tick < table_->settled() ? node.tick : -1);
+    if (known.conflicts < node.conflicts) continue;  // expanded, or a better way was found
+    known.conflicts = -1;
+    if (is_final(node)) {
+      found = index;
+    } else {
+      expand(index);
+    }
+  }
+  limits_.charge_growth(counted_, nodes_.capacity() * (sizeof(Node) + 2 * sizeof(std::int32_t)));
+  return found;
+}
+
+void SpaceTimeAstar::expand(int index) {
+  ++statistics_.low_level_expansions;
+  const Node node = nodes_[index];
+  const ConstraintTable& table = *table_;
+  const int robot = table.robot();
+  const bool constrained = table.constrains(node.vertex);
+  const int waiting = others_ == nullptr ? 0 : others_->waiting(robot, node.vertex, node.tick);
+  if (node.tick < table.settled() && !(constrained && table.forbids_waiting(node.vertex, node.tick))) {
+    push(node.vertex, node.tick + 1, index, -1, node.conflicts + waiting, (*distance_)(node.vertex));
+  }
+  for (const Move& move : space_.moves(robot, node.vertex)) {
+    const Tick h = (*distance_)(move.head);
+    if (h == kForever || (constrained && table.forbids_entering(node.vertex, move.edge, node.tick)) ||
+        table.forbids(move.head, node.tick + move.duration)) {
+      continue;
+    }
+    const int moving = others_ == nullptr ? 0 : others_->moving(robot, move, node.tick, waiting > 0);
+    push(move.head, node.tick + move.duration, index, move.edge, node.conflicts + moving, h);
+  }
+}
+
+void SpaceTimeAstar::push(int vertex, Tick tick, int parent, int edge, int conflicts, Tick h) {
+  const Tick f = std::max(tick + h, least_);
+  if (f > latest_) return;
+  const bool settled = tick >= table_->settled();
+  Seen& known = seen(vertex, settled ? -1 : tick);
+  // Once nothing changes, an earlier arrival beats fewer conflicts: only what was expanded is known to be earliest.
+  if (settled ? known.conflicts < 0 : known.conflicts <= conflicts) return;
+  known.conflicts = settled ? kUnknown : conflicts;
+  ++statistics_.low_level_generated;
+  nodes_.push_back({vertex, tick, parent, edge, conflicts});
+  open_.push(f - least_, conflicts, static_cast<std::int32_t>(nodes_.size()) - 1);
+}
+
+SpaceTimeAstar::Seen& SpaceTimeAstar::seen(int vertex, Tick tick) {
+  if (2 * seen_count_ > seen_.size()) grow_seen();
+  const std::size_t mask = seen_.size() - 1;
+  const std::uint32_t mixed =
+      static_cast<std::uint32_t>(vertex) * 0x9E3779B1u + static_cast<std::uint32_t>(tick) * 0x85EBCA77u;
+  std::size_t slot = (mixed ^ mixed >> 15) & mask;
+  while (seen_[slot].epoch == epoch_ && (seen_[slot].vertex != vertex || seen_[slot].tick != tick)) {
+    slot = (slot + 1) & mask;
+  }
+  if (seen_[slot].epoch != epoch_) {
+    ++seen_count_;
+    seen_[slot] = {epoch_, vertex, tick, kUnknown};
+  }
+  return seen_[slot];
+}
+
+void SpaceTimeAstar::grow_seen() {
+  limits_.charge(seen_.size() * sizeof(Seen));
+  std::vector<Seen> old(2 * seen_.size());
+  old.swap(seen_);
+  seen_count_ = 0;
+  for (const Seen& it : old) {
+    if (it.epoch == epoch_) seen(it.vertex, it.tick).conflicts = it.conflicts;
+  }
+}
+
+void SpaceTimeAstar::trace(int index, FoundPath& path) {
+  const Beginning& beginning = space_.instance().beginning(table_->robot());
+  chain_.clear();
+  for (int node = index; node >= 0; node = nodes_[node].parent) chain_.push_back(node);
+  std::ranges::reverse(chain_);
+  path.at.clear();
+  path.occupied.assign(beginning.occupied.begin(), beginning.occupied.end());
+  path.cost = nodes_[index].parent < 0 ? enter_tick(beginning.occupied.back()) : nodes_[index].tick;
+  if (space_.textbook()) {
+    for (const Occupation& it : beginning.occupied) {
+      if (it.element < space_.vertex_count()) path.at.resize(it.end / 2 + 1, it.element);
+    }
+    for (std::size_t k = 1; k < chain_.size(); ++k) path.at.push_back(nodes_[chain_[k]].vertex);
+    path.occupied.clear();
+    return;
+  }
+  for (std::size_t k = 1; k < chain_.size(); ++k) {
+    const Node &from = nodes_[chain_[k - 1]], &to = nodes_[chain_[k]];
+    path.occupied.back().end = 2 * from.tick;
+    if (to.edge < 0) continue;
+    path.occupied.push_back(on_edge(space_.vertex_count() + to.edge, from.tick, to.tick));
+    path.occupied.push_back(at_vertex(to.vertex, to.tick, to.tick));
+  }
+  if (!space_.instance().rules().disappear_at_goal) path.occupied.back().end = kForeverHalf;
+}
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,56 @@
+#include "mrpbench_mapf/cbs/workbench.hpp"
+
+#include <algorithm>
+
+namespace mrpbench::mapf {
+
+namespace {
+
+constexpr std::int64_t kMddBytes = 256 << 20;  // diagrams are quickly made anew
+
+}  // namespace
+
+Workbench::Workbench(const Instance& instance, const CbsOptions& options, Limits& limits, Statistics& statistics)
+    : options(options),
+      limits(limits),
+      statistics(statistics),
+      space(instance, limits),
+      distances(instance, limits),
+      astar(space, limits, statistics),
+      table(space, limits),
+      scratch(space, limits),
+      builder_(space, limits),
+      mdds_(limits, static_cast<std::size_t>(std::min(kMddBytes, limits.memory_left() / 4))) {}
+
+bool Workbench::plan(const Situation& situation, int robot, std::span<const Constraint> more,
+                     const AvoidanceTable* others, FoundPath& path) {
+  situation.load(robot, table);
+  table.add(more);
+  return astar.search(table, distances[robot], others, path);
+}
+
+std::shared_ptr<const Mdd> Workbench::mdd(const Situation& situation, int robot) {
+  const Tick cost = situation.path(robot).cost;
+  return mdds_.get(robot, situation.key(robot), cost, [&] {
+    situation.load(robot, table);
+    return builder_.build(table, distances[robot], cost);
+  });
+}
+
+bool Workbench::costs_more(const Situation& situation, int robot, std::span<const Constraint> constraints) {
+  if (space.textbook() && constraints.size() == 1 && constraints[0].kind == Constraint::Kind::avoid &&
+      constraints[0].element < space.vertex_count() && constraints[0].range.first == constraints[0].range.last) {
+    return mdd(situation, robot)->always_at(constraints[0].element, constraints[0].range.first / 2);
+  }
+  return mdd(situation, robot)->blocked_by(constraints, scratch);
+}
+
+DistanceTable& Workbench::distance_to(int robot, int vertex) {
+  const int profile = space.instance().robots()[robot].profile;
+  auto& place = distance_to_[static_cast<std::int64_t>(profile) * space.vertex_count() + vertex];
+  if (!place)
+    place = std::make_unique<DistanceTable>(space.instance().roadmap(), profile, std::span(&vertex, 1), limits);
+  return *place;
+}
+
+}  // namespace mrpbench::mapf
