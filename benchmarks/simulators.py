@@ -31,7 +31,7 @@ PERIOD = 0.05
 WIDTH, HEIGHT = 22.0, 27.0
 BURGER = load_robot("turtlebot3_burger")
 LIMIT = np.array([BURGER.max_speed, BURGER.max_turn_rate])
-MOST = {"kinematic": 100, "pybullet": 100}
+MOST = {"kinematic": 1000, "pybullet": 100, "pybullet body": 100}
 """Robots; with more, a simulator that was not made for it takes minutes."""
 BUDGET = 0.4
 """Seconds of wall time for one measurement."""
@@ -71,6 +71,7 @@ def simulators() -> dict[str, Simulator]:
         from mrpbench_simulators_pybullet import PyBullet
 
         found["pybullet"] = PyBullet()
+        found["pybullet body"] = PyBullet(model="body")
     return found
 
 
@@ -124,7 +125,7 @@ def main() -> None:
     parser.add_argument("--rounds", type=int, default=3)
     options = parser.parse_args()
     world, kinds = hall(), simulators()
-    print(f"{'robots':>6} {'lidar':>5} " + " ".join(f"{name:>12}" for name in kinds) + "   planar / the others")
+    print(f"{'robots':>6} {'lidar':>5} " + " ".join(f"{name:>14}" for name in kinds) + "   planar / the others")
     for robots in options.robots:
         for lidars in (False, True):
             cases = {
@@ -135,7 +136,7 @@ def main() -> None:
             best = dict.fromkeys(cases, 0.0)
             for _ in range(options.rounds):
                 best = {name: max(best[name], next(case)) for name, case in cases.items()}
-            shown = [f"{best[name]:>11.4g}x" if name in best else f"{'-':>12}" for name in kinds]
+            shown = [f"{best[name]:>13.4g}x" if name in best else f"{'-':>14}" for name in kinds]
             ratios = [f"{best['planar'] / best[name]:.0f}" for name in best if name != "planar"]
             print(f"{robots:>6} {'yes' if lidars else 'no':>5} {' '.join(shown)}   {', '.join(ratios)}", flush=True)
     for robots in options.robots:

@@ -1,14 +1,13 @@
-"""Lidars by Bullet's ray tests.
+"""Lidars: by Bullet's ray tests, or by the native caster, which is about a hundred times as fast.
 
 The world a lidar sees is vertical: walls, and each robot as the disc of its circumscribed radius (the one planners
-reason about), whatever the height of the sensor. These discs are bodies of their own that nothing can touch, set in
-place just before a scan; the scanning robot's own is put away meanwhile. They are prisms of triangles, because testing
-a ray against Bullet's cylinder takes several times as long.
+reason about), whatever the height of the sensor. So both see the same.
 """
 
 from collections.abc import Sequence
 
 import numpy as np
+from mrpbench_native.sim import Caster
 
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.fleet import Fleet, Lidar
@@ -26,8 +25,12 @@ _CIRCLE = np.column_stack([np.cos(_TURN), np.sin(_TURN)]) * (2 / (1 + np.cos(np.
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 
 
-class Lidars:
-    """Takes the scans of a fleet."""
+class RayTests:
+    """Takes the scans of a fleet among the bodies of a Bullet world.
+
+    Robots are discs that nothing can touch, set in place just before a scan; the scanning robot's own is put away
+    meanwhile. They are prisms of triangles: testing a ray against Bullet's cylinder takes several times as long.
+    """
 
     def __init__(self, bullet: Bullet, fleet: Fleet) -> None:
         self._bullet = bullet
@@ -69,3 +72,25 @@ class Lidars:
 
     def _place(self, disc: int, position: tuple[float, float, float]) -> None:
         self._bullet.resetBasePositionAndOrientation(disc, position, _UPRIGHT)
+
+
+class Casters:
+    """Takes the scans of a fleet among segments and discs."""
+
+    def __init__(self, lidars: Sequence[Lidar], segments: Float, radius: Float) -> None:
+        self._radius = radius
+        self._casters = {
+            lidar: Caster(
+                segments=segments,
+                beams=lidar.beams,
+                range=lidar.range,
+                min_range=lidar.min_range,
+                forward=lidar.mount[0],
+                leftward=lidar.mount[1],
+            )
+            for lidar in lidars
+        }
+
+    def scan(self, lidar: Lidar, robots: Sequence[int], pose: Float, movers: Float, leaves: Float) -> Float:
+        """Ranges f8[k,beams] of `robots`, while all stand at `pose` f8[n,3], movers at f8[m,2], and leaves f8[S,4]."""
+        return self._casters[lidar].scan(np.array(robots, np.int32), pose, movers, self._radius, leaves)

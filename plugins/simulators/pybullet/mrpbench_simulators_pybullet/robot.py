@@ -17,8 +17,8 @@ _MARGIN = 0.001
 """metres that Bullet adds around a convex hull."""
 _PLAY = 0.0005
 """metres between floor and casters when the robot is level, so that the wheels bear the weight."""
-_WHEEL_SHARE = 0.03
-"""Mass of one wheel as a share of the robot's, as on the TurtleBot3."""
+_WHEEL_SHARE = 0.1
+"""Mass of one wheel as a share of the robot's, as in the TurtleBot3's model for Gazebo; light wheels err more."""
 _GRAVITY = 9.81
 
 
@@ -46,13 +46,20 @@ def build_robot(bullet: Bullet, robot: RobotModel, x: float, y: float, yaw: floa
         linkJointTypes=[module.JOINT_REVOLUTE] * 2,
         linkJointAxis=[[0.0, 1.0, 0.0]] * 2,
     )
-    bullet.changeDynamics(index, -1, lateralFriction=0, restitution=0, linearDamping=0, angularDamping=0)
+    common = {"restitution": 0, "linearDamping": 0, "angularDamping": 0}
+    # Without a threshold, points that nearly touch take the solver's time too.
+    bullet.changeDynamics(index, -1, lateralFriction=0, contactProcessingThreshold=0, **common)
     for link in (0, 1):
         bullet.assign(index, link, Group.WHEELS)
-        bullet.changeDynamics(
-            index, link, lateralFriction=1, restitution=0, linearDamping=0, angularDamping=0, jointDamping=0
-        )
+        bullet.changeDynamics(index, link, lateralFriction=1, jointDamping=0, **common)
     return index
+
+
+def body_shape(bullet: Bullet, robot: RobotModel) -> int:
+    """The footprint as a prism that stands on the floor."""
+    corners = [[x, y, z] for x, y in robot.footprint.tolist() for z in (0.0, robot.height)]
+    shape: int = bullet.createCollisionShape(bullet.module.GEOM_MESH, vertices=corners)
+    return shape
 
 
 def motor_torque(robot: RobotModel) -> float:

@@ -10,15 +10,17 @@ from mrpbench_core.api import Simulation
 from mrpbench_core.model.arrays import Float, Int16
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
 from mrpbench_core.model.facilities import Facilities
-from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.fleet import Fleet, Lidar
 from mrpbench_core.model.scan_schedule import ScanSchedule
 from mrpbench_core.model.storeys import Storeys
 from mrpbench_core.model.world import World
+from mrpbench_simulators_pybullet.bodies import Bodies
 from mrpbench_simulators_pybullet.bullet import Bullet, Group, quiet
+from mrpbench_simulators_pybullet.contacts import Contacts, Pairs
 from mrpbench_simulators_pybullet.leaves import Leaves
-from mrpbench_simulators_pybullet.lidar import Lidars
-from mrpbench_simulators_pybullet.robot import build_robot, motor_torque
+from mrpbench_simulators_pybullet.lidar import Casters, RayTests
 from mrpbench_simulators_pybullet.walls import build_walls
+from mrpbench_simulators_pybullet.wheels import Wheels
 
 if TYPE_CHECKING:
     from mrpbench_simulators_pybullet.simulator import PyBullet
@@ -41,7 +43,7 @@ class BulletSimulation(Simulation):
         movers: Sequence[float] = (),
         levels: Int16 | None = None,
     ) -> None:
-        self._fleet, self._period, self._periods = fleet, period, 0
+        self._radius, self._period, self._periods = fleet.radii, period, 0
         self._substeps = max(1, round(period / options.timestep))
         self._timestep = period / self._substeps
         self._schedule = ScanSchedule(fleet, period)
@@ -49,33 +51,28 @@ class BulletSimulation(Simulation):
         self._storeys, self._facilities = Storeys(world, reach), Facilities(world)
         self._doing = self._facilities.initial()
         self._level: Int16 = np.zeros(len(fleet), np.int16) if levels is None else np.array(levels, np.int16)
+        self._limit = np.array([(robot.max_speed, robot.max_turn_rate) for robot in fleet.robots]).reshape(-1, 2)
+        self._mover_places = np.full((len(movers), 2), np.inf)
         self._bullet = bullet = Bullet()
         with quiet():
-            bullet.setGravity(0, 0, -9.81)
             bullet.setPhysicsEngineParameter(
                 fixedTimeStep=self._timestep,
                 numSolverIterations=options.iterations,
                 deterministicOverlappingPairs=1,
             )
-            ground = bullet.body(Group.GROUND, bullet.createCollisionShape(bullet.module.GEOM_PLANE))
-            bullet.changeDynamics(ground, -1, lateralFriction=1, restitution=0)
             self._walls = build_walls(bullet, self._storeys.segments)
             self._leaves = Leaves(bullet, self._facilities, self._storeys, self._doing)
-            poses = self._storeys.spread(np.asarray(placements, float).reshape(-1, 3), self._level).tolist()
-            self._robots = [build_robot(bullet, robot, *pose) for robot, pose in zip(fleet.robots, poses, strict=True)]
+            poses = self._storeys.spread(np.asarray(placements, float).reshape(-1, 3), self._level)
+            self._robots: Wheels | Bodies
+            if options.model == "wheels":
+                self._robots = Wheels(bullet, fleet, poses, self._timestep)
+            else:
+                self._robots = Bodies(bullet, fleet, poses, period)
             self._movers = [self._build_mover(radius) for radius in movers]
-            self._lidars = Lidars(bullet, fleet)
-        self._index = {body: robot for robot, body in enumerate(self._robots)}
-        self._torque = [[motor_torque(robot)] * 2 for robot in fleet.robots]
-        self._limit = np.array([(robot.max_speed, robot.max_turn_rate) for robot in fleet.robots])
-        self._ramp = self._timestep * np.array(
-            [(robot.acceleration, robot.turn_acceleration) for robot in fleet.robots]
-        )
-        # Turns of the left and the right wheel per metre driven and per radian turned.
-        self._per_metre = np.array([1 / robot.wheel_radius for robot in fleet.robots])
-        self._per_radian = np.array([robot.wheel_separation / 2 / robot.wheel_radius for robot in fleet.robots])
-        self._target = np.zeros((len(fleet), 2))
-        self._drive(np.arange(len(fleet)))
+            self._rays = RayTests(bullet, fleet) if options.lidar == "pybullet" else None
+        radius = np.concatenate([fleet.radii, np.asarray(movers, float)])
+        self._casters = Casters(self._schedule.lidars, self._storeys.segments, radius)
+        self._contacts = Contacts(bullet, self._robots.bodies, self._radius + 2 * self._limit[:, 0] * period)
         self._state = self._observe(set())
         self._scans = self._take_scans()
 
@@ -86,51 +83,34 @@ class BulletSimulation(Simulation):
 
     def step(self, inputs: Inputs) -> State:
         """Advance by one control period."""
-        command = np.clip(inputs.twist, -self._limit, self._limit)
         self._operate(inputs.facilities)
-        contacts: set[tuple[int, int]] = set()
-        close = self._close_pairs()
-        self._touchable = self._leaves.near(self._plane, float(self._fleet.radii.max(initial=0.0)) + _NEAR)
+        if inputs.movers is not None:
+            self._mover_places = np.ascontiguousarray(inputs.movers[:, :2])
+        near = self._leaves.near(self._plane[:, :2], float(self._radius.max(initial=0.0)) + _NEAR)
+        self._contacts.begin(self._plane[:, :2], (*self._walls, *self._movers, *near))
+        self._robots.command(np.clip(inputs.twist, -self._limit, self._limit))
         for substep in range(1, self._substeps + 1):
-            change = np.clip(command - self._target, -self._ramp, self._ramp)
-            self._target = self._target + change
-            self._drive(np.flatnonzero(change.any(axis=1)))
+            self._robots.before_step()
             if inputs.movers is not None:
                 self._move(inputs.movers, (self._substeps - substep) * self._timestep)
             self._bullet.stepSimulation()
-            self._find_contacts(close, contacts)
+            self._contacts.collect()
         self._periods += 1
-        self._state = self._observe(contacts)
+        self._state = self._observe(self._contacts.found)
         self._scans += self._take_scans()
         return self._state
 
     def _operate(self, commands: Mapping[str, float]) -> None:
         """Move doors and lifts, and who is in a lift."""
         before, pose, level = self._doing, self._state.pose, self._level
-        after = self._facilities.advance(before, commands, self._period, pose, level, self._fleet.radii)
+        after = self._facilities.advance(before, commands, self._period, pose, level, self._radius)
         if after == before:
             return
         self._doing, self._level = after, self._facilities.carried(before, after, pose, level)
         self._leaves.move(after)
         spread = self._storeys.spread(pose, self._level)
         for robot in np.flatnonzero(self._level != level).tolist():
-            (_, _, z), orientation = self._bullet.getBasePositionAndOrientation(self._robots[robot])
-            x, y = spread[robot, :2].tolist()
-            self._bullet.resetBasePositionAndOrientation(self._robots[robot], (x, y, z), orientation)
-
-    def _drive(self, robots: np.ndarray[tuple[int], np.dtype[np.int64]]) -> None:
-        """Hand the wheels of some robots their new speed."""
-        control = self._bullet.module.VELOCITY_CONTROL
-        forward = self._target[:, 0] * self._per_metre
-        turn = self._target[:, 1] * self._per_radian
-        for robot in robots.tolist():
-            self._bullet.setJointMotorControlArray(
-                self._robots[robot],
-                (0, 1),
-                control,
-                targetVelocities=(forward[robot] - turn[robot], forward[robot] + turn[robot]),
-                forces=self._torque[robot],
-            )
+            self._robots.place(robot, *spread[robot, :2].tolist())
 
     def _build_mover(self, radius: float) -> int:
         shape = self._bullet.createCollisionShape(
@@ -146,40 +126,13 @@ class BulletSimulation(Simulation):
             position = (x - vx * before, y - vy * before, _MOVER_HEIGHT / 2)
             self._bullet.resetBasePositionAndOrientation(body, position, (0.0, 0.0, 0.0, 1.0))
 
-    def _close_pairs(self) -> list[tuple[int, int]]:
-        """Robots that could touch each other within a period, with room to spare."""
-        place, reach = self._plane, self._fleet.radii + 2 * self._limit[:, 0] * self._period
-        first, second = np.triu_indices(len(place), 1)
-        gap = place[first] - place[second]
-        near = (gap * gap).sum(axis=1) < (reach[first] + reach[second]) ** 2
-        return list(zip(first[near].tolist(), second[near].tolist(), strict=True))
-
-    def _find_contacts(self, close: list[tuple[int, int]], contacts: set[tuple[int, int]]) -> None:
-        """Add what touches now. Asking by body is cheaper than listing every wheel on the floor."""
-        for obstacle in (*self._walls, *self._movers, *self._touchable):
-            for point in self._bullet.getContactPoints(bodyA=obstacle):
-                if point[8] <= 0:
-                    contacts.add((self._index[point[2]], -1))
-        for first, second in close:
-            for point in self._bullet.getContactPoints(bodyA=self._robots[first], bodyB=self._robots[second]):
-                if point[8] <= 0:
-                    contacts.add((first, second))
-
-    def _observe(self, contacts: set[tuple[int, int]]) -> State:
-        pose, twist = np.empty((len(self._robots), 3)), np.empty((len(self._robots), 2))
-        for robot, body in enumerate(self._robots):
-            (x, y, _), (qx, qy, qz, qw) = self._bullet.getBasePositionAndOrientation(body)
-            (vx, vy, _), (_, _, turn) = self._bullet.getBaseVelocity(body)
-            yaw = np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
-            pose[robot] = x, y, yaw
-            twist[robot] = vx * np.cos(yaw) + vy * np.sin(yaw), turn
-        pairs = np.array(sorted(contacts), np.int32)
-        self._plane = pose[:, :2]
+    def _observe(self, contacts: Pairs) -> State:
+        self._plane, twist = self._robots.observe()
         return State(
-            pose=self._storeys.gather(pose, self._level),
+            pose=self._storeys.gather(self._plane, self._level),
             twist=twist,
             level=self._level,
-            contacts=pairs,
+            contacts=np.array(sorted(contacts), np.int32),
             facilities=self._doing,
         )
 
@@ -190,11 +143,16 @@ class BulletSimulation(Simulation):
 
     def _take_scans(self) -> tuple[ScanBatch, ...]:
         stamp = self._periods * self._period
-        pose = self._storeys.spread(self._state.pose, self._level)
         return tuple(
-            ScanBatch(stamp=stamp, robot=np.array(robots), ranges=self._lidars.scan(lidar, robots, pose))
+            ScanBatch(stamp=stamp, robot=np.array(robots), ranges=self._scan(lidar, robots))
             for lidar, robots in self._schedule.due(self._periods)
         )
+
+    def _scan(self, lidar: Lidar, robots: Sequence[int]) -> Float:
+        if self._rays is not None:
+            return self._rays.scan(lidar, robots, self._plane)
+        leaves = self._storeys.leaves(self._facilities, self._doing)
+        return self._casters.scan(lidar, robots, self._plane, self._mover_places, leaves)
 
     def close(self) -> None:
         """Give the physics world back."""

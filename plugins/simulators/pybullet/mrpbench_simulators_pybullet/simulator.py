@@ -1,6 +1,7 @@
 """The recipe: PyBullet as the reference for how rigid bodies with wheels move."""
 
 from collections.abc import Sequence
+from typing import Literal
 
 import attrs
 from attrs.validators import ge, gt
@@ -13,12 +14,20 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class PyBullet(Simulator):
-    """Rigid bodies with driven wheels among vertical walls. Levels lie side by side; doors and lifts move."""
+    """Rigid bodies, with driven wheels or without, among walls. Levels lie side by side; doors and lifts move."""
 
     timestep: float = option(
         1 / 240, help="physics step; shortened so that a whole number fills a control period", unit="s", validator=gt(0)
     )
-    iterations: int = option(50, help="iterations of the constraint solver in each step", validator=ge(1))
+    iterations: int = option(
+        30, help="iterations of the constraint solver in each step; with fewer, wheels slip", validator=ge(1)
+    )
+    model: Literal["wheels", "body"] = option(
+        "wheels", help="robots on driven wheels, or the faster single bodies that keep to the plane"
+    )
+    lidar: Literal["native", "pybullet"] = option(
+        "native", help="cast beams natively, or by PyBullet's slower ray tests; they see the same"
+    )
 
     def open(
         self,

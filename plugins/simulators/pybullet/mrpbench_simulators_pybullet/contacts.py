@@ -1,0 +1,44 @@
+"""Who touches whom."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Float
+from mrpbench_simulators_pybullet.bullet import Bullet
+
+Pairs = set[tuple[int, int]]
+"""A robot, and a robot of higher index or -1 for anything else."""
+
+
+class Contacts:
+    """Collects contacts in physics steps. Asking by body is cheaper than listing every wheel on the floor."""
+
+    def __init__(self, bullet: Bullet, robots: Sequence[int], reach: Float) -> None:
+        self._bullet, self._robots, self._reach = bullet, robots, reach
+        self._index = {body: robot for robot, body in enumerate(robots)}
+        self._close: list[tuple[int, int]] = []
+        self._obstacles: Sequence[int] = ()
+        self.found: Pairs = set()
+
+    def begin(self, place: Float, obstacles: Sequence[int]) -> None:
+        """Forget all. Robots at f8[n,2] can meet those within their `reach`, and `obstacles`."""
+        first, second = np.triu_indices(len(place), 1)
+        gap = place[first] - place[second]
+        near = (gap * gap).sum(axis=1) < (self._reach[first] + self._reach[second]) ** 2
+        self._close = list(zip(first[near].tolist(), second[near].tolist(), strict=True))
+        self._obstacles, self.found = obstacles, set()
+
+    def collect(self) -> None:
+        """Add what touches now."""
+        for obstacle in self._obstacles:
+            for point in self._bullet.getContactPoints(bodyA=obstacle):
+                if point[8] <= 0:
+                    self.found.add((self._index[point[2]], -1))
+        for first, second in self._close:
+            if (first, second) in self.found:
+                continue
+            for point in self._bullet.getContactPoints(bodyA=self._robots[first], bodyB=self._robots[second]):
+                if point[8] <= 0:
+                    self.found.add((first, second))
+                    break
