@@ -30,6 +30,11 @@ def split_words(words: Sequence[str]) -> tuple[list[str], list[str]]:
     return files, overrides
 
 
+def split_names(words: str | None) -> list[str] | None:
+    """Names that commas part; None stays None."""
+    return None if words is None else [word.strip() for word in words.split(",") if word.strip()]
+
+
 def read_options(words: Sequence[str], what: str) -> dict[str, Any]:
     """`KEY=VALUE` words as options, values as YAML."""
     options = {}

@@ -1,12 +1,19 @@
 """`mrpbench report DIR…`: tables with intervals, and one page to put before a reviewer."""
 
 import argparse
-from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from mrpbench_core.cli.arguments import split_names
 from mrpbench_core.cli.table import print_json, print_wide
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.results import load
+
+if TYPE_CHECKING:
+    from mrpbench_core.report.analysis import Analysis
+
+REPLAYS = 8
+"""Replays that are written unless asked otherwise: a look at what went wrong, in seconds."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -30,18 +37,31 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--pairs-csv", metavar="FILE", help="write the paired comparisons")
     parser.add_argument("--markdown", metavar="FILE", help="write the tables")
     parser.add_argument("--latex", metavar="FILE", help="write the tables, for the package booktabs")
+    parser.add_argument(
+        "--html", metavar="FILE", help="the page (default: report.html in the first DIR; `none` = no page)"
+    )
+    parser.add_argument(
+        "--replays",
+        type=int,
+        default=REPLAYS,
+        metavar="N",
+        help="replays to write that the page links to, failed runs first (default: %(default)s; those that are there"
+        " are linked in any case)",
+    )
     parser.add_argument("--parquet", metavar="FILE", help="write one row per run, with all options, metrics and timing")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print or write the tables."""
+    from mrpbench_core.cli.replays import make_replays
     from mrpbench_core.report.analysis import analyse
+    from mrpbench_core.report.html.page import write_report
     from mrpbench_core.report.rules import RULES
     from mrpbench_core.report.tables.write import latex, markdown
     from mrpbench_core.report.tidy import PAIR_COLUMNS, groups_of, pairs_of, write_estimates, write_rows
 
     folders = [load(folder) for folder in arguments.folders]
-    analysis = analyse(folders, _names(arguments.metrics), _names(arguments.by))
+    analysis = analyse(folders, split_names(arguments.metrics), split_names(arguments.by))
     tables = analysis.tables()
     if arguments.csv:
         write_estimates(analysis, Path(arguments.csv))
@@ -63,17 +83,24 @@ def run(arguments: argparse.Namespace) -> int:
                 "rules": dict(RULES),
             }
         )
-        return 0
+    else:
+        _print(analysis)
+    if arguments.html != "none" and (arguments.html or not arguments.json):
+        page = Path(arguments.html) if arguments.html else folders[0].folder.path / "report.html"
+        write_report(analysis, page, make_replays(analysis, page, arguments.replays))
+        if not arguments.json:
+            print(f"wrote {page}")
+    return 0
+
+
+def _print(analysis: "Analysis") -> None:
+    from mrpbench_core.report.rules import RULES
+
     for table in analysis.tables(brief=True):
         print_wide(table)
     print("Rules:")
     for name, words in RULES:
         print(f"- {name}: {words}")
-    return 0
-
-
-def _names(words: str | None) -> Sequence[str] | None:
-    return None if words is None else [word.strip() for word in words.split(",") if word.strip()]
 
 
 def _write(name: str, content: str) -> None:

@@ -30,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Write the page, and what else is asked for."""
     results, record = find_run(arguments.run)
     run_id = record["run_id"]
-    page = Path(arguments.out) if arguments.out else results.folder.path / f"replay-{run_id[:12]}.html"
+    page = Path(arguments.out) if arguments.out else replay_file(results, run_id)
     recording = Recording(results.folder.run(run_id).recording)
     try:
         write_replay(recording, results, record, page)
@@ -42,6 +42,11 @@ def run(arguments: argparse.Namespace) -> int:
     finally:
         recording.close()
     return 0
+
+
+def replay_file(results: Results, run_id: str) -> Path:
+    """Where the replay of a run lies unless another place is asked for."""
+    return results.folder.path / f"replay-{run_id[:12]}.html"
 
 
 def write_replay(recording: Recording, results: Results, record: dict[str, Any], page: Path) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from mrpbench_core.config.mistakes import did_you_mean
-from mrpbench_core.config.settings import NOT_IDENTIFYING
+from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.results import flatten
 
@@ -28,7 +28,7 @@ def find_axes(configs: Sequence[dict[str, Any]], by: Sequence[str] | None = None
     Raises:
         InputError: an option in `by` is in no configuration.
     """
-    flat = [{key: value for key, value in flatten(config).items() if not _is_below(key, NO_AXES)} for config in configs]
+    flat = [_flat(config) for config in configs]
     if by is not None:
         known = {part for entry in flat for key in entry for part in _with_blocks(key)}
         for name in by:
@@ -58,6 +58,8 @@ def factors(axes: Axes) -> dict[str, Axes]:
 
 def word(value: Any) -> str:
     """One value in few characters: a block by its plugin and options."""
+    if value is None:
+        return "none"
     if isinstance(value, dict):
         options = ",".join(f"{key}={word(item)}" for key, item in value.items() if key not in NAMES)
         name = str(value.get("plugin", value.get("robot", "")))
@@ -65,6 +67,12 @@ def word(value: Any) -> str:
     if isinstance(value, list | tuple):
         return "[" + ",".join(map(word, value)) + "]"
     return str(value)
+
+
+def _flat(config: dict[str, Any]) -> Axes:
+    """Options by dotted key; `plugin` is None of a stage that is not there, unless that follows from another's."""
+    blocks = {key: {"plugin": None} for key, value in config.items() if value is None and key not in EXECUTION}
+    return {key: value for key, value in flatten(config | blocks).items() if not _is_below(key, NO_AXES)}
 
 
 def _is_below(key: str, names: Sequence[str]) -> bool:

@@ -5,8 +5,7 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.yaml import load
+from mrpbench_core.report.invocations import read_invocations
 from mrpbench_core.report.outcome import PENALTY
 from mrpbench_core.report.runs import PAR2
 from mrpbench_core.store.results import Results
@@ -62,13 +61,8 @@ TIMING = (
 def read_columns(folders: Iterable[Results], names: Iterable[str]) -> dict[str, Column]:
     """What the folders' invocations say of these columns; merged folders may lack it, and units are then unknown."""
     told: dict[str, Any] = {}
-    for results in folders:
-        for file in sorted((results.folder.path / "invocations").glob("*.yaml")):
-            try:
-                data = load(file).data
-            except InputError:
-                continue
-            told |= (data.get("columns") if isinstance(data, dict) else None) or {}
+    for invocation in read_invocations(folders):
+        told |= invocation.get("columns") or {}
     fixed = {column.name: column for column in (*OUTCOME, *TIMING)}
     return {name: fixed.get(name) or _column(name, told.get(name)) for name in names}
 

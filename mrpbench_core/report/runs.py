@@ -71,15 +71,17 @@ class Runs:
         return find_axes(self.configs, by)
 
 
-def read_runs(folders: Sequence[Results], columns: Collection[str] | None = None) -> Runs:
-    """Read records once, from the first folder to the last; of a run in several folders the last counts.
+def read_runs(folders: Sequence[Results], columns: Collection[str] | None = None, *, once: bool = True) -> Runs:
+    """Read records, from the first folder to the last.
 
     Args:
         folders: where to read.
         columns: metrics and timing to keep; None = all.
+        once: of a run in several folders keep only the last.
     """
     reader = _Reader(columns)
-    for index, record in each_once(folders):
+    everything = ((index, record) for index, results in enumerate(folders) for record in results)
+    for index, record in each_once(folders) if once else everything:
         reader.add(index, record)
     return reader.runs()
 

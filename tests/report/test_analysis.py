@@ -101,8 +101,10 @@ def test_a_reviewer_recomputes_the_numbers_from_the_lines(results, record, tmp_p
     folder = results(records).folder.path
     found = analyse([results(records)], ["planning.cost"])
 
-    lines = pd.concat(pd.read_json(file, lines=True) for file in (folder / "runs").glob("*.jsonl"))
+    files = (folder / "runs").glob("*.jsonl")
+    lines = pd.concat((pd.read_json(file, lines=True) for file in files), ignore_index=True)
     runs = pd.concat([lines.drop(columns="metrics"), pd.json_normalize(lines["metrics"])], axis=1)
+    runs = runs.sort_values("attempt").drop_duplicates("run_id", keep="last")
     runs = runs[~runs["status"].isin(["scenario_infeasible", "skipped"])]
     runs["planner"] = [config["planner"]["plugin"] for config in runs["config"]]
     runs["succeeded"] = runs["status"] == "succeeded"

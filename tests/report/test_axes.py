@@ -30,6 +30,13 @@ def test_what_samples_of_one_configuration_differ_in_is_no_axis():
     assert find_axes([config(CBS), config(CBS) | {"seed": 4, "repeat": 1, "name": "y"}]) == [{}, {}]
 
 
+def test_a_stage_that_is_not_there_is_an_axis_but_not_what_follows_from_it():
+    without = config(CBS, simulator=None, dispatcher=None)
+    driven = config(CBS, simulator={"plugin": "kinematic"}, dispatcher={"plugin": "adg"})
+    assert find_axes([without, driven]) == [{"simulator.plugin": None}, {"simulator.plugin": "kinematic"}]
+    assert name_axes({"simulator.plugin": None}) == "none"
+
+
 def test_rows_can_be_made_by_some_options_only():
     configs = [config(CBS, scenario={"robots": 5}), config(ECBS, scenario={"robots": 9})]
     assert find_axes(configs, ["planner"]) == [{"planner.plugin": "cbs"}, {"planner.plugin": "ecbs"}]

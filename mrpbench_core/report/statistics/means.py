@@ -15,7 +15,7 @@ LEAST = 5
 """Units below which no interval is given: a bootstrap of so few is far too narrow."""
 MANY = 5000
 """Units above which the ends are plain percentiles: the correction vanishes, and its jackknife takes units squared."""
-_AT_ONCE = 4_000_000
+AT_ONCE = 4_000_000
 """Numbers drawn at once, which bounds memory."""
 
 
@@ -37,7 +37,7 @@ def mean(values: Float) -> Estimate | None:
         n_resamples=RESAMPLES,
         confidence_level=LEVEL,
         method="BCa" if count <= MANY else "percentile",
-        batch=max(1, _AT_ONCE // count),
+        batch=max(1, AT_ONCE // count),
         rng=np.random.default_rng(SEED),
     ).confidence_interval
     return Estimate(centre, float(found.low), float(found.high), count)

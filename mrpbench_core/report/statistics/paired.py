@@ -19,7 +19,7 @@ import numpy as np
 
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.report.statistics.estimate import LEVEL, Estimate
-from mrpbench_core.report.statistics.means import SEED, mean
+from mrpbench_core.report.statistics.means import AT_ONCE, SEED, mean
 
 FLIPS = 9999
 """Sign flips drawn where there are too many to try all."""
@@ -123,7 +123,8 @@ def _flip_test(steps: Float) -> float:
     from scipy.stats import permutation_test
 
     rng = np.random.default_rng(SEED)
-    found = permutation_test((moved,), np.mean, permutation_type="samples", n_resamples=FLIPS, rng=rng)
+    batch = max(1, AT_ONCE // len(moved))
+    found = permutation_test((moved,), np.mean, permutation_type="samples", n_resamples=FLIPS, batch=batch, rng=rng)
     return float(found.pvalue)
 
 

@@ -131,6 +131,7 @@ def pairs_table(comparisons: Sequence[Comparison], brief: bool = False) -> Table
     others = f" (the other {hidden}, in which fewer than six pairs differ, are on the page and in the files)" * bool(
         hidden
     )
+    sides = len({(entry.first, entry.second) for entry in comparisons}) > 1
     named = any(entry.setting for entry in comparisons)
     rows = []
     for entry in sorted(shown, key=lambda entry: entry.column.name not in RATES):
@@ -143,8 +144,7 @@ def pairs_table(comparisons: Sequence[Comparison], brief: bool = False) -> Table
             (
                 *([entry.setting] if named else []),
                 entry.column.name,
-                entry.first,
-                entry.second,
+                *([entry.first, entry.second] if sides else []),
                 found.difference.n,
                 "/".join(map(str, entry.unpaired)),
                 _point(found.first * scale, entry.is_rate),
@@ -163,11 +163,13 @@ def pairs_table(comparisons: Sequence[Comparison], brief: bool = False) -> Table
         title="Pair by pair: B against A on the same scenarios",
         headings=(
             *(["setting"] if named else []),
-            *("column", "A", "B", "pairs", "unpaired", "mean A", "mean B", "B - A", "relative", "more/same/less"),
+            "column",
+            *(("A", "B") if sides else ()),
+            *("pairs", "unpaired", "mean A", "mean B", "B - A", "relative", "more/same/less"),
             *("effect", "p", "p (Holm)", "B is"),
         ),
         rows=tuple(rows),
-        keys=4 if named else 3,
+        keys=1 + named + 2 * sides,
         note=(
             "Rates: McNemar's exact test; values: Wilcoxon's signed-rank test; Holm's correction over the"
             f" {len(able)} of {len(comparisons)} tests that could be significant"

@@ -1,0 +1,69 @@
+"""`mrpbench compare A B`: what got better or worse from one results folder to another."""
+
+import argparse
+from pathlib import Path
+
+from mrpbench_core.cli.arguments import split_names
+from mrpbench_core.cli.table import print_json, print_wide
+from mrpbench_core.files.text import counted
+from mrpbench_core.store.results import load
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.epilog = (
+        "Runs are paired by scenario (and repeats averaged), configurations by the options that vary within a folder."
+        " Exit code: 0 nothing is significantly worse in B, 1 something is, 2 nothing could be compared."
+    )
+    parser.add_argument("first", metavar="A", help="results folder to compare with")
+    parser.add_argument("second", metavar="B", help="results folder that is judged")
+    parser.add_argument("--metrics", metavar="X,Y", help="columns to compare, or `all` (default: a few that matter)")
+    parser.add_argument("--by", metavar="X,Y", help="options in which configurations must agree; others are pooled")
+    parser.add_argument("--json", action="store_true", help="print as JSON")
+    parser.add_argument("--csv", metavar="FILE", help="write every comparison")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Compare and print."""
+    from mrpbench_core.report.rules import RULES
+    from mrpbench_core.report.tables.build import pairs_table
+    from mrpbench_core.report.tidy import PAIR_COLUMNS, pairs_of, write_rows
+    from mrpbench_core.report.versus import compare_folders
+
+    first, second = load(arguments.first), load(arguments.second)
+    found = compare_folders(first, second, split_names(arguments.metrics), split_names(arguments.by))
+    verdicts = [entry.verdict for entry in found.comparisons]
+    counts = {name: verdicts.count(name) for name in ("better", "worse", "different", "not shown")}
+    if arguments.csv:
+        write_rows(Path(arguments.csv), pairs_of(found.comparisons), list(PAIR_COLUMNS))
+    if arguments.json:
+        print_json(
+            {
+                "comparisons": pairs_of(found.comparisons),
+                "verdicts": counts,
+                "differing": {name: list(values) for name, values in found.differing.items()},
+                "only_in_first": list(found.unmatched[0]),
+                "only_in_second": list(found.unmatched[1]),
+                "no_common_scenario": list(found.lonely),
+                "rules": dict(RULES),
+            }
+        )
+        return int(counts["worse"] > 0)
+    print(f"A: {arguments.first}, {counted(len(first), 'run')}\nB: {arguments.second}, {counted(len(second), 'run')}")
+    for name, (one, other) in found.differing.items():
+        print(f"   {name}: {one} → {other}")
+    for letter, names in zip("AB", found.unmatched, strict=True):
+        if names:
+            print(f"only in {letter}, not compared: {'; '.join(names)}")
+    if found.lonely:
+        print(f"without a common scenario, not compared: {'; '.join(found.lonely)}")
+    table = pairs_table(found.comparisons)
+    assert table is not None
+    print()
+    print_wide(table)
+    print(
+        f"Of {counted(len(verdicts), 'comparison')} B is better in {counts['better']}, worse in {counts['worse']},",
+        end=" ",
+    )
+    print(f"different in {counts['different']}; that no difference is shown does not show that there is none")
+    return int(counts["worse"] > 0)

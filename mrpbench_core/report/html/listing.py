@@ -1,0 +1,65 @@
+"""The list of runs, packed: the page opens with 10^5 of them."""
+
+import base64
+import json
+import zlib
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from mrpbench_core.report.analysis import Analysis
+
+SHORT = 12
+"""Characters of a run id; enough to name one."""
+FIGURES = 6
+
+
+def packed_runs(analysis: Analysis, replays: Mapping[str, str]) -> str:
+    """All runs as deflated JSON in base64: columns, with texts that repeat given once.
+
+    Args:
+        analysis: its runs, groups and columns.
+        replays: addresses of pages, relative to the report, by run id.
+    """
+    runs = analysis.runs
+    group = np.zeros(len(runs), int)
+    names: list[str] = []
+    for setting in analysis.settings:
+        for entry, name in zip(setting.groups, setting.names, strict=True):
+            group[entry.members] = len(names)
+            names.append(" ".join(filter(None, (setting.name, name))))
+    statuses, messages = _Texts(), _Texts()
+    columns = [column for column in analysis.columns if column.name in runs.values]
+    data: dict[str, Any] = {
+        "folders": [str(results.folder.path) for results in analysis.folders],
+        "groups": names,
+        "id": [run_id[:SHORT] for run_id in runs.run_id],
+        "folder": runs.folder.tolist(),
+        "group": group.tolist(),
+        "status": [statuses.number(status) for status in runs.status],
+        "seed": runs.seed.tolist(),
+        "repeat": runs.repeat.tolist(),
+        "scenario": runs.scenario.tolist(),
+        "message": [messages.number(message) for message in runs.message],
+        "columns": [column.heading for column in columns],
+        "values": [[_rounded(value) for value in runs.values[column.name].tolist()] for column in columns],
+        "replays": {run_id[:SHORT]: address for run_id, address in replays.items()},
+    }
+    data |= {"statuses": list(statuses.known), "messages": list(messages.known)}
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return base64.b64encode(zlib.compress(text.encode(), 7)).decode()
+
+
+class _Texts:
+    """Numbers texts in the order in which they come."""
+
+    def __init__(self) -> None:
+        self.known: dict[str, int] = {}
+
+    def number(self, text: str) -> int:
+        return self.known.setdefault(text, len(self.known))
+
+
+def _rounded(value: float) -> float | None:
+    return float(f"{value:.{FIGURES}g}") if np.isfinite(value) else None

@@ -1,0 +1,128 @@
+"""Two results folders, configuration by configuration, on the scenarios that both have."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import attrs
+import numpy as np
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.report.analysis import choose_columns, tested
+from mrpbench_core.report.axes import Axes, name_axes, word
+from mrpbench_core.report.columns import read_columns
+from mrpbench_core.report.comparison import Comparison, adjusted, compare_pair
+from mrpbench_core.report.groups import Group
+from mrpbench_core.report.invocations import made_with, read_invocations
+from mrpbench_core.report.runs import Runs, read_runs
+from mrpbench_core.store.results import Results
+
+
+@attrs.frozen(kw_only=True)
+class Versus:
+    """What became of A in B."""
+
+    comparisons: tuple[Comparison, ...]
+    differing: dict[str, tuple[str, str]]
+    """Options, versions and machines that are one thing throughout A and another throughout B."""
+    unmatched: tuple[tuple[str, ...], tuple[str, ...]]
+    """Configurations of A and of B that the other lacks."""
+    lonely: tuple[str, ...]
+    """Configurations of both that share no scenario."""
+
+
+def compare_folders(
+    first: Results, second: Results, metrics: Sequence[str] | None = None, by: Sequence[str] | None = None
+) -> Versus:
+    """Compare B with A.
+
+    Configurations match where they agree in every option that varies within a folder; options that are one thing in A
+    and another in B are what is compared.
+
+    Args:
+        first: A.
+        second: B.
+        metrics: columns to compare; None = a few that matter, `["all"]` = all.
+        by: options in which configurations must agree to match; runs that differ in others are pooled.
+
+    Raises:
+        InputError: a folder is empty, a name is wrong, or nothing can be paired.
+    """
+    folders = (first, second)
+    for results in folders:
+        if not len(results):
+            raise InputError("no run is recorded here yet", file=results.folder.path)
+    runs = read_runs(folders, once=False)
+    known = read_columns(folders, runs.values)
+    columns = [known[name] for name in choose_columns(list(runs.values), metrics)]
+    axes = runs.axes()
+    matching = _varying_within(runs, axes) if by is None else list(dict.fromkeys(k for a in runs.axes(by) for k in a))
+    sides = [_groups(runs, axes, folder, matching) for folder in (0, 1)]
+    found: list[Comparison] = []
+    lonely = []
+    for key in (key for key in sides[0] if key in sides[1]):
+        pair = sides[0][key], sides[1][key]
+        units, unit = runs.units(np.concatenate([group.members for group in pair]))
+        name = name_axes(pair[0].axes)
+        entries = compare_pair(runs, units, unit, pair, (name, "A", "B"), tested(runs, known, columns))
+        found += entries
+        if not entries:
+            lonely.append(name or "all runs")
+    if not found:
+        raise InputError(
+            f"have no {'scenario' if lonely else 'configuration'} in common, so that nothing can be paired",
+            file=f"{first.folder.path} and {second.folder.path}",
+            hint=f"configurations match by {', '.join(matching) or 'nothing'}; --by chooses other options",
+        )
+    return Versus(
+        comparisons=tuple(adjusted(found)),
+        differing=_differing(runs, axes, matching) | _made_differently(folders),
+        unmatched=(_missing(sides[0], sides[1]), _missing(sides[1], sides[0])),
+        lonely=tuple(lonely),
+    )
+
+
+def _varying_within(runs: Runs, axes: Sequence[Axes]) -> list[str]:
+    """Options that are not the same throughout one of the folders."""
+    keys = list(dict.fromkeys(key for entry in axes for key in entry))
+    return [key for key in keys if any(len(_values(runs, axes, folder, key)) > 1 for folder in (0, 1))]
+
+
+def _values(runs: Runs, axes: Sequence[Axes], folder: int, key: str) -> dict[str, Any]:
+    """Different values of an option in a folder, by how they are written."""
+    used = np.unique(runs.config[runs.folder == folder])
+    return {repr(axes[index].get(key)): axes[index].get(key) for index in used}
+
+
+def _groups(runs: Runs, axes: Sequence[Axes], folder: int, matching: Sequence[str]) -> dict[str, Group]:
+    """Groups of one folder, by the options in which they must agree."""
+    chosen = [{key: entry[key] for key in matching if key in entry} for entry in axes]
+    names = np.array([repr(entry) for entry in chosen])
+    groups = {}
+    for name in dict.fromkeys(names.tolist()):
+        members = np.flatnonzero((runs.folder == folder) & (names == name)[runs.config])
+        if len(members):
+            part = next(entry for entry in chosen if repr(entry) == name)
+            groups[name] = Group(axes=part, members=members, counted=members[runs.counted[members]])
+    return groups
+
+
+def _differing(runs: Runs, axes: Sequence[Axes], matching: Sequence[str]) -> dict[str, tuple[str, str]]:
+    found = {}
+    for key in dict.fromkeys(key for entry in axes for key in entry if key not in matching):
+        one, other = (_values(runs, axes, folder, key) for folder in (0, 1))
+        if one.keys() != other.keys():
+            found[key] = (", ".join(map(word, one.values())), ", ".join(map(word, other.values())))
+    return found
+
+
+def _made_differently(folders: Sequence[Results]) -> dict[str, tuple[str, str]]:
+    one, other = (made_with(read_invocations([results])) for results in folders)
+    return {
+        name: (", ".join(one.get(name, ("–",))), ", ".join(other.get(name, ("–",))))
+        for name in dict.fromkeys([*one, *other])
+        if one.get(name) != other.get(name)
+    }
+
+
+def _missing(here: dict[str, Group], there: dict[str, Group]) -> tuple[str, ...]:
+    return tuple(name_axes(group.axes) or "all runs" for key, group in here.items() if key not in there)

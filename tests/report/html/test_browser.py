@@ -1,0 +1,94 @@
+"""The page in headless Chromium. Skipped where there is none."""
+
+import time
+
+import pytest
+
+pytest.importorskip("selenium.webdriver", reason="the tests of the page in a browser need selenium")
+from selenium.webdriver.common.by import By
+from selenium.webdriver.common.keys import Keys
+
+
+@pytest.fixture
+def shown(browser, page):
+    """Return the browser with the page open; afterwards its console must be empty."""
+    browser.get_log("browser")
+    browser.get_log("performance")
+    browser.get(page.as_uri())
+    end = time.monotonic() + 20
+    while not browser.execute_script("return document.body.classList.contains('ready')"):
+        assert time.monotonic() < end, "the page did not get there in time"
+        time.sleep(0.02)
+    yield browser
+    assert browser.get_log("browser") == []
+
+
+def rows(browser):
+    return browser.find_elements(By.CSS_SELECTOR, "#list tr.entry")
+
+
+def column(browser, name):
+    heads = [head.text.split(" ")[0] for head in browser.find_elements(By.CSS_SELECTOR, "#list th")]
+    return [row.find_elements(By.TAG_NAME, "td")[heads.index(name)].text for row in rows(browser)]
+
+
+def choose(browser, control, option):
+    browser.find_element(By.XPATH, f"//select[@id='{control}']/option[.='{option}']").click()
+
+
+def test_it_asks_the_network_for_nothing(shown):
+    requests = [entry["message"] for entry in shown.get_log("performance") if "requestWillBeSent" in entry["message"]]
+    assert requests
+    assert not [message for message in requests if "http:" in message or "https:" in message]
+    assert len(rows(shown)) == 41
+
+
+def test_runs_are_filtered(shown):
+    choose(shown, "status", "plan_timeout")
+    assert column(shown, "status") == ["plan timeout"] * 2
+    assert shown.find_element(By.ID, "found").text == "2 of 41 runs"
+    choose(shown, "status", "all")
+    choose(shown, "group", "cbs")
+    assert len(rows(shown)) == 21
+    shown.find_element(By.ID, "search").send_keys("seed:4")
+    assert column(shown, "seed") == ["4", "4"]
+
+
+def test_runs_are_sorted_and_nulls_come_last(shown):
+    head = next(h for h in shown.find_elements(By.CSS_SELECTOR, "#list th") if h.text.startswith("planning.cost"))
+    head.click()
+    found = column(shown, "planning.cost")
+    assert found[-3:] == ["–"] * 3
+    numbers = [float(word) for word in found[:-3]]
+    assert numbers == sorted(numbers)
+    head.click()
+    found = column(shown, "planning.cost")
+    assert found[-3:] == ["–"] * 3
+    assert [float(word) for word in found[:-3]] == numbers[::-1]
+    assert head.get_attribute("aria-sort") == "descending"
+
+
+def test_a_run_opens_with_its_message_and_its_replay(shown):
+    rows(shown)[0].click()
+    detail = shown.find_element(By.CSS_SELECTOR, "tr.detail")
+    assert detail.find_element(By.TAG_NAME, "a").get_attribute("href").endswith("results/replay-cbs.html")
+    assert "mrpbench view '" in detail.text
+    choose(shown, "status", "plan_timeout")
+    rows(shown)[0].send_keys(Keys.ENTER)
+    assert "</script><b>no plan" in shown.find_element(By.CSS_SELECTOR, "tr.detail").text
+
+
+def test_it_is_light_and_dark(shown):
+    def ground():
+        return shown.execute_script("return getComputedStyle(document.body).backgroundColor")
+
+    before = ground()
+    shown.find_element(By.ID, "theme").click()
+    assert ground() != before
+
+
+def test_charts_have_size_and_nothing_is_wider_than_the_window(shown):
+    charts = shown.find_elements(By.CSS_SELECTOR, "svg.chart")
+    assert len(charts) >= 5
+    assert all(chart.size["width"] > 200 and chart.size["height"] > 60 for chart in charts)
+    assert shown.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")

@@ -1,0 +1,109 @@
+"""What the page says, without a browser."""
+
+import base64
+import json
+import re
+import zlib
+from html.parser import HTMLParser
+from importlib import resources
+
+import numpy as np
+import pytest
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.report.analysis import analyse
+from mrpbench_core.report.html.origin import spans
+from mrpbench_core.report.html.page import write_report
+from mrpbench_core.report.picture import COLOURS
+
+VOID = {"meta", "link", "input", "wbr", "line", "br"}
+
+
+class Reader(HTMLParser):
+    """Notes text, attributes, and elements that are not closed in order."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.wrong, self.attributes, self.words = [], [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.attributes += [(tag, *pair) for pair in attributes]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.attributes += [(tag, *pair) for pair in attributes]
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+def test_the_page_is_well_formed_and_loads_nothing(page):
+    text = page.read_text(encoding="utf-8")
+    reader = Reader(text)
+    assert (reader.wrong, reader.open) == ([], [])
+    ids = [value for _, name, value in reader.attributes if name == "id"]
+    assert len(ids) == len(set(ids))
+    assert not re.search(r"<!--\w+-->", text), "every mark of the template is filled"
+    assert "default-src 'none'" in text
+    loaded = [value for _, name, value in reader.attributes if name in ("src", "href", "srcset", "action")]
+    assert all(value.startswith(("data:", "#")) for value in loaded)
+    assert not re.search(r"https?://|@import|url\(", text)
+
+
+def test_text_of_runs_is_text(page):
+    text = page.read_text(encoding="utf-8")
+    assert "<b>bad</b>" not in text
+    assert "</script><b>" not in text
+    assert "&lt;b&gt;bad&lt;/b&gt;" in text
+
+
+def test_the_page_tells_what_a_reviewer_asks(page, study):
+    words = " ".join(" ".join(Reader(page.read_text(encoding="utf-8")).words).split())
+    assert "41 runs of 2 configurations on 11 scenarios." in words
+    assert "<b>bad</b> is worse than cbs in planning.cost : 1.47 [1.26, 1.64] over 9 pairs, adjusted p = 0.004" in words
+    for fact in ("Wilson", "seed 0", "0..9, 77", "1999 resamples", "2 times the planning limit", "SHA-256"):
+        assert fact in words, fact
+
+
+def test_every_run_is_in_the_list(page):
+    text = page.read_text(encoding="utf-8")
+    packed = re.search(r'id="data">([^<]*)<', text)[1]
+    data = json.loads(zlib.decompress(base64.b64decode(packed)))
+    assert len(data["id"]) == 41
+    assert {data["statuses"][number] for number in data["status"]} == {
+        "succeeded",
+        "plan_timeout",
+        "scenario_infeasible",
+    }
+    cost = data["values"][data["columns"].index("planning.cost [s]")]
+    assert cost[:4] == [20.0, 20.0, 21.0, 21.0]
+    assert data["replays"] == {"cbs-0-0-5-": "results/replay-cbs.html"}
+    assert "</script><b>no plan" in data["messages"]
+
+
+def test_groups_have_the_colours_of_the_house():
+    style = (resources.files("mrpbench_core.report.html") / "template" / "style.css").read_text(encoding="utf-8")
+    light = style[: style.index('data-theme="dark"')]
+    assert tuple(re.findall(r"--s\d: (#\w+)", light)) == COLOURS
+
+
+def test_a_page_without_anything_to_compare(results, record, tmp_path):
+    write_report(analyse([results([record(status="crashed", scenario=None)])]), tmp_path / "a.html")
+    words = " ".join(Reader((tmp_path / "a.html").read_text(encoding="utf-8")).words)
+    assert "1 run of 1 configuration on 0 scenarios." in words
+
+
+def test_a_folder_that_does_not_exist_is_named(study, tmp_path):
+    with pytest.raises(InputError, match="cannot be written"):
+        write_report(analyse([study]), tmp_path / "no" / "a.html")
+
+
+def test_numbers_in_a_row_are_a_span():
+    assert spans(np.array([3, 1, 2, 7, 9, 10, 2])) == "1..3, 7, 9..10"
+    assert spans(np.array([], int)) == ""
