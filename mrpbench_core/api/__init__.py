@@ -14,6 +14,7 @@ from mrpbench_core.api.metric import Column, Metric, Value
 from mrpbench_core.api.navigator import Navigator, NavigatorSession
 from mrpbench_core.api.plan_filter import PlanFilter
 from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.api.recovery import Recovery, RecoverySession, Surroundings
 from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.api.simulator import Simulation, Simulator
@@ -66,10 +67,13 @@ __all__ = [
     "PlanFilter",
     "Planner",
     "Promise",
+    "Recovery",
+    "RecoverySession",
     "RoadmapBuilder",
     "ScenarioSource",
     "Simulation",
     "Simulator",
+    "Surroundings",
     "Track",
     "Value",
     "WorldSource",

@@ -1,14 +1,15 @@
 """Contract of the kind *controller*."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy as np
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.execution import Observation
+from mrpbench_core.model.execution import Observation, Observations, ScanBatch
 from mrpbench_core.model.fleet import RobotModel
 from mrpbench_core.model.world import World
 
@@ -28,19 +29,60 @@ class ControllerSession(ABC):
         return np.ones(len(poses), bool)
 
     def reroute(self, observation: Observation) -> Float | None:  # noqa: ARG002 - for those that override it
-        """Return waypoints f8[k,2] around what blocks the path, or None when the controller knows none."""
+        """Return waypoints f8[k,2] around what blocks the path, or None when nothing does or there is no way.
+
+        The last is a point of the path, which the robot follows again from there.
+        """
         return None
 
 
 class FleetControllerSession:
-    """Controls all robots at once. The default loops over one session per robot."""
+    """Controls all robots at once. The default loops over one session per robot.
 
-    def __init__(self, sessions: Sequence[ControllerSession]) -> None:
+    Args:
+        sessions: one per robot, in order.
+        name: of the controller, for messages.
+    """
+
+    def __init__(self, sessions: Sequence[ControllerSession], name: str = "") -> None:
         self.sessions = tuple(sessions)
+        self._name = name
+        self._scans: dict[int, ScanBatch] = {}
 
-    def command(self, observations: Mapping[int, Observation]) -> dict[int, tuple[float, float] | None]:
-        """Return a command for each robot in `observations`."""
-        return {robot: self.sessions[robot].command(seen) for robot, seen in observations.items()}
+    def command(self, observations: Observations) -> Float:
+        """Return forward speed (m/s) and turn rate (rad/s) of each row, f8[k,2]; NaN = no command is admissible."""
+        for batch in observations.scans:
+            for row, robot in enumerate(batch.robot.tolist()):
+                own = slice(row, row + 1)
+                self._scans[robot] = ScanBatch(stamp=batch.stamp, robot=batch.robot[own], ranges=batch.ranges[own])
+        twist = np.full((len(observations.robot), 2), np.nan)
+        for row, robot in enumerate(observations.robot.tolist()):
+            command = self.sessions[robot].command(observations.of(row, self._scans.pop(robot, None)))
+            if command is None:
+                continue
+            try:
+                ahead, turn = command
+                twist[row] = float(ahead), float(turn)
+            except (TypeError, ValueError):
+                wanted = "instead of (speed, turn rate) or None"
+                raise BrokenContractError(
+                    f"the controller {self._name} returned {command!r} for robot {robot} {wanted}"
+                ) from None
+            if not np.isfinite(twist[row]).all():
+                raise BrokenContractError(f"the controller {self._name} returned {command!r} for robot {robot}")
+        return twist
+
+    def clear(self, robot: int) -> None:
+        """Forget what one robot's sensors have marked."""
+        self.sessions[robot].clear()
+
+    def is_free(self, robot: int, poses: Float) -> Bool:
+        """Tell for each pose f8[k,3] whether one robot's footprint fits there as far as the controller knows."""
+        return self.sessions[robot].is_free(poses)
+
+    def reroute(self, observations: Observations, row: int) -> Float | None:
+        """Return waypoints f8[k,2] around what blocks the path of one row, or None; see `ControllerSession.reroute`."""
+        return self.sessions[int(observations.robot[row])].reroute(observations.of(row))
 
 
 class Controller(Component):
@@ -54,4 +96,5 @@ class Controller(Component):
 
     def start_fleet(self, robots: Sequence[RobotModel], world: World, period: float) -> FleetControllerSession:
         """Begin to control a fleet; override to answer for all robots in one call."""
-        return FleetControllerSession([self.start(robot, world, period) for robot in robots])
+        sessions = [self.start(robot, world, period) for robot in robots]
+        return FleetControllerSession(sessions, type(self).__name__)

@@ -20,7 +20,11 @@ class NavigatorSession(ABC):
 
     @abstractmethod
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
-        """Return twists for one control period and how far each robot got; `now` in simulated seconds."""
+        """Return twists for one control period and how far each robot got; `now` in simulated seconds.
+
+        A robot has arrived when it reached its last waypoint and its mode says that it waits: one that still turns to
+        the yaw that is wanted there follows.
+        """
 
 
 class Navigator(Component):

@@ -9,13 +9,10 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.model.arrays import Int32
 from mrpbench_core.model.execution import Estimate, Mode, Motion, Orders, ScanBatch, State
 from mrpbench_core.model.scenario import Scenario
-
-
-class BrokenContractError(Exception):
-    """A component returned what its contract rules out; says which and what."""
 
 
 class Answers:

@@ -19,6 +19,7 @@ from mrpbench_core.engine.recorder import Recorder
 from mrpbench_core.engine.replanning import Replans, Revision
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.arrays import Bool
 from mrpbench_core.model.execution import (
     Event,
     FleetObservation,
@@ -148,13 +149,11 @@ def execute_plan(
         if orders.requests:
             raise MissionError(f"the dispatcher asked for {orders.requests[0][1]}, and nothing grants that yet")
         observation = FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
-        motion = answers.motion(navigator.step(now, observation, orders))
-        held = (now < noise.start_delay)[:, None]
-        motion = attrs.evolve(motion, twist=np.where(held, 0.0, motion.twist))
-        at_end = motion.reached >= answers.length
+        motion = answers.motion(navigator.step(now, observation, _held_back(orders, now < noise.start_delay)))
+        at_goal = (motion.reached >= answers.length) & (motion.mode == Mode.WAITING)
         gave_up = motion.mode == Mode.ABORTED
-        arrived = bool(at_end.all())
-        over = bool((at_end | gave_up).all()) or now >= limit_s
+        arrived = bool(at_goal.all())
+        over = bool((at_goal | gave_up).all()) or now >= limit_s
         recorder.scans(scans)
         recorder.events(motion.events)
         recorder.sample(step, now, state, estimate, odometry, orders, motion, over)
@@ -189,3 +188,8 @@ def _adopt(
             return Event(stamp=now, kind="replan", detail=new.reason)
     replans.failed(now)
     return Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}")
+
+
+def _held_back(orders: Orders, late: Bool) -> Orders:
+    """The orders as robots know them of which some are `late` bool[n] at the start: to those nothing is released."""
+    return attrs.evolve(orders, released=np.where(late, 0, orders.released)) if late.any() else orders

@@ -46,6 +46,7 @@ class Recorder:
         self._sink = sink
         sink({name: np.empty((0, *shape), kind) for name, (kind, shape) in IRREGULAR.items()})
         self._rows: dict[str, list[Any]] = defaultdict(list)
+        self._touching: set[tuple[int, int]] = set()
 
     def sample(
         self,
@@ -77,10 +78,15 @@ class Recorder:
             self.flush()
 
     def contacts(self, now: float, state: State) -> None:
-        """Record who touched whom during the period that ends `now`."""
-        for pair in state.contacts:
+        """Record who touched whom during the period that ends `now`; the beginning of a contact is an event too."""
+        touching = {(robot, other) for robot, other in state.contacts.tolist()}
+        for robot, other in sorted(touching):
             self._rows["contact_time"].append(now)
-            self._rows["contact"].append(pair)
+            self._rows["contact"].append((robot, other))
+            if (robot, other) not in self._touching:
+                detail = "wall" if other < 0 else f"robot_{other}"
+                self.events([Event(stamp=now, kind="contact", robot=robot, detail=detail)])
+        self._touching = touching
 
     def scans(self, batches: Sequence[ScanBatch]) -> None:
         """Record scans, one row per robot; rows of unlike lidars are padded with NaN."""

@@ -2,10 +2,12 @@
 
 from collections.abc import Mapping
 from enum import IntEnum
+from typing import Self
 
 import attrs
+import numpy as np
 
-from mrpbench_core.model.arrays import Byte, Float, Int16, Int32, array
+from mrpbench_core.model.arrays import Byte, Float, Int, Int16, Int32, array
 
 
 class Mode(IntEnum):
@@ -121,8 +123,74 @@ class Observation:
     """Yaw to take at the last waypoint, NaN = any."""
     speed: float = float("inf")
     """m/s allowed now."""
+    tolerance: float = 0.1
+    """Metres from the last waypoint at which it counts as reached."""
     scan: ScanBatch | None = None
     """This robot's newest scan if it is new since the last call (one row)."""
+
+
+@attrs.frozen(kw_only=True, eq=False)
+class Observations:
+    """What the controllers of k robots know, row by row; see `Observation`. Nothing in it may be written to."""
+
+    now: float
+    robot: Int
+    """i8[k] index of each row's robot, ascending."""
+    pose: Float
+    """f8[k,3] estimated x, y, yaw in `map`."""
+    twist: Float
+    """f8[k,2] measured m/s, rad/s."""
+    foot: Float
+    """f8[k,2]: the nearest point of the route, where each path begins."""
+    points: Float
+    """f8[p,2]: the waypoints of many paths."""
+    begin: Int
+    """i8[k]: the path of row i is `foot[i]`, then `points[begin[i]:end[i]]`, at least one."""
+    end: Int
+    yaw: Float
+    """f8[k]: yaw to take at the last waypoint, NaN = any."""
+    speed: Float
+    """f8[k] m/s allowed now."""
+    tolerance: float = 0.1
+    """Metres from the last waypoint at which it counts as reached."""
+    scans: tuple[ScanBatch, ...] = ()
+    """All that are new since the last period, also of robots without a row here."""
+
+    @classmethod
+    def alone(cls, seen: Observation) -> Self:
+        """One row for robot 0."""
+        points = seen.path[1:] if len(seen.path) > 1 else seen.path
+        return cls(
+            now=seen.now,
+            robot=np.zeros(1, np.int64),
+            pose=seen.pose[None],
+            twist=seen.twist[None],
+            foot=seen.path[:1],
+            points=points,
+            begin=np.zeros(1, np.int64),
+            end=np.array([len(points)]),
+            yaw=np.array([seen.yaw]),
+            speed=np.array([seen.speed]),
+            tolerance=seen.tolerance,
+            scans=() if seen.scan is None else (attrs.evolve(seen.scan, robot=np.zeros(1, np.int32)),),
+        )
+
+    def path(self, row: int) -> Float:
+        """The path of one row, f8[k,2]."""
+        return np.vstack([self.foot[row : row + 1], self.points[self.begin[row] : self.end[row]]])
+
+    def of(self, row: int, scan: ScanBatch | None = None) -> Observation:
+        """What the controller of one row knows."""
+        return Observation(
+            now=self.now,
+            pose=self.pose[row],
+            twist=self.twist[row],
+            path=self.path(row),
+            yaw=float(self.yaw[row]),
+            speed=float(self.speed[row]),
+            tolerance=self.tolerance,
+            scan=scan,
+        )
 
 
 @attrs.frozen(kw_only=True)

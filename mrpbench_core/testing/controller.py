@@ -8,7 +8,7 @@ import numpy as np
 
 from mrpbench_core.api.controller import Controller, ControllerSession
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Observation
+from mrpbench_core.model.execution import Observation, Observations
 from mrpbench_core.testing.component import ComponentConformance
 from mrpbench_core.testing.outcome import require
 from mrpbench_core.testing.room import PERIOD, ROBOT, driven, room
@@ -108,13 +108,10 @@ class ControllerConformance(ComponentConformance):
         tracks = [Track(STRAIGHT), Track(CORNER)]
         said = []
         for step in range(round(5.0 / PERIOD)):
-            seen = {
-                robot: observation(step, poses[robot], twists[robot], track.ahead(poses[robot]))
-                for robot, track in enumerate(tracks)
-            }
-            answers = together.command(seen)
-            require(answers.keys() == seen.keys(), f"start_fleet: commands {set(answers)} when asked for {set(seen)}")
-            twists = np.array([answers[robot] or (0.0, 0.0) for robot in range(2)])
+            answers = together.command(observations(step, poses, twists, tracks))
+            shape = np.shape(answers)
+            require(shape == (2, 2), f"start_fleet: commands of shape {shape} when asked for two robots")
+            twists = np.nan_to_num(answers)
             said.append(twists)
             poses = driven(poses, twists, PERIOD)
         first = np.array(said)
@@ -165,6 +162,24 @@ def drive(
         if at_rest == 40:  # two seconds
             break
     return Drive(np.array(poses), np.array(twists))
+
+
+def observations(step: int, poses: Float, twists: Float, tracks: Sequence[Track]) -> Observations:
+    """What the controllers of several robots see; see `observation`."""
+    paths = [track.ahead(pose) for track, pose in zip(tracks, poses, strict=True)]
+    ends = np.cumsum([len(path) - 1 for path in paths])
+    return Observations(
+        now=step * PERIOD,
+        robot=np.arange(len(paths)),
+        pose=np.column_stack([poses[:, :2], np.remainder(poses[:, 2] + np.pi, 2 * np.pi) - np.pi]),
+        twist=twists,
+        foot=np.array([path[0] for path in paths]),
+        points=np.concatenate([path[1:] for path in paths]),
+        begin=np.append(0, ends[:-1]),
+        end=ends,
+        yaw=np.full(len(paths), math.nan),
+        speed=np.full(len(paths), math.inf),
+    )
 
 
 def observation(step: int, pose: Float, twist: Float, path: Float, speed: float = math.inf) -> Observation:

@@ -1,6 +1,7 @@
 """Sampling, chunks and channels that stay empty."""
 
 import numpy as np
+import pytest
 
 from mrpbench_core.engine.recorder import SAMPLES, SCANS, Recorder
 from mrpbench_core.model.execution import Estimate, Event, Motion, Odometry, Orders, ScanBatch, State
@@ -60,8 +61,21 @@ def test_contacts_events_and_scans_of_unlike_lidars_are_kept():
     )
     recorder.flush()
     assert joined(chunks, "contact").tolist() == [[0, 1], [1, -1]]
-    assert joined(chunks, "event_detail").tolist() == ["left"]
+    assert joined(chunks, "event_detail").tolist() == ["robot_1", "wall", "left"]
     np.testing.assert_array_equal(joined(chunks, "scan_ranges"), [[1, 2, np.nan], [3, 4, np.inf]])
+
+
+def test_a_contact_is_an_event_when_it_begins():
+    chunks = []
+    recorder = Recorder(10.0, 0.05, chunks.append)
+    for period, contacts in enumerate(([[0, 1]], [[0, 1]], [], [[0, 1], [0, -1]])):
+        state = State(pose=np.zeros((2, 3)), twist=np.zeros((2, 2)), level=[0, 0], contacts=contacts)
+        recorder.contacts(period * 0.05, state)
+    recorder.flush()
+    assert len(joined(chunks, "contact")) == 4
+    assert joined(chunks, "event_kind").tolist() == ["contact"] * 3
+    assert joined(chunks, "event_time").tolist() == pytest.approx([0, 0.15, 0.15])
+    assert joined(chunks, "event_detail").tolist() == ["robot_1", "wall", "robot_1"]
 
 
 def test_scans_of_many_robots_are_handed_on_before_the_end():

@@ -1,6 +1,7 @@
 """The navigator: drives each robot along what is released to it, checks its progress, and says how far it got.
 
-The checks are those of Nav2 (Macenski et al., "The Marathon 2: A Navigation System", IROS 2020), by its names.
+Checks, recoveries and their order are those of Nav2 (Macenski et al., "The Marathon 2: A Navigation System", IROS
+2020), by its names.
 """
 
 from collections.abc import Sequence
@@ -11,9 +12,18 @@ import numpy as np
 from attrs.validators import ge, gt
 
 from mrpbench_core.api import Controller, FleetControllerSession, Navigator, NavigatorSession, option
-from mrpbench_core.builtin.navigators.follower import Follower
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Event, FleetObservation, Motion, Observation, Orders, Route, ScanBatch
+from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.api.recovery import Recovery
+from mrpbench_core.builtin.navigators.detours import Detours
+from mrpbench_core.builtin.navigators.followers import Followers
+from mrpbench_core.builtin.navigators.progress import Progress
+from mrpbench_core.builtin.navigators.rescue import Rescue
+from mrpbench_core.builtin.recoveries.back_up import BackUp
+from mrpbench_core.builtin.recoveries.clear import Clear
+from mrpbench_core.builtin.recoveries.spin import Spin
+from mrpbench_core.builtin.recoveries.wait import Wait
+from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.execution import Event, FleetObservation, Mode, Motion, Observations, Orders, Route
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.world import World
 
@@ -39,80 +49,130 @@ class Waypoints(Navigator):
         help="error of yaw within which the end of the path is reached, if it prescribes one, radians",
         validator=gt(0),
     )
+    stateful: bool = option(True, help="once at the end of the path, only the yaw is checked")
     required_movement_radius: float = option(
         0.5, help="a robot under way makes progress when it moves this far", unit="m", validator=gt(0)
     )
     movement_time_allowance: float = option(
         10.0, help="time in which it must; waiting for release does not count", unit="s", validator=gt(0)
     )
-    max_recoveries: int = option(
-        6, help="how often a robot without progress tries again before it gives up", validator=ge(0)
+    failure_tolerance: float = option(
+        0.3, help="how long the controller may know no admissible command", unit="s", validator=ge(0)
     )
+    replan_period: float = option(
+        1.0, help="how often a robot that does not get on asks for a way around; 0 = never", unit="s", validator=ge(0)
+    )
+    recoveries: tuple[Recovery, ...] = option(
+        (Clear(), Spin(), Wait(), BackUp()), help="what a robot tries that does not get on, in turn"
+    )
+    max_recoveries: int = option(6, help="how often it tries between two waypoints before it gives up", validator=ge(0))
 
     def start(
         self, fleet: Fleet, world: World, routes: Sequence[Route], controller: Controller, period: float, seed: int
     ) -> NavigatorSession:
         """Begin at the start of the routes; nothing here is random."""
         del seed
-        widest = float(fleet.radii.max(initial=0.0))
-        followers = [
-            Follower(route, self, robot.radius + widest) for route, robot in zip(routes, fleet.robots, strict=True)
-        ]
-        return _Session(followers, controller.start_fleet(fleet.robots, world, period))
+        followers = Followers(routes, self, fleet.radii + fleet.radii.max(initial=0.0))
+        controllers = controller.start_fleet(fleet.robots, world, period)
+        return _Session(self, fleet, followers, controllers, type(controller).__name__, period)
 
 
 class _Session(NavigatorSession):
-    def __init__(self, followers: Sequence[Follower], controllers: FleetControllerSession) -> None:
-        self._followers = followers
-        self._controllers = controllers
+    def __init__(
+        self,
+        options: Waypoints,
+        fleet: Fleet,
+        followers: Followers,
+        controllers: FleetControllerSession,
+        controller: str,
+        period: float,
+    ) -> None:
+        self._followers, self._controllers, self._controller = followers, controllers, controller
+        self._tolerance, self._failure_tolerance = options.xy_goal_tolerance, options.failure_tolerance
+        self._progress = Progress(len(fleet), options.required_movement_radius, options.movement_time_allowance)
+        self._detours = Detours(followers, controllers, round(options.replan_period / period))
+        named = [(_word(type(recovery)), recovery) for recovery in options.recoveries]
+        self._rescue = Rescue(fleet.robots, named, options.max_recoveries, period, controllers, followers)
+        self._commanded: Float = np.zeros(len(fleet))  # when each robot last had an admissible command
 
     def adopt(self, routes: Sequence[Route]) -> None:
-        for follower, route in zip(self._followers, routes, strict=True):
-            follower.adopt(route)
+        self._followers.adopt(routes)
+        self._detours.cancel_all()
+        self._rescue.forgive()
 
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
-        pose = observation.estimate.pose
-        released = orders.released.tolist()
-        events: list[Event] = []
-        seen: dict[int, Observation] = {}
-        scans = _by_robot(observation.scans)
-        twists: Float = observation.odometry.twist
-        for robot, (follower, here, speed) in enumerate(
-            zip(self._followers, pose.tolist(), twists[:, 0].tolist(), strict=True)
-        ):
-            x, y, yaw = here
-            for kind in follower.update(now, x, y, yaw, speed, released[robot]):
-                events.append(Event(stamp=now, kind=kind, robot=robot))
-                if kind == "no_progress":
-                    self._controllers.sessions[robot].clear()
-            path = follower.path(x, y, yaw)
-            if path is not None:
-                seen[robot] = Observation(
-                    now=now,
-                    pose=pose[robot],
-                    twist=twists[robot],
-                    path=path,
-                    yaw=follower.yaw,
-                    speed=follower.speed,
-                    scan=scans.get(robot),
-                )
-        twist = np.zeros((len(self._followers), 2))
-        for robot, command in self._controllers.command(seen).items():
-            if command is not None:
-                twist[robot, 0], twist[robot, 1] = command  # a bare number is refused, not taken for both
+        pose, measured = observation.estimate.pose, observation.odometry.twist
+        followers, rescue = self._followers, self._rescue
+        followers.update(pose, measured[:, 0], orders.released)
+        self._detours.shorten(pose)
+        foot = followers.foot(pose)
+        under_way = followers.under_way(pose) & ~rescue.aborted
+        following = followers.driven(pose, foot) & ~rescue.aborted & ~rescue.recovering
+        twist, events = self._drive(now, observation, foot, np.flatnonzero(following))
+        stuck = self._progress.check(now, pose, under_way & ~rescue.recovering)
+        silent = following & (now - self._commanded > self._failure_tolerance)
+        self._commanded[~following | silent] = now
+        for robot in np.flatnonzero(stuck | silent).tolist():
+            kind = "no_progress" if stuck[robot] else "no_command"
+            events.append(Event(stamp=now, kind=kind, robot=robot))
+            events += rescue.begin(robot, now, pose)
+            self._detours.cancel(robot)
+            twist[robot] = 0.0
+        events += rescue.step(now, pose, measured, twist)
         return Motion(
             twist=twist,
-            reached=np.array([follower.reached for follower in self._followers], np.int32),
-            cleared=np.array([follower.cleared for follower in self._followers], np.int32),
-            mode=np.array([follower.mode for follower in self._followers], np.uint8),
+            reached=followers.reached,
+            cleared=followers.cleared,
+            mode=_modes(under_way, rescue.recovering, rescue.aborted),
             events=tuple(events),
         )
 
+    def _drive(
+        self, now: float, observation: FleetObservation, foot: Float, robots: np.ndarray
+    ) -> tuple[Float, list[Event]]:
+        """Commands of the controllers for the whole fleet f8[n,2], zero where there is none."""
+        twist = np.zeros((len(foot), 2))
+        followers = self._followers
+        seen = Observations(
+            now=now,
+            robot=robots,
+            pose=observation.estimate.pose[robots],
+            twist=observation.odometry.twist[robots],
+            foot=foot[robots],
+            points=followers.corners,
+            begin=followers.begin[robots],
+            end=followers.end[robots],
+            yaw=followers.yaw[robots],
+            speed=followers.speed[robots],
+            tolerance=self._tolerance,
+            scans=observation.scans,
+        )
+        command = self._controllers.command(self._detours.lay(seen))
+        self._check(command, robots)
+        silent = np.isnan(command[:, 0])
+        events = self._detours.look(seen, silent)
+        twist[robots] = np.where(silent[:, None], 0.0, command)
+        self._commanded[robots[~silent]] = now
+        return twist, events
 
-def _by_robot(batches: Sequence[ScanBatch]) -> dict[int, ScanBatch]:
-    """The newest scan of each robot, one row each."""
-    return {
-        robot: ScanBatch(stamp=batch.stamp, robot=batch.robot[row : row + 1], ranges=batch.ranges[row : row + 1])
-        for batch in batches
-        for row, robot in enumerate(batch.robot.tolist())
-    }
+    def _check(self, command: object, robots: np.ndarray) -> None:
+        """Blame the controller for what is no command."""
+        who = f"the controller {self._controller}"
+        if not isinstance(command, np.ndarray) or command.shape != (len(robots), 2):
+            raise BrokenContractError(f"{who} returned {command!r} instead of f8[{len(robots)},2]")
+        wrong = ~np.isfinite(command).all(axis=1) & ~np.isnan(command).all(axis=1)
+        if wrong.any():
+            row = int(wrong.argmax())
+            raise BrokenContractError(f"{who} returned {command[row].tolist()} for robot {robots[row]}")
+
+
+def _modes(under_way: Bool, recovering: Bool, aborted: Bool) -> np.ndarray:
+    mode = np.where(under_way, np.uint8(Mode.FOLLOWING), np.uint8(Mode.WAITING))
+    mode[recovering] = Mode.RECOVERING
+    mode[aborted] = Mode.ABORTED
+    return mode
+
+
+def _word(cls: type) -> str:
+    """`back_up` for `BackUp`."""
+    return "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in cls.__name__).lstrip("_")

@@ -3,16 +3,42 @@ from itertools import pairwise
 
 import attrs
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.builtin.navigators.follower import Follower
+from mrpbench_core.builtin.navigators.followers import Followers
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
-from mrpbench_core.model.execution import Mode, Route
+from mrpbench_core.model.execution import Route
 
-OPTIONS = Waypoints(max_recoveries=2)
+OPTIONS = Waypoints()
 CLEARANCE = 0.25
+
+
+class Follower:
+    """A fleet of one, whose pose is asked for only where it matters."""
+
+    def __init__(self, route, options, clearance):
+        self.fleet = Followers([route], options, np.array([clearance]))
+
+    def update(self, x, y, yaw, speed, released):
+        self.pose = np.array([[x, y, yaw]])
+        self.fleet.update(self.pose, np.array([speed]), np.array([released], np.int32))
+
+    def adopt(self, route):
+        self.fleet.adopt([route])
+
+    reached = property(lambda self: self.fleet.reached[0])
+    cleared = property(lambda self: self.fleet.cleared[0])
+    under_way = property(lambda self: self.fleet.under_way(self.pose)[0])
+    yaw = property(lambda self: self.fleet.yaw[0])
+    speed = property(lambda self: self.fleet.speed[0])
+
+    @property
+    def path(self):
+        foot = self.fleet.foot(self.pose)
+        if not self.fleet.driven(self.pose, foot)[0]:
+            return None
+        return np.vstack([foot, self.fleet.corners[self.fleet.begin[0] : self.fleet.end[0]]])
 
 
 def route(points, yaw=math.nan, speed=math.inf):
@@ -25,11 +51,9 @@ def route(points, yaw=math.nan, speed=math.inf):
 def follow(points, poses, released=None, navigator=OPTIONS, **options):
     """The follower after some poses (x, y, yaw), one control period apart, with everything released."""
     follower = Follower(route(points, **options), navigator, CLEARANCE)
-    events = []
-    for period, (x, y, yaw) in enumerate(poses):
-        limit = len(points) - 1 if released is None else released
-        events += follower.update(period * 0.05, x, y, yaw, 0.2, limit)
-    return follower, events
+    for pose in poses:
+        follower.update(*pose, 0.2, len(points) - 1 if released is None else released)
+    return follower
 
 
 LINE = [(0, 0), (0.4, 0), (0.8, 0), (1.2, 0)]
@@ -47,61 +71,61 @@ def along(line, step=0.02):
 
 
 def test_nothing_is_reached_nor_cleared_at_the_start_and_nothing_to_drive_without_release():
-    follower, _ = follow(LINE, [(0, 0, 0)], released=0)
-    assert (follower.reached, follower.cleared, follower.mode) == (0, 0, Mode.WAITING)
-    assert follower.path(0, 0, 0) is None
+    follower = follow(LINE, [(0, 0, 0)], released=0)
+    assert (follower.reached, follower.cleared, follower.under_way) == (0, 0, False)
+    assert follower.path is None
 
 
 def test_waypoints_are_reached_within_the_tolerance_and_only_as_far_as_released():
-    assert follow(LINE, along([(0, 0), (0.29, 0)]))[0].reached == 0
-    assert follow(LINE, along([(0, 0), (0.31, 0)]))[0].reached == 1
-    assert follow(LINE, along([(0, 0), (1.2, 0)]), released=2)[0].reached == 2
-    assert follow(LINE, along([(0, 0), (1.2, 0)]))[0].reached == 3
+    assert follow(LINE, along([(0, 0), (0.29, 0)])).reached == 0
+    assert follow(LINE, along([(0, 0), (0.31, 0)])).reached == 1
+    assert follow(LINE, along([(0, 0), (1.2, 0)]), released=2).reached == 2
+    assert follow(LINE, along([(0, 0), (1.2, 0)])).reached == 3
 
 
 def test_a_waypoint_passed_beside_is_reached_but_not_one_passed_far_off():
-    assert follow(LINE, [(0, 0, 0), (0.55, 0.09, 0)])[0].reached == 1
-    assert follow(LINE, [(0, 0, 0), (0.55, 0.11, 0)])[0].reached == 0
+    assert follow(LINE, [(0, 0, 0), (0.55, 0.09, 0)]).reached == 1
+    assert follow(LINE, [(0, 0, 0), (0.55, 0.11, 0)]).reached == 0
 
 
 def test_a_segment_is_cleared_when_the_robot_leaves_room_at_its_start():
-    assert follow(LINE, along([(0, 0), (0.24, 0)]))[0].cleared == 0
-    assert follow(LINE, along([(0, 0), (0.26, 0)]))[0].cleared == 1
+    assert follow(LINE, along([(0, 0), (0.24, 0)])).cleared == 0
+    assert follow(LINE, along([(0, 0), (0.26, 0)])).cleared == 1
     # Near the first waypoint it has not yet left room for another at the second one's start.
-    assert follow(LINE, along([(0, 0), (0.6, 0)]))[0].cleared == 1
-    assert follow(LINE, along([(0, 0), (1.2, 0)]))[0].cleared == 3
+    assert follow(LINE, along([(0, 0), (0.6, 0)])).cleared == 1
+    assert follow(LINE, along([(0, 0), (1.2, 0)])).cleared == 3
 
 
 def test_a_segment_no_longer_than_the_clearance_is_cleared_when_its_end_is_reached():
     short = [(0, 0), (0.2, 0), (0.4, 0)]
-    assert follow(short, along([(0, 0), (0.09, 0)]))[0].cleared == 0
-    follower, _ = follow(short, along([(0, 0), (0.2, 0)]), released=1)
+    assert follow(short, along([(0, 0), (0.09, 0)])).cleared == 0
+    follower = follow(short, along([(0, 0), (0.2, 0)]), released=1)
     assert (follower.reached, follower.cleared) == (1, 1)
 
 
 def test_a_wait_is_reached_at_once_and_cleared_with_the_move_after_it():
     waiting = [(0, 0), (0.4, 0), (0.4, 0), (0.4, 0), (0.8, 0)]
-    follower, _ = follow(waiting, along([(0, 0), (0.4, 0)]), released=3)
+    follower = follow(waiting, along([(0, 0), (0.4, 0)]), released=3)
     assert (follower.reached, follower.cleared) == (3, 1)
-    assert follower.mode == Mode.WAITING
-    follower.update(9, 0.6, 0, 0, 0.2, 4)
+    assert not follower.under_way
+    follower.update(0.6, 0, 0, 0.2, 4)
     assert (follower.reached, follower.cleared) == (3, 1)
-    follower.update(9, 0.66, 0, 0, 0.2, 4)
+    follower.update(0.66, 0, 0, 0.2, 4)
     assert (follower.reached, follower.cleared) == (3, 4)
 
 
 def test_a_robot_that_comes_back_does_not_clear_early():
     there_and_back = [(0, 0), (0.4, 0), (0, 0), (0.4, 0)]
-    follower, _ = follow(there_and_back, along([(0, 0), (0.31, 0)]))
+    follower = follow(there_and_back, along([(0, 0), (0.31, 0)]))
     assert (follower.reached, follower.cleared) == (1, 1)
     for pose in along([(0.31, 0), (0.0, 0)]):
-        follower.update(1, *pose, 0.2, 3)
+        follower.update(*pose, 0.2, 3)
     assert (follower.reached, follower.cleared) == (2, 2)
 
 
 def test_the_path_begins_beside_the_robot_and_ends_where_the_release_ends():
-    follower, _ = follow(LINE, along([(0, 0), (0.5, 0)]), released=2)
-    assert np.allclose(follower.path(0.5, 0.03, 0), [(0.5, 0), (0.8, 0)])
+    follower = follow(LINE, along([(0, 0), (0.5, 0)]), released=2)
+    assert np.allclose(follower.path, [(0.5, 0), (0.8, 0)])
 
 
 @settings(deadline=None, max_examples=100)
@@ -115,9 +139,9 @@ def test_no_path_leads_beyond_what_is_released(steps, data):
     for _ in range(3):
         released = data.draw(st.integers(released, len(steps)))
         for x, y, yaw in along(points[driven : released + 1], step=0.05):
-            follower.update(0, x, y, yaw, 0.2, released)
+            follower.update(x, y, yaw, 0.2, released)
             assert driven <= follower.reached <= released
-            path = follower.path(x, y, yaw)
+            path = follower.path
             if path is not None:
                 ends = [points[index] for index in range(follower.reached, released + 1)]
                 assert min(math.dist(path[-1], end) for end in ends) < 1e-9
@@ -125,78 +149,60 @@ def test_no_path_leads_beyond_what_is_released(steps, data):
 
 
 def test_a_robot_that_waits_before_a_bend_does_not_go_round_it():
-    follower, _ = follow(CORNER, along([(0, 0), (0.35, 0)]), released=1)
+    follower = follow(CORNER, along([(0, 0), (0.35, 0)]), released=1)
     assert follower.reached == 1
-    assert np.allclose(follower.path(0.35, 0, 0), [(0.35, 0), (0.4, 0)])
+    assert np.allclose(follower.path, [(0.35, 0), (0.4, 0)])
 
 
 def test_the_path_ends_at_a_bend_until_it_is_reached():
-    follower, _ = follow(CORNER, along([(0, 0), (0.2, 0)]))
-    assert np.allclose(follower.path(0.2, 0, 0), [(0.2, 0), (0.4, 0)])
-    follower, _ = follow(CORNER, along([(0, 0), (0.35, 0)]))
-    assert np.allclose(follower.path(0.35, 0, 0), [(0.35, 0), (0.4, 0), (0.4, 0.4), (0.4, 0.8)])
-    follower, _ = follow(CORNER, [*along([(0, 0), (0.35, 0)]), (0.38, 0.05, 1.5)])
-    assert np.allclose(follower.path(0.38, 0.05, 1.5), [(0.4, 0.05), (0.4, 0.4), (0.4, 0.8)])
+    follower = follow(CORNER, along([(0, 0), (0.2, 0)]))
+    assert np.allclose(follower.path, [(0.2, 0), (0.4, 0)])
+    follower = follow(CORNER, along([(0, 0), (0.35, 0)]))
+    assert np.allclose(follower.path, [(0.35, 0), (0.4, 0), (0.4, 0.4), (0.4, 0.8)])
+    follower = follow(CORNER, [*along([(0, 0), (0.35, 0)]), (0.38, 0.05, 1.5)])
+    assert np.allclose(follower.path, [(0.4, 0.05), (0.4, 0.4), (0.4, 0.8)])
 
 
 def test_a_robot_that_has_reached_the_end_drives_on_to_the_very_end_and_stands_there():
-    follower, _ = follow(LINE, along([(0, 0), (1.12, 0)]))
+    follower = follow(LINE, along([(0, 0), (1.12, 0)]))
     assert follower.reached == 3
-    assert follower.path(1.12, 0, 0) is not None
-    assert follower.path(1.19, 0, 0) is None
+    assert follower.path is not None
+    follower.update(1.19, 0, 0, 0.2, 3)
+    assert follower.path is None
 
 
 def test_the_goal_has_a_yaw_when_the_route_prescribes_one():
-    follower, _ = follow(LINE, along([(0, 0), (1.2, 0)]), yaw=1.5)
+    follower = follow(LINE, along([(0, 0), (1.2, 0)]), yaw=1.5)
     assert follower.reached == 2
-    assert follower.path(1.2, 0, 0) is not None
-    follower.update(9, 1.2, 0, 1.4, 0.0, 3)
+    assert follower.path is not None
+    follower.update(1.2, 0, 1.4, 0.0, 3)
     assert follower.reached == 3
-    assert follower.path(1.2, 0, 1.4) is None
+    assert follower.path is None
 
 
 def test_the_yaw_of_the_goal_is_not_to_be_taken_at_a_bend_before_it():
-    follower, _ = follow(CORNER, along([(0, 0), (0.2, 0)]), yaw=1.5)
-    follower.path(0.2, 0, 0)
+    follower = follow(CORNER, along([(0, 0), (0.2, 0)]), yaw=1.5)
     assert math.isnan(follower.yaw)
-    follower.update(9, 0.35, 0, 0, 0.2, 3)
-    follower.path(0.35, 0, 0)
+    follower.update(0.35, 0, 0, 0.2, 3)
     assert follower.yaw == 1.5
 
 
 def test_stopping_at_waypoints_means_standing_still_at_each():
     stop = Waypoints(waypoints="stop")
-    follower, _ = follow(LINE, along([(0, 0), (0.31, 0)]), navigator=stop)
+    follower = follow(LINE, along([(0, 0), (0.31, 0)]), navigator=stop)
     assert follower.reached == 1
-    assert follower.path(0.31, 0, 0) is None
-    follower.update(9, 0.31, 0, 0, 0.005, 3)
-    assert np.allclose(follower.path(0.31, 0, 0), [(0.31, 0), (0.4, 0), (0.8, 0)])
-
-
-@pytest.mark.parametrize("released", [3, 2])
-def test_a_robot_without_progress_tries_again_and_then_gives_up(released):
-    stuck = [(0.31, 0, 0)] * 700  # 35 s
-    follower, events = follow(LINE, stuck, released=released)
-    assert events == ["no_progress", "no_progress", "no_progress", "aborted"]
-    assert follower.mode == Mode.ABORTED
-    assert follower.path(0.3, 0, 0) is None
-    follower.adopt(route(LINE))
-    assert (follower.mode, follower.reached) == (Mode.WAITING, 1)
-
-
-def test_waiting_for_release_is_not_a_lack_of_progress():
-    follower, events = follow(LINE, [(0.4, 0, 0)] * 700, released=1)
-    assert not events
-    assert follower.mode == Mode.WAITING
+    assert follower.path is None
+    follower.update(0.31, 0, 0, 0.005, 3)
+    assert np.allclose(follower.path, [(0.31, 0), (0.4, 0), (0.8, 0)])
 
 
 def test_a_longer_route_continues_where_the_old_one_was():
-    follower, _ = follow(LINE, along([(0, 0), (0.9, 0)]))
+    follower = follow(LINE, along([(0, 0), (0.9, 0)]))
     longer = [*LINE[:3], (0.8, 0.4), (0.8, 0.8)]
     follower.adopt(route(longer))
-    follower.update(9, 0.8, 0.0, 0, 0.2, 4)
+    follower.update(0.8, 0.0, 0, 0.2, 4)
     assert (follower.reached, follower.cleared) == (2, 2)
-    assert np.allclose(follower.path(0.8, 0.0, 0)[-1], (0.8, 0.8))
+    assert np.allclose(follower.path[-1], (0.8, 0.8))
 
 
 def test_the_speed_limit_is_that_of_the_segment_under_way():
@@ -204,14 +210,52 @@ def test_the_speed_limit_is_that_of_the_segment_under_way():
     follower = Follower(limits, OPTIONS, CLEARANCE)
     seen = []
     for pose in along([(0, 0), (1.2, 0)]):
-        follower.update(0, *pose, 0.2, 3)
+        follower.update(*pose, 0.2, 3)
         seen.append(follower.speed)
     assert list(dict.fromkeys(seen)) == [0.1, 0.2, math.inf]
 
 
 def test_a_robot_that_need_not_move_has_arrived():
     follower = Follower(route([(1, 1)]), OPTIONS, CLEARANCE)
-    assert follower.update(0, 1, 1, 0, 0, 0) == ()
-    assert follower.path(1, 1, 0) is None
-    waits, _ = follow([(1, 1), (1, 1)], [(1, 1, 0)])
+    follower.update(1, 1, 0, 0, 0)
+    assert not follower.under_way
+    assert follower.path is None
+    waits = follow([(1, 1), (1, 1)], [(1, 1, 0)])
     assert waits.reached == 1
+
+
+def test_a_robot_that_need_not_move_still_takes_the_yaw_that_is_wanted():
+    follower = Follower(route([(1, 1)], yaw=2.0), OPTIONS, CLEARANCE)
+    follower.update(1, 1, 0, 0, 0)
+    assert follower.under_way
+    assert np.allclose(follower.path, [(1, 1), (1, 1)])
+    assert follower.yaw == 2.0
+    follower.update(1, 1, 1.9, 0, 0)
+    assert not follower.under_way
+    assert follower.path is None
+
+
+def test_a_robot_that_comes_back_to_its_route_farther_on_has_reached_what_lies_before():
+    follower = follow(LINE, along([(0, 0), (0.2, 0)]))
+    follower.fleet.rejoin(0, 0.9, 0.0)
+    assert follower.reached == 2
+    follower.update(0.9, 0.0, 0.0, 0.2, 3)
+    assert np.allclose(follower.path, [(0.9, 0), (1.2, 0)])
+    assert follower.cleared == 2
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.integers(0, 2**32 - 1))
+def test_robots_in_a_fleet_do_not_disturb_one_another(seed):
+    random = np.random.default_rng(seed)
+    routes = [route(np.cumsum(random.choice([-0.4, 0, 0.4], (6, 2)), axis=0)) for _ in range(4)]
+    together = Followers(routes, OPTIONS, np.full(4, CLEARANCE))
+    alone = [Followers([each], OPTIONS, np.full(1, CLEARANCE)) for each in routes]
+    for step in range(40):
+        pose = np.column_stack([[each.waypoint[step // 8, :2] for each in routes], np.zeros(4)])
+        pose[:, :2] += random.uniform(-0.1, 0.1, (4, 2))
+        released = np.full(4, 1 + step // 8, np.int32)
+        together.update(pose, np.full(4, 0.2), released)
+        for robot, single in enumerate(alone):
+            single.update(pose[robot : robot + 1], np.full(1, 0.2), released[:1])
+            assert (single.reached[0], single.cleared[0]) == (together.reached[robot], together.cleared[robot])

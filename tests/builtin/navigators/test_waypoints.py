@@ -2,11 +2,14 @@ import numpy as np
 import pytest
 
 from mrpbench_core.api import Controller, ControllerSession
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.execution import Estimate, FleetObservation, Mode, Odometry, Orders, Route, ScanBatch
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.world import World
+
+ROUTES = [Route(waypoint=[[0, y, np.nan], [1, y, np.nan]], level=np.zeros(2), speed=np.array([np.inf])) for y in (0, 5)]
 
 
 class _Recorder(ControllerSession):
@@ -34,10 +37,7 @@ class _Recording(Controller):
 def fleet():
     controller = _Recording()
     fleet = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
-    routes = [
-        Route(waypoint=[[0, y, np.nan], [1, y, np.nan]], level=np.zeros(2), speed=np.array([np.inf])) for y in (0, 5)
-    ]
-    session = Waypoints().start(fleet, World(name="w", levels=()), routes, controller, 0.05, 0)
+    session = Waypoints().start(fleet, World(name="w", levels=()), ROUTES, controller, 0.05, 0)
     return session, controller.sessions
 
 
@@ -65,11 +65,11 @@ def test_a_robot_whose_controller_knows_no_way_stands(fleet):
     assert motion.twist.tolist() == [[0, 0], [0, 0]]
 
 
-@pytest.mark.parametrize("command", [0.2, (0.2,), (0.1, 0.2, 0.3)])
-def test_a_command_that_is_no_pair_is_refused(fleet, command):
+@pytest.mark.parametrize("command", [0.2, (0.2,), (0.1, 0.2, 0.3), "no", (0.1, np.nan), (np.inf, 0)])
+def test_a_controller_that_returns_no_command_is_blamed_by_its_name(fleet, command):
     session, controllers = fleet
     controllers[0].command = lambda observation: command
-    with pytest.raises((TypeError, ValueError), match="unpack"):
+    with pytest.raises(BrokenContractError, match=r"the controller _Recording returned .* for robot 0"):
         session.step(0.0, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
 
 
@@ -82,15 +82,55 @@ def test_a_controller_gets_its_own_scan_and_only_once(fleet):
     assert controllers[0].seen[1].scan is None
 
 
-def test_lack_of_progress_clears_the_controller_and_is_an_event(fleet):
+def test_a_robot_without_progress_tries_recoveries_in_turn_and_then_gives_up(fleet):
     session, controllers = fleet
-    events = []
-    for period in range(1500):
+    events, modes = [], set()
+    for period in range(2400):
         motion = session.step(period * 0.05, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
         events += motion.events
-    assert [event.kind for event in events] == ["no_progress"] * 7 + ["aborted"]
+        modes.add(int(motion.mode[0]))
+    happened = [event.detail or event.kind for event in events if event.kind != "recovery_failed"]
+    tried = ["clear", "spin", "wait", "back_up", "clear", "spin"]
+    assert happened == [word for name in tried for word in ("no_progress", name)] + ["no_progress", "aborted"]
     assert {event.robot for event in events} == {0}
-    assert controllers[0].cleared == 7
-    assert controllers[1].cleared == 0
+    assert [controller.cleared for controller in controllers] == [2, 0]
+    assert modes == {Mode.FOLLOWING, Mode.RECOVERING, Mode.ABORTED}
     assert motion.mode.tolist() == [Mode.ABORTED, Mode.WAITING]
     assert not motion.twist.any()
+    session.adopt(ROUTES)
+    motion = session.step(100.0, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+    assert motion.mode[0] == Mode.FOLLOWING
+
+
+def test_a_robot_whose_controller_stays_silent_tries_recoveries_at_once(fleet):
+    session, _ = fleet
+    events = []
+    for period in range(20):
+        events += session.step(period * 0.05, observe([[-0.1, 0, 0], [0, 5, 0]]), Orders(released=[1, 0])).events
+    assert [(event.kind, event.detail) for event in events[:2]] == [("no_command", ""), ("recovery", "clear")]
+    assert 0.3 < events[0].stamp < 0.4
+
+
+def test_a_robot_that_waits_for_release_needs_no_recovery(fleet):
+    session, _ = fleet
+    for period in range(1000):
+        motion = session.step(period * 0.05, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[0, 0]))
+        assert not motion.events
+
+
+def test_a_robot_goes_round_what_blocks_its_path_and_comes_back_to_it(fleet):
+    session, controllers = fleet
+    around = np.array([(0.3, 0.3), (0.7, 0.3), (0.8, 0.0)])
+    controllers[0].reroute = lambda observation: around
+    events, ahead = [], []
+    for period in range(42):
+        motion = session.step(period * 0.05, observe([[0.2, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+        events += motion.events
+        ahead.append(controllers[0].seen[-1].path.tolist())
+    assert [event.kind for event in events] == ["detour"]
+    assert ahead[0] == [[0.2, 0], [1, 0]]
+    assert ahead[-1] == [[0.2, 0], *around.tolist()]
+    controllers[0].reroute = lambda observation: None
+    for x, y in ((0.3, 0.3), (0.7, 0.3), (0.8, 0.05)):
+        session.step(2.1, observe([[x, y, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+    assert controllers[0].seen[-1].path.tolist() == [[0.8, 0], [1, 0]]

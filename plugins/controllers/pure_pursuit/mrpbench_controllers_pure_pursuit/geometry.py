@@ -1,48 +1,79 @@
-"""The point of a path that a pursuing robot aims at, and how fast it may go to stop in time."""
+"""The points of paths that pursuing robots aim at, and how fast they may go to stop in time; many robots at once."""
 
-import math
-from collections.abc import Sequence
-from itertools import pairwise
+import numpy as np
 
-Point = Sequence[float]
+from mrpbench_core.model.arrays import Float, Int
 
 
-def carrot(path: Sequence[Point], x: float, y: float, distance: float) -> tuple[float, float]:
-    """The first point of a path, prolonged straight beyond its end, that is `distance` metres from (x, y).
+def carrots(first: Float, points: Float, begin: Int, end: Int, place: Float, distance: float) -> Float:
+    """The first point of each path, prolonged straight beyond its end, that is `distance` metres from a robot.
 
-    When the path begins farther away than that, its first point.
+    When a path begins farther away than that, its first point.
+
+    Args:
+        first: f8[k,2], where the paths begin.
+        points: f8[p,2], of all paths.
+        begin: i8[k]; path i goes on with `points[begin[i]:end[i]]`.
+        end: i8[k].
+        place: f8[k,2] of the robots.
+        distance: metres.
     """
-    px, py = path[0]
-    if math.hypot(px - x, py - y) >= distance:
-        return px, py
-    dx, dy = 0.0, 0.0
-    for qx, qy in path[1:]:
-        if qx != px or qy != py:
-            dx, dy = qx - px, qy - py
-            if math.hypot(qx - x, qy - y) >= distance:
-                break
-        px, py = qx, qy
-    length = math.hypot(dx, dy)
-    if length == 0:  # all of the path is one point
-        return px, py
-    # (px, py) lies inside the circle around (x, y); the ray from there along the leg leaves it once.
-    dx, dy = dx / length, dy / length
-    along = (x - px) * dx + (y - py) * dy
-    beside = (x - px) * dy - (y - py) * dx
-    share = along + math.sqrt(max(distance * distance - beside * beside, 0.0))
-    return px + share * dx, py + share * dy
+    start, along = first.copy(), np.zeros_like(first)
+    inside = _apart(first, place) < distance
+    at, walking = begin.copy(), inside & (begin < end)
+    while walking.any():
+        rows = np.flatnonzero(walking)
+        ahead = points[at[rows]]
+        step = ahead - start[rows]
+        longer = (step != 0).any(axis=1)
+        along[rows[longer]] = step[longer]
+        far = longer & (_apart(ahead, place[rows]) >= distance)
+        start[rows[~far]] = ahead[~far]
+        at[rows] += 1
+        walking[rows] = ~far & (at[rows] < end[rows])
+    length = np.hypot(along[:, 0], along[:, 1])
+    along /= np.where(length > 0, length, 1.0)[:, None]
+    # `start` lies inside the circle around the robot; the ray from there along the leg leaves it once.
+    offset = place - start
+    ahead_by = (offset * along).sum(axis=1)
+    beside = offset[:, 0] * along[:, 1] - offset[:, 1] * along[:, 0]
+    share = ahead_by + np.sqrt(np.maximum(distance * distance - beside * beside, 0.0))
+    prolonged = inside & (length > 0)  # else all of the path is one point, or it begins outside
+    aim: Float = np.where(prolonged[:, None], start + share[:, None] * along, start)
+    return aim
 
 
-def path_length(path: Sequence[Point], enough: float) -> float:
-    """Length of a path in metres; at least `enough` when it is longer than that."""
-    length = 0.0
-    for start, end in pairwise(path):
-        length += math.hypot(end[0] - start[0], end[1] - start[1])
-        if length >= enough:
-            break
+def path_lengths(first: Float, points: Float, begin: Int, end: Int, enough: Float) -> Float:
+    """Lengths f8[k] of paths (see `carrots`) in metres; at least `enough` f8[k] when they are longer than that."""
+    length = np.zeros(len(first))
+    here, at, rows = first.copy(), begin.copy(), np.flatnonzero(begin < end)
+    while len(rows):
+        ahead = points[at[rows]]
+        length[rows] += _apart(ahead, here[rows])
+        here[rows] = ahead
+        at[rows] += 1
+        rows = rows[(length[rows] < enough[rows]) & (at[rows] < end[rows])]
     return length
 
 
-def stopping_speed(distance: float, acceleration: float, period: float) -> float:
-    """The highest speed kept for one period from which the robot can still stop within `distance`."""
-    return acceleration * (math.sqrt(period * period + 2 * distance / acceleration) - period)
+def stopping_speed(distance: Float, acceleration: Float, period: float) -> Float:
+    """The highest speeds kept for one period from which robots can still stop within distances."""
+    speed: Float = acceleration * (np.sqrt(period * period + 2 * distance / acceleration) - period)
+    return speed
+
+
+def wrapped(angle: Float) -> Float:
+    """Angles in radians as -pi..pi, and a half turn always as pi."""
+    error: Float = np.pi - np.remainder(np.pi - angle, 2 * np.pi)
+    return error
+
+
+def limited(wanted: Float, measured: Float, change: Float) -> Float:
+    """`wanted` as far as speeds can change within one period."""
+    result: Float = np.minimum(np.maximum(wanted, measured - change), measured + change)
+    return result
+
+
+def _apart(one: Float, other: Float) -> Float:
+    distance: Float = np.hypot(one[:, 0] - other[:, 0], one[:, 1] - other[:, 1])
+    return distance

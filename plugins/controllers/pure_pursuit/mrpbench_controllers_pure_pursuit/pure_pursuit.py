@@ -6,14 +6,16 @@ where the path leads elsewhere (Macenski, Singh, Martín and Ginés, "Regulated 
 Autonomous Robots 47, 2023). Options that Nav2's controller has carry its names; the defaults suit grids of 0.35 m.
 """
 
-import math
+from collections.abc import Sequence
 
 import attrs
+import numpy as np
 from attrs.validators import ge, gt, optional
 
-from mrpbench_controllers_pure_pursuit.geometry import carrot, path_length, stopping_speed
-from mrpbench_core.api import Controller, ControllerSession, option
-from mrpbench_core.model.execution import Observation
+from mrpbench_controllers_pure_pursuit.geometry import carrots, limited, path_lengths, stopping_speed, wrapped
+from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, option
+from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.execution import Observation, Observations
 from mrpbench_core.model.fleet import RobotModel
 from mrpbench_core.model.world import World
 
@@ -52,72 +54,104 @@ class PurePursuit(Controller):
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:
         """Begin to control one robot; the world does not matter to it."""
         del world
-        return _Session(self, robot, period)
+        return _Single(_Fleet(self, (robot,), period))
+
+    def start_fleet(self, robots: Sequence[RobotModel], world: World, period: float) -> FleetControllerSession:
+        """Begin to control a fleet, all robots at once."""
+        del world
+        return _Fleet(self, robots, period)
 
 
-class _Session(ControllerSession):
-    def __init__(self, options: PurePursuit, robot: RobotModel, period: float) -> None:
-        self._options, self._robot, self._period = options, robot, period
-        self._cruise = min(options.desired_linear_vel or robot.max_speed, robot.max_speed)
-        self._spin = min(options.rotate_to_heading_angular_vel, robot.max_turn_rate)
-        self._braking = self._cruise * period + self._cruise**2 / (2 * robot.acceleration)
-        self._turning = False
+class _Single(ControllerSession):
+    """A fleet of one."""
+
+    def __init__(self, fleet: "_Fleet") -> None:
+        self._fleet = fleet
 
     def command(self, observation: Observation) -> tuple[float, float]:
-        x, y, yaw = observation.pose.tolist()
-        speed, turn_rate = observation.twist.tolist()
-        path = observation.path.tolist()
-        left = path_length(path, self._braking)
-        if left <= _AT_END:
-            end_x, end_y = path[-1]
-            away = math.hypot(end_x - x, end_y - y)
-            if away <= _BACK_TO_END:
-                return self._near_end(observation, yaw, left, speed)
-            if left == 0:
-                path, left = [(x, y), path[-1]], away
-        aim_x, aim_y = carrot(path, x, y, self._options.lookahead_dist)
-        distance = math.hypot(aim_x - x, aim_y - y)
-        error = math.remainder(math.atan2(aim_y - y, aim_x - x) - yaw, math.tau) if distance else 0.0
-        if self._must_turn(abs(error)):
-            return self._limited(0.0, speed), self._turn(error)
-        curvature = 2 * math.sin(error) / distance if distance else 0.0
-        wanted = min(self._regulated(curvature), observation.speed)
-        wanted = min(wanted, stopping_speed(left, self._robot.acceleration, self._period))
-        wanted = self._limited(wanted, speed)
-        return wanted, self._limited_turn(wanted * curvature, turn_rate)
+        ahead, turn = self._fleet.command(Observations.alone(observation))[0].tolist()
+        return ahead, turn
 
-    def _near_end(self, observation: Observation, yaw: float, left: float, speed: float) -> tuple[float, float]:
-        """Creep to the very end, then take the yaw that is wanted there."""
-        creep = min(stopping_speed(left, self._robot.acceleration, self._period), observation.speed)
-        if math.isnan(observation.yaw):
-            return self._limited(creep, speed), 0.0
-        return 0.0, self._turn(math.remainder(observation.yaw - yaw, math.tau))
 
-    def _must_turn(self, error: float) -> bool:
+class _Fleet(FleetControllerSession):
+    def __init__(self, options: PurePursuit, robots: Sequence[RobotModel], period: float) -> None:
+        super().__init__(())
+        self._options, self._period = options, period
+        fastest = np.array([robot.max_speed for robot in robots])
+        self._max_turn_rate = np.array([robot.max_turn_rate for robot in robots])
+        self._acceleration = np.array([robot.acceleration for robot in robots])
+        self._turn_acceleration = np.array([robot.turn_acceleration for robot in robots])
+        self._cruise = np.minimum(options.desired_linear_vel or fastest, fastest)
+        self._spin = np.minimum(options.rotate_to_heading_angular_vel, self._max_turn_rate)
+        self._braking = self._cruise * period + self._cruise**2 / (2 * self._acceleration)
+        self._turning: Bool = np.zeros(len(robots), bool)
+
+    def clear(self, robot: int) -> None:
+        """There is nothing to clear."""
+
+    def is_free(self, robot: int, poses: Float) -> Bool:  # noqa: ARG002 - it knows nothing
+        """Tell that every pose is free."""
+        return np.ones(len(poses), bool)
+
+    def reroute(self, observations: Observations, row: int) -> None:
+        """Know no way around."""
+
+    def command(self, observations: Observations) -> Float:
+        """Commands f8[k,2] of all robots with a row."""
+        seen, robot = observations, observations.robot
+        acceleration, place = self._acceleration[robot], seen.pose[:, :2]
+        path, begin = seen.foot, seen.begin
+        left = path_lengths(path, seen.points, begin, seen.end, self._braking[robot])
+        end = seen.points[seen.end - 1]
+        away = np.hypot(end[:, 0] - place[:, 0], end[:, 1] - place[:, 1])
+        at_end = left <= _AT_END
+        resting = at_end & (away <= _BACK_TO_END)
+        pushed = at_end & ~resting & (left == 0)
+        if pushed.any():  # away from the end of a path of which nothing is left
+            path = np.where(pushed[:, None], place, path)
+            begin = np.where(pushed, seen.end - 1, begin)
+            left = np.where(pushed, away, left)
+        aim = carrots(path, seen.points, begin, seen.end, place, self._options.lookahead_dist)
+        offset = aim - place
+        distance = np.hypot(offset[:, 0], offset[:, 1])
+        there = distance > 0
+        error = np.where(there, wrapped(np.arctan2(offset[:, 1], offset[:, 0]) - seen.pose[:, 2]), 0.0)
+        turning = self._must_turn(np.abs(error), self._turning[robot])
+        self._turning[robot[~resting]] = turning[~resting]
+        curvature = np.where(there, 2 * np.sin(error) / np.where(there, distance, 1.0), 0.0)
+        stopping = np.minimum(stopping_speed(left, acceleration, self._period), seen.speed)
+        wanted = np.minimum(self._regulated(robot, curvature), stopping)
+        # At the very end a robot creeps there, or takes the yaw that is wanted.
+        any_yaw = np.isnan(seen.yaw)
+        turning |= resting & ~any_yaw
+        error = np.where(resting, np.where(any_yaw, 0.0, wrapped(seen.yaw - seen.pose[:, 2])), error)
+        wanted = np.where(resting, stopping, wanted)
+        wanted = limited(np.where(turning, 0.0, wanted), seen.twist[:, 0], acceleration * self._period)
+        wanted = np.where(resting & ~any_yaw, 0.0, wanted)
+        change = self._turn_acceleration[robot] * self._period
+        along_arc = limited(wanted * np.where(resting, 0.0, curvature), seen.twist[:, 1], change)
+        along_arc = np.where(resting, 0.0, along_arc)
+        return np.column_stack([wanted, np.where(turning, self._turn(robot, error), along_arc)])
+
+    def _must_turn(self, error: Float, turning: Bool) -> Bool:
         """Turn on the spot once the heading is far off, and then until it is nearly right."""
         options = self._options
-        threshold = options.angular_disengage_threshold if self._turning else options.rotate_to_heading_min_angle
-        self._turning = options.use_rotate_to_heading and error > threshold
-        return self._turning
+        if not options.use_rotate_to_heading:
+            return np.zeros_like(turning)
+        far: Bool = error > np.where(turning, options.angular_disengage_threshold, options.rotate_to_heading_min_angle)
+        return far
 
-    def _turn(self, error: float) -> float:
-        fastest = stopping_speed(abs(error), self._robot.turn_acceleration, self._period)
-        return math.copysign(min(self._spin, fastest), error)
+    def _turn(self, robot: np.ndarray, error: Float) -> Float:
+        fastest = stopping_speed(np.abs(error), self._turn_acceleration[robot], self._period)
+        turn: Float = np.copysign(np.minimum(self._spin[robot], fastest), error)
+        return turn
 
-    def _regulated(self, curvature: float) -> float:
+    def _regulated(self, robot: np.ndarray, curvature: Float) -> Float:
         """Cruising speed, reduced in tight turns."""
-        options, bend = self._options, abs(curvature)
-        speed = self._cruise
-        if options.use_regulated_linear_velocity_scaling and bend * options.regulated_linear_scaling_min_radius > 1:
-            slow = speed / (bend * options.regulated_linear_scaling_min_radius)
-            speed = min(speed, max(slow, options.regulated_linear_scaling_min_speed))
-        return min(speed, self._robot.max_turn_rate / bend) if bend > 0 else speed
-
-    def _limited(self, wanted: float, speed: float) -> float:
-        """`wanted` as far as the acceleration allows within one period."""
-        change = self._robot.acceleration * self._period
-        return min(max(wanted, speed - change), speed + change)
-
-    def _limited_turn(self, wanted: float, turn_rate: float) -> float:
-        change = self._robot.turn_acceleration * self._period
-        return min(max(wanted, turn_rate - change), turn_rate + change)
+        options, bend, speed = self._options, np.abs(curvature), self._cruise[robot]
+        wide = np.maximum(bend, 1e-9)
+        if options.use_regulated_linear_velocity_scaling:
+            slow = speed / np.maximum(wide * options.regulated_linear_scaling_min_radius, 1.0)
+            speed = np.minimum(speed, np.maximum(slow, options.regulated_linear_scaling_min_speed))
+        regulated: Float = np.minimum(speed, self._max_turn_rate[robot] / wide)
+        return regulated

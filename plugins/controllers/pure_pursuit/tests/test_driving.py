@@ -126,7 +126,7 @@ def test_a_robot_behind_a_wall_gives_up():
     )
     assert reached[-1, 0] == 1
     assert contacts
-    assert [event.kind for event in events] == ["no_progress", "no_progress", "aborted"]
+    assert [event.kind for event in events] == ["no_progress", "recovery", "no_progress", "aborted"]
 
 
 def test_equal_runs_agree_to_the_last_bit():

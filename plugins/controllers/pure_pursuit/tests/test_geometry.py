@@ -1,9 +1,21 @@
 import math
 
+import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from mrpbench_controllers_pure_pursuit.geometry import carrot, path_length, stopping_speed
+from mrpbench_controllers_pure_pursuit.geometry import carrots, path_lengths, stopping_speed
+
+
+def carrot(path, x, y, distance):
+    points, one = np.array(path, float), np.ones(1, int)
+    place = np.array([[x, y]], float)
+    return tuple(carrots(points[:1], points, one, one * len(path), place, distance)[0].tolist())
+
+
+def path_length(path, enough):
+    points, one = np.array(path, float), np.ones(1, int)
+    return path_lengths(points[:1], points, one, one * len(path), np.array([enough]))[0]
 
 
 def test_the_carrot_lies_on_the_path_at_the_distance_asked_for():
@@ -47,3 +59,14 @@ def test_length_is_counted_as_far_as_needed():
 def test_from_the_stopping_speed_a_robot_stops_in_time_and_no_sooner(distance, acceleration, period):
     speed = stopping_speed(distance, acceleration, period)
     assert speed * period + speed**2 / (2 * acceleration) == pytest.approx(distance, abs=1e-9)
+
+
+def test_paths_of_many_robots_do_not_disturb_one_another():
+    points = np.array([(1, 0), (1, 1), (5, 5), (0, 7), (0, 9)], float)
+    first, begin, end = np.array([(0, 0), (5, 4.9), (0, 6.9)], float), np.array([0, 2, 3]), np.array([2, 3, 5])
+    place = first + 0.01
+    together = carrots(first, points, begin, end, place, 0.5)
+    alone = [carrot([first[i], *points[begin[i] : end[i]]], *place[i], 0.5) for i in range(3)]
+    assert np.allclose(together, alone, rtol=0, atol=1e-15)
+    lengths = path_lengths(first, points, begin, end, np.full(3, 1.5))
+    assert lengths == pytest.approx([2.0, 0.1, 2.1])

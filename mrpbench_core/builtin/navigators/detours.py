@@ -1,0 +1,111 @@
+"""Ways around what blocks the released path, which controllers find on what their sensors show.
+
+A detour begins where the robot is and ends on the released path, so it never leads beyond what is released.
+"""
+
+import numpy as np
+
+from mrpbench_core.api.controller import FleetControllerSession
+from mrpbench_core.builtin.navigators.followers import Followers
+from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.execution import Event, Observations
+
+_REACHED = 0.1
+"""metres from a point of a detour at which the next one counts."""
+_MOVING = 0.05
+"""metres: a robot that moves so far between two looks is not blocked."""
+
+
+class Detours:
+    """Detours of all robots. Robots that do not get on are looked at in turn, each once in a while.
+
+    Args:
+        followers: the routes that are detoured from.
+        controllers: find the ways.
+        every: control periods between two looks at the same robot; 0 = never.
+    """
+
+    def __init__(self, followers: Followers, controllers: FleetControllerSession, every: int) -> None:
+        self._followers, self._controllers, self._every = followers, controllers, every
+        self._ways: dict[int, Float] = {}
+        count = len(followers.all)
+        self._turn = np.arange(count) % max(every, 1)
+        self._place: Float = np.full((count, 2), np.inf)
+        self._step = 0
+
+    def cancel(self, robot: int) -> None:
+        """Forget the detour of a robot."""
+        self._ways.pop(robot, None)
+
+    def cancel_all(self) -> None:
+        """Forget all: there are new routes."""
+        self._ways.clear()
+
+    def shorten(self, pose: Float) -> None:
+        """Drop what robots have passed; at the end of a detour they follow their route again."""
+        for robot, way in list(self._ways.items()):
+            left = way
+            while len(left) and np.hypot(*(left[0] - pose[robot, :2])) <= _REACHED:
+                left = left[1:]
+            if len(left):
+                self._ways[robot] = left
+            else:
+                del self._ways[robot]
+                self._followers.rejoin(robot, *way[-1].tolist())
+
+    def look(self, observations: Observations, stopped: Bool) -> list[Event]:
+        """Ask for a way around, for rows whose turn it is and that do not get on; `stopped` bool[k] is asked at once.
+
+        `observations` are of the routes, not of the detours.
+        """
+        self._step += 1
+        if not self._every:
+            return []
+        robots, place = observations.robot, observations.pose[:, :2]
+        turn = self._turn[robots] == self._step % self._every
+        moved = np.abs(place - self._place[robots]).max(axis=1, initial=0.0) > _MOVING
+        self._place[robots[turn]] = place[turn]
+        asked = turn & ~moved
+        asked |= stopped & (self._step % self._every == 0)
+        asked |= turn & np.isin(robots, list(self._ways))
+        events = []
+        for row in np.flatnonzero(asked).tolist():
+            robot = int(robots[row])
+            way = self._controllers.reroute(observations, row)
+            if way is None or not len(way):
+                self._ways.pop(robot, None)
+                continue
+            if robot not in self._ways:
+                events.append(Event(stamp=observations.now, kind="detour", robot=robot))
+            self._ways[robot] = np.asarray(way, float)
+        return events
+
+    def lay(self, observations: Observations) -> Observations:
+        """The same observations with detours in the place of the paths they go around."""
+        if not self._ways:
+            return observations
+        foot, begin, end = observations.foot.copy(), observations.begin.copy(), observations.end.copy()
+        yaw = observations.yaw.copy()
+        points, count = [observations.points], len(observations.points)
+        for row in np.flatnonzero(np.isin(observations.robot, list(self._ways))).tolist():
+            way = self._ways[int(observations.robot[row])]
+            whole = bool((way[-1] == observations.points[observations.end[row] - 1]).all())
+            foot[row] = observations.pose[row, :2]
+            begin[row], end[row] = count, count + len(way)
+            yaw[row] = yaw[row] if whole else np.nan
+            points.append(way)
+            count += len(way)
+        return Observations(
+            now=observations.now,
+            robot=observations.robot,
+            pose=observations.pose,
+            twist=observations.twist,
+            foot=foot,
+            points=np.concatenate(points),
+            begin=begin,
+            end=end,
+            yaw=yaw,
+            speed=observations.speed,
+            tolerance=observations.tolerance,
+            scans=observations.scans,
+        )
