@@ -33,6 +33,14 @@ class Planner(Component):
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """Return a plan or say definitely why there is none, within `budget`. Does not change `problem`."""
 
+    @property
+    def assigns(self) -> bool:
+        """Whether it also decides which robot does which task: it has the option `assign`, it is on, and it can.
+
+        Such a planner takes the assigner's place: every robot's goal set holds the goals of all tasks.
+        """
+        return getattr(self, "assign", False) is True and Feature.GOAL_SETS in self.supports
+
     def skip(self, problem: Problem) -> str | None:
         """Why this planner must not be given `problem`, or None. By default: the features it does not support."""
         lacking = sorted(problem.features - self.supports)

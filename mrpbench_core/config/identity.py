@@ -17,7 +17,6 @@ from mrpbench_core.config.canonical import plugin_name, scalar
 from mrpbench_core.config.content import content_hash
 from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING, ONLY_EXECUTION, RunConfig
 from mrpbench_core.config.validation import default_of
-from mrpbench_core.model.problem import Feature
 
 LENGTH = 16
 """Hexadecimal digits of a run id."""
@@ -40,7 +39,7 @@ def choices(config: RunConfig, folder: Path) -> dict[str, Any]:
 
 def _ignored(config: RunConfig) -> set[str]:
     ignored = set(NOT_IDENTIFYING)
-    if getattr(config.planner, "assign", False) is True and Feature.GOAL_SETS in config.planner.supports:
+    if config.planner.assigns:
         ignored.add("assigner")  # the planner chooses among all goals itself
     if config.simulator is None:
         ignored |= {name for name in EXECUTION if getattr(config, name) is None} | set(ONLY_EXECUTION)

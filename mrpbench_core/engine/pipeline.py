@@ -11,7 +11,7 @@ from mrpbench_core.engine.execution import drive, measure_recording
 from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.plain import readable
 from mrpbench_core.engine.planning import STATUS, call_planner, judge, left_for_planning
-from mrpbench_core.engine.preparation import Announce, Ended, Setting, assign, pose_problem, set_scene
+from mrpbench_core.engine.preparation import Announce, Ended, Setting, assign, pose_problem, set_scene, taken
 from mrpbench_core.engine.replanning import replanning_fault
 from mrpbench_core.engine.routes import Router, speed_limits
 from mrpbench_core.model.execution import State
@@ -49,9 +49,10 @@ def execute(
     try:
         setting = set_scene(config, announce)
         record["scenario_id"] = setting.scenario.id
-        assigned = assign(config, setting, announce, record["timing"])
-        problem = pose_problem(setting, assigned)
+        chosen = None if config.planner.assigns else assign(config, setting, announce, record["timing"])
+        problem = pose_problem(setting, chosen)
         result, ended = _plan(config, problem, announce, record["timing"], observers)
+        assigned = _assigned(setting, problem, result, chosen)
         router = _router(config, setting, assigned, problem)
         context = _context(config, run_id, setting, assigned, problem, result, router)
         if ended is None and config.simulator is not None:
@@ -95,6 +96,14 @@ def _plan(
     if result.plan is None:
         return result, Ended(STATUS[result.status], "planning", f"the planner ended with {result.status}")
     return result, None
+
+
+def _assigned(
+    setting: Setting, problem: Problem, result: PlanResult, chosen: tuple[int, ...] | None
+) -> tuple[int, ...]:
+    if chosen is not None:
+        return chosen
+    return (-1,) * len(problem) if result.plan is None else taken(setting, problem, result.plan)
 
 
 def _router(config: RunConfig, setting: Setting, assigned: tuple[int, ...], problem: Problem) -> Router:

@@ -18,7 +18,8 @@ from mrpbench_core.engine.problem import build_problem, goal_vertices
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.assignment import AssignmentProblem
 from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.plan import Plan
+from mrpbench_core.model.problem import GoalSet, Problem
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.scenario import Scenario
 from mrpbench_core.model.world import World
@@ -105,12 +106,18 @@ def assign(config: RunConfig, setting: Setting, announce: Announce, timing: dict
     return tuple(int(task) for task in assignment.task)
 
 
-def pose_problem(setting: Setting, assigned: tuple[int, ...]) -> Problem:
-    """The problem for the planner.
+def pose_problem(setting: Setting, assigned: tuple[int, ...] | None) -> Problem:
+    """The problem for the planner; `assigned` is the task of each robot, None: the planner chooses.
 
     Raises:
+        InputError: the planner cannot choose among these tasks.
         Ended: robots stand on one another, or a goal is blocked, shared or unreachable.
     """
+    if assigned is None:
+        problem = build_problem(setting.roadmap, setting.fleet, setting.start, candidates(setting))
+        if faults := check_scenario(problem, setting.scenario.start_names):
+            raise Ended("scenario_infeasible", "scenario", summary(faults))
+        return problem
     anywhere = (tuple(range(len(setting.roadmap.position))),)  # for a robot without a task, which may have to make way
     goals = tuple(tuple((vertex,) for vertex in setting.goals[task]) if task >= 0 else anywhere for task in assigned)
     problem = build_problem(setting.roadmap, setting.fleet, setting.start, goals)
@@ -119,6 +126,35 @@ def pose_problem(setting: Setting, assigned: tuple[int, ...]) -> Problem:
     if faults := check_scenario(problem, setting.scenario.start_names, goal_names):
         raise Ended("scenario_infeasible", "scenario", summary(faults))
     return problem
+
+
+def candidates(setting: Setting) -> tuple[tuple[GoalSet, ...], ...]:
+    """For every robot the goals of all tasks, of which it may take any that no other takes.
+
+    Raises:
+        InputError: a task is a sequence of goals, or there are fewer tasks than robots.
+    """
+    robots, tasks = len(setting.fleet), len(setting.goals)
+    if any(len(sequence) != 1 for sequence in setting.goals):
+        raise InputError("planner: with `assign` every task must have one goal, and one here has several")
+    if tasks < robots:
+        raise InputError(f"planner: with `assign` there must be a task for every robot; {tasks} for {robots} robots")
+    known = tuple(sorted({sequence[0] for sequence in setting.goals} - {-1}))
+    if len(known) < robots:
+        raise Ended(
+            "scenario_infeasible", "scenario", f"{len(known)} different goals on the roadmap for {robots} robots"
+        )
+    return ((known,),) * robots
+
+
+def taken(setting: Setting, problem: Problem, plan: Plan) -> tuple[int, ...]:
+    """The task of each robot when the planner has chosen: the one whose goal is where its path ends."""
+    task = {sequence[0]: index for index, sequence in reversed(list(enumerate(setting.goals)))}
+    ends = (
+        path.vertices(problem.roadmap, start)[-1]
+        for path, start in zip(plan.paths, problem.start.tolist(), strict=True)
+    )
+    return tuple(task[int(end)] for end in ends)
 
 
 def summary(faults: list[str], shown: int = 3) -> str:

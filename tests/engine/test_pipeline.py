@@ -8,6 +8,7 @@ import pytest
 
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import Observers, execute
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import write_scenario
 from mrpbench_core.model.scenario import Scenario, Task
 from mrpbench_core.store.paths import RunPaths
@@ -153,3 +154,54 @@ def test_a_robot_without_a_task_makes_way_and_does_not_hinder_planning(tmp_path)
     )
     assert record["status"] == "succeeded", record
     assert record["metrics"]["execution.success"] is True
+
+
+CHOOSING = """
+import attrs
+
+from mrpbench_core.api import option
+from mrpbench_planners_mapf.cbs import Cbs
+
+
+@attrs.frozen(kw_only=True)
+class Choosing(Cbs):
+    assign: bool = option(True, help="also decide which robot does which task")
+"""
+
+
+@pytest.fixture
+def choosing(tmp_path, monkeypatch):
+    pytest.importorskip("mrpbench_planners_mapf")
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "choosing.py").write_text(CHOOSING)
+    return {"plugin": "./choosing.py:Choosing"}
+
+
+def test_a_planner_that_assigns_takes_the_assigners_place(tmp_path, choosing):
+    record, stages = execute_first(tmp_path, planner=choosing)
+    assert "assignment" not in stages
+    assert record["status"] == "succeeded"
+    assert record["metrics"]["execution.goals_reached"] == 3
+    recording = Recording(tmp_path / "run.zip")
+    context = recording.context()
+    recording.close()
+    assert sorted(context.assigned) == [0, 1, 2]
+    for robot, task in enumerate(context.assigned):
+        goal = context.scenario.tasks[task].goals[-1, :2]
+        assert np.hypot(*(np.array(context.goal[robot][:2]) - goal)) < 0.4, "within a cell of the task's goal"
+    fixed, _ = execute_first(tmp_path, planner={**choosing, "assign": False})
+    assert fixed["scenario_id"] == record["scenario_id"]
+    assert record["metrics"]["planning.sum_of_costs"] <= fixed["metrics"]["planning.sum_of_costs"]
+
+
+def test_a_planner_that_assigns_needs_a_task_of_one_goal_for_every_robot(tmp_path, choosing):
+    start, goal = np.array([[1.0, 1.0, np.nan]]), np.array([[3.0, 1.0, np.nan]])
+    for tasks, said in [((np.vstack([goal, start]),), "several"), ((), "a task for every robot; 0 for 1 robots")]:
+        drawn = Scenario(
+            start=start,
+            start_level=[0],
+            tasks=tuple(Task(name="t", goals=goals, levels=[0] * len(goals)) for goals in tasks),
+        )
+        write_scenario(tmp_path / "drawn.json", drawn)
+        with pytest.raises(InputError, match=said):
+            execute_first(tmp_path, planner=choosing, scenario={"plugin": "file", "file": "drawn.json"})
