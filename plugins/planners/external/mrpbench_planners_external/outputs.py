@@ -1,0 +1,88 @@
+"""Reads the paths that solvers write, in the formats in use; every cell is returned as row (from the top), column.
+
+| format | looks like | written by |
+|---|---|---|
+| `agents` | `Agent 0: (3,5)->(3,6)->`, row before column, a line a robot | CBSH2-RTC, EECBS, MAPF-LNS2 |
+| `steps` | `0:(5,3),(2,1),`, column before row, a line a time step, after `solution=` | PIBT2, LaCAM |
+| `schedule` | YAML `schedule: agent0: [{x: 5, y: 3, t: 0}, ...]` | libMultiRobotPlanning |
+"""
+
+import re
+from collections.abc import Callable, Mapping
+
+import yaml
+
+Cells = list[list[tuple[int, int]]]
+"""The cell of each robot at each time step; robots may have lists of different lengths."""
+
+_CELL = re.compile(r"\(\s*(\d+)\s*,\s*(\d+)\s*\)")
+_AGENT = re.compile(r"^\s*Agent\s+(\d+)\s*:(.*)$", re.MULTILINE | re.IGNORECASE)
+_STEP = re.compile(r"^\s*(\d+)\s*:(\s*\(.*)$", re.MULTILINE)
+
+
+class UnreadableError(Exception):
+    """Text that is not in the format it should be in; says what is wrong."""
+
+
+def read_agents(text: str) -> Cells:
+    """Lines `Agent i: (row,column)->...`."""
+    found = {
+        int(robot): [(int(row), int(column)) for row, column in _CELL.findall(cells)]
+        for robot, cells in _AGENT.findall(text)
+    }
+    return _in_order(found, "Agent")
+
+
+def read_steps(text: str) -> Cells:
+    """Lines `t:(column,row),...`."""
+    found = {
+        int(step): [(int(row), int(column)) for column, row in _CELL.findall(cells)]
+        for step, cells in _STEP.findall(text)
+    }
+    steps = _in_order(found, "time step")
+    if len({len(step) for step in steps}) > 1:
+        raise UnreadableError("its time steps are of different numbers of robots")
+    return [list(path) for path in zip(*steps, strict=True)]
+
+
+def read_schedule(text: str) -> Cells:
+    """YAML with `schedule`, robots in it by name, in order of the number at the end of the name."""
+    try:
+        document = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise UnreadableError(f"it is no YAML: {error}") from error
+    if not isinstance(document, dict) or not isinstance(document.get("schedule"), dict):
+        raise UnreadableError("it has no `schedule`")
+    found = {}
+    for name, states in document["schedule"].items():
+        number = re.search(r"\d+$", str(name))
+        if number is None:
+            raise UnreadableError(f"robot {name!r} has no number")
+        found[int(number[0])] = _held(states)
+    return _in_order(found, "robot")
+
+
+READERS: Mapping[str, Callable[[str], Cells]] = {
+    "agents": read_agents,
+    "steps": read_steps,
+    "schedule": read_schedule,
+}
+
+
+def _held(states: object) -> list[tuple[int, int]]:
+    """The cell at every time step; a state lasts until the next."""
+    path: list[tuple[int, int]] = []
+    try:
+        for state in states:  # type: ignore[attr-defined]
+            path += path[-1:] * (int(state["t"]) - len(path))
+            path.append((int(state["y"]), int(state["x"])))
+    except (TypeError, KeyError, ValueError) as error:
+        raise UnreadableError("a state is not of the form {x, y, t}") from error
+    return path
+
+
+def _in_order(found: dict[int, list[tuple[int, int]]], what: str) -> Cells:
+    missing = sorted(set(range(max(found, default=-1) + 1)) - set(found))
+    if not found or missing:
+        raise UnreadableError(f"it has no {what} {missing[0] if missing else 0}")
+    return [found[index] for index in range(len(found))]

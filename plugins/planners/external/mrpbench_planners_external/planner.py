@@ -1,0 +1,133 @@
+"""The planner `external`: writes the problem as MovingAI files, runs a solver on them, and reads its paths."""
+
+import itertools
+import os
+import shlex
+import tempfile
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any, ClassVar, Literal
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import Planner, Promise, option
+from mrpbench_core.model.plan import Budget, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.plan import Path as TimedPath
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_planners_external.movingai import vertex_at, why_not, write_map, write_scen
+from mrpbench_planners_external.outputs import READERS, Cells, UnreadableError
+from mrpbench_planners_external.process import run
+
+FIELDS = ("map", "scen", "paths", "agents", "seconds", "seed")
+"""What the arguments may name in braces."""
+_MARGIN_S = 0.5
+"""Time that a solver which is told its limit gets beyond it, to write its answer."""
+
+
+def _runs(_: Any, __: "attrs.Attribute[Path]", value: Path) -> None:
+    if not value.is_file() or not os.access(value, os.X_OK):
+        raise ValueError(f"{value} is not a program that can be run")
+
+
+def _names_fields(_: Any, __: "attrs.Attribute[str]", value: str) -> None:
+    try:
+        shlex.split(value.format_map(dict.fromkeys(FIELDS, "")))
+    except (KeyError, ValueError, IndexError) as error:
+        known = ", ".join(f"{{{name}}}" for name in FIELDS)
+        raise ValueError(f"cannot be filled in: {error}; it may use {known}") from error
+    if "{map}" not in value:
+        raise ValueError("must hand over {map}")
+
+
+@attrs.frozen(kw_only=True)
+class External(Planner):
+    """Any solver in a program of its own, so that solvers under any licence come into the same tables.
+
+    It gets problems on grids with moves of one tick, one goal for each robot, and no footprints. The time that its
+    process takes, reading and writing of files included, is the planning time.
+    """
+
+    supports: ClassVar[frozenset[Feature]] = frozenset()
+    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE})
+
+    binary: Path = option(help="the program", validator=_runs)
+    arguments: str = option(
+        "-m {map} -a {scen} -o {paths} -k {agents} -t {seconds}",
+        help="its arguments: {map} and {scen} are the files to read, {paths} the file to write, {agents} the number of "
+        "robots, {seconds} the time limit, {seed} the option below",
+        validator=_names_fields,
+    )
+    output: Literal["agents", "steps", "schedule"] = option(
+        "agents", help="format of the paths: as CBSH2-RTC and EECBS, as PIBT2 and LaCAM, or as libMultiRobotPlanning"
+    )
+    seed: int = option(0, help="handed to the program as {seed}", validator=attrs.validators.ge(0))
+
+    def skip(self, problem: Problem) -> str | None:
+        """Also what cannot be written as a map of cells."""
+        return super().skip(problem) or why_not(problem)
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """Run the program; without a file of paths it has found none.
+
+        Raises:
+            RuntimeError: the program failed, or what it wrote are no paths.
+        """
+        with tempfile.TemporaryDirectory(prefix="mrpbench-external-") as name:
+            folder = Path(name)
+            write_map(problem.roadmap, folder / "world.map")
+            write_scen(problem, "world.map", folder / "world.scen")
+            ended = run(self._command(len(problem), budget), folder, budget.wall_s, budget.memory_bytes)
+            statistics = {"process_s": ended.seconds}
+            if ended.limit is not None:
+                status = PlanStatus.TIMEOUT if ended.limit == "time" else PlanStatus.OUT_OF_MEMORY
+                return PlanResult(status=status, statistics=statistics)
+            if ended.code != 0:
+                last = (ended.output.strip().splitlines() or ["and said nothing"])[-1]
+                raise RuntimeError(f"{self.binary.name} ended with exit code {ended.code}: {last}")
+            answer = folder / "paths.txt"
+            text = answer.read_text(errors="replace") if answer.is_file() else ""
+            if "{paths}" not in self.arguments:
+                text = ended.output
+        if not text.strip():
+            return PlanResult(status=PlanStatus.GAVE_UP, statistics=statistics)
+        try:
+            plan = Plan(paths=tuple(_paths(problem, READERS[self.output](text))))
+        except UnreadableError as error:
+            raise RuntimeError(
+                f"what {self.binary.name} wrote is not in the format {self.output!r}: {error}"
+            ) from error
+        return PlanResult(status=PlanStatus.SOLVED, plan=plan, statistics=statistics)
+
+    def _command(self, robots: int, budget: Budget) -> list[str]:
+        fields = {
+            "map": "world.map",
+            "scen": "world.scen",
+            "paths": "paths.txt",
+            "agents": robots,
+            "seconds": f"{max(0.1, budget.wall_s - _MARGIN_S):g}",
+            "seed": self.seed,
+        }
+        return [str(self.binary.resolve()), *(word.format_map(fields) for word in shlex.split(self.arguments))]
+
+
+def _paths(problem: Problem, cells: Cells) -> Iterable[TimedPath]:
+    """Timed paths along edges of the roadmap; the engine judges whether they solve the problem."""
+    if len(cells) != len(problem):
+        raise UnreadableError(f"it has paths of {len(cells)} robots instead of {len(problem)}")
+    vertex = vertex_at(problem.roadmap)
+    edge = {(int(tail), int(head)): index for index, (tail, head) in enumerate(problem.roadmap.edges.tolist())}
+    for robot, path in enumerate(cells):
+        steps = []
+        for before, after in itertools.pairwise(path):
+            if before == after:
+                steps.append(-1)
+                continue
+            move = vertex.get(before), vertex.get(after)
+            if move not in edge:
+                raise UnreadableError(f"robot {robot} moves from cell {before} to {after} (row, column)")
+            steps.append(edge[move])
+        if not path or vertex.get(path[0]) != problem.start[robot]:
+            raise UnreadableError(f"robot {robot} does not begin at its start")
+        time = np.arange(len(steps) + 1, dtype=np.int64)
+        yield TimedPath(edge=np.array(steps, np.int32), enter=time[:-1], leave=time[1:])

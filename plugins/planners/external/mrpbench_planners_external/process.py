@@ -1,0 +1,82 @@
+"""Runs a program within limits of time and memory, with all it starts."""
+
+import contextlib
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import attrs
+import psutil
+
+_GLANCE_S = 0.005
+"""How often the program is looked at, at first; up to ten times that later."""
+
+
+@attrs.frozen
+class Ended:
+    """How a program ended: by itself, or by one of the limits."""
+
+    code: int
+    """Exit code, negative: killed by that signal."""
+    limit: str | None
+    """time | memory | None."""
+    seconds: float
+    output: str
+
+
+def run(command: Sequence[str], folder: Path, wall_s: float, memory_bytes: int) -> Ended:
+    """Run `command` in `folder`; when a limit is passed, it and all that it started are killed.
+
+    Raises:
+        OSError: it cannot be started.
+    """
+    began = time.monotonic()
+    with (folder / "output.txt").open("w+b") as output:
+        process = subprocess.Popen(
+            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, process_group=0
+        )
+        limit = None
+        try:
+            limit = _wait(process, began + wall_s, memory_bytes)
+        finally:
+            _kill(process)
+        seconds = time.monotonic() - began
+        output.seek(0)
+        return Ended(process.returncode, limit, seconds, output.read().decode(errors="replace"))
+
+
+def _wait(process: "subprocess.Popen[bytes]", deadline: float, memory_bytes: int) -> str | None:
+    """Wait until the program has ended, or say which limit it has passed."""
+    pause = _GLANCE_S
+    while True:
+        left = deadline - time.monotonic()
+        if left <= 0:
+            return "time"
+        try:
+            process.wait(min(pause, left))
+        except subprocess.TimeoutExpired:
+            pause = min(pause * 1.5, 10 * _GLANCE_S)
+        else:
+            return None
+        if _resident(process.pid) > memory_bytes:
+            return "memory"
+
+
+def _resident(pid: int) -> int:
+    total = 0
+    try:
+        family = psutil.Process(pid)
+        for member in (family, *family.children(recursive=True)):
+            total += member.memory_info().rss
+    except psutil.Error:  # it has just ended
+        pass
+    return total
+
+
+def _kill(process: "subprocess.Popen[bytes]") -> None:
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
