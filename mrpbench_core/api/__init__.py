@@ -2,7 +2,7 @@
 
 from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.api.component import Component, option
-from mrpbench_core.api.controller import Controller, ControllerSession, FleetControllerSession
+from mrpbench_core.api.controller import Controller, ControllerSession, FleetControllerSession, FleetOfOne
 from mrpbench_core.api.crowd import Crowd, CrowdSession
 from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession
 from mrpbench_core.api.executor import ExecutorSource
@@ -57,6 +57,7 @@ __all__ = [
     "Exporter",
     "ExporterSession",
     "FleetControllerSession",
+    "FleetOfOne",
     "Importer",
     "Localizer",
     "LocalizerSession",

@@ -1,5 +1,6 @@
 """Contract of the kind *controller*."""
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import ClassVar
@@ -83,6 +84,34 @@ class FleetControllerSession:
     def reroute(self, observations: Observations, row: int) -> Float | None:
         """Return waypoints f8[k,2] around what blocks the path of one row, or None; see `ControllerSession.reroute`."""
         return self.sessions[int(observations.robot[row])].reroute(observations.of(row))
+
+    def excuse(self, robot: int) -> str:  # noqa: ARG002 - for those that override it
+        """Return in a few words why there was no admissible command for a robot, for events and logs."""
+        return ""
+
+
+class FleetOfOne(ControllerSession):
+    """One robot of a controller that answers for fleets."""
+
+    def __init__(self, fleet: FleetControllerSession) -> None:
+        self._fleet = fleet
+
+    def command(self, observation: Observation) -> tuple[float, float] | None:
+        """The command of the only row."""
+        ahead, turn = self._fleet.command(Observations.alone(observation))[0].tolist()
+        return None if math.isnan(ahead) else (ahead, turn)
+
+    def clear(self) -> None:
+        """Forget what sensors have marked."""
+        self._fleet.clear(0)
+
+    def is_free(self, poses: Float) -> Bool:
+        """Tell for each pose f8[k,3] whether the robot fits there."""
+        return self._fleet.is_free(0, poses)
+
+    def reroute(self, observation: Observation) -> Float | None:
+        """Waypoints around what blocks the path."""
+        return self._fleet.reroute(Observations.alone(observation), 0)
 
 
 class Controller(Component):

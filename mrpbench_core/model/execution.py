@@ -155,6 +155,8 @@ class Observations:
     """Metres from the last waypoint at which it counts as reached."""
     scans: tuple[ScanBatch, ...] = ()
     """All that are new since the last period, also of robots without a row here."""
+    fleet_pose: Float
+    """f8[n,3] estimated poses of all robots."""
 
     @classmethod
     def alone(cls, seen: Observation) -> Self:
@@ -172,6 +174,7 @@ class Observations:
             yaw=np.array([seen.yaw]),
             speed=np.array([seen.speed]),
             tolerance=seen.tolerance,
+            fleet_pose=seen.pose[None],
             scans=() if seen.scan is None else (attrs.evolve(seen.scan, robot=np.zeros(1, np.int32)),),
         )
 

@@ -179,6 +179,7 @@ def observations(step: int, poses: Float, twists: Float, tracks: Sequence[Track]
         end=ends,
         yaw=np.full(len(paths), math.nan),
         speed=np.full(len(paths), math.inf),
+        fleet_pose=poses,
     )
 
 

@@ -3,6 +3,7 @@
 A detour begins where the robot is and ends on the released path, so it never leads beyond what is released.
 """
 
+import attrs
 import numpy as np
 
 from mrpbench_core.api.controller import FleetControllerSession
@@ -95,17 +96,5 @@ class Detours:
             yaw[row] = yaw[row] if whole else np.nan
             points.append(way)
             count += len(way)
-        return Observations(
-            now=observations.now,
-            robot=observations.robot,
-            pose=observations.pose,
-            twist=observations.twist,
-            foot=foot,
-            points=np.concatenate(points),
-            begin=begin,
-            end=end,
-            yaw=yaw,
-            speed=observations.speed,
-            tolerance=observations.tolerance,
-            scans=observations.scans,
-        )
+        laid = np.concatenate(points)
+        return attrs.evolve(observations, foot=foot, points=laid, begin=begin, end=end, yaw=yaw)

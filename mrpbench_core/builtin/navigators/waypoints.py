@@ -113,8 +113,11 @@ class _Session(NavigatorSession):
         silent = following & (now - self._commanded > self._failure_tolerance)
         self._commanded[~following | silent] = now
         for robot in np.flatnonzero(stuck | silent).tolist():
-            kind = "no_progress" if stuck[robot] else "no_command"
-            events.append(Event(stamp=now, kind=kind, robot=robot))
+            if stuck[robot]:
+                events.append(Event(stamp=now, kind="no_progress", robot=robot))
+            else:
+                excuse = self._controllers.excuse(robot)
+                events.append(Event(stamp=now, kind="no_command", robot=robot, detail=excuse))
             events += rescue.begin(robot, now, pose)
             self._detours.cancel(robot)
             twist[robot] = 0.0
@@ -146,6 +149,7 @@ class _Session(NavigatorSession):
             speed=followers.speed[robots],
             tolerance=self._tolerance,
             scans=observation.scans,
+            fleet_pose=observation.estimate.pose,
         )
         command = self._controllers.command(self._detours.lay(seen))
         self._check(command, robots)

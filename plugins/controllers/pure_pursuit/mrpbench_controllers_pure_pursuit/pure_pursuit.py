@@ -13,9 +13,9 @@ import numpy as np
 from attrs.validators import ge, gt, optional
 
 from mrpbench_controllers_pure_pursuit.geometry import carrots, limited, path_lengths, stopping_speed, wrapped
-from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, option
+from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
 from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.execution import Observation, Observations
+from mrpbench_core.model.execution import Observations
 from mrpbench_core.model.fleet import RobotModel
 from mrpbench_core.model.world import World
 
@@ -54,23 +54,12 @@ class PurePursuit(Controller):
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:
         """Begin to control one robot; the world does not matter to it."""
         del world
-        return _Single(_Fleet(self, (robot,), period))
+        return FleetOfOne(_Fleet(self, (robot,), period))
 
     def start_fleet(self, robots: Sequence[RobotModel], world: World, period: float) -> FleetControllerSession:
         """Begin to control a fleet, all robots at once."""
         del world
         return _Fleet(self, robots, period)
-
-
-class _Single(ControllerSession):
-    """A fleet of one."""
-
-    def __init__(self, fleet: "_Fleet") -> None:
-        self._fleet = fleet
-
-    def command(self, observation: Observation) -> tuple[float, float]:
-        ahead, turn = self._fleet.command(Observations.alone(observation))[0].tolist()
-        return ahead, turn
 
 
 class _Fleet(FleetControllerSession):

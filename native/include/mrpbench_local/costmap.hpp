@@ -1,0 +1,87 @@
+// A rolling costmap around a robot, with the layers of Nav2's local costmap: what lasers mark and clear, the static
+// map, inflation. Written from Nav2's documentation and parameters (navigation.ros.org, "Costmap 2D").
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "mrpbench_local/grid.hpp"
+#include "mrpbench_sim/segment_buckets.hpp"
+
+namespace mrpbench::local {
+
+constexpr std::uint8_t kFree = 0, kInscribed = 253, kLethal = 254;
+
+struct CostmapOptions {
+  double width = 3, height = 3, resolution = 0.05, update_frequency = 5;
+  bool obstacle_layer = true, static_layer = false, inflation_layer = true;
+  double obstacle_max_range = 2.5, obstacle_min_range = 0, raytrace_max_range = 3, raytrace_min_range = 0;
+  bool marking = true, clearing = true, inf_is_valid = false, footprint_clearing = true;
+  double inflation_radius = 0.55, cost_scaling_factor = 3;
+  /// Padded, about the robot's origin.
+  std::vector<Point> footprint;
+};
+
+/// What is solid in the static map, shared by all robots.
+struct StaticMap {
+  StaticMap(std::vector<Segment> walls, double reach) : segments(std::move(walls)), buckets(segments, reach, 1.0) {}
+  std::vector<Segment> segments;
+  sim::SegmentBuckets buckets;
+};
+
+/// Where a lidar sits, and how far it sees.
+struct Sensor {
+  Point mount;
+  double range = 0;
+};
+
+class Costmap {
+ public:
+  Costmap(CostmapOptions options, std::shared_ptr<const StaticMap> walls);
+
+  /// Keep a scan taken at `pose` for the next update; beam i points at i * 2*pi / beams from straight ahead.
+  void see(Pose pose, const Sensor& sensor, std::span<const double> ranges);
+  /// Centre on the robot, apply the scan that is kept, inflate.
+  void update(Pose pose);
+  /// Forget all marks.
+  void clear();
+
+  /// Tell whether it was ever updated.
+  bool knows() const { return known_; }
+  const Frame& frame() const { return frame_; }
+  const CostmapOptions& options() const { return options_; }
+  double inscribed() const { return inscribed_; }
+  std::uint8_t at(Cell c) const { return cost_[frame_.index(c)]; }
+  const std::vector<std::uint8_t>& costs() const { return cost_; }
+
+ private:
+  void roll(Pose pose);
+  void trace();
+  void clear_footprint(Pose pose);
+  void draw_static(Pose pose);
+  void inflate();
+
+  CostmapOptions options_;
+  std::shared_ptr<const StaticMap> walls_;
+  double inscribed_;
+  Frame frame_;
+  bool known_ = false;
+  std::vector<std::uint8_t> marks_, spare_, cost_;
+  struct {
+    Pose pose;
+    Sensor sensor;
+    std::vector<double> ranges;
+    bool fresh = false;
+  } scan_;
+  /// Cells of the inflation radius, and cost by squared distance in cells.
+  int reach_ = 0;
+  std::vector<std::uint8_t> cost_by_square_;
+  std::vector<std::uint16_t> column_, nearest_;
+  std::vector<Point> corners_, beam_;
+};
+
+/// Nav2's formula: cost at `distance` metres from something lethal.
+std::uint8_t inflated_cost(double distance, double inscribed, double cost_scaling_factor);
+
+}  // namespace mrpbench::local

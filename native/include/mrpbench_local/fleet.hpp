@@ -1,0 +1,71 @@
+// The local controllers of a fleet: a costmap and a DWB per robot, all asked in one call.
+#pragma once
+
+#include <memory>
+
+#include "mrpbench_local/dwb.hpp"
+#include "mrpbench_local/reroute.hpp"
+
+namespace mrpbench::local {
+
+struct RobotOptions {
+  CostmapOptions costmap;
+  DwbOptions dwb;
+  Sensor sensor;
+  /// Collisions are looked up at the centre instead of along the outline.
+  bool by_radius = true;
+  /// Metres from the path that a detour may lead.
+  double max_detour = 0.5;
+};
+
+/// What is asked for one robot.
+struct Request {
+  std::size_t robot = 0;
+  Pose pose;
+  Twist twist;
+  Path path;
+};
+
+/// Scores that somebody else adds for a robot.
+using Extra = std::function<void(std::size_t robot, const Trajectories&, std::span<double>)>;
+
+class Fleet {
+ public:
+  /// `walls` are those of the static map; results do not depend on the number of threads.
+  Fleet(std::vector<Segment> walls, double reach, int threads);
+  Fleet(const Fleet&) = delete;
+  Fleet& operator=(const Fleet&) = delete;
+
+  void add(const RobotOptions& options, std::vector<Dwb::Weighted> critics);
+  std::size_t size() const { return robots_.size(); }
+
+  /// Take note of scans: row i of `ranges` is of `robots[i]`, who is at `poses[robots[i]]`.
+  void see(double now, std::span<const std::int32_t> robots, std::span<const Pose> poses,
+           std::span<const double> ranges);
+  /// Commands, NaN where none is admissible. `extra` is called in this thread only.
+  void command(double now, std::span<const Request> requests, std::span<Twist> commands, const Extra& extra = {});
+
+  void clear(std::size_t robot) { robots_.at(robot)->costmap.clear(); }
+  bool is_free(std::size_t robot, Pose pose) const;
+  std::optional<std::vector<Point>> reroute(std::size_t robot, Point place, const Path& path) const;
+  const Costmap& costmap(std::size_t robot) const { return robots_.at(robot)->costmap; }
+  const Dwb& dwb(std::size_t robot) const { return robots_.at(robot)->dwb; }
+
+ private:
+  struct Robot {
+    Costmap costmap;
+    Dwb dwb;
+    RobotOptions options;
+    double updated = -1e9;
+  };
+  static void refresh(Robot& robot, double now, Pose pose);
+
+  template <class Work>
+  void share(std::size_t count, Work&& work) const;
+
+  std::shared_ptr<const StaticMap> walls_;
+  int threads_;
+  std::vector<std::unique_ptr<Robot>> robots_;
+};
+
+}  // namespace mrpbench::local

@@ -1,0 +1,70 @@
+// A square raster that is aligned with the cells of the whole plane, wherever it lies.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "mrpbench_sim/geometry.hpp"
+
+namespace mrpbench::local {
+
+using sim::Point;
+using sim::Segment;
+
+struct Pose {
+  double x = 0, y = 0, yaw = 0;
+};
+
+/// Metres per second ahead, radians per second counter-clockwise.
+struct Twist {
+  double ahead = 0, turn = 0;
+};
+
+/// Column and row, counted over the whole plane or within a grid.
+struct Cell {
+  int x = 0, y = 0;
+  bool operator==(const Cell&) const = default;
+};
+
+/// Where a raster of `width` x `height` cells lies.
+struct Frame {
+  int width = 0, height = 0;
+  double resolution = 0.05;
+  /// The plane's cell at the lower left corner.
+  Cell origin;
+
+  /// The cell within the frame that holds a point; perhaps outside.
+  Cell cell(Point p) const {
+    return {static_cast<int>(std::floor(p.x / resolution)) - origin.x,
+            static_cast<int>(std::floor(p.y / resolution)) - origin.y};
+  }
+  bool holds(Cell c) const { return c.x >= 0 && c.y >= 0 && c.x < width && c.y < height; }
+  std::size_t index(Cell c) const {
+    return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c.x);
+  }
+  Point centre(Cell c) const { return {(c.x + origin.x + 0.5) * resolution, (c.y + origin.y + 0.5) * resolution}; }
+  std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+};
+
+/// Calls `visit(cell)` for the cells of a line from `a` to `b`, both included (J. E. Bresenham, "Algorithm for computer
+/// control of a digital plotter", IBM Systems Journal 4, 1965); ends early when `visit` returns false.
+template <class Visit>
+bool line(Cell a, Cell b, Visit&& visit) {
+  const int dx = std::abs(b.x - a.x), dy = std::abs(b.y - a.y);
+  const int sx = a.x < b.x ? 1 : -1, sy = a.y < b.y ? 1 : -1;
+  const bool steep = dy > dx;
+  const int longer = steep ? dy : dx, shorter = steep ? dx : dy;
+  int error = longer / 2;
+  for (int i = 0;; ++i) {
+    if (!visit(a)) return false;
+    if (i == longer) return true;
+    error += shorter;
+    const bool aside = error >= longer;
+    if (aside) error -= longer;
+    if (steep || aside) a.y += sy;
+    if (!steep || aside) a.x += sx;
+  }
+}
+
+}  // namespace mrpbench::local

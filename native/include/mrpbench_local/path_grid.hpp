@@ -1,0 +1,47 @@
+// The local plan on the costmap, and how far its cells are from it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mrpbench_local/grid.hpp"
+
+namespace mrpbench::local {
+
+/// Part of a path that a robot looks at.
+struct Pruning {
+  double prune_distance = 1;
+  bool shorten = true;
+  /// Metres by which the path goes on straight beyond its end, for distances to it only: a robot whose nose comes to
+  /// lie beyond the end is still on the path.
+  double beyond_end = 0;
+};
+
+class PathGrid {
+ public:
+  /// Take the beginning of a path, up to where it leaves the frame or is farther from the robot than the pruning says.
+  void take(const Frame& frame, Point robot, Point first, std::span<const Point> rest, const Pruning& pruning);
+
+  bool empty() const { return cells_.empty(); }
+  /// The last pose of the local plan, and the cell in which the plan ends on the map.
+  Point last() const { return last_; }
+  Cell end() const { return cells_.back(); }
+  /// The cells of the plan without its last pose.
+  Cell before_end() const { return cells_[cells_.size() > 1 ? cells_.size() - 2 : 0]; }
+  const std::vector<Cell>& cells() const { return cells_; }
+  /// A point of the plan in each of its cells.
+  const std::vector<Point>& points() const { return points_; }
+
+  /// Steps along rows and columns to the nearest cell of the plan.
+  std::uint16_t distance(const Frame& frame, Cell c) const { return distance_[frame.index(c)]; }
+  /// Compute the distances; obstacles do not matter.
+  void spread(const Frame& frame);
+
+ private:
+  Point last_;
+  std::vector<Cell> cells_, beyond_;
+  std::vector<Point> points_;
+  std::vector<std::uint16_t> distance_;
+};
+
+}  // namespace mrpbench::local

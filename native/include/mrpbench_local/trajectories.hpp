@@ -1,0 +1,96 @@
+// Velocity samples within the dynamic window and what following each for a while leads to (D. Fox, W. Burgard and
+// S. Thrun, "The Dynamic Window Approach to Collision Avoidance", IEEE Robotics & Automation Magazine 4, 1997), by the
+// rules and parameters of Nav2's DWB.
+#pragma once
+
+#include <vector>
+
+#include "mrpbench_local/grid.hpp"
+
+namespace mrpbench::local {
+
+struct MotionOptions {
+  double min_vel_x = 0, max_vel_x = 0.26, max_vel_theta = 1, min_speed_xy = 0, max_speed_xy = 0.26, min_speed_theta = 0;
+  double acc_lim_x = 2.5, decel_lim_x = -2.5, acc_lim_theta = 3.2, decel_lim_theta = -3.2;
+  int vx_samples = 20, vtheta_samples = 20;
+  double sim_time = 1.7, linear_granularity = 0.05, angular_granularity = 0.025, time_granularity = 0.5;
+  bool discretize_by_time = false, include_last_point = true;
+  /// Of the limited-acceleration generator: what one control period allows, kept for the whole trajectory.
+  bool limited = false;
+  double period = 0.05;
+};
+
+/// `speed` after `dt` on its way to `target`; `deceleration` is negative.
+double project(double speed, double acceleration, double deceleration, double dt, double target);
+
+/// From lowest to highest, in Nav2's order, with one exact zero where they cross it.
+std::vector<double> samples(double current, double lowest, double highest, double acceleration, double deceleration,
+                            double time, int count);
+
+/// All trajectories from one state. What is asked of nearly all, their ends, is computed at once; poses on the way only
+/// for those that somebody walks.
+class Trajectories {
+ public:
+  explicit Trajectories(const MotionOptions& options) : options_(options) {}
+
+  /// Sample and roll out; `fastest` is a further limit of speed.
+  void generate(Pose start, Twist current, double fastest);
+
+  std::size_t size() const { return twist_.size(); }
+  Twist twist(std::size_t i) const { return twist_[i]; }
+  /// The last pose.
+  Pose end(std::size_t i) const { return {end_x_[i], end_y_[i], end_yaw_[i]}; }
+  /// Unit vector along the last pose's heading.
+  Point heading(std::size_t i) const { return {heading_x_[i], heading_y_[i]}; }
+  /// Metres that no trajectory gets farther from its start.
+  double reach() const { return reach_; }
+  int steps(Twist twist) const;
+
+  /// Calls `visit(pose)` for every pose of a trajectory in order, start included, until it returns false.
+  template <class Visit>
+  bool walk(std::size_t i, Visit&& visit) const {
+    const Twist wanted = twist_[i];
+    const int count = steps(wanted);
+    const double dt = options_.sim_time / count;
+    Pose pose = start_;
+    Twist twist = options_.limited ? wanted : current_;
+    if (!visit(pose)) return false;
+    for (int k = 0; k < count; ++k) {
+      twist = next(twist, wanted, dt);
+      pose.x += twist.ahead * std::cos(pose.yaw) * dt;
+      pose.y += twist.ahead * std::sin(pose.yaw) * dt;
+      pose.yaw += twist.turn * dt;
+      if (!visit(pose)) return false;
+    }
+    return !options_.include_last_point || visit(pose);
+  }
+
+  /// The pose at `time` seconds after the start, or the last one.
+  Pose at(std::size_t i, double time) const;
+
+ private:
+  /// Headings along a turn of so many steps: unit vectors before each step, and their sums.
+  struct Turn {
+    std::vector<Point> sum;
+    Point last;
+    double yaw = 0;
+  };
+
+  Twist next(Twist twist, Twist wanted, double dt) const {
+    return {project(twist.ahead, options_.acc_lim_x, options_.decel_lim_x, dt, wanted.ahead),
+            project(twist.turn, options_.acc_lim_theta, options_.decel_lim_theta, dt, wanted.turn)};
+  }
+  void turn(double rate, int count, Turn& result) const;
+  void roll_out(Twist wanted, int count, const Turn& turn);
+
+  MotionOptions options_;
+  Pose start_;
+  Twist current_;
+  double reach_ = 0;
+  std::vector<Twist> twist_;
+  std::vector<double> end_x_, end_y_, end_yaw_, heading_x_, heading_y_;
+  std::vector<Turn> turns_;
+  Turn own_;
+};
+
+}  // namespace mrpbench::local

@@ -1,0 +1,62 @@
+"""Local navigation in C++: costmaps, and Nav2's DWB. Plain arrays in, new arrays out; metres, radians, seconds.
+
+Everything raises ValueError for data that make no sense. `see` and `command` let other threads run; one `Fleet` belongs
+to one thread at a time.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+class Fleet:
+    """Local controllers, one per robot, all asked in one call."""
+
+    def __init__(self, *, walls: NDArray[np.float64], reach: float, threads: int) -> None:
+        """`walls` f8[S,4] are the static map's, of which those within `reach` of a robot matter to it."""
+    def add(
+        self,
+        *,
+        settings: dict[str, float],
+        footprint: NDArray[np.float64],
+        critics: list[tuple[str, float, dict[str, float]]],
+    ) -> None:
+        """Add a robot: options by Nav2's names (flags as 0 or 1), footprint f8[k,2], critics with scale and options."""
+    def see(
+        self, now: float, robots: NDArray[np.int32], pose: NDArray[np.float64], ranges: NDArray[np.float64]
+    ) -> None:
+        """Take note of scans f8[k,beams] of `robots` i4[k]; `pose` f8[n,3] is the whole fleet's."""
+    def command(
+        self,
+        *,
+        now: float,
+        robot: NDArray[np.int64],
+        pose: NDArray[np.float64],
+        twist: NDArray[np.float64],
+        foot: NDArray[np.float64],
+        points: NDArray[np.float64],
+        begin: NDArray[np.int64],
+        end: NDArray[np.int64],
+        yaw: NDArray[np.float64],
+        speed: NDArray[np.float64],
+        tolerance: float,
+        score: Callable[[int, NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]] | None = None,
+    ) -> NDArray[np.float64]:
+        """Commands f8[k,2], NaN where none is admissible; see `mrpbench_core.model.execution.Observations`.
+
+        `score` gets a robot, twists f8[m,2] and poses f8[m,p,3], and returns what is added to their totals f8[m].
+        """
+    def clear(self, robot: int) -> None:
+        """Forget what scans have marked."""
+    def is_free(self, robot: int, poses: NDArray[np.float64]) -> NDArray[np.float64]:
+        """1.0 for each of `poses` f8[k,3] where the robot fits, else 0.0."""
+    def reroute(self, robot: int, x: float, y: float, path: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Points f8[k,2] from (x, y) around what blocks a path f8[p,2] to a point of it; None = free, or no way."""
+    def explain(self, robot: int) -> dict[str, Any]:
+        """What the last command was chosen from."""
+    def costmap(self, robot: int) -> tuple[NDArray[np.float64], float, float, float]:
+        """Costs f8[rows,columns], x and y of the lower left corner, inscribed radius."""
+
+def critic(name: str, options: dict[str, float]) -> None:
+    """Raise ValueError unless there is such a critic with such options."""

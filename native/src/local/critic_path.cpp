@@ -1,0 +1,113 @@
+// How far trajectories end from the path, and from where its part within the costmap ends: counted in cells along rows
+// and columns. The two that align measure it at a point ahead of the robot.
+#include <cmath>
+
+#include "mrpbench_local/critics.hpp"
+
+namespace mrpbench::local {
+
+namespace {
+
+constexpr Reason kOffGrid = "Trajectory Goes Off Grid.";
+constexpr Reason kUnreachable = "Unreachable";
+/// Nav2 scales these critics by half the resolution.
+constexpr double kHalf = 0.5;
+
+/// Metres along the heading at which a pose is looked at.
+double forward_point_distance(CriticOptions& options) {
+  return options.take("forward_point_distance", 0.325);
+}
+
+/// Distances to the whole path, or to its end.
+template <bool to_path>
+class Distance : public Critic {
+ public:
+  Distance(CriticOptions& options, double nose) : nose_(nose), aggregation_(aggregation(options, Aggregation::last)) {}
+
+  void prepare(const Scene& scene) override {
+    if (scene.path->empty()) return;
+    goal_ = scene.path->end();
+    const Frame& frame = scene.costmap->frame();
+    const Point away{scene.goal.x - scene.pose.x, scene.goal.y - scene.pose.y};
+    near_goal_ = nose_ > 0 && sim::length(away) <= nose_;
+    if (to_path || nose_ == 0) return;
+    // The end is shifted as the poses are: towards the goal.
+    const double yaw = std::atan2(away.y, away.x);
+    const Cell shifted = frame.cell(scene.path->last() + Point{std::cos(yaw), std::sin(yaw)} * nose_);
+    goal_ = frame.holds(shifted) ? shifted : scene.path->before_end();
+  }
+
+  double weight(const Scene& scene) const override {
+    if (to_path && near_goal_) return 0;  // beside the goal the nose is beyond it
+    return scene.costmap->frame().resolution * kHalf;
+  }
+
+  void score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
+    const Frame& frame = scene.costmap->frame();
+    if (scene.path->empty()) {
+      for (std::size_t i = 0; i < all.size(); ++i) fail(i, raw, why, frame);
+      return;
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (aggregation_ == Aggregation::last) {
+        const Pose end = all.end(i);
+        raw[i] = cells(scene, frame.cell(Point{end.x, end.y} + all.heading(i) * nose_));
+      } else {
+        raw[i] = aggregate(aggregation_, all, i, [&](Pose pose) { return cells(scene, nose_cell(frame, pose)); });
+      }
+      if (raw[i] < 0) why[i] = kOffGrid;
+    }
+  }
+
+  Reason check(const Scene& scene, const Trajectories& all, std::size_t i) override {
+    if (nose_ > 0) return kLegal;  // only the end matters
+    const Frame& frame = scene.costmap->frame();
+    return all.walk(i, [&](Pose pose) { return frame.holds(frame.cell({pose.x, pose.y})); }) ? kLegal : kOffGrid;
+  }
+
+ private:
+  Cell nose_cell(const Frame& frame, Pose pose) const {
+    return frame.cell({pose.x + nose_ * std::cos(pose.yaw), pose.y + nose_ * std::sin(pose.yaw)});
+  }
+
+  /// Negative off the map.
+  double cells(const Scene& scene, Cell c) const {
+    const Frame& frame = scene.costmap->frame();
+    if (!frame.holds(c)) return -1;
+    if constexpr (to_path) return scene.path->distance(frame, c);
+    return std::abs(c.x - goal_.x) + std::abs(c.y - goal_.y);
+  }
+
+  /// Where no part of the path is on the map, all cells are equally far.
+  void fail(std::size_t i, std::span<double> raw, std::span<Reason> why, const Frame& frame) const {
+    raw[i] = static_cast<double>(frame.size() + 1);
+    if (nose_ == 0) why[i] = kUnreachable;
+  }
+
+  double nose_;
+  Aggregation aggregation_;
+  Cell goal_;
+  bool near_goal_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Critic> path_dist(CriticOptions& options) {
+  return std::make_unique<Distance<true>>(options, 0);
+}
+
+std::unique_ptr<Critic> goal_dist(CriticOptions& options) {
+  return std::make_unique<Distance<false>>(options, 0);
+}
+
+std::unique_ptr<Critic> path_align(CriticOptions& options) {
+  const double nose = forward_point_distance(options);
+  return std::make_unique<Distance<true>>(options, nose);
+}
+
+std::unique_ptr<Critic> goal_align(CriticOptions& options) {
+  const double nose = forward_point_distance(options);
+  return std::make_unique<Distance<false>>(options, nose);
+}
+
+}  // namespace mrpbench::local

@@ -1,0 +1,123 @@
+#include "mrpbench_local/dwb.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace mrpbench::local {
+
+namespace {
+
+/// Whether a path leads somewhere else than the one before.
+bool is_new(const std::optional<Pose>& before, const Pose& goal) {
+  if (!before || before->x != goal.x || before->y != goal.y) return true;
+  return before->yaw != goal.yaw && !(std::isnan(before->yaw) && std::isnan(goal.yaw));
+}
+
+double thresholded(double speed, double threshold) {
+  return std::abs(speed) < threshold ? 0 : speed;
+}
+
+}  // namespace
+
+Dwb::Dwb(const DwbOptions& options, std::vector<Weighted> critics)
+    : options_(options), critics_(std::move(critics)), all_(options.motion) {
+  const MotionOptions& motion = options.motion;
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(what);
+  };
+  require(motion.sim_time > 0 && motion.linear_granularity > 0 && motion.angular_granularity > 0 &&
+              motion.time_granularity > 0,
+          "sim_time and granularities must be positive");
+  require(motion.acc_lim_x > 0 && motion.acc_lim_theta > 0 && motion.decel_lim_x < 0 && motion.decel_lim_theta < 0,
+          "acceleration limits must be positive, deceleration limits negative");
+  require(motion.min_vel_x <= motion.max_vel_x && motion.max_vel_theta >= 0, "the lowest speed exceeds the highest");
+  require(
+      motion.vx_samples > 0 && motion.vtheta_samples > 0 && motion.vx_samples <= 1000 && motion.vtheta_samples <= 1000,
+      "there must be 1 to 1000 samples of each speed");
+}
+
+std::optional<Twist> Dwb::command(double now, Pose pose, Twist twist, const Path& path, const Costmap& costmap,
+                                  const Extra& extra) {
+  const Frame& frame = costmap.frame();
+  const Point end = path.rest.empty() ? path.first : path.rest.back();
+  const Pose goal{end.x, end.y, path.yaw};
+  if (is_new(goal_, goal)) {
+    goal_ = goal;
+    for (const Weighted& it : critics_) it.critic->reset();
+  }
+  if (std::isnan(path.yaw) && sim::length({pose.x - end.x, pose.y - end.y}) <= frame.resolution) return Twist{};
+  path_.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
+  if (!path_.empty()) path_.spread(frame);
+  const Twist measured{thresholded(twist.ahead, options_.min_x_velocity_threshold),
+                       thresholded(twist.turn, options_.min_theta_velocity_threshold)};
+  const Scene scene{now, pose, measured, goal, path.tolerance, &costmap, &path_};
+  all_.generate(pose, measured, path.speed);
+  score(scene, extra);
+  const auto chosen = best(scene);
+  const Twist command = chosen ? all_.twist(*chosen) : Twist{};
+  for (const Weighted& it : critics_) it.critic->debrief(scene, command);
+  if (!chosen) return std::nullopt;
+  return command;
+}
+
+/// Totals of all trajectories, as far as their ends tell.
+void Dwb::score(const Scene& scene, const Extra& extra) {
+  const std::size_t count = all_.size();
+  total_.assign(count, 0);
+  why_.assign(count, kLegal);
+  dropped_.assign(count, -1);
+  raw_.assign(count * critics_.size(), 0);
+  for (std::size_t c = 0; c < critics_.size(); ++c) {
+    const Weighted& it = critics_[c];
+    it.critic->prepare(scene);
+    const double scale = it.scale * it.critic->weight(scene);
+    if (scale == 0) continue;
+    const std::span<double> raw(&raw_[c * count], count);
+    fault_.assign(count, kLegal);
+    it.critic->score(scene, all_, raw, fault_);
+    for (std::size_t i = 0; i < count; ++i) {
+      total_[i] += raw[i] * scale;
+      if (!fault_[i] || why_[i]) continue;
+      why_[i] = fault_[i];
+      dropped_[i] = static_cast<int>(c);
+    }
+  }
+  if (extra) extra(all_, total_);
+}
+
+/// Look at all poses of a trajectory.
+bool Dwb::passes(const Scene& scene, std::size_t i) {
+  for (std::size_t c = 0; c < critics_.size(); ++c) {
+    const Weighted& it = critics_[c];
+    if (it.scale * it.critic->weight(scene) == 0) continue;
+    why_[i] = it.critic->check(scene, all_, i);
+    if (why_[i]) {
+      dropped_[i] = static_cast<int>(c);
+      return false;
+    }
+  }
+  return true;
+}
+
+/// The lowest total, of equal ones the first. What loses by its total is not looked at closely: that is DWB's
+/// short-circuit evaluation carried to its end.
+std::optional<std::size_t> Dwb::best(const Scene& scene) {
+  order_.clear();
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    if (!why_[i] && total_[i] < std::numeric_limits<double>::infinity()) order_.push_back(i);
+  }
+  if (!options_.short_circuit) std::erase_if(order_, [&](std::size_t i) { return !passes(scene, i); });
+  const auto better = [&](std::size_t a, std::size_t b) {
+    return total_[a] != total_[b] ? total_[a] < total_[b] : a < b;
+  };
+  const auto first = std::min_element(order_.begin(), order_.end(), better);
+  if (first == order_.end()) return std::nullopt;
+  if (!options_.short_circuit || passes(scene, *first)) return *first;
+  std::sort(order_.begin(), order_.end(), better);
+  for (std::size_t k = 1; k < order_.size(); ++k) {
+    if (passes(scene, order_[k])) return order_[k];
+  }
+  return std::nullopt;
+}
+
+}  // namespace mrpbench::local

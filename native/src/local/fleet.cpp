@@ -1,0 +1,89 @@
+#include "mrpbench_local/fleet.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <thread>
+
+namespace mrpbench::local {
+
+Fleet::Fleet(std::vector<Segment> walls, double reach, int threads)
+    : walls_(std::make_shared<const StaticMap>(std::move(walls), reach)), threads_(std::max(1, threads)) {}
+
+void Fleet::add(const RobotOptions& options, std::vector<Dwb::Weighted> critics) {
+  robots_.push_back(
+      std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), Dwb(options.dwb, std::move(critics)), options}));
+}
+
+/// Do `work(i)` for every i below `count`; each is done by one thread alone.
+template <class Work>
+void Fleet::share(std::size_t count, Work&& work) const {
+  const std::size_t threads = std::min(static_cast<std::size_t>(threads_), count);
+  if (threads < 2) {
+    for (std::size_t i = 0; i < count; ++i) work(i);
+    return;
+  }
+  std::vector<std::exception_ptr> failures(threads);
+  {
+    std::vector<std::jthread> others;
+    for (std::size_t t = 0; t < threads; ++t) {
+      others.emplace_back([&, t] {
+        try {
+          for (std::size_t i = t; i < count; i += threads) work(i);
+        } catch (...) {
+          failures[t] = std::current_exception();
+        }
+      });
+    }
+  }
+  for (const auto& it : failures) {
+    if (it) std::rethrow_exception(it);
+  }
+}
+
+/// Update a costmap as often as its options say.
+void Fleet::refresh(Robot& robot, double now, Pose pose) {
+  if (now - robot.updated < 1 / robot.options.costmap.update_frequency - 1e-6) return;
+  robot.costmap.update(pose);
+  robot.updated = now;
+}
+
+void Fleet::see(double now, std::span<const std::int32_t> robots, std::span<const Pose> poses,
+                std::span<const double> ranges) {
+  const std::size_t beams = robots.empty() ? 0 : ranges.size() / robots.size();
+  share(robots.size(), [&](std::size_t row) {
+    Robot& robot = *robots_[static_cast<std::size_t>(robots[row])];
+    const Pose& pose = poses[static_cast<std::size_t>(robots[row])];
+    robot.costmap.see(pose, robot.options.sensor, ranges.subspan(row * beams, beams));
+    refresh(robot, now, pose);
+  });
+}
+
+void Fleet::command(double now, std::span<const Request> requests, std::span<Twist> commands, const Extra& extra) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto answer = [&](std::size_t i) {
+    const Request& it = requests[i];
+    Robot& robot = *robots_[it.robot];
+    refresh(robot, now, it.pose);
+    Dwb::Extra more;
+    if (extra) more = [&](const Trajectories& all, std::span<double> totals) { extra(it.robot, all, totals); };
+    commands[i] = robot.dwb.command(now, it.pose, it.twist, it.path, robot.costmap, more).value_or(Twist{nan, nan});
+  };
+  if (extra) {
+    for (std::size_t i = 0; i < requests.size(); ++i) answer(i);
+  } else {
+    share(requests.size(), answer);
+  }
+}
+
+bool Fleet::is_free(std::size_t robot, Pose pose) const {
+  const Robot& it = *robots_.at(robot);
+  return local::is_free(it.costmap, pose, it.options.by_radius);
+}
+
+std::optional<std::vector<Point>> Fleet::reroute(std::size_t robot, Point place, const Path& path) const {
+  const Robot& it = *robots_.at(robot);
+  return local::reroute(it.costmap, place, path.first, path.rest, it.options.max_detour);
+}
+
+}  // namespace mrpbench::local

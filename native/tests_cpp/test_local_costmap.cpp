@@ -1,0 +1,126 @@
+#include <cmath>
+#include <limits>
+
+#include "check.hpp"
+#include "mrpbench_local/costmap.hpp"
+#include "mrpbench_local/footprint.hpp"
+
+using namespace mrpbench::local;
+
+namespace {
+
+constexpr double kNothing = std::numeric_limits<double>::infinity();
+
+CostmapOptions options() {
+  CostmapOptions result;
+  result.footprint = padded(rounded(0.1), 0.01);
+  return result;
+}
+
+std::vector<double> scan(double range) {
+  return std::vector<double>(360, range);
+}
+
+int count(const Costmap& map, std::uint8_t cost) {
+  int found = 0;
+  for (const std::uint8_t it : map.costs()) found += it == cost;
+  return found;
+}
+
+}  // namespace
+
+TEST("padded discs have the inscribed radii of Nav2") {
+  CHECK(std::abs(inscribed_radius(padded(rounded(0.1), 0.01)) - 0.1078) < 1e-4);
+  CHECK(std::abs(inscribed_radius(padded(rounded(0.22), 0.01)) - 0.2255) < 1e-4);
+}
+
+TEST("costs follow Nav2's formula") {
+  CHECK(inflated_cost(0, 0.1, 3) == 254);
+  CHECK(inflated_cost(0.1, 0.1, 3) == 253);
+  CHECK(inflated_cost(0.3, 0.1, 3) == static_cast<std::uint8_t>(252 * std::exp(-0.6)));
+}
+
+TEST("a scan marks where its beams end, and the next one clears what it sees through") {
+  CostmapOptions plain = options();
+  plain.inflation_layer = false;
+  Costmap map(plain, nullptr);
+  map.see({0, 0, 0}, {}, scan(1.0));
+  map.update({0, 0, 0});
+  const Frame& frame = map.frame();
+  CHECK(map.at(frame.cell({1.0, 0.0})) == 254);
+  CHECK(map.at(frame.cell({0.0, 1.0})) == 254);
+  CHECK(map.at(frame.cell({0.5, 0.0})) == 0);
+  const int marked = count(map, 254);
+  CHECK(marked > 90 && marked < 200);
+  map.see({0, 0, 0}, {}, scan(kNothing));
+  map.update({0, 0, 0});
+  CHECK(count(map, 254) == marked);
+  map.see({0, 0, 0}, {}, scan(1.4));
+  map.update({0, 0, 0});
+  CHECK(map.at(frame.cell({1.0, 0.0})) == 0);
+  CHECK(map.at(frame.cell({1.4, 0.0})) == 254);
+  map.clear();
+  CHECK(count(map, 254) == 0);
+}
+
+TEST("beams without a return clear only where that is asked for") {
+  CostmapOptions plain = options();
+  plain.inflation_layer = false;
+  plain.inf_is_valid = true;
+  Costmap map(plain, nullptr);
+  map.see({0, 0, 0}, {{0, 0}, 3.5}, scan(1.0));
+  map.update({0, 0, 0});
+  map.see({0, 0, 0}, {{0, 0}, 3.5}, scan(kNothing));
+  map.update({0, 0, 0});
+  CHECK(count(map, 254) == 0);
+}
+
+TEST("what is too far away is not marked") {
+  CostmapOptions plain = options();
+  plain.inflation_layer = false;
+  plain.obstacle_max_range = 0.9;
+  Costmap map(plain, nullptr);
+  map.see({0, 0, 0}, {}, scan(1.0));
+  map.update({0, 0, 0});
+  CHECK(count(map, 254) == 0);
+}
+
+TEST("marks stay where they are while the map rolls, until they leave it") {
+  CostmapOptions plain = options();
+  plain.inflation_layer = false;
+  Costmap map(plain, nullptr);
+  std::vector<double> one(360, kNothing);
+  one[0] = 1.0;
+  map.see({0, 0, 0}, {}, one);
+  map.update({0, 0, 0});
+  for (const double x : {0.3, 0.77, 2.4}) {
+    map.update({x, 0.2, 1.0});
+    CHECK(map.at(map.frame().cell({1.0, 0.001})) == 254);
+    CHECK(count(map, 254) == 1);
+  }
+  map.update({2.6, 0.2, 1.0});
+  CHECK(count(map, 254) == 0);
+}
+
+TEST("nothing is marked under the robot") {
+  CostmapOptions plain = options();
+  plain.inflation_layer = false;
+  Costmap map(plain, nullptr);
+  map.see({0, 0, 0}, {}, scan(0.04));
+  map.update({0, 0, 0});
+  CHECK(count(map, 254) == 0);
+}
+
+TEST("the static layer draws the walls nearby") {
+  CostmapOptions plain = options();
+  plain.inflation_layer = false;
+  plain.static_layer = true;
+  const auto walls = std::make_shared<const StaticMap>(std::vector<Segment>{{{-9, 0.52}, {9, 0.52}}}, 4.3);
+  Costmap map(plain, walls);
+  map.update({0, 0, 0});
+  CHECK(count(map, 254) == 60);
+  CHECK(map.at(map.frame().cell({0.7, 0.52})) == 254);
+  map.clear();
+  map.update({0, 0, 0});
+  CHECK(count(map, 254) == 60);
+}

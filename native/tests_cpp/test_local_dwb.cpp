@@ -1,0 +1,91 @@
+#include <cmath>
+
+#include "check.hpp"
+#include "mrpbench_local/dwb.hpp"
+#include "mrpbench_local/footprint.hpp"
+
+using namespace mrpbench::local;
+
+namespace {
+
+bool near(double a, double b, double slack = 1e-9) {
+  return std::abs(a - b) <= slack;
+}
+
+}  // namespace
+
+TEST("samples are those of Nav2: evenly spaced, with an exact zero between the signs") {
+  const auto speeds = samples(0, 0, 0.22, 2.5, -2.5, 1.7, 20);
+  CHECK(speeds.size() == 20 && speeds.front() == 0 && speeds.back() == 0.22);
+  const auto turns = samples(0, -1, 1, 3.2, -3.2, 1.7, 20);
+  CHECK(turns.size() == 21 && turns[10] == 0);
+  CHECK(samples(0, 0, 0, 2.5, -2.5, 1.7, 5).size() == 1);
+  const auto window = samples(0.1, 0, 0.22, 1, -1, 0.05, 3);
+  CHECK(window.size() == 3 && near(window[0], 0.05) && near(window[1], 0.1) && near(window[2], 0.15));
+}
+
+TEST("there are 419 trajectories, and standing still is none of them") {
+  MotionOptions motion;
+  motion.max_vel_x = motion.max_speed_xy = 0.22;
+  Trajectories all(motion);
+  all.generate({}, {}, 1e9);
+  CHECK(all.size() == 419);
+  CHECK(all.twist(0).ahead == 0 && all.twist(0).turn == -1);
+  for (std::size_t i = 0; i < all.size(); ++i) CHECK(all.twist(i).ahead != 0 || all.twist(i).turn != 0);
+}
+
+TEST("ends are where walking a trajectory leads, from any state") {
+  MotionOptions motion;
+  Trajectories all(motion);
+  for (const Twist current : {Twist{0, 0}, Twist{0.2, -0.7}, Twist{0.11, 0.9}}) {
+    all.generate({1, 2, 0.7}, current, 1e9);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      Pose last;
+      int poses = 0;
+      all.walk(i, [&](Pose pose) {
+        last = pose;
+        ++poses;
+        return true;
+      });
+      CHECK(poses == all.steps(all.twist(i)) + 2);
+      const Pose end = all.end(i);
+      CHECK(near(last.x, end.x, 1e-12) && near(last.y, end.y, 1e-12) && near(last.yaw, end.yaw, 1e-12));
+      CHECK(near(all.heading(i).x, std::cos(end.yaw), 1e-12) && near(all.heading(i).y, std::sin(end.yaw), 1e-12));
+    }
+  }
+}
+
+TEST("a straight trajectory at full speed is as long as speed and time say") {
+  MotionOptions motion;
+  motion.max_vel_x = motion.max_speed_xy = 0.2;
+  Trajectories all(motion);
+  all.generate({}, {0.2, 0}, 1e9);
+  bool found = false;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all.twist(i).ahead != 0.2 || all.twist(i).turn != 0) continue;
+    found = true;
+    CHECK(near(all.end(i).x, 0.34) && near(all.end(i).y, 0) && all.steps(all.twist(i)) == 7);
+  }
+  CHECK(found);
+}
+
+TEST("a limit of speed holds for all samples") {
+  Trajectories all{MotionOptions{}};
+  all.generate({}, {0.2, 0}, 0.1);
+  for (std::size_t i = 0; i < all.size(); ++i) CHECK(all.twist(i).ahead <= 0.1);
+}
+
+TEST("distances to the path are counted along rows and columns") {
+  const Frame frame{10, 8, 1.0, {0, 0}};
+  PathGrid path;
+  const std::vector<Point> rest{{4.5, 1.5}, {4.5, 5.5}};
+  path.take(frame, {1.5, 1.5}, {1.5, 1.5}, rest, {.prune_distance = 100, .shorten = false});
+  path.spread(frame);
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 10; ++x) {
+      int nearest = 1000;
+      for (const Cell& c : path.cells()) nearest = std::min(nearest, std::abs(c.x - x) + std::abs(c.y - y));
+      CHECK(path.distance(frame, {x, y}) == nearest);
+    }
+  }
+}

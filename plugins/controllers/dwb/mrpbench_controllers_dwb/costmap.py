@@ -1,0 +1,156 @@
+"""Options of the rolling costmap, by the names and defaults of Nav2's local costmap."""
+
+import json
+from typing import Literal, get_args
+
+import attrs
+import numpy as np
+from attrs.validators import deep_iterable, ge, gt, in_
+
+from mrpbench_core.api.nav2 import parameter, settle
+from mrpbench_core.files.nav2 import Nav2Block
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.fleet import RobotModel
+
+Layer = Literal["obstacle_layer", "voxel_layer", "static_layer", "inflation_layer"]
+Polygon = tuple[tuple[float, float], ...]
+
+
+@attrs.frozen(kw_only=True, slots=False)
+class Inflation:
+    """How costs fall off around obstacles."""
+
+    inflation_radius: float | None = parameter(
+        0.55, help="distance up to which obstacles cost something", unit="m", validator=ge(0)
+    )
+    cost_scaling_factor: float | None = parameter(3.0, help="how fast costs fall, 1/m", validator=ge(0))
+
+
+@attrs.frozen(kw_only=True, slots=False)
+class Observation:
+    """How scans mark and clear."""
+
+    obstacle_max_range: float | None = parameter(2.5, help="farther returns mark nothing", unit="m", validator=ge(0))
+    obstacle_min_range: float | None = parameter(0.0, help="nearer returns mark nothing", unit="m", validator=ge(0))
+    raytrace_max_range: float | None = parameter(3.0, help="beams clear up to here", unit="m", validator=ge(0))
+    raytrace_min_range: float | None = parameter(0.0, help="beams clear from here on", unit="m", validator=ge(0))
+    marking: bool | None = parameter(True, help="scans mark obstacles")
+    clearing: bool | None = parameter(True, help="scans clear what they see through")
+    inf_is_valid: bool | None = parameter(False, help="beams without a return clear too")
+
+
+@attrs.frozen(kw_only=True, slots=False)
+class Grid:
+    """Where the costmap lies, and how often it is made."""
+
+    width: float | None = parameter(3.0, help="extent around the robot", unit="m", validator=gt(0))
+    height: float | None = parameter(3.0, help="extent around the robot", unit="m", validator=gt(0))
+    resolution: float | None = parameter(0.05, help="side of a cell", unit="m", validator=gt(0))
+    update_frequency: float | None = parameter(5.0, help="how often it is made", unit="Hz", validator=gt(0))
+    footprint_padding: float | None = parameter(0.01, help="room around the footprint", unit="m", validator=ge(0))
+    robot_radius: float | None = parameter(
+        None,
+        help="take the robot for a disc of this radius; by default the disc that holds it",
+        unit="m",
+        validator=gt(0),
+    )
+    footprint_clearing_enabled: bool | None = parameter(True, help="nothing is marked under the robot")
+
+
+@attrs.frozen(kw_only=True, slots=False)
+class LocalCostmap(Grid, Inflation, Observation):
+    """A costmap that rolls with the robot."""
+
+    plugins: tuple[Layer, ...] | None = parameter(
+        ("voxel_layer", "inflation_layer"),
+        help="layers; with a planar lidar voxel_layer is obstacle_layer",
+        validator=deep_iterable(in_(get_args(Layer))),
+    )
+    footprint: Literal["robot"] | Polygon | None = attrs.field(
+        default=None,
+        metadata={"help": "`robot`, or a polygon of points [x, y]: instead of a disc", "unit": None},
+    )
+
+    def settings(self, robot: RobotModel, block: Nav2Block | None) -> tuple[dict[str, float], Float]:
+        """What C++ is told of one robot's costmap, as numbers, and its footprint f8[k,2].
+
+        Raises:
+            InputError: a Nav2 file says what makes no sense here.
+        """
+        layers = self.plugins or settle(self, None, of=LocalCostmap)["plugins"]
+        values = settle(self, block, of=Grid)
+        inflation, observation = settle(self, of=Inflation), settle(self, of=Observation)
+        polygon = self._polygon(robot, block)
+        if block is not None:
+            named = {name: _kind(block, name) for name in block.take("plugins", tuple, ())}
+            layers = self.plugins or tuple(named.values()) or layers
+            for name, kind in named.items():
+                if kind == "inflation_layer":
+                    inflation = settle(self, block, f"{name}.", of=Inflation)
+                elif kind in ("obstacle_layer", "voxel_layer"):
+                    for source in block.take(f"{name}.observation_sources", str, "").split():
+                        observation = settle(self, block, f"{name}.{source}.", of=Observation)
+                        block.ignore(*(f"{name}.{source}.{word}" for word in _OF_SOURCES))
+                block.ignore(*(f"{name}.{word}" for word in _OF_LAYERS))
+            block.ignore(*_IGNORED)
+            block.refuse_unknown()
+        values |= inflation | observation
+        radius = values.pop("robot_radius")
+        numbers = {name: float(value) for name, value in values.items()}
+        numbers |= {
+            "robot_radius": robot.radius if radius is None else radius,
+            "by_radius": float(polygon is None),
+            "obstacle_layer": float("obstacle_layer" in layers or "voxel_layer" in layers),
+            "static_layer": float("static_layer" in layers),
+            "inflation_layer": float("inflation_layer" in layers),
+        }
+        return numbers, robot.footprint if polygon is None else polygon
+
+    def _polygon(self, robot: RobotModel, block: Nav2Block | None) -> Float | None:
+        if self.footprint is not None:
+            return robot.footprint if self.footprint == "robot" else np.array(self.footprint, float)
+        text = None if block is None else block.take("footprint", str)
+        if not text or block is None or self.robot_radius is not None:
+            return None
+        try:
+            polygon = np.array(json.loads(text), float)
+        except ValueError:
+            polygon = np.empty(0)
+        if polygon.ndim != 2 or polygon.shape[1] != 2 or len(polygon) < 3:
+            raise block.error("must be a text with a list of at least three points [x, y]", "footprint")
+        return polygon
+
+
+def _kind(block: Nav2Block, name: str) -> Layer | None:
+    """The layer that a plugin of the costmap is, or None when it is switched off."""
+    kind = block.take(f"{name}.plugin", str, name).rpartition("::")[2]
+    enabled = block.take(f"{name}.enabled", bool, True)
+    known: dict[str, Layer] = {
+        "ObstacleLayer": "obstacle_layer",
+        "VoxelLayer": "voxel_layer",
+        "StaticLayer": "static_layer",
+        "InflationLayer": "inflation_layer",
+    }
+    if kind not in known:
+        raise block.error(f"{kind!r} is no layer that exists here", f"{name}.plugin")
+    return known[kind] if enabled else None
+
+
+_OF_SOURCES = ("topic", "data_type", "max_obstacle_height", "min_obstacle_height", "sensor_frame")
+_OF_LAYERS = (
+    *("plugin", "enabled", "publish_voxel_map", "origin_z", "z_resolution", "z_voxels", "max_obstacle_height"),
+    *(
+        "min_obstacle_height",
+        "mark_threshold",
+        "unknown_threshold",
+        "map_subscribe_transient_local",
+        "footprint_clearing_enabled",
+    ),
+    *("combination_method", "inflate_unknown", "inflate_around_unknown"),
+)
+"""Of a third dimension, of topics, or of what is unknown, which nothing is here."""
+_IGNORED = (
+    *("use_sim_time", "publish_frequency", "global_frame", "robot_base_frame", "rolling_window", "filters"),
+    *("always_send_full_costmap", "transform_tolerance", "track_unknown_space", "plugin_names", "plugin_types"),
+    *("origin_x", "origin_y", "lethal_cost_threshold", "unknown_cost_value", "trinary_costmap", "map_topic"),
+)
