@@ -1,0 +1,160 @@
+import pytest
+from mrpbench_controllers_dwb import BaseObstacle, Dwb, LocalCostmap, PathAlign, RotateToGoal
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.robot import load_robot
+
+BURGER = load_robot("turtlebot3_burger")
+FILE = """\
+controller_server:
+  ros__parameters:
+    use_sim_time: True
+    controller_frequency: 20.0
+    FollowPath:
+      plugin: "dwb_core::DWBLocalPlanner"
+      debug_trajectory_details: True
+      min_vel_x: 0.0
+      min_vel_y: 0.0
+      max_vel_x: 0.18
+      max_vel_y: 0.0
+      max_vel_theta: 0.9
+      acc_lim_x: 2.5
+      decel_lim_x: -1.5
+      vx_samples: 12
+      vy_samples: 5
+      vtheta_samples: 20
+      sim_time: 1.5
+      transform_tolerance: 0.2
+      short_circuit_trajectory_evaluation: True
+      stateful: True
+      critics: ["RotateToGoal", "BaseObstacle", "PathAlign"]
+      BaseObstacle.scale: 0.02
+      PathAlign.scale: 32.0
+      PathAlign.forward_point_distance: 0.1
+      GoalAlign.scale: 24.0
+      RotateToGoal.scale: 32.0
+      RotateToGoal.slowing_factor: 5.0
+local_costmap:
+  local_costmap:
+    ros__parameters:
+      update_frequency: 4.0
+      publish_frequency: 2.0
+      global_frame: odom
+      robot_base_frame: base_link
+      rolling_window: true
+      width: 2
+      height: 2
+      resolution: 0.04
+      robot_radius: 0.15
+      plugins: ["scan_layer", "inflation_layer"]
+      inflation_layer:
+        plugin: "nav2_costmap_2d::InflationLayer"
+        cost_scaling_factor: 1.0
+        inflation_radius: 0.4
+      scan_layer:
+        plugin: "nav2_costmap_2d::VoxelLayer"
+        enabled: True
+        z_voxels: 16
+        observation_sources: scan
+        scan:
+          topic: /scan
+          max_obstacle_height: 2.0
+          clearing: True
+          obstacle_max_range: 2.2
+          data_type: "LaserScan"
+      always_send_full_costmap: True
+"""
+
+
+def write(tmp_path, text):
+    path = tmp_path / "params.yaml"
+    path.write_text(text)
+    return path
+
+
+def test_a_nav2_file_says_everything(tmp_path):
+    numbers, _, critics = Dwb(nav2=write(tmp_path, FILE)).settings(BURGER, 0.05)
+    wanted = {
+        "max_vel_x": 0.18,
+        "max_vel_theta": 0.9,
+        "acc_lim_x": 2.5,
+        "decel_lim_x": -1.5,
+        "acc_lim_theta": 3.2,
+        "decel_lim_theta": -3.2,
+        "vx_samples": 12,
+        "sim_time": 1.5,
+        "linear_granularity": 0.05,
+        "update_frequency": 4.0,
+        "width": 2.0,
+        "resolution": 0.04,
+        "robot_radius": 0.15,
+        "cost_scaling_factor": 1.0,
+        "inflation_radius": 0.4,
+        "obstacle_max_range": 2.2,
+        "raytrace_max_range": 3.0,
+        "obstacle_layer": 1.0,
+        "static_layer": 0.0,
+    }
+    assert {name: numbers[name] for name in wanted} == wanted
+    assert critics == (
+        RotateToGoal(scale=32.0),
+        BaseObstacle(scale=0.02),
+        PathAlign(scale=32.0, forward_point_distance=0.1),
+    )
+
+
+def test_options_win_over_the_file(tmp_path):
+    given = Dwb(
+        nav2=write(tmp_path, FILE),
+        sim_time=1.7,
+        critics=(BaseObstacle(),),
+        local_costmap=LocalCostmap(inflation_radius=0.3),
+    )
+    numbers, _, critics = given.settings(BURGER, 0.05)
+    assert (numbers["sim_time"], numbers["vx_samples"], numbers["inflation_radius"]) == (1.7, 12, 0.3)
+    assert critics == (BaseObstacle(),)
+
+
+def test_a_block_can_be_pasted():
+    pasted = Dwb(FollowPath={"plugin": "dwb_core::DWBLocalPlanner", "sim_time": 1.2, "critics": ["BaseObstacle"]})
+    numbers, _, critics = pasted.settings(BURGER, 0.05)
+    assert numbers["sim_time"] == 1.2
+    assert critics == (BaseObstacle(),)
+
+
+def test_without_any_the_limits_are_the_robots():
+    numbers, _, critics = Dwb().settings(load_robot("turtlebot3_waffle"), 0.05)
+    assert numbers["max_vel_x"] == 0.26
+    assert numbers["max_vel_theta"] == 1.0
+    assert [type(critic).__name__ for critic in critics] == [
+        *("RotateToGoal", "Oscillation", "BaseObstacle", "GoalAlign", "PathAlign", "PathDist", "GoalDist")
+    ]
+
+
+def test_no_option_exceeds_what_the_robot_can():
+    numbers, _, _ = Dwb(max_vel_x=5.0, max_vel_theta=9.0, acc_lim_x=99.0).settings(BURGER, 0.05)
+    assert (numbers["max_vel_x"], numbers["max_vel_theta"], numbers["acc_lim_x"]) == (0.22, 2.84, 2.5)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("sim_time: 1.5", "sim_tme: 1.5", r"params.yaml:18:7: .*unknown parameter 'sim_tme' \(did you mean 'sim_time'"),
+        ("sim_time: 1.5", "sim_time: long", r"params.yaml:18:7: .*sim_time: expected a number"),
+        ("sim_time: 1.5", "sim_time: -1.5", r"params.yaml:18:7: .*sim_time"),
+        ("max_vel_y: 0.0\n      max_vel_t", "max_vel_y: 0.2\n      max_vel_t", r":11:7: .*cannot drive sideways"),
+        ('"PathAlign"]', '"PathAling"]', r"params.yaml:22:7: .*no critic 'PathAling'"),
+        ("inflation_radius: 0.4", "inflation_radios: 0.4", r"params.yaml:\d+:9: .*'inflation_layer.inflation_radios'"),
+        ("VoxelLayer", "SonarLayer", r"'SonarLayer' is no layer that exists here"),
+        ("dwb_core::DWBLocalPlanner", "nav2_mppi_controller::MPPIController", r"params.yaml:6:7: .*is not dwb_core"),
+    ],
+)
+def test_mistakes_in_the_file_are_named_with_their_place(tmp_path, old, new, message):
+    assert old in FILE
+    with pytest.raises(InputError, match=message):
+        Dwb(nav2=write(tmp_path, FILE.replace(old, new)))
+
+
+def test_a_file_without_these_blocks_is_refused(tmp_path):
+    with pytest.raises(InputError, match="has neither controller_server's FollowPath nor local_costmap"):
+        Dwb(nav2=write(tmp_path, "amcl:\n  ros__parameters:\n    alpha1: 0.2\n"))
