@@ -13,26 +13,15 @@ from rosbags.interfaces import (
     QosReliability,
     QosTime,
 )
-from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_exporters_rosbag2.messages import TYPES, Topic, full_name
+from mrpbench_exporters_rosbag2.messages import Topic, full_name
+from mrpbench_exporters_rosbag2.writer import QuickWriter
 
 Storage = Literal["mcap", "sqlite3"]
 Version = Literal[8, 9]
 FOREVER = QosTime(sec=9223372036, nsec=854775807)
-
-
-class QuickWriter(Writer):
-    """A writer that does not look through all connections at every message: with 1000 robots there are thousands."""
-
-    def write(self, connection: Connection, timestamp: int, data: bytes | memoryview) -> None:
-        """Append a message of a connection of this writer, uncompressed; time does not run backwards."""
-        assert self.storage is not None
-        self.storage.write(connection, timestamp, data)
-        self.counts[connection.id] += 1
-        self.min_timestamp = min(self.min_timestamp, timestamp)
-        self.max_timestamp = timestamp
 
 
 class Bag:
@@ -71,8 +60,8 @@ class Bag:
         """Append a message; its log time is its stamp (nanoseconds), and never before that of the message before."""
         connection = self.connections.get(topic.name)
         if connection is None:
-            connection = self.connections[topic.name] = self.writer.add_connection(
-                topic.name, full_name(topic.type), typestore=TYPES, offered_qos_profiles=[_quality(topic.latched)]
+            connection = self.connections[topic.name] = self.writer.add_topic(
+                topic.name, full_name(topic.type), topic.types, LATCHED if topic.latched else LIVE
             )
         self.latest = max(self.latest, stamp)
         self.writer.write(connection, self.latest, data)
@@ -109,3 +98,6 @@ def _quality(latched: bool) -> Qos:
         liveliness_lease_duration=FOREVER,
         avoid_ros_namespace_conventions=False,
     )
+
+
+LIVE, LATCHED = _quality(latched=False), _quality(latched=True)

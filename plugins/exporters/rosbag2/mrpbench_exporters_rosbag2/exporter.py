@@ -17,8 +17,10 @@ from mrpbench_exporters_rosbag2.advance import advance
 from mrpbench_exporters_rosbag2.bag import Bag, Storage, Version
 from mrpbench_exporters_rosbag2.blocks import AXES, Blocks
 from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS, contacts, events
+from mrpbench_exporters_rosbag2.fleet_states import fleet_states
 from mrpbench_exporters_rosbag2.frames import frames
 from mrpbench_exporters_rosbag2.messages import Topic, message, nanoseconds, time
+from mrpbench_exporters_rosbag2.rmf import Release
 from mrpbench_exporters_rosbag2.robots import robot_markers
 from mrpbench_exporters_rosbag2.scans import scan
 from mrpbench_exporters_rosbag2.source import Rows, Source
@@ -47,6 +49,11 @@ class Rosbag2(Exporter):
     topics: tuple[str, ...] = option(
         ("*",), help="patterns of the topics to write, e.g. `/tf*` or `/robot_*/odom`", validator=check_patterns
     )
+    rmf: Release = option(
+        "humble",
+        help="release of the messages of `/fleet_states`: `galactic` as the original benchmark ran, `humble` to Jazzy, "
+        "or `rolling`",
+    )
     map_cell_size: float = option(
         0.05,
         help="of `/map`; a world that is a raster keeps its own",
@@ -66,7 +73,7 @@ class Rosbag2Session(ExporterSession):
         self.names = context.fleet.names
         self.patterns = recipe.topics
         self.start = int(nanoseconds(recipe.start_time))
-        self.sources = [source for source in sources(context) if self._wanted(source.topic)]
+        self.sources = [source for source in sources(context, recipe.rmf) if self._wanted(source.topic)]
         self.blocks = Blocks(max(1, POSES_PER_BLOCK // max(1, len(context.fleet))))
         latched = [said for said in opening(context, self.start, recipe.map_cell_size) if self._wanted(said[0])]
         self.bag: Bag | None = Bag(destination, recipe.storage, recipe.version)
@@ -114,7 +121,7 @@ class Rosbag2Session(ExporterSession):
         return selected(topic.name, self.patterns)
 
 
-def sources(context: RunContext) -> Iterator[Source]:
+def sources(context: RunContext, rmf: Release) -> Iterator[Source]:
     """Every periodic topic, in the order of writing at one instant: the clock, frames before what stands in them."""
     robots = list(zip(context.fleet.names, context.fleet.robots, strict=True))
     yield clock()
@@ -125,6 +132,7 @@ def sources(context: RunContext) -> Iterator[Source]:
         yield motion.command(index, name)
     if robots:
         yield advance(len(robots))
+        yield fleet_states(context, rmf)
     yield robot_markers(context)
     for index, (name, robot) in enumerate(robots):
         if robot.lidar:

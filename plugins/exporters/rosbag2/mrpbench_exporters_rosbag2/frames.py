@@ -46,8 +46,8 @@ def parent(outer: Float, inner: Float) -> Float:
     return np.stack([x, y, yaw], axis=-1)
 
 
-def floor(block: Chunk, world: World) -> Float:
-    """Height f8[k,n] of the floor under each robot, metres; the first level's where levels are not recorded."""
+def floor(block: Chunk, world: World, robots: int | slice = slice(None)) -> Float:
+    """Height f8[k,n] (of one robot f8[k]) of the floor, metres; the first level's where levels are not recorded."""
     elevation = np.array([level.elevation for level in world.levels])
-    heights: Float = elevation[block["level"]] if "level" in block else elevation[:1]
+    heights: Float = elevation[block["level"][:, robots]] if "level" in block else elevation[:1]
     return heights

@@ -9,6 +9,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys.store import Typestore
 
 from mrpbench_core.model.arrays import Float, Int
 
@@ -19,21 +20,22 @@ SECOND = 1_000_000_000
 
 @attrs.frozen
 class Topic:
-    """A topic, its message type, and whether late subscribers get its last message (transient local)."""
+    """A topic, its message type, whether late subscribers get its last message (transient local), and all types."""
 
     name: str
     type: str
     latched: bool = False
+    types: Typestore = TYPES
 
 
-def message(type_name: str, **fields: Any) -> Any:
+def message(type_name: str, /, types: Typestore = TYPES, **fields: Any) -> Any:
     """Make a message; every field must be given. `std_msgs/Header` stands for `std_msgs/msg/Header`."""
-    return TYPES.types[full_name(type_name)](**fields)
+    return types.types[full_name(type_name)](**fields)
 
 
-def serialize(type_name: str, value: Any) -> bytes:
+def serialize(type_name: str, value: Any, types: Typestore = TYPES) -> bytes:
     """CDR bytes of a message, little-endian."""
-    return bytes(TYPES.serialize_cdr(value, full_name(type_name), little_endian=True))
+    return bytes(types.serialize_cdr(value, full_name(type_name), little_endian=True))
 
 
 def full_name(type_name: str) -> str:

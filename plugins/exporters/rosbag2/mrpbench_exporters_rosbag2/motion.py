@@ -30,7 +30,7 @@ def ground_truth(robot: int, name: str, world: World) -> Source:
     def rows(block: Chunk) -> Rows | None:
         if "truth" not in block or "truth_twist" not in block:
             return None
-        full = spatial(block["truth"], floor(block, world))[:, robot]
+        full = spatial(block["truth"][:, robot], floor(block, world, robot))
         return block["time"], {"pose": full, "twist": twist(block["truth_twist"][:, robot])}
 
     topic = Topic(f"/{name}/ground_truth", "nav_msgs/Odometry")

@@ -8,9 +8,9 @@ from mrpbench_exporters_rosbag2.marker import ARROW, colour_of, marker
 from mrpbench_exporters_rosbag2.messages import SECOND, Topic, header, message, pose, serialize, spatial
 
 
-def plan(context: RunContext, robot: int, stamp: int) -> tuple[Topic, bytes]:
+def plan(context: RunContext, robot: int, name: str, stamp: int) -> tuple[Topic, bytes]:
     """One robot's first path; the stamp of each pose is when the plan has the robot there."""
-    topic = Topic(f"/{context.fleet.names[robot]}/plan", "nav_msgs/Path", latched=True)
+    topic = Topic(f"/{name}/plan", "nav_msgs/Path", latched=True)
     waypoints = facing(context.routes[robot].waypoint)
     full = spatial(waypoints, _elevation(context, context.routes[robot].level))
     poses = [
@@ -20,9 +20,9 @@ def plan(context: RunContext, robot: int, stamp: int) -> tuple[Topic, bytes]:
     return topic, serialize(topic.type, message(topic.type, header=header(stamp, "map"), poses=poses))
 
 
-def goal(context: RunContext, robot: int, stamp: int) -> tuple[Topic, bytes]:
+def goal(context: RunContext, robot: int, name: str, stamp: int) -> tuple[Topic, bytes]:
     """Where one robot's path ends."""
-    topic = Topic(f"/{context.fleet.names[robot]}/goal_pose", "geometry_msgs/PoseStamped", latched=True)
+    topic = Topic(f"/{name}/goal_pose", "geometry_msgs/PoseStamped", latched=True)
     full = _goal_pose(context, robot)
     return topic, serialize(topic.type, message(topic.type, header=header(stamp, "map"), pose=pose(full)))
 

@@ -8,7 +8,7 @@ from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2.frames import floor
 from mrpbench_exporters_rosbag2.marker import CYLINDER, DARK, LINE_STRIP, TEXT, colour_of, marker
 from mrpbench_exporters_rosbag2.messages import Topic, message, spatial
-from mrpbench_exporters_rosbag2.source import POSE, Rows, Source
+from mrpbench_exporters_rosbag2.source import POSE, Pace, Rows, Source
 from mrpbench_exporters_rosbag2.template import Template
 
 INTERVAL = 0.1
@@ -19,19 +19,15 @@ def robot_markers(context: RunContext) -> Source:
     """A cylinder, the footprint and the name of every robot where it truly is, on `/robots`."""
     topic = Topic("/robots", "visualization_msgs/MarkerArray")
     fleet = context.fleet
-    markers = [mark for index, robot in enumerate(fleet.robots) for mark in _marks(index, robot, fleet.names[index])]
+    named = zip(fleet.robots, fleet.names, strict=True)
+    markers = [mark for index, (robot, name) in enumerate(named) for mark in _marks(index, robot, name)]
     rise = np.array([[robot.height / 2, robot.height, robot.height + 0.2] for robot in fleet.robots])
-    due = -np.inf
+    pace = Pace(INTERVAL)
 
     def rows(block: Chunk) -> Rows | None:
-        nonlocal due
         if "truth" not in block:
             return None
-        shown = []
-        for index, now in enumerate(block["time"].tolist()):
-            if now >= due:
-                shown.append(index)
-                due = now + INTERVAL - 1e-9
+        shown = pace.due(block["time"])
         planar = np.repeat(block["truth"][:, :, None], 3, axis=2)
         full = spatial(planar, floor(block, context.world)[..., None] + rise)
         return block["time"][shown], {"pose": full[shown].reshape(len(shown), 3 * len(fleet), 7)}

@@ -1,19 +1,47 @@
 """What a recording says again and again on one topic: a template and the channels that fill it."""
 
+import math
 from collections.abc import Callable, Iterator, Mapping
+from typing import Any, Protocol
 
 import attrs
+from numpy.typing import NDArray
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.arrays import Float, Int
 from mrpbench_core.model.recording import Chunk
 from mrpbench_exporters_rosbag2.messages import Topic, nanoseconds
 from mrpbench_exporters_rosbag2.template import Template, hole
 
-Rows = tuple[Float, Mapping[str, Float]]
+Rows = tuple[Float, Mapping[str, NDArray[Any]]]
 """Times f8[k] in simulated seconds and the values of each hole at them."""
 
 POSE, TWIST = hole(7), hole(6)
 """Where poses (as of `messages.spatial`) and twists go in templates."""
+
+
+class Pace:
+    """Chooses samples that are an interval apart, at least."""
+
+    def __init__(self, interval: float) -> None:
+        """`interval` in seconds."""
+        self._interval = interval
+        self._next = -math.inf
+
+    def due(self, times: Float) -> list[int]:
+        """Which of `times` f8[k], the next of a run, are chosen."""
+        chosen = []
+        for index, now in enumerate(times.tolist()):
+            if now >= self._next:
+                chosen.append(index)
+                self._next = now + self._interval - 1e-9
+        return chosen
+
+
+class Templates(Protocol):
+    """Makes messages like a template, where strings vary."""
+
+    def fill(self, stamps: Int, **values: NDArray[Any]) -> list[bytes]:
+        """One message for each of `stamps`."""
 
 
 @attrs.frozen
@@ -21,7 +49,7 @@ class Source:
     """Makes the messages of one topic."""
 
     topic: Topic
-    template: Template
+    template: Template | Templates
     rows: Callable[[Chunk], Rows | None]
     """None where a block lacks the channels."""
 

@@ -23,10 +23,11 @@ def opening(context: RunContext, stamp: int, cell_size: float) -> Iterator[tuple
         yield navigation_graph(context.world, stamp)
     if any(robot.lidar for robot in context.fleet.robots):
         yield _mounts(context, stamp)
+    names = context.fleet.names
     for robot in range(len(context.routes)):
-        yield plan(context, robot, stamp)
+        yield plan(context, robot, names[robot], stamp)
     for robot in range(len(context.goal)):
-        yield goal(context, robot, stamp)
+        yield goal(context, robot, names[robot], stamp)
     if context.goal:
         yield goal_markers(context, stamp)
 

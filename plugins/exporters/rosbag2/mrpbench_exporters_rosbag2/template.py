@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from rosbags.typesys.store import Typestore
 
 from mrpbench_core.model.arrays import Int
-from mrpbench_exporters_rosbag2.messages import SECOND, serialize
+from mrpbench_exporters_rosbag2.messages import SECOND, TYPES, serialize
 
 STAMP = 1_234_567_890_987_654_321
 """The stamp that templates are made with, nanoseconds."""
@@ -21,15 +22,20 @@ STAMP = 1_234_567_890_987_654_321
 
 def hole(count: int, dtype: str = "<f8") -> NDArray[Any]:
     """`count` numbers that nothing else in a message will equal, a hole of another width included."""
-    return (np.arange(1, count + 1) * 7.123456789e-5 + 31.4159 * count).astype(dtype)
+    if np.dtype(dtype).kind == "f":
+        return (np.arange(1, count + 1) * 7.123456789e-5 + 31.4159 * count).astype(dtype)
+    odd = 0x9E3779B97F4A7C15 // np.dtype(dtype).itemsize | 1
+    return (np.arange(1, count + 1, dtype="u8") * odd + count).astype(dtype)
 
 
 class Template:
     """One message type with fixed strings and array lengths."""
 
-    def __init__(self, type_name: str, message: Any, holes: Mapping[str, NDArray[Any]]) -> None:
+    def __init__(
+        self, type_name: str, message: Any, holes: Mapping[str, NDArray[Any]], types: Typestore = TYPES
+    ) -> None:
         """Serialise `message`, made with `STAMP` and with the numbers of `holes` where values will go."""
-        data = serialize(type_name, message)
+        data = serialize(type_name, message, types)
         self.data = np.frombuffer(data, np.uint8)
         self.places = {
             name: (numbers, [found.start() for found in re.finditer(re.escape(numbers.tobytes()), data)])

@@ -8,6 +8,7 @@ FLEET = (
     "/clock",
     "/contacts",
     "/events",
+    "/fleet_states",
     "/goals",
     "/map",
     "/navigation_graph",

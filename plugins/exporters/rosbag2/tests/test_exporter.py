@@ -63,7 +63,7 @@ def test_holds_every_topic_as_often_as_recorded(bag, recording):
     instants = len({*recording["time"], *recording["scan_time"], *recording["event_time"], *recording["contact_time"]})
     expected = dict.fromkeys(LATCHED, 1)
     expected |= {"/clock": instants, "/progress": samples, "/tf": samples, "/events": 3, "/contacts": 3}
-    expected["/robots"] = 41  # 4 s at 10 Hz and the start
+    expected |= {"/robots": 41, "/fleet_states": 9}  # 4 s at 10 and 2 Hz, and the start
     for name in ROBOTS:
         expected |= {f"/{name}/{topic}": samples for topic in ("odom", "ground_truth", "cmd_vel")}
         expected |= {f"/{name}/scan": scans, f"/{name}/plan": 1, f"/{name}/goal_pose": 1}

@@ -1,0 +1,103 @@
+"""Where the robots believe to be, for Open-RMF: `/fleet_states`, as its fleet drivers say it."""
+
+from functools import lru_cache
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrpbench_core.model.arrays import Int, Int16
+from mrpbench_core.model.execution import Mode
+from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.run import RunContext
+from mrpbench_exporters_rosbag2.messages import Topic, time
+from mrpbench_exporters_rosbag2.rmf import ADAPTER_ERROR, IDLE, MOVING, WAITING, Release, rmf_message, rmf_types
+from mrpbench_exporters_rosbag2.source import Pace, Rows, Source
+from mrpbench_exporters_rosbag2.template import STAMP, Template, hole
+
+FLEET = "mrpbench"
+"""Its name."""
+INTERVAL = 0.5
+"""seconds between two messages, at least: free_fleet's and the original benchmark's 2 Hz."""
+PLACE, STATE, COUNT = hole(3, "<f4"), hole(1, "<u4"), hole(1, "<u8")
+"""Where x, y, yaw; the mode; and the number of the message go."""
+RMF_MODE = {Mode.WAITING: WAITING, Mode.ABORTED: ADAPTER_ERROR}
+"""All other modes are MOVING."""
+
+
+def fleet_states(context: RunContext, release: Release) -> Source:
+    """States of all robots, by estimates. RMF has 32-bit floats. Paths are left out: `/robot_0/plan` has them."""
+    topic = Topic("/fleet_states", "rmf_fleet_msgs/FleetState", types=rmf_types(release))
+    length = np.array([len(route.speed) for route in context.routes])
+    modes = np.array([RMF_MODE.get(mode, MOVING) for mode in Mode])
+    pace, said = Pace(INTERVAL), 0
+
+    def rows(block: Chunk) -> Rows | None:
+        nonlocal said
+        if not all(name in block for name in ("estimate", "level", "mode", "reached")):
+            return None
+        shown = pace.due(block["time"])
+        numbers = np.arange(said, said + len(shown))
+        said += len(shown)
+        mode = np.where(block["reached"][shown] >= length, IDLE, modes[block["mode"][shown]])
+        return block["time"][shown], {
+            "place": block["estimate"][shown],
+            "mode": mode[..., None],
+            "seq": numbers[:, None],
+            "level": block["level"][shown],
+        }
+
+    return Source(topic, _ByLevel(context, topic), rows)
+
+
+class _ByLevel:
+    """A template for every combination of levels that robots are on: their names are of unlike lengths."""
+
+    def __init__(self, context: RunContext, topic: Topic) -> None:
+        self._context, self._topic = context, topic
+        self._of = lru_cache(4)(self._template)
+
+    def fill(self, stamps: Int, **values: NDArray[Any]) -> list[bytes]:
+        """One message for each of `stamps`."""
+        level: Int16 = values.pop("level")
+        changes = np.flatnonzero((level[1:] != level[:-1]).any(axis=1)) + 1
+        messages = []
+        for begin, end in pairwise([0, *changes.tolist(), len(stamps)]):
+            part = {name: rows[begin:end] for name, rows in values.items()}
+            messages += self._of(tuple(level[begin].tolist())).fill(stamps[begin:end], **part)
+        return messages
+
+    def _template(self, levels: tuple[int, ...]) -> Template:
+        types, fleet = self._topic.types, self._context.fleet
+        states = []
+        for index, (robot, name, level) in enumerate(zip(fleet.robots, fleet.names, levels, strict=True)):
+            place = rmf_message(
+                types,
+                "Location",
+                t=time(STAMP),
+                x=PLACE[0],
+                y=PLACE[1],
+                yaw=PLACE[2],
+                obey_approach_speed_limit=False,
+                approach_speed_limit=0.0,
+                level_name=self._context.world.levels[level].name,
+                index=0,
+            )
+            mode = rmf_message(types, "RobotMode", mode=STATE[0], mode_request_id=0, performing_action="")
+            states.append(
+                rmf_message(
+                    types,
+                    "RobotState",
+                    name=name,
+                    model=robot.name,
+                    task_id=str(self._context.assigned[index]) if self._context.assigned else "",
+                    seq=COUNT[0],
+                    mode=mode,
+                    battery_percent=100.0,
+                    location=place,
+                    path=[],
+                )
+            )
+        value = rmf_message(types, "FleetState", name=FLEET, robots=states)
+        return Template(self._topic.type, value, {"place": PLACE, "mode": STATE, "seq": COUNT}, types)

@@ -1,0 +1,43 @@
+"""Messages of Open-RMF's `rmf_fleet_msgs`, from the documentation of its releases. ROS itself does not have them.
+
+A reader with a definition of its own needs the one it knows, and it has grown: galactic has 1.4, humble 3.0 (as all up
+to jazzy), rolling 4.0. https://docs.ros.org/en/humble/p/rmf_fleet_msgs
+"""
+
+from functools import cache
+from typing import Any, Literal
+
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+from rosbags.typesys.store import Typestore
+
+Release = Literal["galactic", "humble", "rolling"]
+
+LIMIT = "bool obey_approach_speed_limit\nfloat32 approach_speed_limit\n"
+ACTION = "string performing_action\n"
+IDLE, MOVING, WAITING, ADAPTER_ERROR = 0, 2, 4, 8
+"""Modes of robots."""
+
+
+@cache
+def rmf_types(release: Release) -> Typestore:
+    """The types of Humble, and those of fleet states as of an RMF release."""
+    limit = "" if release == "galactic" else LIMIT
+    action = ACTION if release == "rolling" else ""
+    definitions = {
+        "Location": f"builtin_interfaces/Time t\nfloat32 x\nfloat32 y\nfloat32 yaw\n{limit}"
+        "string level_name\nuint64 index\n",
+        "RobotMode": f"uint32 mode\nuint64 mode_request_id\n{action}",
+        "RobotState": "string name\nstring model\nstring task_id\nuint64 seq\nRobotMode mode\nfloat32 battery_percent\n"
+        "Location location\nLocation[] path\n",
+        "FleetState": "string name\nRobotState[] robots\n",
+    }
+    types = get_typestore(Stores.ROS2_HUMBLE)
+    for name, text in definitions.items():
+        types.register(get_types_from_msg(text, f"rmf_fleet_msgs/msg/{name}"))
+    return types
+
+
+def rmf_message(types: Typestore, name: str, /, **fields: Any) -> Any:
+    """Make a message; fields that the release does not know yet are left out."""
+    kind = types.types[f"rmf_fleet_msgs/msg/{name}"]
+    return kind(**{field: fields[field] for field, _ in types.fielddefs[f"rmf_fleet_msgs/msg/{name}"][1]})
