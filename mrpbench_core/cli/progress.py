@@ -51,7 +51,9 @@ class Printed(Progress):
 
     def finished(self, point: RunPoint, record: dict[str, Any]) -> None:
         """Count it; on a terminal only what went wrong gets a line of its own."""
-        self._end(point, record["status"], (record.get("error") or {}).get("message", ""))
+        said = [(record.get("error") or {}).get("message", "")]
+        said += [f"no export {name}: {reason}" for name, reason in record.get("unexported", {}).items()]
+        self._end(point, record["status"], "; ".join(filter(None, said)))
 
     def lost(self, point: RunPoint, reason: str) -> None:
         """Say so."""

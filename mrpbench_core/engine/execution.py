@@ -6,8 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.api.dispatcher import DispatchError
-from mrpbench_core.api.exporter import ExporterSession
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.exports import Exports
 from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.mission import MissionError, Outcome, Stack, execute_plan
 from mrpbench_core.engine.noise import Disturbances
@@ -34,23 +34,22 @@ def drive(
     announce: Announce,
     timing: dict[str, Any],
     stepped: Callable[[float, State], None],
-) -> Ended | None:
-    """Execute the plan; says how it ended if not every robot arrived. Nothing half-written keeps a final name."""
+) -> tuple[Ended | None, dict[str, str]]:
+    """Execute the plan; says how it ended if not every robot arrived, and which exports failed, with the reasons.
+
+    Nothing half-written keeps a final name.
+    """
     announce("execution", {})
     writer = RecordingWriter(paths.recording, context)
-    if config.export:
-        paths.exports.mkdir(parents=True, exist_ok=True)
-    exports: list[ExporterSession] = []
+    exports = Exports()
 
     def sink(chunk: Chunk) -> None:
         writer.write({name: rows for name, rows in chunk.items() if config.recording.scans or name[:5] != "scan_"})
-        for session in exports:
-            session.write(chunk)
+        exports.write(chunk)
 
     ended: Ended | None
     try:
-        for name, exporter in config.export.items():
-            exports.append(exporter.open(context, paths.exports / name))
+        exports.open(config.export, context, paths.exports)
         recorder = Recorder(config.recording.rate, context.period, sink)
         began = time.perf_counter()
         replans = _replans(config, context, router, announce, timing)
@@ -62,15 +61,13 @@ def drive(
         ended = Ended("execution_aborted", "execution", str(error))
     except BaseException:
         writer.discard()
-        for session in exports:
-            session.abandon()
+        exports.abandon()
         raise
     recorder.flush()
     writer.close()
     announce("export", {})
-    for session in exports:
-        session.close()
-    return ended
+    exports.close()
+    return ended, exports.failed
 
 
 def measure_recording(config: RunConfig, file: Path) -> tuple[dict[str, Any], dict[str, str]]:

@@ -56,7 +56,9 @@ def execute(
         router = _router(config, setting, assigned, problem)
         context = _context(config, run_id, setting, assigned, problem, result, router)
         if ended is None and config.simulator is not None:
-            ended = drive(config, context, router, paths, announce, record["timing"], _stepper(observers))
+            ended, record["unexported"] = drive(
+                config, context, router, paths, announce, record["timing"], _stepper(observers)
+            )
             announce("metrics", {})
             record["executed"] = True
             record["metrics"], record["unmeasured"] = measure_recording(config, paths.recording)

@@ -27,7 +27,7 @@ def complete(point: RunPoint, attempt: int, outcome: Outcome, workers: int) -> d
         "timing": {**made["timing"], "concurrent_workers": workers},
         "provenance": {**code_of(point), "machine": outcome.machine or machine(), "live": False},
     }
-    for key in ("unmeasured", "error"):
+    for key in ("unmeasured", "unexported", "error"):
         if made.get(key):
             record[key] = made[key]
     return record

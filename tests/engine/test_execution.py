@@ -6,6 +6,7 @@ import pytest
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.seeds import stream
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 
@@ -21,19 +22,25 @@ from pathlib import Path
 
 import attrs
 
-from mrpbench_core.api import Exporter, ExporterSession
+from mrpbench_core.api import Exporter, ExporterSession, option
+from mrpbench_core.files.errors import InputError
 
 
 class Session(ExporterSession):
-    def __init__(self, file):
-        self.file = file
+    def __init__(self, file, fails):
+        self.file, self.fails = file, fails
         file.touch()
 
     def write(self, chunk):
-        pass
+        if self.fails == "write":
+            raise ValueError("not this time: write")
 
     def close(self):
-        pass
+        if self.fails == "close":
+            raise ValueError("not this time: close")
+        if self.fails == "exit":
+            raise SystemExit("not this time: exit")
+        self.file.write_text("closed")
 
     def abandon(self):
         self.file.unlink()
@@ -42,13 +49,19 @@ class Session(ExporterSession):
 @attrs.frozen(kw_only=True)
 class Fine(Exporter):
     def open(self, context, destination):
-        return Session(destination)
+        return Session(destination, None)
 
 
 @attrs.frozen(kw_only=True)
 class Broken(Exporter):
+    when: str = option("open", help="it fails")
+
     def open(self, context, destination):
-        raise ValueError("cannot be opened")
+        if self.when == "open":
+            raise ValueError("not this time: open")
+        if not self.when:
+            raise InputError("no such place")
+        return Session(destination, self.when)
 """
 
 
@@ -68,10 +81,27 @@ def test_a_robot_held_back_is_recorded_without_a_command(tmp_path):
     assert command[time[:, None] > delay + 1].any()
 
 
-def test_an_exporter_that_cannot_be_opened_leaves_nothing_behind(tmp_path, monkeypatch):
+@pytest.mark.parametrize("when", ["open", "write", "close", "exit"])
+def test_an_export_that_fails_is_named_and_costs_nothing_else(tmp_path, monkeypatch, when):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "exporters.py").write_text(EXPORTERS)
-    with pytest.raises(ValueError, match="cannot be opened"):
-        executed(tmp_path, export=[{"plugin": "./exporters.py:Fine"}, {"plugin": "./exporters.py:Broken"}])
+    whole = executed(tmp_path)
+    broken = {"plugin": "./exporters.py:Broken", "when": when}
+    record = executed(tmp_path, export=[broken, {"plugin": "./exporters.py:Fine"}])
+    (name,) = record["unexported"]
+    assert "Broken" in name
+    assert record["unexported"][name].endswith(f"not this time: {when}")
+    assert (record["status"], record["metrics"]) == (whole["status"], whole["metrics"])
+    assert whole["unexported"] == {}
+    (file,) = (tmp_path / "exports").iterdir()
+    assert file.name.endswith("Fine")
+    assert file.read_text() == "closed"
+
+
+def test_an_option_of_an_exporter_that_does_not_fit_is_the_users_to_mend(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "exporters.py").write_text(EXPORTERS)
+    with pytest.raises(InputError, match="no such place"):
+        executed(tmp_path, export=[{"plugin": "./exporters.py:Fine"}, {"plugin": "./exporters.py:Broken", "when": ""}])
     assert list((tmp_path / "recordings").iterdir()) == []
     assert list((tmp_path / "exports").iterdir()) == []
