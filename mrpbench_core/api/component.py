@@ -38,6 +38,8 @@ class Component(ABC):
 
     group: ClassVar[str]
     """Entry-point group of the kind, e.g. `mrpbench.planners`."""
+    live: ClassVar[bool] = False
+    """Something outside, on a clock of its own, takes part: runs with it are marked so and are not repeatable."""
 
 
 __all__ = ["Component", "Path", "option"]

@@ -1,13 +1,14 @@
 """Lifecycle hooks, group `mrpbench.hooks`: for watching only. One that raises is switched off for that run."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pluggy
 
-from mrpbench_core.model.execution import State
+from mrpbench_core.model.execution import FleetObservation, Route, State
 from mrpbench_core.model.plan import PlanResult
 from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.run import RunContext
 
 hookspec = pluggy.HookspecMarker("mrpbench")
 hookimpl = pluggy.HookimplMarker("mrpbench")
@@ -39,5 +40,19 @@ def mrpbench_planned(problem: Problem, result: PlanResult) -> None:
 
 
 @hookspec
-def mrpbench_stepped(now: float, state: State) -> None:
-    """A control period ended; `now` in simulated seconds (the run's process)."""
+def mrpbench_executing(context: RunContext) -> None:
+    """The execution of a plan begins (the run's process)."""
+
+
+@hookspec
+def mrpbench_stepped(now: float, state: State, observation: FleetObservation, routes: Sequence[Route]) -> None:
+    """A control period ended; `now` in simulated seconds (the run's process).
+
+    `state` is the truth, `observation` what robots sense and believe, `routes` are those in force: the same object
+    until there is a new plan.
+    """
+
+
+@hookspec
+def mrpbench_executed() -> None:
+    """The execution ended, however it did (the run's process)."""

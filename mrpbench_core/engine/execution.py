@@ -1,7 +1,6 @@
 """Drives a plan in the simulator, and writes what happens to the recording and the exports."""
 
 import time
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +10,13 @@ from mrpbench_core.engine.exports import Exports
 from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.mission import MissionError, Outcome, Stack, execute_plan
 from mrpbench_core.engine.noise import Disturbances
+from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.planning import call_planner, judge, left_for_planning
 from mrpbench_core.engine.preparation import Announce, Ended
 from mrpbench_core.engine.recorder import Recorder
 from mrpbench_core.engine.replanning import Replans
 from mrpbench_core.engine.routes import Router, placements
 from mrpbench_core.engine.seeds import seed_of
-from mrpbench_core.model.execution import State
 from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.recording import Chunk
@@ -33,7 +32,7 @@ def drive(
     paths: RunPaths,
     announce: Announce,
     timing: dict[str, Any],
-    stepped: Callable[[float, State], None],
+    observers: Observers,
 ) -> tuple[Ended | None, dict[str, str]]:
     """Execute the plan; says how it ended if not every robot arrived, and which exports failed, with the reasons.
 
@@ -53,7 +52,8 @@ def drive(
         recorder = Recorder(config.recording.rate, context.period, sink)
         began = time.perf_counter()
         replans = _replans(config, context, router, announce, timing)
-        outcome = _simulate(config, context, recorder, replans, stepped)
+        observers.executing(context=context)
+        outcome = _simulate(config, context, recorder, replans, observers)
         ended = _judge(outcome, config)
         timing["execution_wall_s"] = time.perf_counter() - began
         timing["real_time_factor"] = outcome.simulated_s / timing["execution_wall_s"]
@@ -63,6 +63,8 @@ def drive(
         writer.discard()
         exports.abandon()
         raise
+    finally:
+        observers.executed()
     recorder.flush()
     writer.close()
     announce("export", {})
@@ -104,7 +106,7 @@ def _simulate(
     context: RunContext,
     recorder: Recorder,
     replans: Replans,
-    stepped: Callable[[float, State], None],
+    observers: Observers,
 ) -> Outcome:
     assert config.simulator is not None
     stack = Stack.of(config)
@@ -114,7 +116,7 @@ def _simulate(
     seed = seed_of(*seeds, "simulator")
     with config.simulator.open(context.world, context.fleet, poses, seed, context.period) as simulation:
         return execute_plan(
-            context, stack, simulation, noise, recorder, replans, config.limits.execution, seeds, stepped
+            context, stack, simulation, noise, recorder, replans, config.limits.execution, seeds, observers.stepped
         )
 
 

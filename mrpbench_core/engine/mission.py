@@ -28,7 +28,6 @@ from mrpbench_core.model.execution import (
     Mode,
     Motion,
     Orders,
-    State,
 )
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.run import RunContext
@@ -82,7 +81,7 @@ def execute_plan(
     replans: Replans,
     limit_s: float,
     seeds: tuple[int, int],
-    stepped: Callable[[float, State], Any] | None = None,
+    stepped: Callable[..., Any] | None = None,
 ) -> Outcome:
     """Run until every robot has completed its path, all that have not gave up, or `limit_s` simulated seconds passed.
 
@@ -95,7 +94,7 @@ def execute_plan(
         replans: asks for new plans; knows the first one.
         limit_s: simulated seconds.
         seeds: seed and repeat of the run.
-        stepped: called after every period.
+        stepped: called after every period; see `mrpbench_core.api.hooks`.
 
     Raises:
         BrokenContractError: a component returned what its contract rules out.
@@ -120,6 +119,7 @@ def execute_plan(
         mode=np.full(robots, Mode.WAITING, "u1"),
     )
     orders = Orders(released=np.zeros(robots, "i4"))
+    routes = context.routes
     revision = step = 0
     while True:
         now = step * period
@@ -144,7 +144,8 @@ def execute_plan(
             if replans.plan is new.plan:
                 revision += 1
                 answers.length = _length(replans.plan)
-                recorder.routes(now, revision, new.routes)
+                routes = new.routes
+                recorder.routes(now, revision, routes)
                 orders = answers.orders(dispatcher.update(now, attrs.evolve(view, revision=revision)))
         if orders.requests:
             raise MissionError(f"the dispatcher asked for {orders.requests[0][1]}, and nothing grants that yet")
@@ -158,7 +159,7 @@ def execute_plan(
         recorder.events(motion.events)
         recorder.sample(step, now, state, estimate, odometry, orders, motion, over)
         if stepped is not None:
-            stepped(now, state)
+            stepped(now=now, state=state, observation=observation, routes=routes)
         if over:
             recorder.flush()
             return Outcome(arrived=arrived, aborted=bool(gave_up.any()), simulated_s=now)

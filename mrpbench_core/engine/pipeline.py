@@ -1,6 +1,5 @@
 """One run from its configuration to its record, in this process."""
 
-from collections.abc import Callable
 from typing import Any
 
 import attrs
@@ -9,29 +8,16 @@ import numpy as np
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution import drive, measure_recording
 from mrpbench_core.engine.measure import measure
+from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.plain import readable
 from mrpbench_core.engine.planning import STATUS, call_planner, judge, left_for_planning
 from mrpbench_core.engine.preparation import Announce, Ended, Setting, assign, pose_problem, set_scene, taken
 from mrpbench_core.engine.replanning import replanning_fault
 from mrpbench_core.engine.routes import Router, speed_limits
-from mrpbench_core.model.execution import State
 from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.run import FinishedRun, RunContext
 from mrpbench_core.store.paths import RunPaths
-
-
-def _ignore(**_: Any) -> None: ...
-
-
-@attrs.frozen(kw_only=True)
-class Observers:
-    """What the run's process tells to hooks, by keyword; they watch and cannot change a result."""
-
-    planned: Callable[..., Any] = _ignore
-    """problem: Problem, result: PlanResult."""
-    stepped: Callable[..., Any] = _ignore
-    """now: float (simulated seconds), state: State."""
 
 
 def execute(
@@ -56,9 +42,7 @@ def execute(
         router = _router(config, setting, assigned, problem)
         context = _context(config, run_id, setting, assigned, problem, result, router)
         if ended is None and config.simulator is not None:
-            ended, record["unexported"] = drive(
-                config, context, router, paths, announce, record["timing"], _stepper(observers)
-            )
+            ended, record["unexported"] = drive(config, context, router, paths, announce, record["timing"], observers)
             announce("metrics", {})
             record["executed"] = True
             record["metrics"], record["unmeasured"] = measure_recording(config, paths.recording)
@@ -135,7 +119,3 @@ def _context(
         period=1 / config.control_rate,
         assigned=assigned,
     )
-
-
-def _stepper(observers: Observers) -> Callable[[float, State], None]:
-    return lambda now, state: observers.stepped(now=now, state=state)

@@ -15,6 +15,7 @@ from mrpbench_core.plugins.provenance import components_in, origin
 def complete(point: RunPoint, attempt: int, outcome: Outcome, workers: int) -> dict[str, Any]:
     """The record to store for an outcome that has one or is a failure."""
     made = outcome.record if outcome.record is not None else _of_failure(outcome.failure)
+    live = any(component.live for component in components_in(point.config))
     record = {
         "run_id": point.run_id,
         "scenario_id": made.get("scenario_id"),
@@ -25,7 +26,7 @@ def complete(point: RunPoint, attempt: int, outcome: Outcome, workers: int) -> d
         "status": made["status"],
         "metrics": made["metrics"],
         "timing": {**made["timing"], "concurrent_workers": workers},
-        "provenance": {**code_of(point), "machine": outcome.machine or machine(), "live": False},
+        "provenance": {**code_of(point), "machine": outcome.machine or machine(), "live": live},
     }
     for key in ("unmeasured", "unexported", "error"):
         if made.get(key):

@@ -23,7 +23,8 @@ import mrpbench_core
 from mrpbench_core.config.study import unpack
 from mrpbench_core.engine.lifeline import hold
 from mrpbench_core.engine.machine import machine
-from mrpbench_core.engine.pipeline import Observers, execute
+from mrpbench_core.engine.observers import Observers
+from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.plain import plain, readable
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.plugins.hooks import Hooks, load_hooks
@@ -80,7 +81,9 @@ def _execute(job: dict[str, Any], say: Say, hooks: Hooks) -> dict[str, Any]:
     )
     observers = Observers(
         planned=lambda problem, result: hooks.call("mrpbench_planned", problem=problem, result=result),
-        stepped=lambda now, state: hooks.call("mrpbench_stepped", now=now, state=state),
+        executing=lambda context: hooks.call("mrpbench_executing", context=context),
+        stepped=lambda **seen: hooks.call("mrpbench_stepped", **seen),
+        executed=lambda: hooks.call("mrpbench_executed"),
     )
     try:
         record = plain(execute(unpack(job["parcel"]), job["run_id"], paths, announce, observers))

@@ -45,3 +45,20 @@ def side(start: Float, end: Float, point: Float) -> Float:
     ahead, offset = end - start, point - start
     area: Float = ahead[..., 0] * offset[..., 1] - ahead[..., 1] * offset[..., 0]
     return area
+
+
+def facing(waypoints: Float) -> Float:
+    """Waypoints f8[k,3] in which an open yaw (NaN) is the way the robot drives on, or came from where it only waits."""
+    turned = np.array(waypoints)
+    ahead = np.diff(turned[:, :2], axis=0)
+    moves = (ahead != 0).any(axis=1)
+    yaw = 0.0
+    if moves.any():
+        first = ahead[moves][0]
+        yaw = float(np.arctan2(first[1], first[0]))
+    for index in range(len(turned)):
+        if index < len(ahead) and moves[index]:
+            yaw = float(np.arctan2(ahead[index, 1], ahead[index, 0]))
+        if np.isnan(turned[index, 2]):
+            turned[index, 2] = yaw
+    return turned

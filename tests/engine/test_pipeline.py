@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.pipeline import Observers, execute
+from mrpbench_core.engine.observers import Observers
+from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import write_scenario
 from mrpbench_core.model.scenario import Scenario, Task
@@ -118,13 +119,24 @@ def test_a_failed_run_is_kept_when_failures_are(tmp_path):
 
 
 def test_observers_see_the_plan_and_every_period(tmp_path):
-    seen = {"planned": 0, "stepped": []}
+    seen = {"planned": 0, "stepped": [], "told": []}
 
     def planned(*, problem, result):
         seen["planned"] += len(result.plan.paths) == len(problem)
 
-    observers = Observers(planned=planned, stepped=lambda *, now, state: seen["stepped"].append(now))
+    def stepped(*, now, state, observation, routes):
+        seen["stepped"].append(now)
+        np.testing.assert_array_equal(observation.estimate.pose, state.pose)
+        assert routes is seen["told"][0].routes
+
+    observers = Observers(
+        planned=planned,
+        executing=lambda *, context: seen["told"].append(context),
+        stepped=stepped,
+        executed=lambda: seen["told"].append("over"),
+    )
     execute_first(tmp_path, observers=observers, limits={"execution": "2 s"})
+    assert seen["told"][1:] == ["over"]
     assert seen["planned"] == 1
     np.testing.assert_allclose(seen["stepped"], np.arange(41) * 0.05)
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mrpbench_core.model.arrays import Float, Int, Int16
+from mrpbench_core.model.geometry import facing
 from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2.marker import ARROW, colour_of, marker
 from mrpbench_exporters_rosbag2.messages import SECOND, Topic, header, message, pose, serialize, spatial
@@ -63,20 +64,3 @@ def _due(context: RunContext, robot: int) -> Int:
 def _elevation(context: RunContext, levels: Int16) -> Float:
     """Height of each of `levels`, metres."""
     return np.array([context.world.levels[level].elevation for level in levels])
-
-
-def facing(waypoints: Float) -> Float:
-    """Waypoints f8[k,3] in which an open yaw (NaN) is the way the robot drives on, or came from where it only waits."""
-    turned = np.array(waypoints)
-    ahead = np.diff(turned[:, :2], axis=0)
-    moves = (ahead != 0).any(axis=1)
-    yaw = 0.0
-    if moves.any():
-        first = ahead[moves][0]
-        yaw = float(np.arctan2(first[1], first[0]))
-    for index in range(len(turned)):
-        if index < len(ahead) and moves[index]:
-            yaw = float(np.arctan2(ahead[index, 1], ahead[index, 0]))
-        if np.isnan(turned[index, 2]):
-            turned[index, 2] = yaw
-    return turned

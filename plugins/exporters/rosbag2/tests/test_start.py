@@ -5,8 +5,8 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_exporters_rosbag2 import Rosbag2
-from mrpbench_exporters_rosbag2.plans import facing
 
+from mrpbench_core.model.geometry import facing
 from mrpbench_core.model.plan import PlanResult, PlanStatus
 
 NAN = math.nan

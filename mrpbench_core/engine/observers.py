@@ -1,0 +1,22 @@
+"""What a run's process tells to hooks, which watch and cannot change a result."""
+
+from collections.abc import Callable
+from typing import Any
+
+import attrs
+
+
+def _ignore(**_: Any) -> None: ...
+
+
+@attrs.frozen(kw_only=True)
+class Observers:
+    """Called by keyword; see `mrpbench_core.api.hooks`."""
+
+    planned: Callable[..., Any] = _ignore
+    """problem: Problem, result: PlanResult."""
+    executing: Callable[..., Any] = _ignore
+    """context: RunContext."""
+    stepped: Callable[..., Any] = _ignore
+    """now: float (simulated seconds), state: State, observation: FleetObservation, routes: Sequence[Route]."""
+    executed: Callable[..., Any] = _ignore

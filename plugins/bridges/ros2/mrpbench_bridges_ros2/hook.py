@@ -1,0 +1,72 @@
+"""The hook: publishes running simulations when the environment variable `MRPBENCH_ROS2` asks for it.
+
+`MRPBENCH_ROS2=free` as fast as they go, `MRPBENCH_ROS2=1` in real time, `=2` twice as fast.
+"""
+
+import os
+from collections.abc import Sequence
+
+from mrpbench_bridges_ros2.link import Link
+from mrpbench_bridges_ros2.pace import Pace
+from mrpbench_bridges_ros2.publisher import Publisher
+from mrpbench_core.api import hookimpl
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.execution import FleetObservation, Route
+from mrpbench_core.model.run import RunContext
+
+VARIABLE = "MRPBENCH_ROS2"
+
+
+class Watcher:
+    """Publishes one run at a time."""
+
+    def __init__(self) -> None:
+        self._link: Link | None = None
+
+    @hookimpl
+    def mrpbench_executing(self, context: RunContext) -> None:
+        """Open the topics, if they are wanted."""
+        self.mrpbench_executed()
+        wanted = os.environ.get(VARIABLE, "")
+        if wanted:
+            self._pace = Pace(factor(wanted))
+            self._link = Link("mrpbench")
+            self._publisher = Publisher(self._link, context.world, context.fleet)
+            self._routes: Sequence[Route] = ()
+
+    @hookimpl
+    def mrpbench_stepped(self, now: float, observation: FleetObservation, routes: Sequence[Route]) -> None:
+        """Publish, and wait until it is time for what comes next."""
+        if self._link is not None:
+            if routes is not self._routes:  # the first, or those of a new plan
+                self._publisher.plans(now, routes)
+                self._routes = routes
+            self._publisher.publish(now, observation)
+            self._link.spin(self._pace.left(now))
+
+    @hookimpl
+    def mrpbench_executed(self) -> None:
+        """Leave ROS."""
+        if self._link is not None:
+            self._link.close()
+            self._link = None
+
+
+def factor(text: str) -> float | None:
+    """How many times real time; None = freely.
+
+    Raises:
+        InputError: it is neither `free` nor a number above 0.
+    """
+    if text == "free":
+        return None
+    try:
+        number = float(text)
+    except ValueError:
+        number = 0.0
+    if not 0 < number < float("inf"):
+        raise InputError(f"{VARIABLE}={text}: must be 'free' or a number above 0 (times real time)")
+    return number
+
+
+watcher = Watcher()

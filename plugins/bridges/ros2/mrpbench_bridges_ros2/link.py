@@ -1,0 +1,66 @@
+"""A node in a context of its own, so that runs that follow one another in a process do not meet."""
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+from mrpbench_core.files.errors import InputError
+
+HINT = (
+    "source a ROS 2 installation, or with Python 3.11 on Linux: "
+    "pip install ros-kilted-rclpy ros-rmw-fastrtps-cpp ros-nav-msgs ros-sensor-msgs"
+)
+
+
+class Link:
+    """What connects one run with ROS."""
+
+    def __init__(self, name: str) -> None:
+        """Open a node.
+
+        Raises:
+            InputError: ROS 2 is not here, or does not start.
+        """
+        try:
+            import nav_msgs.msg  # noqa: F401
+            import rclpy
+            import sensor_msgs.msg  # noqa: F401
+            from rclpy.executors import SingleThreadedExecutor
+            from rclpy.signals import SignalHandlerOptions
+        except ImportError as error:
+            raise InputError(f"ros2: ROS 2 cannot be imported: {error}", hint=HINT) from error
+        self._context = rclpy.Context()
+        try:
+            rclpy.init(args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO)
+        except Exception as error:  # RCLError is no public name
+            raise InputError(f"ros2: ROS 2 does not start: {' '.join(str(error).split())}") from error
+        self.node: Any = rclpy.create_node(name, context=self._context)
+        self._executor = SingleThreadedExecutor(context=self._context)
+        self._executor.add_node(self.node)
+        self._subscriptions = 0
+
+    def publisher(self, kind: type, topic: str, latched: bool = False) -> Any:
+        """A reliable publisher; a latched one keeps its last message for those who come late."""
+        from rclpy.qos import DurabilityPolicy, QoSProfile
+
+        durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
+        return self.node.create_publisher(kind, topic, QoSProfile(depth=1 if latched else 10, durability=durability))
+
+    def subscribe(self, kind: type, topic: str, take: Callable[[Any], None]) -> None:
+        """Have `take` called with the messages of a topic, from within `spin`. Only the newest wait."""
+        self.node.create_subscription(kind, topic, take, 1)
+        self._subscriptions += 1
+
+    def spin(self, seconds: float) -> None:
+        """Take in what has come and what comes within some seconds of wall time."""
+        for _ in range(self._subscriptions):  # one callback each, however late we are
+            self._executor.spin_once(timeout_sec=0)
+        until = time.monotonic() + seconds
+        while (left := until - time.monotonic()) > 0:
+            self._executor.spin_once(timeout_sec=left)
+
+    def close(self) -> None:
+        """Leave ROS."""
+        self._executor.shutdown()
+        self.node.destroy_node()
+        self._context.try_shutdown()

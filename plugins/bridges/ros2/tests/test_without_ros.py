@@ -1,0 +1,36 @@
+"""What can be told where no ROS is."""
+
+import sys
+
+import pytest
+from mrpbench_bridges_ros2.hook import Watcher
+from mrpbench_bridges_ros2.link import Link
+from mrpbench_bridges_ros2.navigator import Ros2
+
+from mrpbench_core.api import Navigator
+from mrpbench_core.files.errors import InputError
+
+
+@pytest.fixture
+def nothing(monkeypatch):
+    """No rclpy, even where it is installed."""
+    monkeypatch.setitem(sys.modules, "rclpy", None)
+
+
+def test_one_line_says_what_is_missing(nothing):
+    with pytest.raises(InputError, match="ROS 2 cannot be imported") as raised:
+        Link("x")
+    assert "source a ROS 2 installation" in str(raised.value)
+
+
+def test_the_hook_does_nothing_unless_asked(nothing, monkeypatch):
+    monkeypatch.delenv("MRPBENCH_ROS2", raising=False)
+    watcher = Watcher()
+    watcher.mrpbench_executing(None)
+    watcher.mrpbench_stepped(0.0, None, ())
+    watcher.mrpbench_executed()
+
+
+def test_the_navigator_is_live_and_measures_progress_like_the_cores_own():
+    assert Ros2.live
+    assert isinstance(Ros2().progress, Navigator)
