@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 NATIVE := $(wildcard native/CMakeLists.txt native/*/*.cpp native/*/*.hpp native/*/*/*.cpp native/*/*/*.hpp native/*/*/*.py native/*/*/*.pyi)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install demo test lint types layers cpp python format lock clean
+.PHONY: help install demo test lint types layers cpp python format lock clean ros
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -58,3 +58,10 @@ lock: ## write the pinned versions, for uv and for pip; UPGRADE=1 takes the newe
 
 clean: ## remove what builds made
 	rm -rf build dist $(VENV) native/build
+
+ROS := build/ros/bin
+ros: ## tests of live ROS 2, with rclpy from PyPI in an environment of their own (Python 3.11)
+	test -x $(ROS)/python || python3.11 -m venv build/ros
+	$(ROS)/python -m pip install --quiet ros-kilted-rclpy ros-rmw-fastrtps-cpp ros-nav-msgs ros-sensor-msgs ros-diagnostic-msgs ros-visualization-msgs
+	$(ROS)/python -m pip install --quiet pytest pytest-timeout -e . -e plugins/planners/example -e plugins/metrics/standard -e plugins/controllers/pure_pursuit -e plugins/exporters/rosbag2 -e plugins/bridges/ros2
+	$(ROS)/python -m pytest -p no:cacheprovider plugins/bridges/ros2
