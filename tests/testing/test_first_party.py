@@ -43,6 +43,8 @@ def test_keeps_the_contract_of_its_kind(provider, tmp_path, monkeypatch, frozen_
     frozen_scenario(tmp_path / "frozen.yaml")
     try:
         cls = Registry(KINDS[provider.kind]).get(f"{provider.name}@{provider.distribution}")
+        if cls.live:
+            pytest.skip("is driven from outside, and nobody is there")
         component = cls(**required(provider.kind, provider.name, tmp_path))
         outcomes = list(run_checks(suite_for(component)))
     except InputError as error:
