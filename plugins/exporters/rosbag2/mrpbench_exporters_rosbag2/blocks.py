@@ -18,6 +18,7 @@ AXES = {
     "scan_time": ("scan_robot", "scan_ranges"),
     "contact_time": ("contact",),
     "event_time": ("event_kind", "event_robot", "event_detail"),
+    "route_time": ("route_revision", "route_robot", "route_waypoint", "route_level", "route_speed"),
 }
 """Channels by the time axis they share."""
 

@@ -22,6 +22,7 @@ from mrpbench_exporters_rosbag2.frames import frames
 from mrpbench_exporters_rosbag2.messages import Topic, message, nanoseconds, time
 from mrpbench_exporters_rosbag2.rmf import Release
 from mrpbench_exporters_rosbag2.robots import robot_markers
+from mrpbench_exporters_rosbag2.routes import routes
 from mrpbench_exporters_rosbag2.scans import scan
 from mrpbench_exporters_rosbag2.source import Rows, Source
 from mrpbench_exporters_rosbag2.start import opening
@@ -70,6 +71,7 @@ class Rosbag2Session(ExporterSession):
     """Writes one bag."""
 
     def __init__(self, recipe: Rosbag2, context: RunContext, destination: Path) -> None:
+        self.context = context
         self.names = context.fleet.names
         self.patterns = recipe.topics
         self.start = int(nanoseconds(recipe.start_time))
@@ -113,9 +115,10 @@ class Rosbag2Session(ExporterSession):
         said = [(source.topic, source.messages(block, self.start)) for source in self.sources]
         said.append((CONTACTS, contacts(block, self.names, self.start)))
         said.append((EVENTS, events(block, self.names, self.start)))
-        return chain.from_iterable(
+        yield from chain.from_iterable(
             ((stamp, topic, data) for stamp, data in found) for topic, found in said if self._wanted(topic)
         )
+        yield from (new for new in routes(block, self.context, self.start) if self._wanted(new[1]))
 
     def _wanted(self, topic: Topic) -> bool:
         return selected(topic.name, self.patterns)

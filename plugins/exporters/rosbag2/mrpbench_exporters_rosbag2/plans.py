@@ -3,6 +3,7 @@
 import numpy as np
 
 from mrpbench_core.model.arrays import Float, Int, Int16
+from mrpbench_core.model.execution import Route
 from mrpbench_core.model.geometry import facing
 from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2.marker import ARROW, colour_of, marker
@@ -11,12 +12,16 @@ from mrpbench_exporters_rosbag2.messages import SECOND, Topic, header, message, 
 
 def plan(context: RunContext, robot: int, name: str, stamp: int) -> tuple[Topic, bytes]:
     """One robot's first path; the stamp of each pose is when the plan has the robot there."""
+    return path(context, name, context.routes[robot], stamp + _due(context, robot), stamp)
+
+
+def path(context: RunContext, name: str, route: Route, due: Int, stamp: int) -> tuple[Topic, bytes]:
+    """A robot's path; `due` i8[k+1] are the stamps (nanoseconds) of its poses."""
     topic = Topic(f"/{name}/plan", "nav_msgs/Path", latched=True)
-    waypoints = facing(context.routes[robot].waypoint)
-    full = spatial(waypoints, _elevation(context, context.routes[robot].level))
+    full = spatial(facing(route.waypoint), _elevation(context, route.level))
     poses = [
-        message("geometry_msgs/PoseStamped", header=header(int(stamp + due), "map"), pose=pose(values))
-        for due, values in zip(_due(context, robot), full, strict=True)
+        message("geometry_msgs/PoseStamped", header=header(int(when), "map"), pose=pose(values))
+        for when, values in zip(due, full, strict=True)
     ]
     return topic, serialize(topic.type, message(topic.type, header=header(stamp, "map"), poses=poses))
 

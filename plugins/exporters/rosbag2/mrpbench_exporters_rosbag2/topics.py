@@ -14,6 +14,7 @@ FLEET = (
     "/navigation_graph",
     "/progress",
     "/robots",
+    "/routes",
     "/run",
     "/run_data",
     "/tf",

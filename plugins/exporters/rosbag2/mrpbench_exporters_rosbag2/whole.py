@@ -4,6 +4,7 @@ It has the entry `context`, the UTF-8 bytes of `{"format": 1, "context": …}` i
 """
 
 import json
+from collections.abc import Mapping
 from io import BytesIO
 from typing import Any
 
@@ -29,12 +30,17 @@ def whole(context: RunContext) -> tuple[Topic, bytes]:
         return name
 
     text = json.dumps({"format": FORMAT, "context": encode(context, keep)})
-    file = BytesIO()
     arrays["context"] = np.frombuffer(text.encode(), np.uint8)
+    return TOPIC, packed(arrays)
+
+
+def packed(arrays: Mapping[str, NDArray[Any]]) -> bytes:
+    """Arrays by name as a std_msgs/UInt8MultiArray that holds a `.npz` file."""
+    file = BytesIO()
     np.savez_compressed(file, allow_pickle=False, **arrays)
     layout = message("std_msgs/MultiArrayLayout", dim=[], data_offset=0)
     data = np.frombuffer(file.getvalue(), np.uint8)
-    return TOPIC, serialize(TOPIC.type, message(TOPIC.type, layout=layout, data=data))
+    return serialize(TOPIC.type, message(TOPIC.type, layout=layout, data=data))
 
 
 def unpack(data: NDArray[np.uint8]) -> RunContext:

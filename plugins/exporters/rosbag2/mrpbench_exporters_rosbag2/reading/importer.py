@@ -1,13 +1,17 @@
 """The importer `rosbag2`: from the messages of a bag to one track per robot."""
 
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import attrs
+import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.importer import SOURCES, Importer, Observed, Track
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.run import RunContext, latest_routes
 from mrpbench_exporters_rosbag2.messages import SECOND
 from mrpbench_exporters_rosbag2.reading.collected import Collected, Patterns
 from mrpbench_exporters_rosbag2.reading.names import natural, robot_in, wanted, without_robot
@@ -52,10 +56,11 @@ class FromRosbag2(Importer):
                     takers[topic](logged, message)
                 tracks, notes = self._tracks(collected, bases, robots, own.begin)
                 if tracks:
+                    channels = own.channels()
                     return Observed(
                         tracks=tuple(tracks),
-                        context=own.context,
-                        channels=own.channels(),
+                        context=own.context and _with_latest_routes(own.context, channels),
+                        channels=channels,
                         notes=tuple(dict.fromkeys((*stream.notes, *own.notes, *notes))),
                     )
             raise self._nothing(path, robots, topics, stream.notes)
@@ -136,6 +141,12 @@ def _edges(collected: Collected, span: Span, tree: str) -> Iterator[tuple[str, t
     for (owner, child), series in collected.frames.items():
         if owner == tree and (poses := series.ordered(span.use_log, span.since, span.until)) is not None:
             yield child, (series.frame, poses)
+
+
+def _with_latest_routes(context: RunContext, channels: Chunk) -> RunContext:
+    """What was reached refers to the routes of the last plan."""
+    loaders = {name: partial(np.asarray, rows) for name, rows in channels.items()}
+    return attrs.evolve(context, routes=latest_routes(context.routes, loaders))
 
 
 def _track(robot: str, source: str, topic: str, placed_in_map: bool, poses: Ordered, begin: int) -> Track:

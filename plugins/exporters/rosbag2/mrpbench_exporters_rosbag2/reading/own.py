@@ -1,6 +1,7 @@
 """What only bags that mrpbench wrote say: the context, progress, contacts and events."""
 
 from collections import defaultdict
+from io import BytesIO
 from typing import Any
 
 import numpy as np
@@ -8,12 +9,12 @@ from numpy.typing import NDArray
 
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import RunContext
-from mrpbench_exporters_rosbag2 import advance, whole
+from mrpbench_exporters_rosbag2 import advance, routes, whole
 from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS
 from mrpbench_exporters_rosbag2.messages import SECOND, full_name
 from mrpbench_exporters_rosbag2.reading.collected import Take, nanoseconds
 
-TOPICS = (whole.TOPIC, advance.TOPIC, CONTACTS, EVENTS)
+TOPICS = (whole.TOPIC, advance.TOPIC, CONTACTS, EVENTS, routes.TOPIC)
 KINDS = {"released": "i4", "reached": "i4", "cleared": "i4", "mode": "u1", "level": "i2"}
 
 
@@ -36,6 +37,7 @@ class Own:
             advance.TOPIC.name: self._progress,
             CONTACTS.name: self._contact,
             EVENTS.name: self._event,
+            routes.TOPIC.name: self._routes,
         }
         return {topic: takes[topic] for topic in self._topics}
 
@@ -58,6 +60,8 @@ class Own:
         found: dict[str, NDArray[Any]] = {"time": times("time")}
         found |= {name: table[..., column].astype(KINDS[name]) for column, name in enumerate(advance.CHANNELS)}
         pairs = [[numbers.get(name, -1) for name in pair] for pair in self._rows["contact"]]
+        new: list[Chunk] = self._rows["routes"]
+        found |= {name: np.concatenate([rows[name] for rows in new]) for name in routes.CHANNELS if new}
         return found | {
             "contact_time": times("contact_time"),
             "contact": np.array(pairs, "i4").reshape(-1, 2),
@@ -88,3 +92,7 @@ class Own:
         self._rows["event_kind"].append(status.message)
         self._rows["event_robot"].append(status.name)
         self._rows["event_detail"].append(status.values[0].value)
+
+    def _routes(self, _logged: int, message: Any) -> None:
+        with np.load(BytesIO(message.data.tobytes()), allow_pickle=False) as file:
+            self._rows["routes"].append({name: file[name] for name in routes.CHANNELS})

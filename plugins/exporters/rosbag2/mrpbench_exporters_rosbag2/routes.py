@@ -1,0 +1,35 @@
+"""New plans: for viewers `/robot_0/plan` once more, and for the way back all rows of the recording, on `/routes`."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mrpbench_core.model.execution import Route
+from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.run import RunContext
+from mrpbench_exporters_rosbag2.blocks import AXES
+from mrpbench_exporters_rosbag2.messages import Topic, nanoseconds
+from mrpbench_exporters_rosbag2.plans import path
+from mrpbench_exporters_rosbag2.whole import packed
+
+TOPIC = Topic("/routes", "std_msgs/UInt8MultiArray")
+CHANNELS = ("route_time", *AXES["route_time"])
+
+
+def routes(block: Chunk, context: RunContext, start: int) -> Iterator[tuple[int, Topic, bytes]]:
+    """Stamp, topic and bytes of what a block says about new plans; poses of paths are stamped when the plan came."""
+    if "route_time" not in block:
+        return
+    for revision in np.unique(block["route_revision"]):
+        rows = {name: block[name][block["route_revision"] == revision] for name in CHANNELS}
+        stamp = int(nanoseconds(rows["route_time"][0])) + start
+        yield stamp, TOPIC, packed(rows)
+        for robot, name in enumerate(context.fleet.names):
+            own = rows["route_robot"] == robot
+            route = Route(
+                waypoint=rows["route_waypoint"][own],
+                level=rows["route_level"][own],
+                speed=rows["route_speed"][own][1:],
+            )
+            topic, data = path(context, name, route, np.full(len(route.waypoint), stamp), stamp)
+            yield stamp, topic, data
