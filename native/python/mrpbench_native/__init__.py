@@ -1,3 +1,9 @@
-"""Parts of mrpbench in C++. `mapf`: multi-agent path finding; `sim`: robots, contacts and lidars in the plane;
-`amcl`: localisation; `local`: costmaps and local control.
+"""The parts of mrpbench in C++. `mapf`: multi-agent path finding; `sim`: robots, contacts and lidars in the plane;
+`amcl`: localisation; `local`: costmaps and local control. `solve` plans paths from a notebook.
 """
+
+from mrpbench_native.algorithms import ALGORITHMS
+from mrpbench_native.roadmaps import Graph, Grid
+from mrpbench_native.solving import Solution, options_of, solve
+
+__all__ = ["ALGORITHMS", "Graph", "Grid", "Solution", "options_of", "solve"]

@@ -1,0 +1,171 @@
+"""How many MovingAI instances a solver solves and how fast, beside what other solvers were measured to reach.
+
+    python benchmarks/movingai.py --data ../shared/data/movingai --solver cbs --maps empty-8-8 --agents 8 16 24
+    python benchmarks/movingai.py --data ../shared/data/movingai --anchors ../shared/data/anchors.csv \
+        --solver "eecbs w=1.2" --against EECBS-w1.2 EECBS-sipp-w1.2
+
+With `--against`, the instances are those that these solvers were measured on, and the best of them counts. A time is
+the median of `--repeat` runs, distance tables included; less than 5 ms counts as 5 ms, since nobody would notice.
+Ratios are geometric means over the instances that both solved: ours by theirs, so less than 1 is faster. Times of the
+others were measured on another day on a machine of the same kind: only ratios far from 1 mean anything.
+"""
+
+import argparse
+import csv
+import math
+import statistics
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from mrpbench_native import Solution, solve
+from numpy.typing import NDArray
+
+LEAST_S = 0.005
+PASSABLE = ".GS"
+
+
+class Instance(NamedTuple):
+    """The first `agents` rows of a scenario file."""
+
+    map: str
+    scen: str
+    agents: int
+
+
+class Outcome(NamedTuple):
+    """What a solver made of an instance."""
+
+    seconds: float
+    """infinite: not solved."""
+    cost: float
+
+
+def read_map(file: Path) -> NDArray[np.bool_]:
+    """Free cells bool[rows, columns]."""
+    lines = file.read_text().splitlines()
+    rows = lines[lines.index("map") + 1 :]
+    return np.array([[cell in PASSABLE for cell in row] for row in rows if row])
+
+
+def read_scen(file: Path, agents: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Starts and goals i8[agents,2], row and column."""
+    rows = [line.split()[4:8] for line in file.read_text().splitlines()[1:] if line.strip()][:agents]
+    places = np.array(rows, np.int64).reshape(-1, 2, 2)[..., ::-1]
+    return places[:, 0], places[:, 1]
+
+
+def measured(file: Path, solvers: Sequence[str], limit: float) -> dict[Instance, Outcome]:
+    """The best that any of `solvers` was measured to reach, from a table of measurements."""
+    best: dict[Instance, Outcome] = {}
+    with file.open() as stream:
+        for row in csv.DictReader(stream):
+            if row["solver"] not in solvers or float(row["time_limit"]) != limit:
+                continue
+            instance = Instance(row["map"], row["scen"], int(row["k"]))
+            solved = row["solved"] == "1"
+            found = Outcome(
+                float(row["seconds"]) if solved else math.inf, float(row["cost"] or "nan") if solved else math.nan
+            )
+            best[instance] = min(best.get(instance, found), found)
+    return best
+
+
+def run(data: Path, instance: Instance, solver: str, limit: float, repeat: int) -> Solution | None:
+    """The solution of median time, None if the scenario has fewer rows."""
+    algorithm, *words = solver.split()
+    free = read_map(data / "maps" / f"{instance.map}.map")
+    starts, goals = read_scen(data / "scens" / f"{instance.map}-{instance.scen}.scen", instance.agents)
+    if len(starts) < instance.agents:
+        return None
+    options = dict(map(option, words))
+    found = []
+    for _ in range(repeat):
+        found.append(solve(free, starts, goals, algorithm=algorithm, time_limit=limit, **options))
+        if found[-1].status != "solved":
+            break
+    return sorted(found, key=lambda solution: (solution.status != "solved", solution.seconds))[len(found) // 2]
+
+
+def option(word: str) -> tuple[str, Any]:
+    """An option from `name=value`."""
+    name, _, value = word.partition("=")
+    if value in ("true", "false"):
+        return name, value == "true"
+    for kind in (int, float):
+        try:
+            return name, kind(value)
+        except ValueError:
+            continue
+    return name, value
+
+
+def instances(arguments: argparse.Namespace, others: Mapping[Instance, Outcome]) -> list[Instance]:
+    """Those of the table, or those that the arguments span."""
+    if others:
+        return sorted(one for one in others if not arguments.maps or one.map in arguments.maps)
+    scens = [f"random-{number}" for number in range(1, arguments.scens + 1)]
+    return [Instance(name, scen, k) for name in arguments.maps for k in arguments.agents for scen in scens]
+
+
+def table(found: Mapping[Instance, Outcome], others: Mapping[Instance, Outcome]) -> Iterator[str]:
+    """One line for each map and number of robots, and for each map and all."""
+    yield f"{'map':<24}{'robots':>7}{'n':>5}{'solved':>8}{'theirs':>8}{'median s':>10}{'theirs':>10}{'ratio':>8}"
+    rows: dict[tuple[str, str], list[Instance]] = defaultdict(list)
+    for instance in found:
+        rows[instance.map, f"{instance.agents}"].append(instance)
+        rows[instance.map, "all"].append(instance)
+        rows["all", "all"].append(instance)
+    for (name, agents), members in sorted(
+        rows.items(), key=lambda row: (row[0][0] == "all", row[0][0], row[0][1].zfill(6))
+    ):
+        ours = [found[one].seconds for one in members]
+        theirs = [others[one].seconds if one in others else math.nan for one in members]
+        both = [(a, b) for a, b in zip(ours, theirs, strict=True) if math.isfinite(a) and math.isfinite(b)]
+        ratio = [max(a, LEAST_S) / max(b, LEAST_S) for a, b in both]
+        yield (
+            f"{name:<24}{agents:>7}{len(members):>5}{sum(map(math.isfinite, ours)):>8}"
+            f"{sum(map(math.isfinite, theirs)):>8}{statistics.median(ours):>10.4f}{statistics.median(theirs):>10.4f}"
+            f"{statistics.geometric_mean(ratio) if ratio else math.nan:>8.2f}"
+        )
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=Path, required=True, help="folder with maps/ and scens/")
+    parser.add_argument("--solver", default="cbs", help="an algorithm and its options, such as 'eecbs w=1.2'")
+    parser.add_argument("--maps", nargs="*", default=[])
+    parser.add_argument("--agents", nargs="*", type=int, default=[10])
+    parser.add_argument("--scens", type=int, default=5, help="scenario files random-1 to random-N")
+    parser.add_argument("--anchors", type=Path, help="table of what others reach")
+    parser.add_argument("--against", nargs="*", default=[], help="solvers of that table")
+    parser.add_argument("--time-limit", type=float, default=10.0)
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--write", type=Path, help="file for one CSV row an instance")
+    arguments = parser.parse_args()
+    others = measured(arguments.anchors, arguments.against, arguments.time_limit) if arguments.anchors else {}
+    found: dict[Instance, Outcome] = {}
+    rows = []
+    for instance in instances(arguments, others):
+        solution = run(arguments.data, instance, arguments.solver, arguments.time_limit, arguments.repeat)
+        if solution is None:
+            continue
+        solved = solution.status == "solved"
+        cost = math.nan if solution.cost is None else solution.cost
+        found[instance] = Outcome(solution.seconds if solved else math.inf, cost)
+        rows.append([*instance, arguments.solver, solution.status, solution.seconds, cost, solution.lower_bound])
+        if cost < others.get(instance, (0, cost))[1] and arguments.solver == "cbs":
+            print(f"{instance}: cost {cost} is less than theirs, {others[instance].cost}, which was to be optimal")
+    if arguments.write:
+        with arguments.write.open("w", newline="") as stream:
+            writer = csv.writer(stream)
+            writer.writerow(["map", "scen", "k", "solver", "status", "seconds", "cost", "lower_bound"])
+            writer.writerows(rows)
+    print("\n".join(table(found, others)))
+
+
+if __name__ == "__main__":
+    main()

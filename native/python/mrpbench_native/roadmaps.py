@@ -1,0 +1,133 @@
+"""Roadmaps as a user of the solvers alone has them: a grid of cells, or a graph."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+
+@dataclass(frozen=True)
+class Graph:
+    """Vertices joined by directed edges, each of which takes a whole number of ticks."""
+
+    edges: ArrayLike
+    """int[E,2]: from, to. A way that can be used in both directions is two edges."""
+    duration: ArrayLike = 1
+    """int[E] ticks, or one for all."""
+    vertices: int | None = None
+    """Number of vertices; None = one more than the largest that an edge names."""
+    _arrays: "Arrays" = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        """Check and convert.
+
+        Raises:
+            ValueError: an edge names no vertex, or takes less than a tick.
+        """
+        edges = whole(self.edges, "edges").reshape(-1, 2)
+        largest = int(edges.max(initial=-1))
+        count = largest + 1 if self.vertices is None else self.vertices
+        if edges.min(initial=0) < 0 or largest >= count:
+            raise ValueError(f"edges: vertices are numbered from 0 to {count - 1}, and one is called otherwise")
+        duration = np.broadcast_to(whole(self.duration, "duration"), len(edges)).astype("i4")
+        if (duration < 1).any():
+            raise ValueError("duration: every edge takes at least one tick")
+        object.__setattr__(self, "_arrays", Arrays(count, edges.astype("i4"), duration))
+
+    @property
+    def arrays(self) -> "Arrays":
+        """As the solvers take it."""
+        return self._arrays
+
+    def vertex(self, places: ArrayLike, what: str) -> NDArray[np.int32]:
+        """Vertices i4[k] from int[k].
+
+        Raises:
+            ValueError: one does not exist.
+        """
+        found = whole(places, what)
+        if found.ndim != 1:
+            raise ValueError(f"{what}: one vertex each, but the array has {found.ndim} dimensions")
+        _within(found, self._arrays.vertices, what, found)
+        return found.astype("i4")
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Cells of which some are free; robots move between free cells side by side, one step a tick."""
+
+    free: NDArray[np.bool_]
+    """bool[rows, columns]."""
+
+    def __post_init__(self) -> None:
+        """Check.
+
+        Raises:
+            ValueError: it is no grid of truth values.
+        """
+        free = np.asarray(self.free)
+        if free.ndim != 2 or free.dtype != bool:
+            raise ValueError(f"a grid is bool[rows, columns], true where free; got {free.dtype} of shape {free.shape}")
+        object.__setattr__(self, "free", free)
+
+    @property
+    def arrays(self) -> "Arrays":
+        """As the solvers take it: vertices are the free cells, row by row."""
+        number = self._number()
+        pairs = [
+            np.column_stack([number[:, :-1].ravel(), number[:, 1:].ravel()]),
+            np.column_stack([number[:-1].ravel(), number[1:].ravel()]),
+        ]
+        way: NDArray[np.int64] = np.concatenate(pairs)
+        way = way[(way >= 0).all(axis=1)]
+        edges = np.concatenate([way, way[:, ::-1]]).astype("i4")
+        return Arrays(int(self.free.sum()), edges, np.ones(len(edges), "i4"), np.argwhere(self.free))
+
+    def vertex(self, places: ArrayLike, what: str) -> NDArray[np.int32]:
+        """Vertices i4[k] from cells int[k,2], row and column.
+
+        Raises:
+            ValueError: one is outside the grid or not free.
+        """
+        cells = whole(places, what)
+        if cells.ndim != 2 or cells.shape[1] != 2:
+            raise ValueError(f"{what}: a row and a column each, but the array has shape {cells.shape}")
+        outside = (cells < 0) | (cells >= np.array(self.free.shape))
+        inside = np.atleast_1d(~outside.any(axis=1))
+        found = np.where(inside, self._number()[tuple(np.where(inside[:, None], cells, 0).T)], -1)
+        _within(found, int(self.free.sum()), what, cells)
+        return found.astype("i4")
+
+    def _number(self) -> NDArray[np.int64]:
+        number: NDArray[np.int64] = np.full(self.free.shape, -1)
+        number[self.free] = np.arange(int(self.free.sum()))
+        return number
+
+
+@dataclass(frozen=True)
+class Arrays:
+    """A roadmap as the solvers take it."""
+
+    vertices: int
+    edges: NDArray[np.int32]
+    duration: NDArray[np.int32]
+    cell: NDArray[np.int64] | None = None
+    """i8[V,2]: row and column of each vertex of a grid."""
+
+
+def whole(values: ArrayLike, what: str) -> NDArray[np.int64]:
+    """An array of whole numbers.
+
+    Raises:
+        ValueError: it is none.
+    """
+    array = np.asarray(values)
+    if array.size and array.dtype.kind not in "iu":
+        raise ValueError(f"{what}: whole numbers are needed, not {array.dtype}")
+    return array.astype(np.int64)
+
+
+def _within(found: NDArray[np.int64], count: int, what: str, shown: NDArray[np.int64]) -> None:
+    bad = np.flatnonzero((found < 0) | (found >= count))
+    if len(bad):
+        raise ValueError(f"{what}: number {bad[0]} is {shown[bad[0]].tolist()}, which is blocked or does not exist")

@@ -1,0 +1,178 @@
+"""The solvers in one call, for those who want nothing else: NumPy in, NumPy out."""
+
+import re
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from mrpbench_native import mapf
+from mrpbench_native.algorithms import ALGORITHMS
+from mrpbench_native.roadmaps import Arrays, Graph, Grid
+
+_NOTHING = np.empty(0)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What a solver found."""
+
+    status: str
+    """solved | timeout | out_of_memory | unsolvable (proved) | gave_up (by a solver that is incomplete)."""
+    paths: tuple[NDArray[np.int64], ...] = ()
+    """One for each robot if there is a plan. On a grid i8[t+1,2]: row and column at every tick from 0 until the robot
+    is at its goal for good. On a graph i8[k,2]: each vertex that it visits, and the tick at which it comes there."""
+    cost: int | None = None
+    """Sum of the ticks at which robots are at their goals for good."""
+    makespan: int | None = None
+    """The latest of these ticks."""
+    lower_bound: float = float("nan")
+    """Proved lower bound on the cost, NaN if none."""
+    seconds: float = 0.0
+    """Wall time of the solver, distance tables included."""
+    clock_bound: bool = False
+    """The clock ended the search for a better plan."""
+    statistics: Mapping[str, int] = field(default_factory=dict)
+    history: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)))
+    """f8[h,3]: seconds, cost of the best plan until then, lower bound."""
+
+
+def solve(
+    roadmap: Graph | Grid | NDArray[np.bool_],
+    starts: ArrayLike,
+    goals: ArrayLike | Sequence[ArrayLike],
+    *,
+    algorithm: str = "eecbs",
+    time_limit: float = 60.0,
+    memory_limit: int = 4 << 30,
+    **options: Any,
+) -> Solution:
+    """Find paths for robots that must not meet.
+
+    Two robots must not be at one vertex at a time, nor pass one another on an edge; they stay at their goals.
+
+    Args:
+        roadmap: a `Graph`, a `Grid`, or bool[rows, columns], true where free.
+        starts: on a grid int[n,2], row and column of each robot; on a graph int[n].
+        goals: likewise; or a list with several candidates for each robot, of which it takes any that no other takes.
+        algorithm: one of `ALGORITHMS`.
+        time_limit: seconds of wall time.
+        memory_limit: bytes.
+        options: of the algorithm, such as `w` of `eecbs`; `options_of(algorithm)` lists them.
+
+    Raises:
+        ValueError: the roadmap, a place, the algorithm or an option makes no sense.
+
+    Example:
+        >>> solution = solve(np.ones((8, 8), bool), [[0, 0], [0, 7]], [[7, 7], [7, 0]], algorithm="cbs")
+        >>> solution.status, solution.cost
+        ('solved', 28)
+    """
+    place = roadmap if isinstance(roadmap, Graph | Grid) else Grid(roadmap)
+    solver, preset = _algorithm(algorithm)
+    known = options_of(algorithm)
+    if unknown := sorted(set(options) - set(known)):
+        raise ValueError(f"{algorithm} has no option {unknown[0]!r}; it has: {', '.join(known) or 'none'}")
+    arrays = place.arrays
+    first = place.vertex(starts, "starts")
+    instance = _instance(arrays, first, _goal_sets(place, goals))
+    began = time.perf_counter()
+    try:
+        answer = solver(instance, wall_s=time_limit, memory_bytes=memory_limit, **(preset | options))
+    except TypeError as error:
+        raise ValueError(f"{algorithm}: an option is of the wrong type: {options}") from error
+    return _solution(arrays, first, answer, time.perf_counter() - began)
+
+
+def options_of(algorithm: str) -> dict[str, Any]:
+    """The options of an algorithm with their defaults.
+
+    Raises:
+        ValueError: there is no such algorithm.
+    """
+    solver, preset = _algorithm(algorithm)
+    (signature, _, defaults), *_ = solver.__nb_signature__  # type: ignore[attr-defined]
+    named = re.findall(r"(\w+): [\w.]+(?: = \\(\d+))?", signature.partition("*")[2])
+    own = {name: defaults[int(index)] if index else None for name, index in named}
+    return {name: value for name, value in (own | preset).items() if name not in ("wall_s", "memory_bytes")}
+
+
+def _algorithm(name: str) -> tuple[Callable[..., mapf.Answer], dict[str, Any]]:
+    if name not in ALGORITHMS:
+        raise ValueError(f"there is no algorithm {name!r}; there are: {', '.join(sorted(ALGORITHMS))}")
+    return ALGORITHMS[name]
+
+
+def _goal_sets(place: Graph | Grid, goals: Any) -> list[NDArray[np.int32]]:
+    """The candidates of each robot."""
+    dimensions = {np.ndim(goal) for goal in goals}
+    single = 1 if isinstance(place, Grid) else 0
+    if dimensions <= {single}:
+        return list(place.vertex(goals, "goals")[:, None]) if len(goals) else []
+    if dimensions != {single + 1}:
+        raise ValueError("goals: one for each robot, or a list of candidates for each")
+    return [np.unique(place.vertex(candidates, f"goals of robot {robot}")) for robot, candidates in enumerate(goals)]
+
+
+def _instance(arrays: Arrays, starts: NDArray[np.int32], goals: list[NDArray[np.int32]]) -> mapf.Instance:
+    robots = len(starts)
+    if len(goals) != robots:
+        raise ValueError(f"goals: {len(goals)} for {robots} robots")
+    return mapf.Instance(
+        position=np.zeros((arrays.vertices, 2)) if arrays.cell is None else arrays.cell.astype(float, order="C"),
+        edges=arrays.edges,
+        duration=arrays.duration[None],
+        profile=np.zeros(robots, "i4"),
+        radius=np.zeros(robots),
+        start=starts,
+        ready=np.zeros(robots, "i8"),
+        goal_first=np.cumsum([0, *map(len, goals)], dtype="i8"),
+        goal=np.concatenate([np.empty(0, "i4"), *goals]),
+        committed_first=np.zeros(robots + 1, "i8"),
+        committed_edge=_NOTHING.astype("i4"),
+        committed_enter=_NOTHING.astype("i8"),
+        committed_leave=_NOTHING.astype("i8"),
+        exclusion_first=_NOTHING.astype("i8"),
+        exclusion_element=_NOTHING.astype("i4"),
+        exclusion_distance=_NOTHING,
+        following_forbidden=False,
+        disappear_at_goal=False,
+    )
+
+
+def _solution(arrays: Arrays, starts: NDArray[np.int32], answer: mapf.Answer, seconds: float) -> Solution:
+    found = Solution(
+        status=answer.status,
+        lower_bound=answer.lower_bound,
+        seconds=seconds,
+        clock_bound=answer.clock_bound,
+        statistics=answer.statistics,
+        history=answer.history,
+    )
+    if len(answer.first) != len(starts) + 1:
+        return found
+    visits = [
+        _visits(arrays, int(start), answer.edge[first:last], answer.leave[first:last])
+        for start, (first, last) in zip(starts, pairwise(answer.first.tolist()), strict=True)
+    ]
+    arrival = [int(visited[-1, 1]) for visited in visits]
+    paths = tuple(visits if arrays.cell is None else (_every_tick(arrays.cell, visited) for visited in visits))
+    return Solution(**vars(found) | {"paths": paths, "cost": sum(arrival), "makespan": max(arrival, default=0)})
+
+
+def _visits(arrays: Arrays, start: int, edge: NDArray[np.int32], leave: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Vertex and tick of arrival i8[k,2]; waits are left out."""
+    moves = edge >= 0
+    vertices = np.concatenate([[start], arrays.edges[edge[moves], 1]])
+    return np.column_stack([vertices, np.concatenate([[0], leave[moves]])]).astype(np.int64)
+
+
+def _every_tick(cell: NDArray[np.int64], visits: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Row and column i8[t+1,2] at every tick."""
+    ticks = np.arange(visits[-1, 1] + 1)
+    path: NDArray[np.int64] = cell[visits[np.searchsorted(visits[:, 1], ticks, side="right") - 1, 0]]
+    return path

@@ -1,0 +1,118 @@
+"""The solvers in one call, without anything else of mrpbench."""
+
+import doctest
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mrpbench_native import ALGORITHMS, Graph, Grid, options_of, solve, solving
+
+OPEN = np.ones((4, 4), bool)
+
+
+def test_the_example_in_the_documentation_holds():
+    assert doctest.testmod(solving, extraglobs={"np": np}).failed == 0
+
+
+def test_paths_on_a_grid_are_cells_at_every_tick():
+    solution = solve(OPEN, [[0, 0], [0, 3]], [[0, 3], [0, 0]], algorithm="cbs")
+    assert solution.status == "solved"
+    assert solution.cost == 8
+    assert solution.makespan == max(map(len, solution.paths)) - 1
+    assert solution.lower_bound == 8
+    for path, start, goal in zip(solution.paths, [[0, 0], [0, 3]], [[0, 3], [0, 0]], strict=True):
+        assert (path[0].tolist(), path[-1].tolist()) == (start, goal)
+        assert (np.abs(np.diff(path, axis=0)).sum(axis=1) <= 1).all()
+
+
+def test_paths_on_a_graph_are_vertices_and_when_they_are_reached():
+    loop = Graph(edges=[(0, 1), (1, 2), (2, 0)], duration=[2, 3, 4])
+    solution = solve(loop, [0], [2], algorithm="cbs")
+    assert solution.paths[0].tolist() == [[0, 0], [1, 2], [2, 5]]
+    assert (solution.cost, solution.makespan) == (5, 5)
+
+
+def test_robots_choose_among_candidates():
+    solution = solve(OPEN, [[0, 0], [3, 3]], [[[3, 3], [0, 1]], [[3, 3], [0, 1]]], algorithm="cbs")
+    assert solution.cost == 1
+    assert [path[-1].tolist() for path in solution.paths] == [[0, 1], [3, 3]]
+
+
+def test_nobody_is_an_answer_too():
+    solution = solve(OPEN, np.empty((0, 2), int), np.empty((0, 2), int), algorithm="cbs")
+    assert (solution.status, solution.paths, solution.cost) == ("solved", (), 0)
+
+
+def test_what_cannot_be_solved_has_no_paths():
+    walled = OPEN.copy()
+    walled[:, 1] = False
+    solution = solve(walled, [[0, 0]], [[0, 3]], algorithm="cbs")
+    assert (solution.status, solution.paths, solution.cost) == ("unsolvable", (), None)
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.integers(0, 2**32 - 1), st.sampled_from(sorted(ALGORITHMS)))
+def test_every_algorithm_answers_with_paths_from_starts_to_goals(seed, algorithm):
+    random = np.random.default_rng(seed)
+    free = random.random((5, 5)) < 0.8
+    cells = random.permutation(np.argwhere(free))
+    robots = min(3, len(cells) // 2)
+    starts, goals = cells[:robots], random.permutation(cells)[:robots]
+    solution = solve(Grid(free), starts, goals, algorithm=algorithm, time_limit=0.5)
+    if solution.paths:
+        assert [path[0].tolist() for path in solution.paths] == starts.tolist()
+        assert [path[-1].tolist() for path in solution.paths] == goals.tolist()
+        assert solution.cost == sum(len(path) - 1 for path in solution.paths)
+        assert not solution.cost < solution.lower_bound
+        assert all(free[tuple(path.T)].all() for path in solution.paths)
+    else:
+        assert solution.status != "solved"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"roadmap": np.ones((2, 2))}, r"a grid is bool\[rows, columns\]"),
+        ({"starts": [[0, 4]]}, r"starts: number 0 is \[0, 4\], which is blocked or does not exist"),
+        ({"goals": [[0, -1]]}, r"goals: number 0 is \[0, -1\]"),
+        ({"goals": [[0, 1], [0, 2]]}, "goals: 2 for 1 robots"),
+        ({"goals": [0]}, "goals: one for each robot, or a list of candidates"),
+        ({"starts": [[0.5, 1]]}, "starts: whole numbers are needed, not float64"),
+        ({"starts": [0]}, r"starts: a row and a column each, but the array has shape \(1,\)"),
+        ({"algorithm": "magic"}, "there is no algorithm 'magic'; there are: astar"),
+        ({"algorithm": "cbs", "v": 2}, "cbs has no option 'v'; it has: "),
+        ({"algorithm": "cbs", "bypass": "no"}, "cbs: an option is of the wrong type"),
+        ({"roadmap": Graph(edges=[(0, 1)]), "starts": [5], "goals": [1]}, "starts: number 0 is 5"),
+    ],
+)
+def test_mistakes_are_named(arguments, said):
+    asked = {"roadmap": OPEN, "starts": [[0, 0]], "goals": [[1, 1]], "algorithm": "astar"} | arguments
+    with pytest.raises(ValueError, match=said):
+        solve(**asked)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ({"edges": [(0, -1)]}, "numbered from 0"),
+        ({"edges": [(0, 3)], "vertices": 3}, "from 0 to 2"),
+        ({"edges": [(0, 1)], "duration": [0]}, "at least one tick"),
+    ],
+)
+def test_graphs_that_are_none_are_refused(arguments, said):
+    with pytest.raises(ValueError, match=said):
+        Graph(**arguments)
+
+
+def test_options_are_listed_with_their_defaults():
+    assert options_of("cbs")["bypass"] is True
+    assert options_of("prioritized")["restarts"] == 100
+    assert "wall_s" not in options_of("cbs")
+
+
+def test_nothing_else_of_mrpbench_is_imported():
+    code = "import sys, mrpbench_native; sys.exit(any(name.startswith('mrpbench_core') for name in sys.modules))"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
