@@ -15,6 +15,8 @@ from mrpbench_core.engine.study import run_study
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.kinds import group_of
+from mrpbench_core.report.analysis import analyse
+from mrpbench_core.report.html.page import write_report
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
 
@@ -85,6 +87,9 @@ def _show(results: Results) -> None:
         replay = results.folder.path / "replay.html"
         write_replay(recording, results, record, replay)
         print(f"replay     {_near(replay)}")
+        report = results.folder.path / "report.html"
+        write_report(analyse([results]), report, {record["run_id"]: replay.name})
+        print(f"report     {_near(report)}")
         try:
             print(f"picture    {_near(_draw(recording, results.folder.path / 'demo.png'))}")
         except InputError as error:

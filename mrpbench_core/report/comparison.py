@@ -32,6 +32,11 @@ class Comparison:
     p_adjusted: float = 1.0
 
     @property
+    def is_mixed(self) -> bool:
+        """Whether the mean points one way and the ranks, by which the verdict goes, the other."""
+        return self.found.effect * self.found.difference.value < 0
+
+    @property
     def verdict(self) -> str:
         """Whether the second is better, worse, different (where no direction is known), or not shown to differ."""
         if self.p_adjusted >= SIGNIFICANT:

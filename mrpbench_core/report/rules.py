@@ -31,7 +31,8 @@ Pairs: Groups that differ in one choice are compared on the scenarios that both 
 (interval of Bonett and Price; if scenarios were repeated by sign flips, {FLIPS} of them with seed {SEED} where not all
 can be tried), values by Wilcoxon's signed-rank test (equal pairs leave it; bootstrap interval of the mean difference).
 p is adjusted by Holm for all tests of the table that could be significant (six pairs must differ); a difference is
-called one where adjusted p < {SIGNIFICANT:g}.
+called one where adjusted p < {SIGNIFICANT:g}. Better and worse go by the ranks; where the mean points the other way,
+few large differences stand against many small ones, and the table says so.
 """
 
 RULES: tuple[tuple[str, str], ...] = tuple(

@@ -22,8 +22,8 @@ def study(mrpbench):
     return mrpbench
 
 
-def stored():
-    lines = (line for file in Path("results/tiny/runs").iterdir() for line in file.read_text().splitlines())
+def stored(folder="results/tiny"):
+    lines = (line for file in Path(folder, "runs").iterdir() for line in file.read_text().splitlines())
     return [json.loads(line) for line in lines]
 
 
@@ -84,3 +84,15 @@ def test_rows_by_some_options_only(study):
     code, output, _ = study("report", "results/tiny", "--by", "planner.plugin", "--json")
     assert code == 0
     assert [group["runs"] for group in json.loads(output)["groups"]] == [4]
+
+
+def test_a_page_is_written_beside_the_results_or_where_asked(study):
+    _, output, _ = study("report", "results/tiny")
+    page = Path("results/tiny/report.html").resolve()
+    assert output.splitlines()[-1] == f"wrote {page}"
+    assert "4 runs of 2 configurations on 2 scenarios." in page.read_text(encoding="utf-8")
+    page.unlink()
+    assert study("report", "results/tiny", "--html", "here.html", "--json")[0] == 0
+    assert Path("here.html").is_file()
+    assert study("report", "results/tiny", "--html", "none")[0] == 0
+    assert not page.exists()

@@ -70,6 +70,17 @@ def test_pairs_are_made_on_common_scenarios_only(results, record):
     assert cost.verdict == "worse"  # lower is better; the only test that could be significant
 
 
+def test_a_mean_that_points_the_other_way_is_told(results, record):
+    """Nineteen pairs a little dearer and one far cheaper: worse by the ranks, cheaper on average."""
+    records = [record("a", seed, cost=500.0 if seed == 19 else 10.0) for seed in range(20)]
+    records += [record("b", seed, cost=100.0 if seed == 19 else 11.0 + seed) for seed in range(20)]
+    found = analyse([results(records)], ["planning.cost"])
+    (cost,) = [c for c in found.comparisons if c.column.name == "planning.cost"]
+    assert cost.found.difference.value < 0 < cost.found.effect
+    assert (cost.is_mixed, cost.verdict) == (True, "worse")
+    assert "worse, mean disagrees" in found.tables()[-1].rows[-1]
+
+
 def test_only_groups_that_differ_in_one_choice_are_compared(results, record):
     def entry(planner, rate):
         return [

@@ -93,10 +93,12 @@ def _findings(comparisons: tuple[Comparison, ...]) -> str:
     for entry in found[:FINDINGS]:
         change = escape(str(Shown(entry.found.difference, percent=entry.is_rate, usual=entry.found.difference.n)))
         where = f" ({escape(entry.setting)})" if entry.setting else ""
+        found_in = f"{entry.found.above} of {entry.found.difference.n} pairs more, in {entry.found.below} less"
+        mixed = " (few large differences against many small ones)" if entry.is_mixed else ""
         items.append(
             f"<li><b>{escape(entry.second)}</b> is <b class='{entry.verdict}'>{entry.verdict}</b> than"
-            f" <b>{escape(entry.first)}</b> in <code>{escape(entry.column.name)}</code>{where}: {change}"
-            f" over {entry.found.difference.n} pairs, adjusted p {'' if entry.p_adjusted < 0.001 else '= '}"
+            f" <b>{escape(entry.first)}</b> in <code>{escape(entry.column.name)}</code>{where}: {change} on average, in"
+            f" {found_in}{mixed}; adjusted p {'' if entry.p_adjusted < 0.001 else '= '}"
             f"{escape(p_value(entry.p_adjusted))}</li>"
         )
     more = f"<p>… and {len(found) - FINDINGS} more in the table of pairs.</p>" if len(found) > FINDINGS else ""

@@ -6,7 +6,7 @@ import numpy as np
 
 from mrpbench_core.report.axes import word
 from mrpbench_core.report.columns import Column
-from mrpbench_core.report.comparison import Comparison
+from mrpbench_core.report.comparison import SIGNIFICANT, Comparison
 from mrpbench_core.report.estimates import Numbers
 from mrpbench_core.report.groups import Group, Setting
 from mrpbench_core.report.outcome import LEFT_OUT
@@ -155,7 +155,9 @@ def pairs_table(comparisons: Sequence[Comparison], brief: bool = False) -> Table
                 f"{found.effect:+.2f}",
                 p_value(found.p),
                 p_value(entry.p_adjusted),
-                entry.verdict,
+                f"{entry.verdict}, mean disagrees"
+                if entry.is_mixed and entry.p_adjusted < SIGNIFICANT
+                else entry.verdict,
             )
         )
     return Table(

@@ -66,7 +66,8 @@ def test_text_of_runs_is_text(page):
 def test_the_page_tells_what_a_reviewer_asks(page, study):
     words = " ".join(" ".join(Reader(page.read_text(encoding="utf-8")).words).split())
     assert "41 runs of 2 configurations on 11 scenarios." in words
-    assert "<b>bad</b> is worse than cbs in planning.cost : 1.47 [1.26, 1.64] over 9 pairs, adjusted p = 0.004" in words
+    assert "<b>bad</b> is worse than cbs in planning.cost : 1.47 [1.26, 1.64] on average" in words
+    assert "in 9 of 9 pairs more, in 0 less; adjusted p = 0.004" in words
     for fact in ("Wilson", "seed 0", "0..9, 77", "1999 resamples", "2 times the planning limit", "SHA-256"):
         assert fact in words, fact
 

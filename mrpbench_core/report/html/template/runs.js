@@ -105,7 +105,7 @@ function list(runs) {
       row.dataset.run = i;
       for (const { name, number, of } of columns) {
         const value = of(i);
-        const kind = number ? "number" : name === "status" ? tone(value) : name === "message" ? "message" : "";
+        const kind = number ? "number" : name === "status" ? tone(value) : name === "message" ? "message" : "words";
         cell(row, value === null ? "–" : name === "status" ? value.replaceAll("_", " ") : String(value), kind);
       }
       if (i === state.open) detail(body, i);
