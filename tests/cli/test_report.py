@@ -1,7 +1,10 @@
 """`mrpbench report` and the files it writes."""
 
+import base64
 import csv
 import json
+import re
+import zlib
 from pathlib import Path
 
 import pytest
@@ -31,7 +34,14 @@ def test_tables_have_counts_intervals_and_rules(study):
     code, output, errors = study("report", "results/tiny")
     assert (code, errors) == (0, "")
     assert "2/2        100 % [34, 100]" in output
-    for words in ("How the runs ended", "Pair by pair", "seed 0", "Wilson intervals", "2 times the planning limit"):
+    for words in (
+        "How the runs ended",
+        "Pair by pair",
+        "seed 0",
+        "Seeds: 0..1; repeats: 0.",
+        "Wilson intervals",
+        "2 times the planning limit",
+    ):
         assert words in output
 
 
@@ -96,3 +106,19 @@ def test_a_page_is_written_beside_the_results_or_where_asked(study):
     assert Path("here.html").is_file()
     assert study("report", "results/tiny", "--html", "none")[0] == 0
     assert not page.exists()
+
+
+def test_the_page_links_replays_of_failed_runs_first(mrpbench):
+    study = Path("tiny.yaml").read_text().replace("simulator: none", "simulator: kinematic")
+    Path("driven.yaml").write_text(study.replace("seed: 0..1", "limits.execution: [60, 0.2]"))
+    assert mrpbench("run", "driven.yaml", "seed=0..1", "scenario.robots=2", "--out", "driven")[0] == 0
+    ended = {record["run_id"]: record["status"] for record in stored("driven")}
+    failed = {run_id for run_id, status in ended.items() if status == "goals_missed"}
+    assert failed
+    assert mrpbench("report", "driven", "--replays", "1")[0] == 0
+    (replay,) = Path("driven").glob("replay-*.html")
+    assert any(run_id.startswith(replay.stem.removeprefix("replay-")) for run_id in failed)
+    assert mrpbench("report", "driven", "--replays", "0", "--html", "elsewhere.html")[0] == 0
+    packed = re.search(r'id="data"[^>]*>([^<]+)<', Path("elsewhere.html").read_text())[1]
+    linked = json.loads(zlib.decompress(base64.b64decode(packed)))["replays"]
+    assert list(linked.values()) == [f"driven/{replay.name}"]

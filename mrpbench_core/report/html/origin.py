@@ -10,9 +10,9 @@ import numpy as np
 
 from mrpbench_core import __version__
 from mrpbench_core.files.text import counted
-from mrpbench_core.model.arrays import Int
 from mrpbench_core.report.analysis import Analysis
 from mrpbench_core.report.invocations import made_with, read_invocations
+from mrpbench_core.report.spans import spans
 from mrpbench_core.report.statistics.means import RESAMPLES, SEED
 from mrpbench_core.store.invocation import dumps
 
@@ -33,13 +33,6 @@ def origin(analysis: Analysis) -> str:
     ]
     items = "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in facts)
     return f'<dl class="facts">{items}</dl>{_invocations(invocations)}{_studies(invocations)}{_shards(analysis)}'
-
-
-def spans(numbers: Int) -> str:
-    """Whole numbers as ranges: `0..53, 60`."""
-    values = np.unique(numbers)
-    parts = np.split(values, np.flatnonzero(np.diff(values) != 1) + 1)
-    return ", ".join(f"{part[0]}" if len(part) == 1 else f"{part[0]}..{part[-1]}" for part in parts if len(part))
 
 
 def _invocations(invocations: Iterable[dict[str, Any]]) -> str:

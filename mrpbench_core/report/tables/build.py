@@ -11,6 +11,7 @@ from mrpbench_core.report.estimates import Numbers
 from mrpbench_core.report.groups import Group, Setting
 from mrpbench_core.report.outcome import LEFT_OUT
 from mrpbench_core.report.runs import Runs
+from mrpbench_core.report.spans import spans
 from mrpbench_core.report.statistics.estimate import Estimate
 from mrpbench_core.report.tables.table import Cell, Shown, Table, p_value
 
@@ -46,7 +47,8 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
         keys=len(axes),
         note=(
             "Rates: Wilson intervals, 95 %. Infeasible and skipped runs leave the denominator"
-            " and stand in the last column."
+            " and stand in the last column. "
+            f"Seeds: {spans(runs.seed)}; repeats: {spans(runs.repeat)}."
         ),
     )
 
