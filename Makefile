@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 NATIVE := $(wildcard native/CMakeLists.txt native/*/*.cpp native/*/*.hpp native/*/*/*.cpp native/*/*/*.hpp native/*/*/*.py native/*/*/*.pyi)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install demo test lint types layers cpp python format lock clean ros
+.PHONY: help install demo test lint types layers cpp python format lock speed clean ros
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -22,6 +22,9 @@ else
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
 endif
 	@touch $@
+
+speed: install ## how fast executions are, and where the time goes
+	$(BIN)/python benchmarks/full_stack.py
 
 demo: install ## one small run, end to end: table, picture, bag
 	$(BIN)/mrpbench demo

@@ -32,6 +32,7 @@ class Detours:
         count = len(followers.all)
         self._turn = np.arange(count) % max(every, 1)
         self._place: Float = np.full((count, 2), np.inf)
+        self._asked = np.full(count, -(10**9))
         self._step = 0
 
     def cancel(self, robot: int) -> None:
@@ -55,23 +56,24 @@ class Detours:
                 self._followers.rejoin(robot, *way[-1].tolist())
 
     def look(self, observations: Observations, stopped: Bool) -> list[Event]:
-        """Ask for a way around, for rows whose turn it is and that do not get on; `stopped` bool[k] is asked at once.
+        """Ask for a way around, for rows whose turn it is and that do not get on or are `stopped` bool[k].
 
         `observations` are of the routes, not of the detours.
         """
         self._step += 1
         if not self._every:
             return []
-        robots, place = observations.robot, observations.pose[:, :2]
-        turn = self._turn[robots] == self._step % self._every
-        moved = np.abs(place - self._place[robots]).max(axis=1, initial=0.0) > _MOVING
-        self._place[robots[turn]] = place[turn]
-        asked = turn & ~moved
-        asked |= stopped & (self._step % self._every == 0)
-        asked |= turn & np.isin(robots, list(self._ways))
         events = []
-        for row in np.flatnonzero(asked).tolist():
-            robot = int(robots[row])
+        turn = self._turn[observations.robot] == self._step % self._every
+        if stopped.any():
+            turn |= stopped & (self._step - self._asked[observations.robot] >= self._every)
+        for row in np.flatnonzero(turn).tolist():
+            robot, place = int(observations.robot[row]), observations.pose[row, :2]
+            moved = np.abs(place - self._place[robot]).max() > _MOVING
+            self._place[robot] = place
+            if moved and robot not in self._ways and not stopped[row]:
+                continue
+            self._asked[robot] = self._step
             way = self._controllers.reroute(observations, row)
             if way is None or not len(way):
                 self._ways.pop(robot, None)

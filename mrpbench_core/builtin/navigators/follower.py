@@ -136,7 +136,7 @@ class Follower:
         (ax, ay), (bx, by) = self._leg_ends(self._leg)
         dx, dy = bx - ax, by - ay
         yaw = self._yaw[self._released] if end == self._end else nan
-        leg = (ax, ay, dx, dy, dx * dx + dy * dy)
+        leg = (ax, ay, dx, dy, max(dx * dx + dy * dy, 1e-300))  # no leg has no direction: its point is the nearest
         return (
             *arrive,
             *arriving,

@@ -51,6 +51,7 @@ class Followers:
             follower.adopt(route, first)
             first += len(follower.corners)
         self.corners: Float = np.concatenate([np.empty((0, 2)), *(follower.corners for follower in self.all)])
+        self._wants_yaw = any(not np.isnan(route.waypoint[:, 2]).all() for route in routes)
         for robot in range(len(self.all)):
             self._watch(robot)
         self._released = np.full(len(self.all), -1, np.int32)  # all are looked at in the next period
@@ -85,7 +86,7 @@ class Followers:
         of = self._of
         x, y, dx, dy = of["leg_x"], of["leg_y"], of["leg_dx"], of["leg_dy"]
         along = (pose[:, 0] - x) * dx + (pose[:, 1] - y) * dy
-        share = np.clip(along / np.maximum(of["leg_squared"], 1e-300), 0.0, 1.0)
+        share = np.minimum(np.maximum(along / of["leg_squared"], 0.0), 1.0)
         foot = np.empty((len(pose), 2))
         foot[:, 0] = x + share * dx
         foot[:, 1] = y + share * dy
@@ -105,6 +106,8 @@ class Followers:
         return away
 
     def _is_turned_away(self, pose: Float) -> Bool:
+        if not self._wants_yaw:
+            return np.zeros(len(pose), bool)
         error = np.abs(np.remainder(pose[:, 2] - self._of["yaw"] + np.pi, 2 * np.pi) - np.pi)
         away: Bool = error > self._options.yaw_goal_tolerance  # never where any yaw will do, which is NaN
         return away

@@ -164,6 +164,8 @@ class _Session(NavigatorSession):
         who = f"the controller {self._controller}"
         if not isinstance(command, np.ndarray) or command.shape != (len(robots), 2):
             raise BrokenContractError(f"{who} returned {command!r} instead of f8[{len(robots)},2]")
+        if np.isfinite(command).all():
+            return
         wrong = ~np.isfinite(command).all(axis=1) & ~np.isnan(command).all(axis=1)
         if wrong.any():
             row = int(wrong.argmax())

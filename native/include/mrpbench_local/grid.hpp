@@ -27,6 +27,12 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
+/// The next whole number below; without a call of the library, which floor is on the baseline machine.
+inline int whole_below(double value) {
+  const int cut = static_cast<int>(value);
+  return cut - (value < cut ? 1 : 0);
+}
+
 /// Where a raster of `width` x `height` cells lies.
 struct Frame {
   int width = 0, height = 0;
@@ -36,8 +42,7 @@ struct Frame {
 
   /// The cell within the frame that holds a point; perhaps outside.
   Cell cell(Point p) const {
-    return {static_cast<int>(std::floor(p.x / resolution)) - origin.x,
-            static_cast<int>(std::floor(p.y / resolution)) - origin.y};
+    return {whole_below(p.x / resolution) - origin.x, whole_below(p.y / resolution) - origin.y};
   }
   bool holds(Cell c) const { return c.x >= 0 && c.y >= 0 && c.x < width && c.y < height; }
   std::size_t index(Cell c) const {

@@ -31,7 +31,7 @@ int Trajectories::steps(Twist twist) const {
   const double wanted = options_.discretize_by_time ? time / options_.time_granularity
                                                     : std::max(speed * time / options_.linear_granularity,
                                                                rate * time / options_.angular_granularity);
-  return std::max(1, static_cast<int>(std::ceil(wanted)));
+  return std::max(1, -whole_below(-wanted));
 }
 
 void Trajectories::generate(Pose start, Twist current, double fastest) {

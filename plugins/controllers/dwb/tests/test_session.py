@@ -1,0 +1,166 @@
+import math
+
+import attrs
+import numpy as np
+import pytest
+from mrpbench_controllers_dwb import BaseObstacle, Critic, CriticSession, Dwb, GoalDist, LocalCostmap
+
+from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.files.robot import load_robot
+from mrpbench_core.model.execution import Observations, ScanBatch
+from mrpbench_core.model.fleet import Lidar, RobotModel
+from mrpbench_core.model.world import World
+from mrpbench_core.testing.room import PERIOD, driven
+
+BURGER = load_robot("turtlebot3_burger")
+WAFFLE = load_robot("turtlebot3_waffle")
+AGV = RobotModel(
+    name="agv",
+    footprint=np.array([(0.3, 0.25), (-0.3, 0.25), (-0.3, -0.25), (0.3, -0.25)]),
+    max_speed=1.0,
+    max_turn_rate=0.8,
+    acceleration=0.5,
+    turn_acceleration=1.0,
+    lidar=Lidar(beams=180, range=10.0),
+)
+NOWHERE = World(name="w", levels=())
+
+
+def look(now, pose, twist, path, scans=()):
+    """What robots see that all have paths of as many points."""
+    count, points = path.shape[:2]
+    return Observations(
+        now=now,
+        robot=np.arange(count),
+        pose=pose,
+        twist=twist,
+        foot=np.ascontiguousarray(path[:, 0]),
+        points=np.ascontiguousarray(path[:, 1:]).reshape(-1, 2),
+        begin=np.arange(count) * (points - 1),
+        end=(np.arange(count) + 1) * (points - 1),
+        yaw=np.full(count, math.nan),
+        speed=np.full(count, math.inf),
+        fleet_pose=pose,
+        scans=scans,
+    )
+
+
+def wander(session, robots, periods=40, seed=1):
+    """Commands and poses of robots that follow straight paths among things that only they see."""
+    random = np.random.default_rng(seed)
+    count = len(robots)
+    pose = random.uniform((-9, -9, -3), (9, 9, 3), (count, 3))
+    goal = pose[:, :2] + random.uniform(-2, 2, (count, 2))
+    twist, poses, commands = np.zeros((count, 2)), [], []
+    for period in range(periods):
+        beams = random.uniform(0.5, 4.0, (count, 90))
+        scan = ScanBatch(stamp=period * PERIOD, robot=np.arange(count), ranges=beams)
+        path = np.stack([pose[:, :2], goal], axis=1)
+        said = session.command(look(period * PERIOD, pose, twist, path, (scan,) if period % 4 == 0 else ()))
+        commands.append(said)
+        twist = np.nan_to_num(said)
+        pose = driven(pose, twist, PERIOD)
+        poses.append(pose)
+    return np.array(commands), np.array(poses)
+
+
+@pytest.mark.parametrize("threads", [2, 5])
+def test_results_do_not_depend_on_threads(threads):
+    robots = (BURGER,) * 7 + (WAFFLE,) * 2
+    one, other = (wander(Dwb(threads=number).start_fleet(robots, NOWHERE, PERIOD), robots) for number in (1, threads))
+    assert one[0].tobytes() == other[0].tobytes()
+
+
+def test_equal_runs_agree_to_the_last_bit():
+    one, other = (wander(Dwb().start_fleet((BURGER,) * 4, NOWHERE, PERIOD), (BURGER,) * 4) for _ in range(2))
+    assert one[0].tobytes() == other[0].tobytes()
+
+
+def test_looking_closely_at_all_trajectories_changes_no_command():
+    robots = (BURGER,) * 8
+    lazy, thorough = (
+        wander(Dwb(short_circuit_trajectory_evaluation=short).start_fleet(robots, NOWHERE, PERIOD), robots, seed=3)
+        for short in (True, False)
+    )
+    assert lazy[0].tobytes() == thorough[0].tobytes()
+
+
+def test_each_robot_of_a_mixed_fleet_drives_by_its_own_limits_and_footprint():
+    robots = (BURGER, WAFFLE, AGV)
+    session = Dwb().start_fleet(robots, NOWHERE, PERIOD)
+    pose = np.array([(0.0, 0.0, 0.0), (0.0, 9.0, 0.0), (0.0, 20.0, 0.0)])
+    twist, fastest = np.zeros((3, 2)), np.zeros(3)
+    for period in range(100):
+        end = np.column_stack([np.full(3, 40.0), [0.0, 9.0, 20.0]])
+        path = np.stack([np.column_stack([pose[:, 0], [0.0, 9.0, 20.0]]), end], axis=1)
+        twist = session.command(look(period * PERIOD, pose, twist, path))
+        fastest = np.maximum(fastest, twist[:, 0])
+        pose = driven(pose, twist, PERIOD)
+    assert (fastest <= [0.22, 0.26, 1.0]).all()
+    assert (fastest >= np.array([0.22, 0.26, 0.4]) * 0.85).all()
+    assert np.abs(pose[:, 1] - [0.0, 9.0, 20.0]).max() < 0.05
+    inscribed = [session.costmap(robot)[3] for robot in range(3)]
+    for radius, robot in zip(inscribed, robots, strict=True):
+        assert robot.radius * 0.98 < radius < robot.radius + 0.012
+
+
+@attrs.frozen(kw_only=True)
+class Leftward(Critic):
+    answer: str = "left"
+
+    def start(self, robot, world):
+        assert robot.name == BURGER.name
+        return _Leftward(self.answer)
+
+
+class _Leftward(CriticSession):
+    def __init__(self, answer):
+        self.answer = answer
+
+    def score(self, trajectories):
+        assert trajectories.pose.ndim == 3
+        assert len(trajectories.pose) == len(trajectories.twist)
+        assert trajectories.path.tolist() == [[0, 0], [1, 0]]
+        if self.answer == "left":
+            return np.where(trajectories.twist[:, 1] > 0, 0.0, np.inf)
+        if self.answer == "short":
+            return np.zeros(3)
+        return np.full(len(trajectories.twist), {"nothing": np.inf, "nan": np.nan}[self.answer])
+
+
+def ask(*critics):
+    session = Dwb(critics=critics).start_fleet((BURGER,), NOWHERE, PERIOD)
+    path = np.array([[(0.0, 0.0), (1.0, 0.0)]])
+    return session.command(look(0.0, np.zeros((1, 3)), np.zeros((1, 2)), path))[0], session
+
+
+def test_critics_in_python_have_their_say():
+    plain, _ = ask(GoalDist())
+    command, _ = ask(GoalDist(), Leftward(scale=2.0))
+    assert abs(plain[1]) < 0.06
+    assert command[1] > 0
+    assert np.isnan(ask(GoalDist(), Leftward(answer="nothing"))[0]).all()
+    assert ask(GoalDist(), Leftward(answer="nothing", scale=0.0))[0].tolist() == plain.tolist()
+
+
+@pytest.mark.parametrize("answer", ["short", "nan"])
+def test_a_critic_that_returns_no_scores_is_blamed_by_its_name(answer):
+    with pytest.raises(BrokenContractError, match="the critic Leftward returned"):
+        ask(GoalDist(), Leftward(answer=answer))
+
+
+def test_a_robot_without_an_admissible_command_says_why():
+    session = Dwb(critics=(BaseObstacle(),), local_costmap=LocalCostmap(footprint_clearing_enabled=False)).start_fleet(
+        (BURGER,), NOWHERE, PERIOD
+    )
+    scan = ScanBatch(stamp=0.0, robot=[0], ranges=np.full((1, 360), 0.13))
+    path = np.array([[(0.0, 0.0), (1.0, 0.0)]])
+    command = session.command(look(0.0, np.zeros((1, 3)), np.zeros((1, 2)), path, (scan,)))
+    assert np.isnan(command).all()
+    assert session.excuse(0) == "419 × BaseObstacle: Trajectory Hits Obstacle."
+
+
+def test_a_robot_at_the_end_of_its_path_stands():
+    session = Dwb().start_fleet((BURGER,), NOWHERE, PERIOD)
+    path = np.array([[(0.0, 0.0), (0.03, 0.0)]])
+    assert session.command(look(0.0, np.zeros((1, 3)), np.zeros((1, 2)), path)).tolist() == [[0.0, 0.0]]
