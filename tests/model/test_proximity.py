@@ -14,8 +14,7 @@ def test_pairs_are_those_of_brute_force_in_order(points, reach):
         (first, second)
         for first in range(len(points))
         for second in range(first + 1, len(points))
-        if np.isfinite(points[[first, second]]).all()
-        and ((points[second] - points[first]) ** 2).sum() < reach**2
+        if np.isfinite(points[[first, second]]).all() and ((points[second] - points[first]) ** 2).sum() < reach**2
     ]
     first, second = close_pairs(points, reach)
     assert list(zip(first.tolist(), second.tolist(), strict=True)) == expected
