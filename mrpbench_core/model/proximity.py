@@ -6,7 +6,7 @@ from mrpbench_core.model.arrays import Float, Int
 
 
 def close_pairs(points: Float, reach: float) -> tuple[Int, Int]:
-    """All pairs of `points` f8[n,2] less than `reach` metres apart: indices i8[k] and i8[k], the smaller first, in order.
+    """All pairs of `points` f8[n,2] less than `reach` metres apart: i8[k] and i8[k], the smaller index first, in order.
 
     Points that are not finite are near nothing. A sweep along x: the time grows with the pairs that are near in x.
     """
