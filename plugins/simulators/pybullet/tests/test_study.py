@@ -67,7 +67,8 @@ def test_positions_drift_apart_slowly_under_the_same_commands():
 def test_the_same_scenario_has_like_figures_on_every_simulator(tmp_path):
     pytest.importorskip("mrpbench_simulators_planar")
     simulators = ["planar", "kinematic", "pybullet", {"plugin": "pybullet", "model": "body"}]
-    records = mrpbench_core.run({**STUDY, "matrix": {"simulator": simulators}}, out=tmp_path)
+    robots = {"fleet": {"robot": "turtlebot3_burger", "lidar": "none"}, "scenario": {"plugin": "random", "robots": 3}}
+    records = mrpbench_core.run({**STUDY, **robots, "matrix": {"simulator": simulators}}, out=tmp_path)
     metrics = [record["metrics"] for record in records]
     assert [record["status"] for record in records] == ["succeeded"] * 4
     assert len({record["scenario_id"] for record in records}) == 1
