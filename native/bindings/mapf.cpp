@@ -77,6 +77,8 @@ void construct(Instance* self, const Matrix<double, 2>& position, const Matrix<s
                const Vector<std::int32_t>& committed_edge, const Vector<std::int64_t>& committed_enter,
                const Vector<std::int64_t>& committed_leave, const Vector<std::int64_t>& exclusion_first,
                const Vector<std::int32_t>& exclusion_element, const Vector<double>& exclusion_distance,
+               const Vector<std::int64_t>& resource_first, const Vector<std::int32_t>& resource_element,
+               const Vector<std::int32_t>& resource_capacity, const Vector<std::int64_t>& resource_setup,
                bool following_forbidden, bool disappear_at_goal) {
   const std::size_t count = start.size();
   require_size(profile.size(), count, "profile");
@@ -98,9 +100,19 @@ void construct(Instance* self, const Matrix<double, 2>& position, const Matrix<s
           {committed_edge.data()[k], tick(committed_enter.data()[k]), tick(committed_leave.data()[k])});
     }
   }
+  require_rows(resource_first, resource_capacity.size(), resource_element.size(), "resource_first");
+  require_size(resource_setup.size(), resource_capacity.size(), "resource_setup");
+  std::vector<Resource> resources(resource_capacity.size());
+  for (std::size_t r = 0; r < resources.size(); ++r) {
+    const auto* const elements = resource_element.data();
+    resources[r] = {resource_capacity.data()[r],
+                    tick(resource_setup.data()[r]),
+                    {elements + resource_first.data()[r], elements + resource_first.data()[r + 1]}};
+  }
   new (self) Instance(
       make_roadmap(position, edges, duration), std::move(robots), {following_forbidden, disappear_at_goal},
-      {copy<std::int64_t>(exclusion_first), copy<std::int32_t>(exclusion_element), copy<double>(exclusion_distance)});
+      {copy<std::int64_t>(exclusion_first), copy<std::int32_t>(exclusion_element), copy<double>(exclusion_distance)},
+      std::move(resources));
 }
 
 /// A result as Python sees it.
@@ -208,7 +220,8 @@ NB_MODULE(mapf, module) {
       .def("__init__", &construct, nb::kw_only(), array("position"), array("edges"), array("duration"),
            array("profile"), array("radius"), array("start"), array("ready"), array("goal_first"), array("goal"),
            array("committed_first"), array("committed_edge"), array("committed_enter"), array("committed_leave"),
-           array("exclusion_first"), array("exclusion_element"), array("exclusion_distance"), "following_forbidden"_a,
+           array("exclusion_first"), array("exclusion_element"), array("exclusion_distance"), array("resource_first"),
+           array("resource_element"), array("resource_capacity"), array("resource_setup"), "following_forbidden"_a,
            "disappear_at_goal"_a);
 
   nb::class_<Answer>(module, "Answer", "How a solver ended. The segments of robot r are [first[r], first[r + 1]).")

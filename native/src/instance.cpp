@@ -14,8 +14,13 @@ namespace {
 
 }  // namespace
 
-Instance::Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Exclusions exclusions)
-    : roadmap_(std::move(roadmap)), robots_(std::move(robots)), rules_(rules), exclusions_(std::move(exclusions)) {
+Instance::Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Exclusions exclusions,
+                   std::vector<Resource> resources)
+    : roadmap_(std::move(roadmap)),
+      robots_(std::move(robots)),
+      rules_(rules),
+      exclusions_(std::move(exclusions)),
+      resources_(std::move(resources)) {
   validate();
   beginnings_.reserve(robots_.size());
   for (int robot = 0; robot < size(); ++robot) beginnings_.push_back(begin(robot));
@@ -49,6 +54,12 @@ void Instance::validate() const {
         exclusions_.distance.size() != element.size() ||
         std::ranges::any_of(element, [&](int x) { return x < 0 || x >= roadmap_.element_count(); })) {
       throw std::invalid_argument("the exclusions do not fit the roadmap");
+    }
+  }
+  for (const Resource& it : resources_) {
+    const auto exists = [&](int x) { return x >= 0 && x < roadmap_.element_count(); };
+    if (it.capacity < 1 || it.setup < 0 || it.setup > kLatestTime || !std::ranges::all_of(it.elements, exists)) {
+      throw std::invalid_argument("a resource has no capacity, an impossible setup or elements that do not exist");
     }
   }
   for (int robot = 0; robot < size(); ++robot) validate_robot(robot);

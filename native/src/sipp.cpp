@@ -84,7 +84,7 @@ Sipp::Slot Sipp::states_of(int vertex) {
   unite(scratch_);
   const auto add = [&](Half first, Half last) {
     const Tick begin = (first + 1) / 2, end = last / 2;
-    if (begin <= end) states_.push_back({begin, end, kForever, vertex, -1, -1, 0, false});
+    if (first <= last && begin <= end) states_.push_back({begin, end, kForever, vertex, -1, -1, 0, false});
   };
   Half free = 0;
   for (const Range& blocked : scratch_) {

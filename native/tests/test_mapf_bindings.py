@@ -29,6 +29,10 @@ def swap(**changes) -> dict:
         "exclusion_first": np.empty(0, "i8"),
         "exclusion_element": np.empty(0, "i4"),
         "exclusion_distance": np.empty(0),
+        "resource_first": np.zeros(1, "i8"),
+        "resource_element": np.empty(0, "i4"),
+        "resource_capacity": np.empty(0, "i4"),
+        "resource_setup": np.empty(0, "i8"),
         "following_forbidden": False,
         "disappear_at_goal": False,
     }

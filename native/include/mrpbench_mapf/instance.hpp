@@ -36,6 +36,13 @@ struct Exclusions {
   std::vector<double> distance;  // metres
 };
 
+/// Elements that at most `capacity` robots use at a time, each for `setup` ticks longer than it is on them (rule 6).
+struct Resource {
+  int capacity;
+  Tick setup;
+  std::vector<int> elements;
+};
+
 /// What a robot does for certain: its committed segments, then standing where they end until it may move.
 struct Beginning {
   std::vector<Occupation> occupied;  // the last one is the stay at `vertex`, from arrival to `free_at`
@@ -46,12 +53,14 @@ struct Beginning {
 class Instance {
  public:
   /// Throws std::invalid_argument naming the robot whose data make no sense.
-  Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Exclusions exclusions);
+  Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Exclusions exclusions,
+           std::vector<Resource> resources = {});
 
   const Roadmap& roadmap() const { return roadmap_; }
   const std::vector<Robot>& robots() const { return robots_; }
   const Rules& rules() const { return rules_; }
   const Exclusions& exclusions() const { return exclusions_; }
+  const std::vector<Resource>& resources() const { return resources_; }
   const Beginning& beginning(int robot) const { return beginnings_[robot]; }
   int size() const { return static_cast<int>(robots_.size()); }
   bool footprints() const { return !exclusions_.first.empty(); }
@@ -69,6 +78,7 @@ class Instance {
   std::vector<Robot> robots_;
   Rules rules_;
   Exclusions exclusions_;
+  std::vector<Resource> resources_;
   std::vector<Beginning> beginnings_;
 };
 

@@ -16,6 +16,9 @@ class Reservations {
 
   void add(int robot, std::span<const Occupation> occupations);
   void clear();
+  /// Half-ticks in which `robot` must not be on any element of `resource`: with it there would be too many, then or,
+  /// as it uses the resource for the setup after it has left, soon after.
+  void full(int robot, int resource, std::vector<Range>& halves) const;
   bool empty() const { return entries_.empty(); }
 
   /// What the occupations of all robots but `robot` mean for it.
@@ -51,12 +54,19 @@ class Reservations {
     std::int32_t next;
   };
 
+  struct Use {
+    std::int32_t robot;
+    Range halves;  // setup included
+  };
+
   const Instance& instance_;
   const Relations& relations_;
   Limits& limits_;
   std::vector<std::int32_t> head_;  // by element, -1 = none
   std::vector<Entry> entries_;
   std::vector<std::int32_t> touched_;
+  std::vector<std::vector<std::int32_t>> resources_of_;  // by element; empty where there are none at all
+  std::vector<std::vector<Use>> uses_;                   // by resource
   std::size_t counted_ = 0;
 };
 

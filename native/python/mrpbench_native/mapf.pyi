@@ -30,6 +30,10 @@ class Instance:
         exclusion_first: NDArray[np.int64],
         exclusion_element: NDArray[np.int32],
         exclusion_distance: NDArray[np.float64],
+        resource_first: NDArray[np.int64],
+        resource_element: NDArray[np.int32],
+        resource_capacity: NDArray[np.int32],
+        resource_setup: NDArray[np.int64],
         following_forbidden: bool,
         disappear_at_goal: bool,
     ) -> None: ...

@@ -139,6 +139,10 @@ def _instance(arrays: Arrays, starts: NDArray[np.int32], goals: list[NDArray[np.
         exclusion_first=_NOTHING.astype("i8"),
         exclusion_element=_NOTHING.astype("i4"),
         exclusion_distance=_NOTHING,
+        resource_first=np.zeros(1, "i8"),
+        resource_element=_NOTHING.astype("i4"),
+        resource_capacity=_NOTHING.astype("i4"),
+        resource_setup=_NOTHING.astype("i8"),
         following_forbidden=False,
         disappear_at_goal=False,
     )

@@ -21,7 +21,7 @@ class Astar(Planner):
     `lower_bound` is the sum of costs of these paths: no conflict-free plan is cheaper.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.DETERMINISTIC})
 
     heuristic: Heuristic = option(

@@ -10,6 +10,7 @@ from mrpbench_native import mapf
 from mrpbench_core.model.conflicts import exclusions
 from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus, Progress
 from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.roadmap import Resource, Roadmap
 
 SUPPORTED = frozenset(
     {
@@ -66,9 +67,18 @@ def _instance(problem: Problem) -> mapf.Instance:
         exclusion_first=near[0],
         exclusion_element=near[1],
         exclusion_distance=near[2],
+        resource_first=_first(len(resource.vertices) + len(resource.edges) for resource in roadmap.resources),
+        resource_element=_joined([_elements(roadmap, resource) for resource in roadmap.resources], "i4"),
+        resource_capacity=np.array([resource.capacity for resource in roadmap.resources], "i4"),
+        resource_setup=np.array([resource.setup_ticks for resource in roadmap.resources], "i8"),
         following_forbidden=problem.rules.following == "forbidden",
         disappear_at_goal=problem.rules.at_goal == "disappear",
     )
+
+
+def _elements(roadmap: Roadmap, resource: Resource) -> np.ndarray:
+    """Vertices as they are, edges after them."""
+    return np.array([*resource.vertices, *(len(roadmap.position) + edge for edge in resource.edges)])
 
 
 def _exclusions(problem: Problem) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -23,7 +23,7 @@ class Prioritized(Planner):
     `statistics["failed_robot"]` names the robot. `lower_bound` is what the robots would cost if each were alone.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
 
     order: Order = option(

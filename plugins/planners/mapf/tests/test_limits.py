@@ -2,7 +2,6 @@
 
 import time
 
-import attrs
 import numpy as np
 import pytest
 from mapf_instances import grid, movingai, problem, random_grid_problem, roadmap
@@ -11,7 +10,6 @@ from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.prioritized import Prioritized
 
 from mrpbench_core.model.plan import Budget, PlanStatus
-from mrpbench_core.model.roadmap import Resource
 
 PLANNERS = [Astar(), Prioritized(), Cbs()]
 COOPERATIVE = PLANNERS[1:]
@@ -96,8 +94,8 @@ def test_a_robot_at_its_goal_needs_no_path(planner):
 
 @pytest.mark.parametrize("planner", PLANNERS)
 def test_what_is_not_supported_is_named(planner):
-    asked = problem(attrs.evolve(grid([".."]), resources=(Resource(name="door", kind="door"),)), [0], [1], horizon=5)
-    assert planner.skip(asked) == "does not support horizon, resources"
+    asked = problem(grid([".."]), [0], [1], horizon=5)
+    assert planner.skip(asked) == "does not support horizon"
     assert planner.skip(problem(grid([".."]), [0], [1], radius=0.1, following="forbidden")) is None
 
 
