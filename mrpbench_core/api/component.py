@@ -41,5 +41,12 @@ class Component(ABC):
     live: ClassVar[bool] = False
     """Something outside, on a clock of its own, takes part: runs with it are marked so and are not repeatable."""
 
+    def reads(self) -> tuple[Path, ...]:
+        """Files that it reads besides those of its options, say because one of these names them.
+
+        They count for the identity of runs by their content. Those that are missing are left out.
+        """
+        return ()
+
 
 __all__ = ["Component", "Path", "option"]

@@ -41,6 +41,15 @@ def keeps_clear(level: Level, start: Float, end: Float, radius: float) -> Bool:
     return clear
 
 
+def touches(outline: Float, start: Float, end: Float, radius: float) -> Bool:
+    """Tell bool[k] whether a disc that moves from `start` to `end` f8[k,2] meets a polygon f8[c,2], even a flat one."""
+    low, high = np.minimum(start, end) - radius, np.maximum(start, end) + radius
+    near = np.flatnonzero((high >= outline.min(axis=0)).all(axis=1) & (low <= outline.max(axis=0)).all(axis=1))
+    met = np.zeros(len(start), bool)
+    met[near] = _touches(outline[None], start[near], end[near], radius)
+    return met
+
+
 def _touches(outline: Float, start: Float, end: Float, radius: float) -> Bool:
     """bool[k] for outlines f8[k or 1,sides,2]: does the swept disc meet the polygon?"""
     after = np.roll(outline, -1, axis=1)

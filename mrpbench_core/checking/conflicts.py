@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.arrays import Int
 from mrpbench_core.model.conflicts import TOLERANCE
 from mrpbench_core.model.geometry import segment_distance
 from mrpbench_core.model.plan import Plan
@@ -127,13 +127,12 @@ def _following(stays: list[Stay]) -> Iterator[Conflict]:
 
 
 def _footprints(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
-    """Rule 5 by comparison of all pairs that overlap in time in some tile of the plane."""
+    """Rule 5 by brute force over pairs that overlap in time: plain on purpose."""
+    stays = sorted(stays, key=lambda stay: (stay.begin, stay.end))
     robot, tail, head, begin, end = np.array(stays, np.int64).reshape(-1, 5).T
     moving = tail != head
     position, level = problem.roadmap.position, problem.roadmap.level
-    low, high = np.minimum(position[tail], position[head]), np.maximum(position[tail], position[head])
-    reach = problem.radius[robot][:, None]
-    for one, other in _near_in_time_and_space(low - reach, high + reach, begin, end):
+    for one, other in _together(begin, end):
         kept = robot[one] != robot[other]
         # Standing robots meet at a single tick too, moving ones only while both are on their way.
         kept &= ~(moving[one] | moving[other]) | ((begin[one] < end[other]) & (begin[other] < end[one]))
@@ -145,34 +144,9 @@ def _footprints(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
         )
         one, other = one[shared], other[shared]
         a, b, c, d = (position[ends[pair]] for pair in (one, other) for ends in (tail, head))
-        apart = problem.radius[robot[one]] + problem.radius[robot[other]]
-        for index in np.flatnonzero(segment_distance(a, b, c, d) < apart - TOLERANCE).tolist():
+        reach = problem.radius[robot[one]] + problem.radius[robot[other]]
+        for index in np.flatnonzero(segment_distance(a, b, c, d) < reach - TOLERANCE).tolist():
             yield _conflict("footprint", stays[one[index]], stays[other[index]])
-
-
-def _near_in_time_and_space(low: Float, high: Float, begin: Int, end: Int) -> Iterator[tuple[Int, Int]]:
-    """Pairs of closed intervals that meet and whose boxes from `low` to `high` f8[k,2] share a tile of the plane.
-
-    Each tile is given a time of its own, one after another, so that one sweep over time finds the pairs of all tiles.
-    """
-    if not len(low):
-        return
-    size = max(float((high - low).mean()), 1e-6)
-    first, last = (np.floor((corner - low.min(axis=0)) / size).astype(np.int64) for corner in (low, high))
-    span = last - first + 1
-    tiles = span.prod(axis=1)
-    stay = np.repeat(np.arange(len(low)), tiles)
-    part = np.arange(len(stay)) - np.repeat(np.cumsum(tiles) - tiles, tiles)
-    tile = first[stay] + np.column_stack([part % span[stay, 0], part // span[stay, 0]])
-    _, number = np.unique(tile[:, 0] * (int(last[:, 1].max()) + 1) + tile[:, 1], return_inverse=True)
-    close = int(np.where(end == FOREVER, begin, end).max()) + 1  # the time at which those end that never do
-    since, until = number * (close + 1) + begin[stay], number * (close + 1) + np.minimum(end, close)[stay]
-    order = np.argsort(since, kind="stable")
-    for one, other in _together(since[order], until[order]):
-        one, other = order[one], order[other]
-        a, b = stay[one], stay[other]
-        once = (tile[one] == np.maximum(first[a], first[b])).all(axis=1)  # in one of the tiles that both share
-        yield a[once], b[once]
 
 
 def _together(begin: Int, end: Int, chunk: int = 1 << 18) -> Iterator[tuple[Int, Int]]:
@@ -203,7 +177,7 @@ def _crowded(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
             holding = {robot: (end, since) for robot, (end, since) in holding.items() if end >= first}
             others = [since for robot, (_, since) in holding.items() if robot != stay.robot]
             if len(others) >= resource.capacity:
-                yield _conflict("resource", others[-1], stay)
+                yield _conflict("resource", max(others, key=lambda other: other.begin), stay)
             end = max(last, holding[stay.robot][0]) if stay.robot in holding else last
             holding[stay.robot] = end, stay
 

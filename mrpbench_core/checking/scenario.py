@@ -23,9 +23,7 @@ def check_scenario(problem: Problem, start_names: Sequence[str] = (), goal_names
         start_names: names of the robots' starts, in order; where missing or empty, coordinates are shown.
         goal_names: names of the robots' final goals, likewise.
     """
-    final = np.array([_final(problem, robot) for robot in range(len(problem))], np.int64)
-    starts = _Places(problem.roadmap, problem.start.astype(np.int64), start_names)
-    goals = _Places(problem.roadmap, final, goal_names)
+    starts, goals = _places(problem, start_names, goal_names)
     faults = [
         f"robot {robot} starts at {starts[robot]}, which is not on the roadmap"
         for robot in np.flatnonzero(problem.start < 0).tolist()
@@ -34,6 +32,11 @@ def check_scenario(problem: Problem, start_names: Sequence[str] = (), goal_names
     if problem.rules.at_goal == "stay":
         faults += _crowding(problem, goals, "share the goal", "have the goals")
     return [*faults, *_unreachable(problem, starts, goals)]
+
+
+def check_reach(problem: Problem, start_names: Sequence[str] = (), goal_names: Sequence[str] = ()) -> list[str]:
+    """Of what `check_scenario` finds, the goals that robots cannot reach from their starts."""
+    return list(_unreachable(problem, *_places(problem, start_names, goal_names)))
 
 
 def check_travel(costs: Float, start_names: Sequence[str] = (), goal_names: Sequence[str] = ()) -> list[str]:
@@ -48,6 +51,12 @@ def check_travel(costs: Float, start_names: Sequence[str] = (), goal_names: Sequ
     return [f"robot {robot} can reach no goal from its start{_called(start_names, robot)}" for robot in idle] + [
         f"no robot can reach the goal of task {task}{_called(goal_names, task)}" for task in left
     ]
+
+
+def _places(problem: Problem, start_names: Sequence[str], goal_names: Sequence[str]) -> tuple["_Places", "_Places"]:
+    final = np.array([_final(problem, robot) for robot in range(len(problem))], np.int64)
+    starts = _Places(problem.roadmap, problem.start.astype(np.int64), start_names)
+    return starts, _Places(problem.roadmap, final, goal_names)
 
 
 def _called(names: Sequence[str], index: int) -> str:

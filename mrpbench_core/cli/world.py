@@ -29,7 +29,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "world", metavar="FILE|NAME", help="a .building.yaml, .map or map_server .yaml file, or a built-in world"
     )
     parser.add_argument("--level", help="the one level of a building to load; default: all")
-    parser.add_argument("--roadmap", metavar="NAME", help="lanes (default where there are lanes), grid or graph")
+    parser.add_argument(
+        "--roadmap",
+        metavar="NAME",
+        help="lanes (default where there are lanes), grid or graph (default for several levels)",
+    )
     parser.add_argument("--cell-size", type=float, metavar="M", help="of lanes and grid; default: 0.4 m")
     parser.add_argument("--compatible", choices=["mrp_bench"], help="the raster of the original benchmark")
     parser.add_argument("--robot", default="turtlebot3_burger", help="the robot to fit in (default: %(default)s)")
@@ -107,8 +111,12 @@ def _builder(arguments: argparse.Namespace, world: "World") -> "RoadmapBuilder":
     from mrpbench_core.api.roadmap import RoadmapBuilder
     from mrpbench_core.plugins.registry import Registry
 
-    name = arguments.roadmap or ("lanes" if world.lanes or arguments.compatible else "grid")
+    raster = "lanes" if world.lanes or arguments.compatible else "grid"
+    several = len(world.levels) > 1 and bool(world.lanes)  # which no raster has
+    name = arguments.roadmap or ("graph" if several else raster)
     given = {"cell_size": arguments.cell_size, "compatible": arguments.compatible}
+    if several and arguments.roadmap is None:  # then the size is that of a conversion
+        given.pop("cell_size")
     options = {key: value for key, value in given.items() if value is not None}
     builder: RoadmapBuilder = _make(Registry(RoadmapBuilder).get(name), name, options)  # type: ignore[type-abstract]
     return builder

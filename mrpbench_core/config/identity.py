@@ -51,11 +51,18 @@ def _is_default_plugin(name: str, value: Any) -> bool:
     return isinstance(default, str) and value == (None if default == "none" else {"plugin": default})
 
 
+def _named(component: Component, folder: Path) -> dict[str, Any]:
+    """A component's name, and what it reads besides its options' files."""
+    named: dict[str, Any] = {"plugin": plugin_name(component, folder)}
+    read = [content_hash(file) for file in component.reads() if file.is_file()]
+    return named | ({"reads": read} if read else {})
+
+
 def _chosen(value: Any, folder: Path, key: str, ignored: Set[str]) -> Any:
     if isinstance(value, Path):
         return content_hash(value)
     if attrs.has(type(value)):
-        named = {"plugin": plugin_name(value, folder)} if isinstance(value, Component) else {}
+        named = _named(value, folder) if isinstance(value, Component) else {}
         return named | {
             field.alias: _chosen(getattr(value, field.name), folder, f"{key}.{field.alias}", ignored)
             for field in attrs.fields(type(value))

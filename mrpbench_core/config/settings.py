@@ -59,12 +59,6 @@ class FleetEntry:
 
     robot: str | Path = option(ROBOT, help="name of a robot, or a robot's .yaml file", validator=_is_robot)
     lidar: LidarOptions | Literal["none"] | None = option(None, help="changes to its lidar; `none` takes it off")
-    margin: float | None = option(
-        None,
-        help="room that plans keep around its disc; None = as the robot has it",
-        unit="m",
-        validator=validators.optional(validators.ge(0)),
-    )
     count: int | None = option(
         None,
         help="how many; entries without a count share the scenario's remaining robots",

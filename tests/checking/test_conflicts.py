@@ -1,7 +1,6 @@
 """Every rule of `mrpbench_core.model.conflicts`, by hand and against a simulation in half ticks."""
 
 from itertools import combinations
-from types import SimpleNamespace
 
 import attrs
 import numpy as np
@@ -9,9 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.checking.conflicts import FOREVER, Conflict, Stay, _footprints, find_conflicts
-from mrpbench_core.model.conflicts import TOLERANCE
-from mrpbench_core.model.geometry import segment_distance
+from mrpbench_core.checking.conflicts import Conflict, find_conflicts
 from mrpbench_core.model.plan import Path, Plan
 from mrpbench_core.model.problem import Feature, Rules
 
@@ -223,41 +220,3 @@ def test_the_validator_agrees_with_a_simulation(make, seed):
     problem = make.problem(roadmap, starts, features=features, rules=rules, radius=radius)
     found = {(conflict.kind, *conflict.robots) for conflict in find_conflicts(problem, plan, 10_000)}
     assert found == simulated(problem, plan, end=max((path.leave[-1] for path in paths if len(path)), default=0) + 1)
-
-
-coordinate = st.integers(-20, 20).map(lambda value: value / 8)
-ticks = st.integers(0, 12)
-
-
-@settings(deadline=None)
-@given(
-    st.lists(st.tuples(coordinate, coordinate, st.integers(0, 1)), min_size=2, max_size=6),
-    st.lists(
-        st.tuples(st.integers(0, 3), st.integers(0, 5), st.integers(0, 5), ticks, ticks, st.booleans()), max_size=14
-    ),
-    st.tuples(*[st.sampled_from([0.1, 0.25, 1.0])] * 4),
-)
-def test_footprints_are_compared_wherever_robots_are_near(places, drawn, radius):
-    """Against all pairs, of stays that need not be those of any plan."""
-    position, level = np.array(places)[:, :2], np.array(places)[:, 2].astype("i2")
-    stays = []
-    for robot, tail, head, begin, long, endless in drawn:
-        tail, head = tail % len(places), head % len(places)
-        end = FOREVER if endless and tail == head else begin + long
-        stays.append(Stay(robot, tail, head, begin, end))
-    problem = SimpleNamespace(roadmap=SimpleNamespace(position=position, level=level), radius=np.array(radius))
-    expected = set()
-    for one, other in combinations(stays, 2):
-        moving = one.moving or other.moving
-        together = one.begin <= other.end and other.begin <= one.end
-        properly = one.begin < other.end and other.begin < one.end
-        if one.robot == other.robot or not (properly if moving else together and one.tail != other.tail):
-            continue
-        if not {int(level[one.tail]), int(level[one.head])} & {int(level[other.tail]), int(level[other.head])}:
-            continue
-        ends = (position[vertex] for vertex in (one.tail, one.head, other.tail, other.head))
-        if segment_distance(*ends) < radius[one.robot] + radius[other.robot] - TOLERANCE:
-            first, second = (one, other) if one.robot < other.robot else (other, one)
-            when = max(one.begin, other.begin)
-            expected.add(Conflict("footprint", (first.robot, second.robot), (first.tail, first.head), when))
-    assert set(_footprints(problem, stays)) == expected

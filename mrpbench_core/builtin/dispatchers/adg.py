@@ -14,7 +14,7 @@ from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.arrays import Int32
 from mrpbench_core.model.execution import FleetView, Orders
 from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.problem import Problem
 
 
 @attrs.frozen(kw_only=True)
@@ -33,12 +33,18 @@ class Adg(Dispatcher):
         validator=attrs.validators.ge(1),
     )
 
+    request_ahead: int = option(
+        2,
+        help="segments before a door, lift or mutex at which a robot asks for it, once those before it have left",
+        validator=attrs.validators.ge(0),
+    )
+
     def start(self, problem: Problem, plan: Plan) -> "AdgSession":
         """Begin to release a plan.
 
         Raises:
             DispatchError: the plan has faults or conflicts; or robots wait for one another in a cycle that is no ring,
-                or a ring that their footprints do not allow; or the roadmap has doors, lifts or mutexes.
+                or a ring that their footprints, or a door, lift or mutex, do not allow.
         """
         return AdgSession(self, problem, plan)
 
@@ -65,9 +71,9 @@ class AdgSession(DispatcherSession):
             if not np.array_equal(plan.paths[robot].edge[:count], self.plan.paths[robot].edge[:count]):
                 raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
         committed: Int32 = np.maximum(self.released, [len(path) for path in problem.commitments] or 0)
-        gates = Gates(problem, plan, self.options.group_margin)
+        gates = Gates(problem, plan, self.options.group_margin, self.options.request_ahead)
         gates.look(self.seen, np.arange(len(problem)))
-        gates.check_committed(committed)
+        gates.commit(committed)
         self.plan, self.gates = plan, gates
         self.released = committed
         self._release()
@@ -79,8 +85,10 @@ class AdgSession(DispatcherSession):
         self.seen = seen
         if len(changed):
             self.gates.look(seen, changed)
-            self._release()
-        return Orders(released=self.released, replan=self.gates.exhausted(seen[REACHED]))
+        self.gates.ask(seen, view.granted)
+        self._release()
+        requests = self.gates.requests.pairs()
+        return Orders(released=self.released, requests=requests, replan=self.gates.exhausted(seen[REACHED]))
 
     def _release(self) -> None:
         ahead = (self.seen[REACHED] + 1 + self.options.lookahead).astype(np.int32)
@@ -88,8 +96,6 @@ class AdgSession(DispatcherSession):
 
 
 def _check(problem: Problem, plan: Plan) -> None:
-    if Feature.RESOURCES in problem.features:
-        raise DispatchError("adg does not ask for doors, lifts or mutexes yet, and this roadmap has some")
     report = check_plan(problem, plan, conflict_limit=3)
     if not report.valid:
         raise DispatchError("; ".join(map(str, report.faults[:3] + report.conflicts)))

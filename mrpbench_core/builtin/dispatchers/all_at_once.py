@@ -9,6 +9,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatcherSession, option
+from mrpbench_core.builtin.dispatchers.uses import refuse_facilities
 from mrpbench_core.model.execution import FleetView, Orders
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
@@ -23,7 +24,12 @@ class AllAtOnce(Dispatcher):
     )
 
     def start(self, problem: Problem, plan: Plan) -> "AllAtOnceSession":
-        """Begin to send; any plan is accepted."""
+        """Begin to send; any plan is accepted, unless it leads through doors or lifts.
+
+        Raises:
+            DispatchError: it does; nobody would open them.
+        """
+        refuse_facilities(problem, plan, "all_at_once")
         return AllAtOnceSession(self.stagger, problem, plan)
 
 

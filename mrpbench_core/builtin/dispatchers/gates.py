@@ -4,7 +4,9 @@ import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.builtin.dispatchers.precedence import Moves, Precedence, moves_of, precedence
+from mrpbench_core.builtin.dispatchers.requests import Requests
 from mrpbench_core.builtin.dispatchers.rotation import rotations
+from mrpbench_core.builtin.dispatchers.uses import orders_of, uses_of
 from mrpbench_core.model.arrays import Int, Int32
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
@@ -20,14 +22,22 @@ class Gates:
     and number, so that each is touched once: when it comes true. A wait is released with the move after it.
     """
 
-    def __init__(self, problem: Problem, plan: Plan, group_margin: float) -> None:
+    def __init__(self, problem: Problem, plan: Plan, group_margin: float, ahead: int) -> None:
         moves = moves_of(problem, plan)
-        order = precedence(problem, moves)
+        uses = uses_of(problem, moves) if problem.roadmap.resources else []
+        order = precedence(problem, moves, orders_of(problem, uses))
+        self.requests = Requests(len(problem), moves, uses, ahead)
+        self.granted: frozenset[tuple[int, str]] = frozenset()
         self.rings = {ring[0]: ring for ring in rotations(problem, moves, order, group_margin)}
+        for ring in self.rings.values():
+            if needed := {name for move in ring for name in self.requests.needs.get(move, ())}:
+                raise DispatchError(
+                    f"robots turn in a ring through {', '.join(sorted(needed))}, which lets in one by one"
+                )
         gate = np.arange(len(moves.robot))
         for first, ring in self.rings.items():
             gate[list(ring)] = first
-        row, count, waiting = _conditions(len(problem), moves, order, gate)
+        row, count, waiting = _conditions(problem, moves, order, gate)
         sorting = np.lexsort((count, row))
         row, count, waiting = row[sorting], count[sorting], waiting[sorting]
         limits = np.searchsorted(row, np.arange(2 * len(problem) + 1))
@@ -71,7 +81,7 @@ class Gates:
 
     def _advance(self, robot: int) -> None:
         move = self.frontier[robot]
-        while move < self.limit[robot] and not self.missing[self.gate[move]]:
+        while move < self.limit[robot] and not self.missing[self.gate[move]] and self._may_use(robot, move):
             move += 1
         self.frontier[robot] = move
         if move == self.last[robot]:
@@ -79,8 +89,29 @@ class Gates:
         elif move > self.first[robot]:
             self.released[robot] = self.segment[move - 1] + 1
 
-    def check_committed(self, committed: Int32) -> None:
-        """Raise DispatchError when a move among each robot's `committed` i4[n] leading segments still waits."""
+    def ask(self, counts: Int, granted: tuple[tuple[int, str], ...]) -> None:
+        """Release what was `granted`, and ask for what is needed next, given the `counts` i8[2,n]."""
+        if not self.requests:
+            return
+        self.granted = frozenset(granted)
+        for robot in range(len(self.frontier)):
+            self._advance(robot)
+        free = [robot for robot, move in enumerate(self.frontier) if self._only_asks(robot, move)]
+        self.requests.update(counts[REACHED], counts[CLEARED], self.frontier, free)
+
+    def _only_asks(self, robot: int, move: int) -> bool:
+        """Tell whether a robot's next move waits for nothing but resources."""
+        return move < self.limit[robot] and not self.missing[self.gate[move]]
+
+    def _may_use(self, robot: int, move: int) -> bool:
+        return all((robot, name) in self.granted for name in self.requests.needs.get(move, ()))
+
+    def commit(self, committed: Int32) -> None:
+        """Count each robot's `committed` i4[n] leading segments as released, whatever they need.
+
+        Raises:
+            DispatchError: a move among them still waits for another robot.
+        """
         for robot, until in enumerate(committed.tolist()):
             for move in range(self.frontier[robot], self.last[robot]):
                 if self.segment[move] >= until:
@@ -90,6 +121,8 @@ class Gates:
                         f"robot {robot} is already on its way to vertex {self.moves.head[move]}, "
                         f"where the new plan lets robot {self._blocker(self.gate[move])} pass first"
                     )
+                self.frontier[robot] = move + 1
+            self._advance(robot)
 
     def _blocker(self, gate: int) -> int:
         rows = range(len(self.next))
@@ -103,13 +136,17 @@ class Gates:
         return None
 
 
-def _conditions(robots: int, moves: Moves, order: Precedence, gate: Int) -> tuple[Int, Int, Int]:
+def _conditions(problem: Problem, moves: Moves, order: Precedence, gate: Int) -> tuple[Int, Int, Int]:
     """Row, count and waiting gate i8[k] of every condition; the rows are those of REACHED, then those of CLEARED."""
+    robots = len(problem)
     apart = gate[order.before] != gate[order.after]
     before, after = order.before[apart], order.after[apart]
     row = np.where(order.completed[apart], REACHED, CLEARED) * robots + moves.robot[before]
-    in_ring = np.isin(gate, gate[gate != np.arange(len(gate))])  # its robots must all have come to where it starts
-    follows = np.flatnonzero(in_ring & (np.arange(len(gate)) > moves.first[moves.robot]))
+    # The robots of a ring must all have come to where it starts, and one in a lift to where it gets out.
+    in_ring = np.isin(gate, gate[gate != np.arange(len(gate))])
+    level = problem.roadmap.level
+    after_ride = np.append(False, level[moves.tail[:-1]] != level[moves.head[:-1]])[: len(gate)]
+    follows = np.flatnonzero((in_ring | after_ride) & (np.arange(len(gate)) > moves.first[moves.robot]))
     return (
         np.concatenate([row, REACHED * robots + moves.robot[follows]]),
         np.concatenate([moves.segment[before] + 1, moves.segment[follows - 1] + 1]),

@@ -7,7 +7,8 @@ these are, here taken from the rules of `mrpbench_core.model.conflicts`. Whoever
   too: to swap or to overtake, two robots must use one of the edge's ends in the wrong order;
 - rule 4: at each vertex, the next robot moves in only after the one before has also *completed* its move out;
 - rule 5: a move starts only after the last move on each element near it is *completed*. Moves are enough: who stands
-  at a vertex came there, or will leave it, by a move that touches it.
+  at a vertex came there, or will leave it, by a move that touches it;
+- rule 6: see `mrpbench_core.builtin.dispatchers.uses`.
 
 Only immediate predecessors are kept; the others follow from those of the predecessor.
 """
@@ -62,9 +63,9 @@ def moves_of(problem: Problem, plan: Plan) -> Moves:
     return Moves(first, robot, segment, edge, ends[:, 0], ends[:, 1], enter[is_move], leave[is_move])
 
 
-def precedence(problem: Problem, moves: Moves) -> Precedence:
-    """The orders that a conflict-free plan with these `moves` implies."""
-    found = [_at_vertices(problem, moves)]
+def precedence(problem: Problem, moves: Moves, resources: Precedence) -> Precedence:
+    """The orders that a conflict-free plan with these `moves` implies; rule 6 gives those of `resources`."""
+    found = [_at_vertices(problem, moves), resources]
     if Feature.FOOTPRINTS in problem.features:
         found += _between_footprints(problem, moves)
     return _newest(moves, Precedence(*(np.concatenate(parts) for parts in zip(*found, strict=True))))

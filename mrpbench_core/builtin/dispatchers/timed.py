@@ -4,6 +4,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatcherSession
+from mrpbench_core.builtin.dispatchers.uses import refuse_facilities
 from mrpbench_core.model.execution import FleetView, Orders
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
@@ -14,7 +15,12 @@ class Timed(Dispatcher):
     """Releases each segment at the time at which the plan enters it."""
 
     def start(self, problem: Problem, plan: Plan) -> "TimedSession":
-        """Begin at simulated time 0, the plan's tick 0; any plan is accepted."""
+        """Begin at simulated time 0, the plan's tick 0; any plan is accepted, unless it leads through doors or lifts.
+
+        Raises:
+            DispatchError: it does; nobody would open them.
+        """
+        refuse_facilities(problem, plan, "timed")
         return TimedSession(problem, plan)
 
 

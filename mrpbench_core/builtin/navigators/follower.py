@@ -49,10 +49,12 @@ class Follower:
 
     def adopt(self, route: Route, first: int = 0) -> None:
         """Continue with a route that begins with what was released of the old one."""
+        self._level: list[int] = route.level.tolist()
         self._yaw: list[float] = route.waypoint[:, 2].tolist()
         self._speed: list[float] = [*route.speed.tolist(), math.inf]
-        # Waits are segments without length: the robot drives along the vertices that differ from the one before.
-        moves = (np.diff(route.waypoint[:, :2], axis=0) != 0).any(axis=1)
+        # Waits are segments without length, and in a lift it is the lift that drives. The robot drives along the
+        # vertices that differ from the one before.
+        moves = (np.diff(route.waypoint[:, :2], axis=0) != 0).any(axis=1) & (np.diff(route.level) == 0)
         self.corners: Float = route.waypoint[np.concatenate([[True], moves]), :2]
         """f8[c,2]: the route without its waits."""
         self._corner: list[int] = np.concatenate([[0], np.cumsum(moves)]).tolist()
@@ -63,10 +65,10 @@ class Follower:
         self._released = self.reached
         self._halting = self._at_goal = False
 
-    def update(self, x: float, y: float, yaw: float, speed: float, released: int) -> None:
-        """Take note of an estimated pose and of how many leading segments are released."""
+    def update(self, x: float, y: float, yaw: float, speed: float, released: int, level: int = 0) -> None:
+        """Take note of an estimated pose, of how many leading segments are released, and of the robot's level."""
         self._halting = self._halting and abs(speed) > _STANDING
-        while self.reached < released and not self._halting and self._has_arrived(x, y, yaw):
+        while self.reached < released and not self._halting and self._has_arrived(x, y, yaw, level):
             self.reached += 1
             self._halting = self._stops and abs(speed) > _STANDING
         self._released = min(self.reached + 1, released) if self._stops else released
@@ -93,7 +95,12 @@ class Follower:
     @property
     def is_busy(self) -> bool:
         """Tell whether `update` is needed in every period."""
-        return self._halting or (self._at_goal and self.reached < self._released)
+        return self._halting or self.rides or (self._at_goal and self.reached < self._released)
+
+    @property
+    def rides(self) -> bool:
+        """Tell whether the robot is, or is to be, carried by a lift."""
+        return self.reached < self._released and self._level[self.reached] != self._level[self.reached + 1]
 
     @property
     def may_drive(self) -> bool:
@@ -160,9 +167,11 @@ class Follower:
     def _leg_ends(self, leg: int) -> tuple[tuple[float, float], tuple[float, float]]:
         return self._points[leg], self._points[min(leg + 1, len(self._points) - 1)]
 
-    def _has_arrived(self, x: float, y: float, yaw: float) -> bool:
+    def _has_arrived(self, x: float, y: float, yaw: float, level: int) -> bool:
         """Tell whether the robot is at the end of the first segment not yet reached."""
         goal = self.reached + 1
+        if level != self._level[goal]:
+            return False
         corner = self._corner[goal]
         px, py = self._points[corner]
         distance = math.hypot(x - px, y - py)

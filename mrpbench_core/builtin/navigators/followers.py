@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mrpbench_core.builtin.navigators.follower import WATCHED, Follower
-from mrpbench_core.model.arrays import Bool, Float, Int, Int32
+from mrpbench_core.model.arrays import Bool, Float, Int, Int16, Int32
 from mrpbench_core.model.execution import Route
 
 if TYPE_CHECKING:
@@ -37,6 +37,7 @@ class Followers:
         self._values: Float = np.full((len(WATCHED), count), np.nan)
         self._of: dict[str, Float] = dict(zip(WATCHED, self._values, strict=True))
         self._busy: Bool = np.zeros(count, bool)
+        self._rides: Bool = np.zeros(count, bool)
         self._may_drive: Bool = np.zeros(count, bool)
         self._is_last: Bool = np.zeros(count, bool)
         self.begin: Int = np.zeros(count, np.int64)
@@ -56,8 +57,10 @@ class Followers:
             self._watch(robot)
         self._released = np.full(len(self.all), -1, np.int32)  # all are looked at in the next period
 
-    def update(self, pose: Float, speed: Float, released: Int32) -> None:
-        """Take note of estimated poses f8[n,3], speeds f8[n] and how many leading segments are released i4[n]."""
+    def update(self, pose: Float, speed: Float, released: Int32, level: Int16) -> None:
+        """Take note of estimated poses f8[n,3], speeds f8[n], how many leading segments are released i4[n], and levels
+        i2[n].
+        """
         x, y = pose[:, 0], pose[:, 1]
         of = self._of
         ax, ay = x - of["arrive_x"], y - of["arrive_y"]
@@ -73,7 +76,7 @@ class Followers:
         self._released = released
         for robot in np.flatnonzero(changes).tolist():
             px, py, yaw = pose[robot].tolist()
-            self.all[robot].update(px, py, yaw, float(speed[robot]), int(released[robot]))
+            self.all[robot].update(px, py, yaw, float(speed[robot]), int(released[robot]), int(level[robot]))
             self._watch(robot)
 
     def rejoin(self, robot: int, x: float, y: float) -> None:
@@ -97,12 +100,13 @@ class Followers:
         at_end = np.abs(foot[:, 0] - self._of["end_x"]) <= _SETTLED
         at_end &= np.abs(foot[:, 1] - self._of["end_y"]) <= _SETTLED
         settled = self._is_last & at_end & ~self._is_turned_away(pose)
-        driven: Bool = self._may_drive & ~settled
+        driven: Bool = self._may_drive & ~settled & ~self._rides
         return driven
 
     def under_way(self, pose: Float) -> Bool:
-        """Tell bool[n] which robots have something left to do: to reach what is released, or to take a yaw there."""
+        """Tell bool[n] which robots are to drive on, or to take a yaw; who rides in a lift is not."""
         away: Bool = (self.reached < self._released) | (self._may_drive & self._is_last & self._is_turned_away(pose))
+        away &= ~self._rides
         return away
 
     def _is_turned_away(self, pose: Float) -> Bool:
@@ -125,7 +129,7 @@ class Followers:
     def _watch(self, robot: int) -> None:
         follower = self.all[robot]
         self._values[:, robot] = follower.watched()
-        self._busy[robot] = follower.is_busy
+        self._busy[robot], self._rides[robot] = follower.is_busy, follower.rides
         self._may_drive[robot] = follower.may_drive
         self._is_last[robot] = follower.is_last
         self.begin[robot], self.end[robot] = follower.path

@@ -103,7 +103,7 @@ class _Session(NavigatorSession):
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
         pose, measured = observation.estimate.pose, observation.odometry.twist
         followers, rescue = self._followers, self._rescue
-        followers.update(pose, measured[:, 0], orders.released)
+        followers.update(pose, measured[:, 0], orders.released, observation.level)
         self._detours.shorten(pose)
         foot = followers.foot(pose)
         under_way = followers.under_way(pose) & ~rescue.aborted

@@ -3,6 +3,7 @@
 import attrs
 import numpy as np
 
+from mrpbench_core.builtin.roadmaps.facilities import clear_of_open_doors, with_facilities
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import called
@@ -11,7 +12,7 @@ from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.roadmap import Grid, Roadmap
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.world import World
 
 LIMIT = 10_000_000
 """Cells beyond which a raster is refused: the cell size is surely a slip."""
@@ -65,13 +66,30 @@ def connect(raster: Occupancy) -> Cells:
     return Cells(raster, np.argwhere(free), np.concatenate(edges))
 
 
-def without_contacts(cells: Cells, level: Level, radius: float) -> Cells:
+def one_level(world: World) -> World:
+    """The world itself.
+
+    Raises:
+        InputError: it has several levels.
+    """
+    if len(world.levels) > 1:
+        raise InputError(
+            f"a raster has one level, and world {world.name!r} has {len(world.levels)}",
+            hint="use roadmap: graph, or load one level: world: {plugin: rmf, file: ..., level: ...}",
+        )
+    return world
+
+
+def without_contacts(cells: Cells, world: World, radius: float) -> Cells:
     """Without cells in which, and edges along which, a disc of `radius` metres touches something solid."""
+
+    def clear(start: Float, end: Float) -> Bool:
+        solid = keeps_clear(world.levels[0], start, end, radius)
+        return solid & clear_of_open_doors(world, 0, start, end, radius)
+
+    cells = cells.only(clear(cells.centre, cells.centre))
     centre = cells.centre
-    cells = cells.only(keeps_clear(level, centre, centre, radius))
-    centre = cells.centre
-    clear = keeps_clear(level, centre[cells.edges[:, 0]], centre[cells.edges[:, 1]], radius)
-    return Cells(cells.raster, cells.cell, cells.edges[clear])
+    return Cells(cells.raster, cells.cell, cells.edges[clear(centre[cells.edges[:, 0]], centre[cells.edges[:, 1]])])
 
 
 def places(cells: Cells, world: World) -> Int:
@@ -129,7 +147,7 @@ def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: li
     slowest = min(robot.max_speed for robot in profiles)
     count = len(cells.cell)
     raster = cells.raster
-    return Roadmap(
+    roadmap = Roadmap(
         position=cells.centre,
         level=np.zeros(count, np.int16),
         heading=np.full(count, np.nan),
@@ -142,3 +160,4 @@ def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: li
         place=place.astype(np.int32),
         notes=tuple(notes),
     )
+    return with_facilities(roadmap, world, float(fleet.radii.max()))

@@ -5,13 +5,14 @@ import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.roadmap import RoadmapBuilder
+from mrpbench_core.builtin.roadmaps.facilities import clear_of_open_doors, with_facilities
 from mrpbench_core.builtin.roadmaps.junctions import Pieces, cut_at_junctions
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.fleet import Fleet, RobotModel
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.roadmap import Resource, Roadmap
 from mrpbench_core.model.world import Lane, World
 
 
@@ -46,7 +47,7 @@ class Graph(RoadmapBuilder):
         if not len(edges):
             raise InputError(f"world {world.name!r} has no lane that a robot fits on")
         number = np.where(stands, np.cumsum(stands) - 1, -1)
-        return Roadmap(
+        roadmap = Roadmap(
             position=pieces.position[stands],
             level=level[stands].astype(np.int16),
             heading=np.full(stands.sum(), np.nan),
@@ -54,8 +55,10 @@ class Graph(RoadmapBuilder):
             duration=duration.astype(np.int32),
             tick=self.tick,
             place=number[pieces.vertex],
+            resources=_mutexes(world, pieces, number, number[edges]),
             notes=(*_notes(world, pieces, drivable), *_lost(world, number[pieces.vertex] < 0)),
         )
+        return with_facilities(roadmap, world, float(fleet.radii.max()))
 
 
 def _cut(world: World, tolerance: float) -> tuple[Pieces, Int]:
@@ -85,11 +88,12 @@ def _cut(world: World, tolerance: float) -> tuple[Pieces, Int]:
 
 
 def _clear(world: World, level: Int, start: Float, end: Float, radius: float) -> Bool:
-    """`keeps_clear` for sweeps on several levels."""
+    """`keeps_clear`, also of open doors, for sweeps on several levels."""
     clear = np.ones(len(start), bool)
     for index in np.unique(level):
         here = level == index
         clear[here] = keeps_clear(world.levels[index], start[here], end[here], radius)
+        clear[here] &= clear_of_open_doors(world, int(index), start[here], end[here], radius)
     return clear
 
 
@@ -129,10 +133,29 @@ def _notes(world: World, pieces: Pieces, drivable: Bool) -> list[str]:
     oriented = sum(bool(lane.orientation) for lane in world.lanes)
     if oriented:
         notes.append(f"{oriented} lanes prescribe an orientation, which has no effect.")
-    exclusive = sum(bool(lane.mutex) for lane in world.lanes)
-    if exclusive:
-        notes.append(f"{exclusive} lanes belong to a mutex, which has no effect.")
     return notes
+
+
+def _mutexes(world: World, pieces: Pieces, number: Int, edges: Int) -> tuple[Resource, ...]:
+    """A resource for each mutex of lanes and places; between two of its lanes alone a robot keeps it."""
+    names = [lane.mutex for lane in world.lanes]
+    named = [str(vertex.parameters.get("mutex", "")) for vertex in world.vertices]
+    found = []
+    for name in sorted({*names, *named} - {""}):
+        drawn = number[pieces.ends[np.array([names[lane] == name for lane in pieces.lane], bool)]]
+        pairs = {tuple(pair) for ends in drawn.tolist() for pair in (ends, ends[::-1])}
+        own = np.array([tuple(edge) in pairs for edge in edges.tolist()], bool)
+        vertices = {int(number[pieces.vertex[index]]) for index, mutex in enumerate(named) if mutex == name} - {-1}
+        for vertex in np.unique(edges[own]).tolist():
+            touching = (edges == vertex).any(axis=1)
+            if own[touching].all() and len(np.unique(edges[touching])) > 2:
+                vertices.add(vertex)
+        if own.any() or vertices:
+            mutex = Resource(
+                name=name, kind="mutex", vertices=tuple(sorted(vertices)), edges=tuple(np.flatnonzero(own).tolist())
+            )
+            found.append(mutex)
+    return tuple(found)
 
 
 def _lost(world: World, lost: Bool) -> list[str]:

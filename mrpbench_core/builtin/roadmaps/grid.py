@@ -9,11 +9,11 @@ from mrpbench_core.builtin.roadmaps.cells import (
     cell_roadmap,
     connect,
     empty_raster,
+    one_level,
     only_reachable,
     places,
     without_contacts,
 )
-from mrpbench_core.builtin.roadmaps.ground import ground_level, whole_world
 from mrpbench_core.checking.clearance import solids
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.fleet import Fleet
@@ -41,12 +41,8 @@ class GridRoadmap(RoadmapBuilder):
     )
 
     def build(self, world: World, fleet: Fleet) -> Roadmap:
-        """Rasterise level 0 of `world`."""
-        ground, kept = ground_level(world)
-        return whole_world(self._build(ground, fleet), world, kept)
-
-    def _build(self, world: World, fleet: Fleet) -> Roadmap:
-        level = world.levels[0]
+        """Rasterise a world of one level."""
+        level = one_level(world).levels[0]
         radius = float(fleet.radii.max())
         own = level.occupancy
         if own is not None and (self.cell_size or _default(own, radius)) == own.cell_size:
@@ -57,7 +53,7 @@ class GridRoadmap(RoadmapBuilder):
                 return cell_roadmap(cells, places(cells, world), world, fleet, [])
         else:
             cells = connect(_open_raster(world, self.cell_size or DEFAULT_CELL_SIZE))
-        cells = without_contacts(cells, level, radius)
+        cells = without_contacts(cells, world, radius)
         cells, place = only_reachable(cells, places(cells, world))
         return cell_roadmap(cells, place, world, fleet, [])
 

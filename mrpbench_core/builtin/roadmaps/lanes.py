@@ -11,11 +11,11 @@ from mrpbench_core.builtin.roadmaps.cells import (
     cell_roadmap,
     connect,
     empty_raster,
+    one_level,
     only_reachable,
     places,
     without_contacts,
 )
-from mrpbench_core.builtin.roadmaps.ground import ground_level, whole_world
 from mrpbench_core.builtin.roadmaps.mrp_bench import mrp_bench_raster
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.components import components
@@ -52,21 +52,17 @@ class Lanes(RoadmapBuilder):
     )
 
     def build(self, world: World, fleet: Fleet) -> Roadmap:
-        """Rasterise the lanes on level 0 of `world`."""
-        ground, kept = ground_level(world)
-        if not ground.lanes:
+        """Rasterise the lanes of a world of one level."""
+        if not one_level(world).lanes:
             raise InputError(f"world {world.name!r} has no lanes", hint="try roadmap: grid")
-        return whole_world(self._build(ground, fleet), world, kept)
-
-    def _build(self, world: World, fleet: Fleet) -> Roadmap:
         radius = float(fleet.radii.max())
         if self.compatible is not None:
             cells = connect(mrp_bench_raster(world, self.cell_size))
             place = _own_cells(cells.cell, cells.raster, world)
-            left = without_contacts(cells, world.levels[0], radius)
+            left = without_contacts(cells, world, radius)
             return cell_roadmap(cells, place, world, fleet, _contacts(len(cells.edges) - len(left.edges), "kept"))
         wide = connect(_roads(world, self.cell_size))
-        clear = without_contacts(wide, world.levels[0], radius)
+        clear = without_contacts(wide, world, radius)
         place = places(clear, world)
         notes = [
             *_contacts(len(wide.edges) - len(clear.edges), "left out"),

@@ -27,10 +27,10 @@ class Random(ScenarioSource):
     """Draws starts, and independently goals, without replacement: from the world's named places if it has any, else
     from all vertices of the roadmap.
 
-    Only places that are on the roadmap, on distinct vertices, far enough apart for the robots to stand side by side,
-    and among which every robot can drive there and back, are drawn. The order of the places is that of
-    `Generator(PCG64(SeedSequence([seed modulo 2**64, 0]))).random(places)` for starts (key 1 for goals), sorted; so the
-    first of more robots of one kind start and end, on the same seed, where fewer do.
+    Only places that are on the roadmap, on distinct vertices, in no door, lift or mutex, far enough apart for the
+    robots to stand side by side, and among which every robot can drive there and back, are drawn. The order of the
+    places is that of `Generator(PCG64(SeedSequence([seed modulo 2**64, 0]))).random(places)` for starts (key 1 for
+    goals), sorted; so the first of more robots of one kind start and end, on the same seed, where fewer do.
     """
 
     robots: int = option(
@@ -52,6 +52,7 @@ class Random(ScenarioSource):
             return self._original_draw(world, seed)
         places = places_of_world(world, roadmap) if world.vertices else places_of_roadmap(roadmap)
         places = places[_connected(roadmap, places)]
+        places = places[_parking(roadmap, places)]
         stands = roadmap.position[places.vertex]
         room = 2 * float(fleet.radii.max())
         return places.scenario(
@@ -72,17 +73,18 @@ class Random(ScenarioSource):
 
 
 def _connected(roadmap: Roadmap, places: Places) -> Int:
-    """Indices of the largest group of places among which every motion profile can drive there and back.
-
-    Groups that reach level 0 come first: on it simulators place the robots.
-    """
+    """Indices of the largest group of places among which every motion profile can drive there and back."""
     labels = [round_trips(roadmap, profile)[places.vertex] for profile in range(len(roadmap.duration))]
     if not labels or not len(places):
         return np.arange(len(places))
     _, group, sizes = np.unique(np.stack(labels), axis=1, return_inverse=True, return_counts=True)
-    group = group.ravel()
-    grounded = np.isin(np.arange(len(sizes)), group[places.level == 0])
-    return np.flatnonzero(group == np.where(grounded, sizes + len(places), sizes).argmax())
+    return np.flatnonzero(group.ravel() == sizes.argmax())
+
+
+def _parking(roadmap: Roadmap, places: Places) -> Int:
+    """Indices of places where a robot that stays keeps no others from a door, a lift or a mutex."""
+    used = [vertex for resource in roadmap.resources for vertex in resource.vertices]
+    return np.flatnonzero(~np.isin(places.vertex, used))
 
 
 def _shuffled(count: int, seed: int, stream: int) -> Int:

@@ -5,7 +5,6 @@ import numpy as np
 from mrpbench_core.builtin.simulators.nearby import Nearby
 from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.geometry import point_segment_distance
-from mrpbench_core.model.proximity import close_pairs
 
 TOLERANCE = 1e-4
 """metres: discs never overlap anything solid, nor each other, by more than this."""
@@ -20,7 +19,11 @@ class Discs:
         self._radii = radii
         self._robots = robots
         self._nearby = Nearby(segments, float(radii.max(initial=0.0)) + stride)
-        self._widest = 2 * float(radii.max(initial=0.0))
+        first, second = np.triu_indices(len(radii), 1)
+        pushable = first < robots
+        self._first, self._second = first[pushable], second[pushable]
+        self._both = self._second < robots
+        self._spacing = radii[self._first] + radii[self._second]
 
     def separate(self, before: Float, after: Float, leaves: Float) -> tuple[Float, set[tuple[int, int]]]:
         """Resolve overlaps of discs that moved from `before` to `after`, f8[n,2] each and at most `stride` apart.
@@ -40,13 +43,6 @@ class Discs:
             centres = pushed
         return self._take_back(before, centres, owner, walls), contacts
 
-    def _pairs(self, centres: Float) -> tuple[Int, Int, Float]:
-        """Robots i8[k], each with a disc i8[k] of higher index that it may touch, and the sums of their radii f8[k]."""
-        first, second = close_pairs(centres, self._widest)
-        pushable = first < self._robots
-        first, second = first[pushable], second[pushable]
-        return first, second, self._radii[first] + self._radii[second]
-
     def _walls(self, centres: Float, leaves: Float) -> tuple[Int, Float]:
         """Robots i8[k] and the segments f8[k,4] each could touch."""
         near = [self._nearby(x, y) for x, y in centres[: self._robots].tolist()]
@@ -58,15 +54,14 @@ class Discs:
         """Where one round of pushing leads (None when nothing overlaps), and what overlapped."""
         contacts: set[tuple[int, int]] = set()
         shift = np.zeros_like(centres)
-        firsts, seconds, spacing = self._pairs(centres)
-        offset = centres[seconds] - centres[firsts]
+        offset = centres[self._second] - centres[self._first]
         distance = np.hypot(offset[:, 0], offset[:, 1])
-        for pair in np.flatnonzero(distance < spacing - _TOUCH).tolist():
-            first, second = int(firsts[pair]), int(seconds[pair])
-            both = second < self._robots
+        close = np.flatnonzero(distance < self._spacing - _TOUCH)
+        for pair in close.tolist():
+            first, second, both = int(self._first[pair]), int(self._second[pair]), bool(self._both[pair])
             contacts.add((first, second if both else -1))
             direction = offset[pair] / distance[pair] if distance[pair] > 0 else np.array([1.0, 0.0])
-            push = direction * (spacing[pair] - distance[pair])
+            push = direction * (self._spacing[pair] - distance[pair])
             shift[first] -= push / 2 if both else push
             if both:
                 shift[second] += push / 2
@@ -92,11 +87,10 @@ class Discs:
 
     def _stuck(self, centres: Float, owner: Int, walls: Float) -> Bool:
         stuck = np.zeros(len(centres), bool)
-        first, second, spacing = self._pairs(centres)
-        offset = centres[second] - centres[first]
-        tight = np.hypot(offset[:, 0], offset[:, 1]) < spacing - TOLERANCE
-        stuck[first[tight]] = True
-        stuck[second[tight & (second < self._robots)]] = True
+        offset = centres[self._second] - centres[self._first]
+        tight = np.hypot(offset[:, 0], offset[:, 1]) < self._spacing - TOLERANCE
+        stuck[self._first[tight]] = True
+        stuck[self._second[tight & self._both]] = True
         stuck[owner[_overlap(centres, self._radii, owner, walls) > TOLERANCE]] = True
         return stuck
 

@@ -145,13 +145,11 @@ class _Plane(Simulation):
 
     def _scan(self, lidar: Lidar, robot: int) -> Float:
         pose = self._pose[robot]
-        others = np.concatenate([self._pose[:, :2], self._movers])
-        far = np.hypot(*(others - pose[:2]).T) > lidar.range + math.hypot(*lidar.mount[:2]) + self._radii
-        far[robot] = True
+        others = np.concatenate([np.delete(self._pose[:, :2], robot, axis=0), self._movers])
         visible = self._visible[lidar](pose[0], pose[1])
         if len(self._leaves):
             visible = np.concatenate([visible, self._leaves])
-        return scan(lidar, pose, visible, others[~far], self._radii[~far])
+        return scan(lidar, pose, visible, others, np.delete(self._radii, robot))
 
     def close(self) -> None:
         """Nothing is held."""

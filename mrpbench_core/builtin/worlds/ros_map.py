@@ -15,6 +15,7 @@ from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.grey import Grey, read_grey
 from mrpbench_core.builtin.worlds.turned import turned
 from mrpbench_core.files import yaml
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Bool
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.world import Level, World
@@ -35,12 +36,20 @@ class RosMap(WorldSource):
     """
 
     file: Path = option(help="The .yaml file.")
-    image: Path | None = option(
-        None, help="The image, instead of the one that the file names; then it counts for the identity of runs."
-    )
+    image: Path | None = option(None, help="The image, instead of the one that the file names.")
     unknown: Literal["blocked", "free"] = option(
         "blocked", help="What unknown cells are.", validator=attrs.validators.in_(["blocked", "free"])
     )
+
+    def reads(self) -> tuple[Path, ...]:
+        """The image that the file names."""
+        if self.image is not None:
+            return ()
+        try:
+            document = yaml.load(self.file)
+            return (self.file.parent / Node(document, document.data).fields()["image"].text(),)
+        except (InputError, KeyError):  # `load` says what is wrong
+            return ()
 
     def load(self) -> World:
         """Read the raster; no walls, no places, no lanes."""

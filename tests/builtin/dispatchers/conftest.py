@@ -1,6 +1,8 @@
 """Roadmaps, problems and plans in a few words, for the tests of dispatchers."""
 
+import sys
 from itertools import pairwise
+from pathlib import Path as File
 from types import SimpleNamespace
 
 import attrs
@@ -11,6 +13,8 @@ from mrpbench_core.model.execution import FleetView
 from mrpbench_core.model.plan import Path, Plan
 from mrpbench_core.model.problem import Problem, features_of
 from mrpbench_core.model.roadmap import Roadmap
+
+sys.path.insert(0, str(File(__file__).parent))
 
 
 def roadmap(points, pairs, duration=None, tick=1.0) -> Roadmap:

@@ -6,8 +6,11 @@ import pytest
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
+from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
+from mrpbench_core.builtin.dispatchers.timed import Timed
 from mrpbench_core.model.plan import Path, Plan
 from mrpbench_core.model.problem import Feature, Rules
+from mrpbench_core.model.roadmap import Resource
 
 FOOTPRINTS = frozenset({Feature.FOOTPRINTS})
 
@@ -164,10 +167,66 @@ def test_a_plan_with_faults_is_refused_by_name(make):
         Adg().start(attrs.evolve(problem, start=[2]), plan)
 
 
-def test_doors_are_not_passed_over_in_silence(make):
-    problem, plan = make.solved(make.grid(1, 3), [[0, 1]], features=frozenset({Feature.RESOURCES}))
-    with pytest.raises(DispatchError, match="doors, lifts or mutexes"):
-        Adg().start(problem, plan)
+def with_door(make, routes, **changes):
+    """A plan on a line of five places, whose lanes 1 to 2 and 2 to 3 are one door with the place between."""
+    problem, plan = make.solved(make.grid(1, 5), routes)
+    lanes = [edge for edge, ends in enumerate(problem.roadmap.edges.tolist()) if set(ends) <= {1, 2, 3}]
+    door = Resource(name="door", kind="door", vertices=(2,), edges=tuple(lanes), **changes)
+    roadmap = attrs.evolve(problem.roadmap, resources=(door,))
+    return attrs.evolve(problem, roadmap=roadmap), plan
+
+
+def test_a_door_is_asked_for_awaited_and_let_go(make):
+    session = Adg(request_ahead=0).start(*with_door(make, [[0, 1, 2, 3, 4]]))
+    key = ((0, "door"),)
+    for reached, granted, released, requests in (
+        (0, (), 1, ()),
+        (1, (), 1, key),
+        (1, (), 1, key),
+        (1, key, 4, key),
+        (2, key, 4, key),
+        (3, key, 4, ()),
+        (4, (), 4, ()),
+    ):
+        orders = session.update(0.0, attrs.evolve(make.view([reached]), granted=granted))
+        assert (orders.released.tolist(), orders.requests) == ([released], requests), reached
+
+
+def test_doors_are_asked_for_ahead_and_in_the_order_of_the_plan(make):
+    routes = [[1, 2, 3, 4], [0, 0, 0, 0, 0, 1, 2, 3]]
+    session = Adg(request_ahead=2).start(*with_door(make, routes, setup_ticks=1))
+    assert session.update(0.0, make.view([0, 0])).requests == ((0, "door"),)
+    held = attrs.evolve(make.view([1, 0], [1, 0]), granted=((0, "door"),))
+    assert session.update(0.0, held).requests == ((0, "door"),)
+    assert session.update(0.0, make.view([2, 0], [2, 0])).requests == ()
+    assert session.update(0.0, make.view([3, 4], [3, 0])).requests == ((1, "door"),)
+
+
+def test_who_disappears_lets_go_when_its_path_ends(make):
+    problem, plan = with_door(make, [[0, 1, 2], [4, 4, 4, 3, 2], [2]])
+    session = Adg().start(attrs.evolve(problem, rules=Rules(at_goal="disappear")), plan)
+    held = attrs.evolve(make.view([1, 0, 0]), granted=((0, "door"),))
+    assert session.update(0.0, held).requests == ((0, "door"),)
+    assert session.update(0.0, make.view([2, 3, 0])).requests == ((1, "door"),)
+
+
+def test_who_rides_in_a_lift_is_told_where_to_go_when_it_has_arrived(make):
+    problem, plan = make.solved(make.grid(1, 4), [[0, 1, 2, 3]])
+    lanes = tuple(range(len(problem.roadmap.edges)))
+    lift = Resource(name="lift", kind="lift", vertices=(1, 2), edges=lanes)
+    roadmap = attrs.evolve(problem.roadmap, level=[0, 0, 1, 1], resources=(lift,))
+    session = Adg().start(attrs.evolve(problem, roadmap=roadmap), plan)
+    key = ((0, "lift"),)
+    for reached, granted, released in ((0, (), 0), (0, key, 2), (1, key, 2), (1, (), 2), (2, (), 2), (2, key, 3)):
+        orders = session.update(0.0, attrs.evolve(make.view([reached]), granted=granted))
+        assert (orders.released.tolist(), orders.requests) == ([released], key), reached
+
+
+@pytest.mark.parametrize("dispatcher", [Timed(), AllAtOnce()], ids=["timed", "all_at_once"])
+def test_those_that_ask_for_nothing_refuse_plans_through_doors(make, dispatcher):
+    with pytest.raises(DispatchError, match="robot 0 needs the door door"):
+        dispatcher.start(*with_door(make, [[0, 1, 2]]))
+    dispatcher.start(*with_door(make, [[0, 1]]))
 
 
 def test_robots_that_disappear_make_room_when_their_path_ends(make):

@@ -83,9 +83,22 @@ def test_the_original_maps_become_one_piece(shared_data, make_fleet, name, drawn
     assert np.hypot(*moved.T).max() < 0.2
 
 
-def test_a_mutex_is_noted(make_fleet, two_rooms):
-    world = attrs.evolve(two_rooms, lanes=(Lane(start=0, end=1, mutex="door"),))
-    assert any("mutex" in note for note in Graph().build(world, make_fleet(0.1)).notes)
+def test_a_mutex_is_a_resource_of_its_lanes_and_of_what_lies_only_between_them(make_fleet, two_rooms):
+    places = tuple(Vertex(name=str(index), x=0.5 + index, y=1.5) for index in range(6))
+    lanes = tuple(Lane(start=index, end=index + 1, mutex="gap" if 0 < index < 4 else "") for index in range(5))
+    roadmap = Graph().build(attrs.evolve(two_rooms, vertices=places, lanes=lanes), make_fleet(0.1))
+    (mutex,) = roadmap.resources
+    assert (mutex.name, mutex.kind, mutex.capacity) == ("gap", "mutex", 1)
+    ends = {tuple(np.sort(roadmap.edges[edge]).tolist()) for edge in mutex.edges}
+    assert ends == {tuple(sorted(roadmap.place[[index, index + 1]].tolist())) for index in (1, 2, 3)}
+    assert set(mutex.vertices) == set(roadmap.place[[2, 3]].tolist())
+
+
+def test_places_may_name_a_mutex_too(make_fleet, two_rooms):
+    west, east = two_rooms.vertices
+    world = attrs.evolve(two_rooms, vertices=(west, attrs.evolve(east, parameters={"mutex": "bay"})))
+    (mutex,) = Graph().build(world, make_fleet(0.1)).resources
+    assert (mutex.name, mutex.edges, len(mutex.vertices)) == ("bay", (), 1)
 
 
 def test_worlds_without_drivable_lanes_are_refused(make_fleet):
