@@ -4,11 +4,14 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.concierge import MissionError
 from mrpbench_core.engine.exports import Exports
 from mrpbench_core.engine.measure import measure
-from mrpbench_core.engine.mission import MissionError, Outcome, Stack, execute_plan
+from mrpbench_core.engine.mission import Outcome, Stack, execute_plan
 from mrpbench_core.engine.noise import Disturbances
 from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.planning import call_planner, judge, left_for_planning
@@ -114,7 +117,10 @@ def _simulate(
     poses = placements(context.routes, context.scenario.start[:, 2])
     noise = Disturbances(config.noise, context.fleet, poses, context.period, *seeds)
     seed = seed_of(*seeds, "simulator")
-    with config.simulator.open(context.world, context.fleet, poses, seed, context.period) as simulation:
+    levels = np.array([route.level[0] for route in context.routes], np.int16)
+    with config.simulator.open(context.world, context.fleet, poses, seed, context.period, levels=levels) as simulation:
+        if not np.array_equal(simulation.state.level, levels):
+            raise MissionError("the simulator knows no levels but the lowest, and robots start on others")
         return execute_plan(
             context, stack, simulation, noise, recorder, replans, config.limits.execution, seeds, observers.stepped
         )

@@ -29,10 +29,8 @@ def build_fleet(config: RunConfig, size: int) -> Fleet:
 
 
 def robot_model(entry: FleetEntry) -> RobotModel:
-    """The model that an entry names, with its margin and its changes to the lidar."""
+    """The model that an entry names, with its changes to the lidar."""
     model = load_robot(str(entry.robot))
-    if entry.margin is not None:
-        model = attrs.evolve(model, margin=entry.margin)
     if entry.lidar is None:
         return model
     if entry.lidar == "none":

@@ -14,6 +14,7 @@ from mrpbench_core.api.navigator import Navigator, NavigatorSession
 from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.answers import Answers
+from mrpbench_core.engine.concierge import Concierge
 from mrpbench_core.engine.noise import Disturbances
 from mrpbench_core.engine.recorder import Recorder
 from mrpbench_core.engine.replanning import Replans, Revision
@@ -31,10 +32,6 @@ from mrpbench_core.model.execution import (
 )
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.run import RunContext
-
-
-class MissionError(Exception):
-    """The execution cannot go on; says why."""
 
 
 @attrs.frozen(kw_only=True)
@@ -99,7 +96,7 @@ def execute_plan(
     Raises:
         BrokenContractError: a component returned what its contract rules out.
         DispatchError: the dispatcher refuses the plan.
-        MissionError: a component asked for what this loop cannot do.
+        MissionError: a dispatcher asks for what there is not.
     """
     plan = context.result.plan
     assert plan is not None
@@ -120,6 +117,7 @@ def execute_plan(
     )
     orders = Orders(released=np.zeros(robots, "i4"))
     routes = context.routes
+    concierge = Concierge(context.world, context.problem, plan)
     revision = step = 0
     while True:
         now = step * period
@@ -135,6 +133,7 @@ def execute_plan(
             level=state.level,
             mode=motion.mode,
         )
+        view = concierge.granted(view, state)
         if replans.pending is None:
             orders = answers.orders(dispatcher.update(now, view))
             if reason := replans.reason(now, view, orders.replan):
@@ -146,9 +145,9 @@ def execute_plan(
                 answers.length = _length(replans.plan)
                 routes = new.routes
                 recorder.routes(now, revision, routes)
+                concierge.adopt(new.problem, replans.plan)
                 orders = answers.orders(dispatcher.update(now, attrs.evolve(view, revision=revision)))
-        if orders.requests:
-            raise MissionError(f"the dispatcher asked for {orders.requests[0][1]}, and nothing grants that yet")
+        concierge.take(orders)
         observation = FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
         motion = answers.motion(navigator.step(now, observation, _held_back(orders, now < noise.start_delay)))
         at_goal = (motion.reached >= answers.length) & (motion.mode == Mode.WAITING)
@@ -157,13 +156,26 @@ def execute_plan(
         over = bool((at_goal | gave_up).all()) or now >= limit_s
         recorder.scans(scans)
         recorder.events(motion.events)
-        recorder.sample(step, now, state, estimate, odometry, orders, motion, over)
+        recorder.sample(
+            step,
+            now,
+            state,
+            estimate,
+            odometry,
+            orders,
+            motion,
+            concierge.waiting(robots),
+            concierge.doing(state),
+            over,
+        )
         if stepped is not None:
             stepped(now=now, state=state, observation=observation, routes=routes)
         if over:
             recorder.flush()
             return Outcome(arrived=arrived, aborted=bool(gave_up.any()), simulated_s=now)
-        state = answers.state(simulation.step(Inputs(twist=noise.actuated(motion.twist))))
+        commands = concierge.commands(motion.reached, orders.released, state)
+        inputs = Inputs(twist=noise.actuated(motion.twist), facilities=commands)
+        state = answers.state(simulation.step(inputs))
         step += 1
         recorder.contacts(step * period, state)
 

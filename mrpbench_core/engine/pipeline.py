@@ -36,7 +36,7 @@ def execute(
         setting = set_scene(config, announce)
         record["scenario_id"] = setting.scenario.id
         chosen = None if config.planner.assigns else assign(config, setting, announce, record["timing"])
-        problem = pose_problem(setting, chosen)
+        problem = pose_problem(setting, chosen, config.assigner)
         result, ended = _plan(config, problem, announce, record["timing"], observers)
         assigned = _assigned(setting, problem, result, chosen)
         router = _router(config, setting, assigned, problem)

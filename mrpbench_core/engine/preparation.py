@@ -7,9 +7,9 @@ from typing import Any
 import attrs
 import numpy as np
 
-from mrpbench_core.api.assigner import AssignmentError
+from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
-from mrpbench_core.checking.scenario import check_scenario, check_travel
+from mrpbench_core.checking.scenario import check_reach, check_scenario, check_travel
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.answers import check_drawn
 from mrpbench_core.engine.costs import cost_matrix
@@ -106,8 +106,8 @@ def assign(config: RunConfig, setting: Setting, announce: Announce, timing: dict
     return tuple(int(task) for task in assignment.task)
 
 
-def pose_problem(setting: Setting, assigned: tuple[int, ...] | None) -> Problem:
-    """The problem for the planner; `assigned` is the task of each robot, None: the planner chooses.
+def pose_problem(setting: Setting, assigned: tuple[int, ...] | None, assigner: Assigner) -> Problem:
+    """The problem for the planner; `assigned` is the task that `assigner` gave each robot, None: the planner chooses.
 
     Raises:
         InputError: the planner cannot choose among these tasks.
@@ -124,8 +124,20 @@ def pose_problem(setting: Setting, assigned: tuple[int, ...] | None) -> Problem:
     names = _task_names(setting)
     goal_names = [names[task] if task >= 0 else "" for task in assigned]
     if faults := check_scenario(problem, setting.scenario.start_names, goal_names):
+        lost = check_reach(problem, setting.scenario.start_names, goal_names)
+        if faults == lost and assigner.reads_costs and assigner.cost != "roadmap" and _could_be_assigned(setting):
+            raise Ended(
+                "assignment_failed",
+                "assignment",
+                f"{summary(lost)}: {assigner.cost} costs know nothing of ways; cost: roadmap does",
+            )
         raise Ended("scenario_infeasible", "scenario", summary(faults))
     return problem
+
+
+def _could_be_assigned(setting: Setting) -> bool:
+    """Tell whether every robot, or every task, could have one that can be reached."""
+    return not check_travel(cost_matrix("roadmap", setting.roadmap, setting.fleet, setting.scenario))
 
 
 def candidates(setting: Setting) -> tuple[tuple[GoalSet, ...], ...]:

@@ -17,16 +17,15 @@ def build_problem(roadmap: Roadmap, fleet: Fleet, start: np.ndarray, goals: tupl
     point-like conflicts suffice, since a dispatcher admits no robot to a cell before the last one has cleared it.
     """
     profile = np.array(fleet.profiles[1], np.int32)
-    room = fleet.radii + np.array([robot.margin for robot in fleet.robots])
     problem = Problem(
         roadmap=roadmap,
         profile=profile,
-        radius=room,
+        radius=fleet.radii,
         start=start,
         ready=np.zeros(len(fleet), "i8"),
         goals=goals,
     )
-    wide = 2 * float(np.sort(room)[-2:].mean())
+    wide = 2 * float(np.sort(fleet.radii)[-2:].mean())
     crowded = roadmap.grid is None or wide > roadmap.grid.cell_size + 1e-9
     features = features_of(problem) | ({Feature.FOOTPRINTS} if crowded else set())
     return attrs.evolve(problem, features=features)

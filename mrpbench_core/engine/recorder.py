@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from mrpbench_core.model.arrays import Int32
 from mrpbench_core.model.execution import Estimate, Event, Motion, Odometry, Orders, Route, ScanBatch, State
 from mrpbench_core.model.recording import Chunk
 
@@ -57,6 +58,8 @@ class Recorder:
         odometry: Odometry,
         orders: Orders,
         motion: Motion,
+        waits_for: Int32,
+        facility: Sequence[float],
         last: bool,
     ) -> None:
         """Record one control period; the first, the last and every `rate`-th are sampled."""
@@ -74,6 +77,9 @@ class Recorder:
         rows["reached"].append(motion.reached)
         rows["cleared"].append(motion.cleared)
         rows["mode"].append(motion.mode)
+        rows["waits_for"].append(waits_for)
+        if facility:
+            rows["facility"].append(facility)
         if len(rows["time"]) >= SAMPLES:
             self.flush()
 

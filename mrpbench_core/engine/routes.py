@@ -58,10 +58,11 @@ def speed_limits(world: World, roadmap: Roadmap) -> np.ndarray:
     """m/s on each edge of the roadmap, f8[E]: what its duration implies where the world has speed limits, else inf."""
     if not any(lane.speed_limit > 0 for lane in world.lanes) or not len(roadmap.edges):
         return np.full(len(roadmap.edges), np.inf)
-    span = roadmap.position[roadmap.edges[:, 1]] - roadmap.position[roadmap.edges[:, 0]]
+    start, end = roadmap.edges[:, 0], roadmap.edges[:, 1]
+    span = roadmap.position[end] - roadmap.position[start]
     ticks = np.where(roadmap.duration > 0, roadmap.duration, np.iinfo("i4").max).min(axis=0)
     limits: np.ndarray = np.hypot(span[:, 0], span[:, 1]) / (ticks * roadmap.tick)
-    return limits
+    return np.where(roadmap.level[start] == roadmap.level[end], limits, np.inf)  # in a lift it is the lift that drives
 
 
 def placements(routes: tuple[Route, ...], start_yaw: np.ndarray) -> np.ndarray:

@@ -14,7 +14,7 @@ from mrpbench_core.files.yaml import Document, Steps, load
 from mrpbench_core.model.fleet import Lidar, RobotModel
 
 _ROBOTS = Path(str(resources.files("mrpbench_core"))) / "robots"
-_MAY_BE_ZERO = {"min_range", "margin"}
+_MAY_BE_ZERO = {"min_range"}
 
 
 def robot_names() -> tuple[str, ...]:

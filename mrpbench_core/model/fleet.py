@@ -40,8 +40,6 @@ class RobotModel:
     """kilogram."""
     wheel_radius: float = 0.033
     wheel_separation: float = 0.16
-    margin: float = 0.0
-    """metres of room that plans keep around its disc, for what driving it errs."""
     lidar: Lidar | None = None
 
     @property

@@ -11,6 +11,8 @@
 | `level` | i2[n] | index into `World.levels` |
 | `released`, `reached`, `cleared` | i4[n] | path segments |
 | `mode` | u1[n] | `Mode` |
+| `waits_for` | i4[n] | index into `Roadmap.resources` of what each robot has asked for and may not use yet, -1 = none |
+| `facility` | f8[F] | what doors and lifts do, in the order of `Facilities.names`; only where there are some |
 | `contact_time`, `contact` | f8; i4[2] | one row per pair and control period in contact: robot and other (-1 = wall) |
 | `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
 | `route_time`, `route_revision`, `route_robot` | f8; i4; i4 | one row per waypoint of each plan after the first |
@@ -39,5 +41,6 @@ PERIODIC = (
     "reached",
     "cleared",
     "mode",
+    "waits_for",
 )
 """Channels that share the time axis `time`."""

@@ -20,6 +20,8 @@ def feed(recorder, steps, period=0.05):
             Odometry(pose=pose, twist=pose[:, :2]),
             Orders(released=[1, 1]),
             motion,
+            np.full(2, -1, np.int32),
+            [0.5],
             last=step == steps,
         )
     recorder.flush()
@@ -87,3 +89,10 @@ def test_scans_of_many_robots_are_handed_on_before_the_end():
     recorder.flush()
     assert max(len(chunk.get("scan_time", ())) for chunk in chunks) < SCANS + 100
     assert len(joined(chunks, "scan_ranges")) == 100 * (2 * SCANS // 100 + 2)
+
+
+def test_doors_and_lifts_are_a_channel_where_there_are_some():
+    chunks = []
+    feed(Recorder(10.0, 0.05, chunks.append), 1)
+    assert joined(chunks, "facility").tolist() == [[0.5], [0.5]]
+    assert joined(chunks, "waits_for").tolist() == [[-1, -1], [-1, -1]]

@@ -2,8 +2,9 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.proximity import close_pairs
 from mrpbench_simulators_pybullet.bullet import Bullet
 
 Pairs = set[tuple[int, int]]
@@ -22,8 +23,10 @@ class Contacts:
 
     def begin(self, place: Float, obstacles: Sequence[int]) -> None:
         """Forget all. Robots at f8[n,2] can meet those within their `reach`, and `obstacles`."""
-        first, second = close_pairs(place, 2 * float(self._reach.max(initial=0.0)))
-        self._close = list(zip(first.tolist(), second.tolist(), strict=True))
+        first, second = np.triu_indices(len(place), 1)
+        gap = place[first] - place[second]
+        near = (gap * gap).sum(axis=1) < (self._reach[first] + self._reach[second]) ** 2
+        self._close = list(zip(first[near].tolist(), second[near].tolist(), strict=True))
         self._obstacles, self.found = obstacles, set()
 
     def collect(self) -> None:
