@@ -83,7 +83,7 @@ class Dwb(Controller):
     critics: tuple[Critic, ...] | None = option(
         None, help="what scores trajectories, in order (default: those of Nav2's TurtleBot3)"
     )
-    local_costmap: LocalCostmap = option(LocalCostmap(), help="the costmap around each robot")
+    local_costmap: LocalCostmap | None = option(None, help="the costmap around each robot (default: as in Nav2)")
     beyond_end: float = option(
         0.35,
         help="the path goes on straight beyond its end for critics that measure distances to it, so that a robot comes "
@@ -119,7 +119,7 @@ class Dwb(Controller):
         follow, local = self._blocks()
         values = self._values(follow)
         critics = self._critics(follow)
-        costmap, footprint = self.local_costmap.settings(robot, local)
+        costmap, footprint = (self.local_costmap or LocalCostmap()).settings(robot, local)
         del values["xy_goal_tolerance"], values["trans_stopped_velocity"]
         limited = values.pop("trajectory_generator_name") == "dwb_plugins::LimitedAccelGenerator"
         _within(values, "max_vel_x", robot.max_speed)
