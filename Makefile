@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 NATIVE := $(wildcard native/CMakeLists.txt native/*/*.cpp native/*/*.hpp native/*/*/*.cpp native/*/*/*.hpp native/*/*/*.py native/*/*/*.pyi)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install demo test lint types layers cpp python format lock speed clean ros
+.PHONY: help install demo test lint types layers cpp python format lock speed clean ros soak
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -49,6 +49,9 @@ cpp: install ## C++ tests, without Python
 
 python: install ## Python tests
 	$(BIN)/pytest
+
+soak: install ## thousands of random instances against brute force (an hour)
+	$(BIN)/python plugins/planners/mapf/tests/soak_cbs.py 20000 1
 
 format: install ## rewrite the sources in the house style
 	$(BIN)/ruff check --fix .

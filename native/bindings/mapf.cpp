@@ -156,6 +156,7 @@ struct Answer {
     values["low_level_expansions"] = it.low_level_expansions;
     values["low_level_generated"] = it.low_level_generated;
     values["bypasses"] = it.bypasses;
+    values["pair_expansions"] = it.pair_expansions;
     values["memory_bytes"] = it.memory_bytes;
     values["restarts"] = it.restarts;
     values["failed_robot"] = it.failed_robot;
@@ -199,8 +200,14 @@ Answer prioritized(const Instance& instance, const std::string& order, int resta
   return {instance, solve_prioritized(instance, options, limits)};
 }
 
-Answer cbs(const Instance& instance, bool prioritize, bool bypass, double wall_s, std::int64_t memory_bytes) {
-  const CbsOptions options{.prioritize = prioritize, .bypass = bypass};
+Answer cbs(const Instance& instance, bool prioritize, bool bypass, bool heuristic, bool target, bool corridor,
+           bool rectangle, double wall_s, std::int64_t memory_bytes) {
+  const CbsOptions options{.prioritize = prioritize,
+                           .bypass = bypass,
+                           .heuristic = heuristic,
+                           .target = target,
+                           .corridor = corridor,
+                           .rectangle = rectangle};
   nb::gil_scoped_release without_python;
   Limits limits(wall_s, memory_bytes);
   return {instance, solve_cbs(instance, options, limits)};
@@ -246,6 +253,7 @@ NB_MODULE(mapf, module) {
              "Every robot alone: shortest paths that may conflict.");
   module.def("prioritized", &prioritized, "instance"_a, nb::kw_only(), "order"_a, "restarts"_a, "seed"_a, "wall_s"_a,
              "memory_bytes"_a, "One robot after another by safe interval path planning.");
-  module.def("cbs", &cbs, "instance"_a, nb::kw_only(), "prioritize"_a = true, "bypass"_a = true, "wall_s"_a,
-             "memory_bytes"_a, "The least sum of arrival times, by conflict-based search.");
+  module.def("cbs", &cbs, "instance"_a, nb::kw_only(), "prioritize"_a = true, "bypass"_a = true, "heuristic"_a = true,
+             "target"_a = true, "corridor"_a = true, "rectangle"_a = true, "wall_s"_a, "memory_bytes"_a,
+             "The least sum of arrival times, by conflict-based search.");
 }

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "mrpbench_mapf/cbs/constraint_tree.hpp"
+#include "mrpbench_mapf/cbs/dependencies.hpp"
 #include "mrpbench_mapf/solvability.hpp"
 
 namespace mrpbench::mapf {
@@ -25,7 +25,9 @@ void solve(const Instance& instance, const CbsOptions& options, Limits& limits, 
   if (const auto robot = find_cut_off_robot(instance, bench.distances, limits)) return unsolvable(result, *robot);
   result.lower_bound = static_cast<double>(bench.distances.sum_of_costs(instance));
   if (const auto robot = find_clash(bench.space, limits)) return unsolvable(result, *robot);
-  ConstraintTree tree(bench);
+  std::optional<Dependencies> dependencies;
+  if (options.heuristic) dependencies.emplace(bench);
+  ConstraintTree tree(bench, dependencies ? &*dependencies : nullptr);
   if (const auto robot = tree.start()) return unsolvable(result, *robot);
   try {
     const auto outcome = tree.run(std::numeric_limits<std::int64_t>::max());
@@ -36,6 +38,10 @@ void solve(const Instance& instance, const CbsOptions& options, Limits& limits, 
     result.status = Status::out_of_memory;
   }
   result.lower_bound = static_cast<double>(tree.lower_bound());
+  result.statistics.expansions = tree.counts().expansions;
+  result.statistics.generated = tree.counts().generated;
+  result.statistics.bypasses = tree.counts().bypasses;
+  if (dependencies) result.statistics.pair_expansions = dependencies->counts().expansions;
   if (result.status != Status::solved) return;
   for (int robot = 0; robot < instance.size(); ++robot) {
     result.paths.push_back(occupations(bench.space, robot, tree.situation().path(robot)));

@@ -63,12 +63,13 @@ TEST("a shared goal is fine where robots disappear") {
 
 TEST("an endless search stops at its limits and keeps its lower bound") {
   const Instance swap = instance(grid(2, 1), {robot(0, 1), robot(1, 0)});
+  const CbsOptions plain{.heuristic = false, .target = false, .corridor = false};
   Limits soon(0.05, 1LL << 40);
-  const Result late = solve_cbs(swap, {}, soon);
+  const Result late = solve_cbs(swap, plain, soon);
   CHECK(late.status == Status::timeout);
   CHECK(late.lower_bound >= 4.0);
   Limits small(10.0, 4 << 20);
-  CHECK(solve_cbs(swap, {}, small).status == Status::out_of_memory);
+  CHECK(solve_cbs(swap, plain, small).status == Status::out_of_memory);
   Limits none(0.0, 1 << 20);
   CHECK(solve_cbs(instance(grid(200, 200), {robot(0, 39999)}), {}, none).status != Status::solved);
 }

@@ -15,10 +15,11 @@ struct Statistics {
   std::int64_t generated = 0;             // nodes of the upper search that were created
   std::int64_t low_level_expansions = 0;  // states expanded in searches for a single robot
   std::int64_t low_level_generated = 0;
-  std::int64_t bypasses = 0;      // conflicts that were bypassed instead of branched on
-  std::int64_t restarts = 0;      // further priority orders that were tried
-  std::int64_t memory_bytes = 0;  // that the solver counted
-  int failed_robot = -1;          // the robot for which no path was found, -1 = none
+  std::int64_t bypasses = 0;         // conflicts that were bypassed instead of branched on
+  std::int64_t pair_expansions = 0;  // nodes of upper searches for two robots, made for a lower bound
+  std::int64_t restarts = 0;         // further priority orders that were tried
+  std::int64_t memory_bytes = 0;     // that the solver counted
+  int failed_robot = -1;             // the robot for which no path was found, -1 = none
 };
 
 using Path = std::vector<Occupation>;

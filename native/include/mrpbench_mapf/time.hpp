@@ -21,6 +21,8 @@ inline constexpr Tick kLatestTime = 1 << 28;
 struct Range {
   std::int32_t first;
   std::int32_t last;
+
+  bool operator==(const Range&) const = default;
 };
 
 /// A robot on one element of the roadmap: vertex v is element v, edge e is element vertex_count + e.

@@ -93,6 +93,10 @@ def cbs(
     *,
     prioritize: bool = True,
     bypass: bool = True,
+    heuristic: bool = True,
+    target: bool = True,
+    corridor: bool = True,
+    rectangle: bool = True,
     wall_s: float,
     memory_bytes: int,
 ) -> Answer:

@@ -61,10 +61,14 @@ class Ticks {
   std::vector<Conflict>& found_;
 };
 
-void find_between_occupations(const Space& space, int one, std::span<const Occupation> a, int other,
-                              std::span<const Occupation> b, Arena<Constraint>& constraints,
+void find_between_occupations(const Space& space, int one, const TimedPath& one_path, int other,
+                              const TimedPath& other_path, Arena<Constraint>& constraints,
                               std::vector<Conflict>& found) {
   const double reach = space.instance().reach(one, other);
+  const std::span<const Occupation> a = one_path.occupied, b = other_path.occupied;
+  const auto stays = [](const TimedPath& path, Half time) {
+    return path.occupied.back().end == kForeverHalf && time >= 2 * path.cost;
+  };
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
     const Relation relation = space.relations().between(a[i].element, b[j].element, reach);
@@ -73,8 +77,7 @@ void find_between_occupations(const Space& space, int one, std::span<const Occup
       const PairConflict pair{one,      other, static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), time,
                               relation, 1};
       const auto [first, second] = split(pair, a, b, space.vertex_count());
-      found.push_back(
-          {one, other, a[i].element, b[j].element, time, a[i].end == kForeverHalf, b[j].end == kForeverHalf});
+      found.push_back({one, other, a[i].element, b[j].element, time, stays(one_path, time), stays(other_path, time)});
       found.back().branch = {constraints.copy(std::span(&first, 1)), constraints.copy(std::span(&second, 1))};
     }
     const Half a_end = a[i].end, b_end = b[j].end;
@@ -90,7 +93,7 @@ void find_conflicts(const Space& space, int one, const TimedPath& one_path, int 
   if (space.textbook()) {
     Ticks(space, one, one_path, other, other_path, constraints, found).sweep();
   } else {
-    find_between_occupations(space, one, one_path.occupied, other, other_path.occupied, constraints, found);
+    find_between_occupations(space, one, one_path, other, other_path, constraints, found);
   }
 }
 

@@ -4,17 +4,21 @@
 #include <functional>
 #include <tuple>
 
+#include "mrpbench_mapf/cbs/dependencies.hpp"
+
 namespace mrpbench::mapf {
 
-ConstraintTree::ConstraintTree(Workbench& bench)
+ConstraintTree::ConstraintTree(Workbench& bench, Dependencies* dependencies)
     : bench_(bench),
-      reasoning_(bench),
+      dependencies_(dependencies),
+
       situation_(bench.space.instance().size()),
       others_(bench.space, bench.limits),
       nodes_(bench.limits),
       constraints_(bench.limits),
       conflicts_(bench.limits),
       replanned_(bench.limits),
+      reasoning_(bench, constraints_),
       paths_(!bench.space.instance().rules().disappear_at_goal, bench.limits),
       later_(bench.space.instance().size()),
       before_(bench.space.instance().size()) {}
@@ -71,6 +75,7 @@ ConstraintTree::Outcome ConstraintTree::run(std::int64_t expansions) {
     while (node != nullptr) {
       gather(*node);
       if (present_.empty()) return Outcome::solved;
+      if (postpone(*node)) break;
       if (expansions-- <= 0) return Outcome::interrupted;
       node = expand(*node);
     }
@@ -105,9 +110,21 @@ void ConstraintTree::gather(const Node& node) {
   others_.refresh();
 }
 
+/// Find out what the node at hand must still cost; is it then no longer the best, or no good at all?
+bool ConstraintTree::postpone(Node& node) {
+  if (dependencies_ == nullptr || node.evaluated) return false;
+  node.evaluated = true;
+  const Cost heuristic = dependencies_->evaluate(situation_, present_);
+  if (heuristic == Dependencies::kImpossible) return true;
+  if (heuristic <= node.heuristic) return false;
+  node.heuristic = heuristic;
+  push(node);
+  return true;
+}
+
 /// Branch; or return the node that bypasses the conflict.
 ConstraintTree::Node* ConstraintTree::expand(Node& node) {
-  ++bench_.statistics.expansions;
+  ++counts_.expansions;
   const Conflict& conflict = choose();
   std::array<Node*, 2> children{};
   for (int side = 0; side < 2; ++side) {
@@ -117,7 +134,7 @@ ConstraintTree::Node* ConstraintTree::expand(Node& node) {
       it->constraints = {};
       it->heuristic = node.heuristic;
       it->evaluated = node.evaluated;
-      ++bench_.statistics.bypasses;
+      ++counts_.bypasses;
       return it;
     }
   }
@@ -208,7 +225,7 @@ ConstraintTree::Node& ConstraintTree::complete(Node node) {
   node.conflict_count += static_cast<std::int32_t>(found_.size());
   node.conflicts = conflicts_.copy(found_);
   node.replanned = replanned_.copy(changed_);
-  ++bench_.statistics.generated;
+  ++counts_.generated;
   return nodes_.copy(node);
 }
 

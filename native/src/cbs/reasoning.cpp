@@ -5,10 +5,61 @@ namespace mrpbench::mapf {
 void Reasoning::examine(const Situation& situation, Conflict& conflict) {
   if (conflict.examined) return;
   conflict.examined = true;
+  if (bench_.options.target && examine_target(situation, conflict)) return;
+  rate(situation, conflict);
+  if (bench_.options.corridor && examine_corridor(situation, conflict)) return;
+  if (bench_.options.rectangle && bench_.space.textbook()) examine_rectangle(situation, conflict);
+}
+
+bool Reasoning::examine_target(const Situation& situation, Conflict& conflict) {
+  if (conflict.one_stays == conflict.other_stays) return false;
+  const int parked = conflict.one_stays ? conflict.one : conflict.other;
+  const int passing = conflict.one_stays ? conflict.other : conflict.one;
+  const auto branches = resolve_at_target(bench_.space, situation, conflict, parked, passing);
+  if (!branches) return false;
+  use(conflict, Conflict::Kind::target, std::span(&(*branches)[0], 1), std::span(&(*branches)[1], 1));
+  if (bench_.options.prioritize) {
+    // Finishing later costs more in any case.
+    const bool both = bench_.costs_more(situation, passing, conflict.branch[1]);
+    conflict.cardinality = both ? Conflict::Cardinality::both : Conflict::Cardinality::semi;
+  }
+  return true;
+}
+
+bool Reasoning::examine_corridor(const Situation& situation, Conflict& conflict) {
+  const bool pseudo = conflict.cardinality == Conflict::Cardinality::both;
+  const auto branches = corridors_.resolve(situation, conflict, pseudo);
+  if (!branches) return false;
+  use(conflict, Conflict::Kind::corridor, std::span(&(*branches)[0], 1), std::span(&(*branches)[1], 1));
+  rate(situation, conflict);
+  return true;
+}
+
+void Reasoning::examine_rectangle(const Situation& situation, Conflict& conflict) {
+  const bool at_vertex = conflict.time % 2 == 0;
+  if (!at_vertex || conflict.one_stays || conflict.other_stays || conflict.cardinality == Conflict::Cardinality::both) {
+    return;
+  }
+  const auto one = bench_.mdd(situation, conflict.one), other = bench_.mdd(situation, conflict.other);
+  if (!rectangles_.resolve(*one, situation.path(conflict.one), *other, situation.path(conflict.other),
+                           conflict.one_element, conflict.time / 2)) {
+    return;
+  }
+  use(conflict, Conflict::Kind::rectangle, rectangles_.one_branch(), rectangles_.other_branch());
+  rate(situation, conflict);
+}
+
+void Reasoning::rate(const Situation& situation, Conflict& conflict) {
   if (!bench_.options.prioritize) return;
   const int rising = bench_.costs_more(situation, conflict.one, conflict.branch[0]) +
                      bench_.costs_more(situation, conflict.other, conflict.branch[1]);
   conflict.cardinality = static_cast<Conflict::Cardinality>(rising);
+}
+
+void Reasoning::use(Conflict& conflict, Conflict::Kind kind, std::span<const Constraint> one,
+                    std::span<const Constraint> other) {
+  conflict.kind = kind;
+  conflict.branch = {constraints_.copy(one), constraints_.copy(other)};
 }
 
 }  // namespace mrpbench::mapf

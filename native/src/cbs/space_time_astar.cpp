@@ -6,8 +6,7 @@ namespace mrpbench::mapf {
 
 SpaceTimeAstar::SpaceTimeAstar(const Space& space, Limits& limits, Statistics& statistics)
     : space_(space), roadmap_(space.instance().roadmap()), limits_(limits), statistics_(statistics) {
-  seen_.resize(1 << 12);
-  limits.charge(seen_.size() * sizeof(Seen));
+  forget_seen(kSmallSeen);
 }
 
 bool SpaceTimeAstar::search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others,
@@ -43,11 +42,7 @@ bool SpaceTimeAstar::begin(const ConstraintTable& table, DistanceTable& distance
   latest_ = std::max(latest, beginning.free_at);  // a robot that never moves has finished before it could
   nodes_.clear();
   open_.clear();
-  if (++epoch_ == 0) {
-    std::ranges::fill(seen_, Seen{});
-    epoch_ = 1;
-  }
-  seen_count_ = 0;
+  forget_seen(kSmallSeen);
   push(beginning.vertex, beginning.free_at, -1, -1, 0, h);
   return true;
 }
@@ -107,13 +102,12 @@ void SpaceTimeAstar::push(int vertex, Tick tick, int parent, int edge, int confl
 }
 
 SpaceTimeAstar::Seen& SpaceTimeAstar::seen(int vertex, Tick tick) {
-  if (2 * seen_count_ > seen_.size()) grow_seen();
-  const std::size_t mask = seen_.size() - 1;
+  if (2 * seen_count_ > seen_mask_) grow_seen();
   const std::uint32_t mixed =
       static_cast<std::uint32_t>(vertex) * 0x9E3779B1u + static_cast<std::uint32_t>(tick) * 0x85EBCA77u;
-  std::size_t slot = (mixed ^ mixed >> 15) & mask;
+  std::size_t slot = (mixed ^ mixed >> 15) & seen_mask_;
   while (seen_[slot].epoch == epoch_ && (seen_[slot].vertex != vertex || seen_[slot].tick != tick)) {
-    slot = (slot + 1) & mask;
+    slot = (slot + 1) & seen_mask_;
   }
   if (seen_[slot].epoch != epoch_) {
     ++seen_count_;
@@ -122,14 +116,26 @@ SpaceTimeAstar::Seen& SpaceTimeAstar::seen(int vertex, Tick tick) {
   return seen_[slot];
 }
 
-void SpaceTimeAstar::grow_seen() {
-  limits_.charge(seen_.size() * sizeof(Seen));
-  std::vector<Seen> old(2 * seen_.size());
-  old.swap(seen_);
-  seen_count_ = 0;
-  for (const Seen& it : old) {
-    if (it.epoch == epoch_) seen(it.vertex, it.tick).conflicts = it.conflicts;
+/// Use the first `size` slots, which are all free.
+void SpaceTimeAstar::forget_seen(std::size_t size) {
+  if (size > seen_.size()) {
+    limits_.charge((size - seen_.size()) * sizeof(Seen));
+    seen_.resize(size);
   }
+  if (++epoch_ == 0) {
+    std::ranges::fill(seen_, Seen{});
+    epoch_ = 1;
+  }
+  seen_mask_ = size - 1;
+  seen_count_ = 0;
+}
+
+void SpaceTimeAstar::grow_seen() {
+  std::vector<Seen> old;
+  std::copy_if(seen_.begin(), seen_.begin() + seen_mask_ + 1, std::back_inserter(old),
+               [&](const Seen& it) { return it.epoch == epoch_; });
+  forget_seen(4 * (seen_mask_ + 1));
+  for (const Seen& it : old) seen(it.vertex, it.tick).conflicts = it.conflicts;
 }
 
 void SpaceTimeAstar::trace(int index, FoundPath& path) {

@@ -8,11 +8,20 @@
 
 namespace mrpbench::mapf {
 
+class Dependencies;
+
+struct TreeCounts {
+  std::int64_t expansions = 0;
+  std::int64_t generated = 0;
+  std::int64_t bypasses = 0;
+};
+
 class ConstraintTree {
  public:
   enum class Outcome { solved, exhausted, interrupted };
 
-  explicit ConstraintTree(Workbench& bench);
+  /// With `dependencies`, nodes are ordered by what they must still cost.
+  explicit ConstraintTree(Workbench& bench, Dependencies* dependencies = nullptr);
 
   /// Plan every robot on its own; the robot that has no path, or nothing.
   std::optional<int> start();
@@ -23,6 +32,7 @@ class ConstraintTree {
 
   /// No solution costs less.
   Cost lower_bound() const { return lower_bound_; }
+  const TreeCounts& counts() const { return counts_; }
   /// The paths of the node that was looked at last: once solved, the solution.
   const Situation& situation() const { return situation_; }
 
@@ -59,6 +69,7 @@ class ConstraintTree {
   void clear();
   void begin_with(int robot, const TimedPath& path);
   void gather(const Node& node);
+  bool postpone(Node& node);
   Node* expand(Node& node);
   const Conflict& choose();
   Node* child(const Node& parent, std::span<const Constraint> constraints);
@@ -70,7 +81,7 @@ class ConstraintTree {
   void push(Node& node);
 
   Workbench& bench_;
-  Reasoning reasoning_;
+  Dependencies* dependencies_;
   std::vector<int> robots_;
   Situation situation_;
   AvoidanceTable others_;
@@ -79,9 +90,11 @@ class ConstraintTree {
   Arena<Constraint> constraints_;
   Arena<Conflict> conflicts_;
   Arena<Replanned> replanned_;
+  Reasoning reasoning_;
   PathStore paths_;
   std::vector<Open> open_;
-  std::int64_t number_ = 0;
+  TreeCounts counts_;
+  std::int64_t number_ = 0;  // of nodes that were put into `open_`
   Cost lower_bound_ = 0;
   std::size_t counted_ = 0;
   // scratch

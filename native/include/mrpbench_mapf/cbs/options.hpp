@@ -12,6 +12,16 @@ struct CbsOptions {
   /// Take over paths as cheap with fewer conflicts instead of branching: Boyarski et al., "Don't split, try to work it
   /// out: bypassing conflicts in multi-agent pathfinding", ICAPS 2015.
   bool bypass = true;
+  /// A lower bound on the cost to go from the dependencies of pairs: Li et al., "Improved heuristics for multi-agent
+  /// path finding with conflict-based search", IJCAI 2019 (WDG).
+  bool heuristic = true;
+  /// Target, corridor and generalised rectangle reasoning: Li et al., "Pairwise symmetry reasoning for multi-agent path
+  /// finding search", AIJ 2021.
+  bool target = true;
+  bool corridor = true;
+  bool rectangle = true;
+  /// Expansions after which the search for a pair of robots in `heuristic` ends with the bound it has.
+  std::int64_t pair_expansions = 64;
 };
 
 }  // namespace mrpbench::mapf

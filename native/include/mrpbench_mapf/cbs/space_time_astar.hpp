@@ -37,6 +37,7 @@ class SpaceTimeAstar {
     std::int32_t conflicts;  // least so far, -1 = expanded
   };
   static constexpr std::int32_t kUnknown = 1 << 30;
+  static constexpr std::size_t kSmallSeen = 1 << 12;
 
   bool begin(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others, Tick least,
              Tick latest);
@@ -46,6 +47,7 @@ class SpaceTimeAstar {
   void expand(int index);
   void push(int vertex, Tick tick, int parent, int edge, int conflicts, Tick h);
   Seen& seen(int vertex, Tick tick);
+  void forget_seen(std::size_t size);
   void grow_seen();
   void trace(int index, FoundPath& path);
 
@@ -61,7 +63,10 @@ class SpaceTimeAstar {
   std::vector<Node> nodes_;
   std::vector<std::int32_t> chain_;  // the nodes of the path that was found
   BucketQueue<std::int32_t> open_;
-  std::vector<Seen> seen_;  // open addressing, valid entries have the present epoch
+  /// Open addressing in the first `seen_mask_` + 1 slots, few at first so that they stay in the cache; valid entries
+  /// have the present epoch.
+  std::vector<Seen> seen_;
+  std::size_t seen_mask_ = 0;
   std::uint32_t epoch_ = 0;
   std::size_t seen_count_ = 0;
   std::size_t counted_ = 0;

@@ -32,6 +32,20 @@ class Cbs(Planner):
     bypass: bool = option(
         True, help="Take over paths as cheap with fewer conflicts instead of branching (Boyarski et al., ICAPS 2015)."
     )
+    heuristic: bool = option(
+        True, help="Order nodes by what pairs of robots must still cost (WDG; Li, Felner et al., IJCAI 2019)."
+    )
+    target: bool = option(
+        True, help="Resolve conflicts with robots at their goals by when these arrive (Li et al., AIJ 2021)."
+    )
+    corridor: bool = option(
+        True, help="Let one of two robots that meet in a corridor come later by its length (Li et al., AIJ 2021)."
+    )
+    rectangle: bool = option(
+        True,
+        help="Let one of two robots that cross the same region leave it later; needs unit durations and no "
+        "footprints (generalised rectangles; Li et al., AIJ 2021).",
+    )
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""

@@ -17,12 +17,19 @@ from mrpbench_core.model.plan import Budget, Path, PlanStatus
 from mrpbench_core.model.problem import features_of
 
 BUDGET = Budget(wall_s=0.2, memory_bytes=1 << 30)
+EVERYTHING = Cbs()
+TECHNIQUES = tuple(attrs.fields_dict(Cbs))
+ABLATIONS = [
+    Cbs(**dict.fromkeys(TECHNIQUES, False)),
+    *(Cbs(**{technique: False}) for technique in TECHNIQUES),
+    *(Cbs(**{other: other == technique for other in TECHNIQUES}) for technique in TECHNIQUES),
+]
 seeds = st.integers(0, 2**32 - 1)
 
 
-def solve_and_compare(given_problem) -> PlanStatus:
+def solve_and_compare(given_problem, planner: Cbs = EVERYTHING) -> PlanStatus:
     """Solve, validate the plan and compare its cost with the optimum."""
-    result = Cbs().plan(given_problem, BUDGET)
+    result = planner.plan(given_problem, BUDGET)
     if result.status is PlanStatus.SOLVED:
         report = check_plan(given_problem, result.plan)
         assert report.valid, (report.faults, report.conflicts)
@@ -57,6 +64,14 @@ def test_plans_on_grids_are_optimal(robots, rules):
 def test_plans_on_graphs_with_durations_profiles_and_goal_sets_are_optimal(seed, robots):
     random = np.random.default_rng(seed)
     solve_and_compare(random_graph_problem(random, robots, **random_rules(random)))
+
+
+@settings(max_examples=25, deadline=None)
+@given(seed=seeds, planner=st.sampled_from(ABLATIONS))
+def test_every_choice_of_techniques_is_optimal(seed, planner):
+    random = np.random.default_rng(seed)
+    solve_and_compare(random_grid_problem(random, int(random.integers(2, 5)), size=int(random.integers(3, 5))), planner)
+    solve_and_compare(random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random)), planner)
 
 
 @settings(max_examples=30, deadline=None)
@@ -127,10 +142,10 @@ def test_the_same_input_gives_the_same_output():
     assert one.statistics == other.statistics
 
 
-def test_published_optima_of_small_instances(shared_data):
+def test_published_optima(shared_data):
     with (shared_data / "mapf_optimal.csv").open() as file:
-        rows = [row for row in csv.DictReader(file) if int(row["agents"]) <= 15]
-    budget = Budget(wall_s=0.05, memory_bytes=1 << 30)
+        rows = [row for row in csv.DictReader(file) if int(row["agents"]) <= 30][::6]
+    budget = Budget(wall_s=0.2, memory_bytes=1 << 30)
     solved = 0
     for row in rows:
         asked = movingai(shared_data, row["map"], row["scen"], int(row["agents"]))
@@ -142,3 +157,13 @@ def test_published_optima_of_small_instances(shared_data):
             assert result.plan.sum_of_costs == int(row["soc"]), name
             assert check_plan(asked, result.plan).valid, name
     assert solved > len(rows) / 2
+
+
+def test_techniques_save_expansions(shared_data):
+    asked = movingai(shared_data, "random-32-32-20", "random-2", 30)
+    budget = Budget(wall_s=60, memory_bytes=1 << 30)
+    expansions = {
+        technique: Cbs(**{technique: False}).plan(asked, budget).statistics["expansions"]
+        for technique in ("prioritize", "target", "corridor")
+    }
+    assert Cbs().plan(asked, budget).statistics["expansions"] < min(expansions.values())

@@ -1,0 +1,38 @@
+// Corridor reasoning: two robots that pass a chain of vertices in opposite directions. One of them has to wait until
+// the other has left the chain, or to go round. Li, Harabor, Stuckey, Ma, Gange and Koenig, "Pairwise symmetry
+// reasoning for multi-agent path finding search", AIJ 2021; a single lane is their pseudo-corridor.
+#pragma once
+
+#include "mrpbench_mapf/cbs/conflict.hpp"
+#include "mrpbench_mapf/cbs/workbench.hpp"
+
+namespace mrpbench::mapf {
+
+class Corridors {
+ public:
+  explicit Corridors(Workbench& bench) : bench_(bench) {}
+
+  /// Branches of `conflict`: each robot has to come to its end of the corridor later. Single lanes only if
+  /// `pseudo`. Nothing if the robots do not meet in a corridor, or if the branches would not end what they do now.
+  std::optional<std::array<Constraint, 2>> resolve(const Situation& situation, const Conflict& conflict, bool pseudo);
+
+ private:
+  struct Stop {
+    std::int32_t vertex;
+    Tick arrive;
+  };
+  void list_stops(const TimedPath& path, std::vector<Stop>& stops) const;
+  bool find_lane(const Conflict& conflict);
+  void extend(const Conflict& conflict, bool forwards);
+  bool fits(int robot, int entrance) const;
+  int next(int vertex, int from) const;
+  Tick length(int robot, bool forwards) const;
+  Tick bound(const Situation& situation, int robot, int before_exit, int exit, Tick latest);
+  Tick arrival_at(std::span<const Stop> stops, int vertex) const;
+
+  Workbench& bench_;
+  std::vector<Stop> one_stops_, other_stops_;
+  std::vector<std::int32_t> chain_;  // vertices in the direction of `one`
+};
+
+}  // namespace mrpbench::mapf

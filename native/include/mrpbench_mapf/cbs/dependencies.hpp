@@ -1,0 +1,49 @@
+// By how much the cost of a node must still rise, because pairs of robots get in one another's way: every pair with a
+// conflict is solved on its own, and the extra costs of the pairs are covered by extra costs of the robots (the WDG
+// heuristic of Li, Felner, Boyarski, Ma and Koenig, "Improved heuristics for multi-agent path finding with
+// conflict-based search", IJCAI 2019; pairs were first looked at by Felner et al., ICAPS 2018).
+#pragma once
+
+#include <unordered_map>
+
+#include "mrpbench_mapf/cbs/constraint_tree.hpp"
+#include "mrpbench_mapf/cbs/vertex_cover.hpp"
+
+namespace mrpbench::mapf {
+
+class Dependencies {
+ public:
+  static constexpr Cost kImpossible = kForever;
+
+  explicit Dependencies(Workbench& bench) : bench_(bench), pair_(bench) {}
+
+  /// A lower bound on what the node with these conflicts still lacks; `kImpossible` if it holds no solution.
+  Cost evaluate(const Situation& situation, std::span<const Conflict* const> conflicts);
+  /// What was expanded in the trees for pairs.
+  const TreeCounts& counts() const { return pair_.counts(); }
+
+ private:
+  struct Name {
+    std::int32_t one, other;
+    Key one_key, other_key;
+    bool operator==(const Name&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Name& it) const {
+      return mix(it.one_key.low ^ mix(it.other_key.low + static_cast<std::uint64_t>(it.one) * 65537 + it.other));
+    }
+  };
+
+  std::int32_t extra(const Situation& situation, int one, int other);
+  std::int32_t solve(const Situation& situation, int one, int other);
+
+  Workbench& bench_;
+  ConstraintTree pair_;
+  std::unordered_map<Name, std::int32_t, Hash> known_;
+  std::size_t counted_ = 0;
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs_;
+  std::vector<std::int32_t> number_;  // by robot: its vertex in the graph of dependencies
+  std::vector<WeightedEdge> edges_;
+};
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,16 @@
+// Target reasoning: a robot that stands at its goal is passed by another one. Either it arrives there later, or nobody
+// uses the place from then on. Li, Harabor, Stuckey, Ma, Gange and Koenig, "Pairwise symmetry reasoning for multi-agent
+// path finding search", AIJ 2021; here for any durations and footprints.
+#pragma once
+
+#include "mrpbench_mapf/cbs/conflict.hpp"
+#include "mrpbench_mapf/cbs/situation.hpp"
+
+namespace mrpbench::mapf {
+
+/// Branches of a conflict with `parked`, which has arrived for good, and `passing`: `parked` finishes later, or by
+/// then. Nothing if it has several goals.
+std::optional<std::array<Constraint, 2>> resolve_at_target(const Space& space, const Situation& situation,
+                                                           const Conflict& conflict, int parked, int passing);
+
+}  // namespace mrpbench::mapf

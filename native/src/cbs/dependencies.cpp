@@ -1,0 +1,44 @@
+#include "mrpbench_mapf/cbs/dependencies.hpp"
+
+#include <algorithm>
+
+namespace mrpbench::mapf {
+
+Cost Dependencies::evaluate(const Situation& situation, std::span<const Conflict* const> conflicts) {
+  pairs_.clear();
+  for (const Conflict* it : conflicts) pairs_.push_back(std::minmax(it->one, it->other));
+  std::ranges::sort(pairs_);
+  pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+  number_.assign(bench_.space.instance().size(), -1);
+  edges_.clear();
+  std::int32_t vertices = 0;
+  for (const auto& [one, other] : pairs_) {
+    const std::int32_t weight = extra(situation, one, other);
+    if (weight == kImpossible) return kImpossible;
+    if (weight == 0) continue;
+    for (const int robot : {one, other}) {
+      if (number_[robot] < 0) number_[robot] = vertices++;
+    }
+    edges_.push_back({number_[one], number_[other], weight});
+  }
+  return minimum_cover(vertices, edges_, bench_.limits);
+}
+
+/// By how much two robots cost more together than each on its own.
+std::int32_t Dependencies::extra(const Situation& situation, int one, int other) {
+  const Name name{one, other, situation.key(one), situation.key(other)};
+  const auto place = known_.find(name);
+  if (place != known_.end()) return place->second;
+  const std::int32_t weight = solve(situation, one, other);
+  known_.emplace(name, weight);
+  bench_.limits.charge_growth(counted_, known_.size() * (sizeof(Name) + 32));
+  return weight;
+}
+
+std::int32_t Dependencies::solve(const Situation& situation, int one, int other) {
+  pair_.start(situation, one, other);
+  if (pair_.run(bench_.options.pair_expansions) == ConstraintTree::Outcome::exhausted) return kImpossible;
+  return static_cast<std::int32_t>(pair_.lower_bound() - situation.path(one).cost - situation.path(other).cost);
+}
+
+}  // namespace mrpbench::mapf

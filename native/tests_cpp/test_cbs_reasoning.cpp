@@ -1,0 +1,111 @@
+#include "check.hpp"
+#include "grids.hpp"
+#include "mrpbench_mapf/cbs/dependencies.hpp"
+
+using namespace mrpbench::mapf;
+
+namespace {
+
+/// The first node of a tree and its conflicts.
+struct Root {
+  explicit Root(Instance given, CbsOptions options = {})
+      : instance(std::move(given)),
+        bench(instance, options, limits, statistics),
+        situation(instance.size()),
+        constraints(limits),
+        paths(true, limits),
+        reasoning(bench, constraints) {
+    for (int robot = 0; robot < instance.size(); ++robot) {
+      FoundPath path;
+      CHECK(bench.plan(situation, robot, {}, nullptr, path));
+      situation.set_path(robot, paths.keep(path));
+    }
+    find_conflicts(bench.space, 0, situation.path(0), 1, situation.path(1), constraints, conflicts);
+    for (Conflict& conflict : conflicts) reasoning.examine(situation, conflict);
+  }
+
+  Instance instance;
+  Limits limits = unlimited();
+  Statistics statistics;
+  Workbench bench;
+  Situation situation;
+  Arena<Constraint> constraints;
+  PathStore paths;
+  Reasoning reasoning;
+  std::vector<Conflict> conflicts;
+};
+
+/// Two rooms of 2 x 2 joined by a corridor of `length` vertices.
+Roadmap rooms(int length, Tick duration) {
+  std::vector<int> tail, head;
+  const auto lane = [&](int a, int b) {
+    tail.insert(tail.end(), {a, b});
+    head.insert(head.end(), {b, a});
+  };
+  for (const int room : {0, 4}) {
+    lane(room, room + 1), lane(room, room + 2), lane(room + 1, room + 3), lane(room + 2, room + 3);
+  }
+  for (int k = 0; k <= length; ++k) lane(k == 0 ? 3 : 7 + k, k == length ? 4 : 8 + k);
+  std::vector<Tick> ticks(tail.size(), duration);
+  return Roadmap(8 + length, std::move(tail), std::move(head), std::move(ticks));
+}
+
+}  // namespace
+
+TEST("a corridor makes one robot wait for its whole length") {
+  for (const Tick duration : {1, 3}) {
+    const Root root(instance(rooms(4, duration), {robot(1, 6), robot(5, 2)}));
+    CHECK(!root.conflicts.empty());
+    const Conflict& conflict = root.conflicts[0];
+    CHECK(conflict.kind == Conflict::Kind::corridor);
+    CHECK(conflict.cardinality == Conflict::Cardinality::both);
+    // Each would leave after 6 edges; the later one enters when the earlier one has left, and needs 5 edges more.
+    CHECK(conflict.branch[0][0] == avoid_vertex(0, 4, 0, 6 * duration + 5 * duration));
+    CHECK(conflict.branch[1][0] == avoid_vertex(1, 3, 0, 6 * duration + 5 * duration));
+  }
+}
+
+TEST("robots that cross an open region are kept apart at its borders") {
+  // One from the left to the right, one from the top to the bottom; they meet wherever they cross.
+  const Root root(instance(grid(5, 5), {robot(5, 19), robot(1, 23)}), {.corridor = false});
+  bool rectangle = false;
+  for (const Conflict& conflict : root.conflicts) {
+    if (conflict.kind != Conflict::Kind::rectangle) continue;
+    rectangle = true;
+    CHECK(conflict.cardinality == Conflict::Cardinality::both);
+    CHECK(conflict.branch[0].size() > 1);
+  }
+  CHECK(rectangle);
+}
+
+TEST("a robot at its goal finishes later, or for good") {
+  const Root root(instance(grid(5, 1), {robot(1, 2), robot(0, 4)}));
+  bool target = false;
+  for (const Conflict& conflict : root.conflicts) {
+    if (conflict.kind != Conflict::Kind::target) continue;
+    target = true;
+    CHECK(conflict.branch[0][0].kind == Constraint::Kind::finish_after);
+    CHECK(conflict.branch[1][0].kind == Constraint::Kind::finish_by);
+    CHECK(conflict.branch[0][0].range.first == 2);
+    CHECK(conflict.cardinality == Conflict::Cardinality::both);
+  }
+  CHECK(target);
+}
+
+TEST("switched off, conflicts are resolved by the standard constraints") {
+  const CbsOptions off{.target = false, .corridor = false, .rectangle = false};
+  const Root root(instance(rooms(4, 1), {robot(1, 6), robot(5, 2)}), off);
+  for (const Conflict& conflict : root.conflicts) CHECK(conflict.kind == Conflict::Kind::standard);
+}
+
+TEST("pairs of robots say what a node still costs, or that it is hopeless") {
+  Root root(instance(rooms(4, 1), {robot(1, 6), robot(5, 2)}));
+  Dependencies dependencies(root.bench);
+  std::vector<const Conflict*> conflicts;
+  for (const Conflict& conflict : root.conflicts) conflicts.push_back(&conflict);
+  CHECK(dependencies.evaluate(root.situation, conflicts) == 6);
+  // What one does no longer changes anything if the other must have finished before it can have passed.
+  root.situation.add({0, 6, {7, 7}, Constraint::Kind::finish_by});
+  root.situation.add({1, 2, {7, 7}, Constraint::Kind::finish_by});
+  CHECK(dependencies.evaluate(root.situation, conflicts) == Dependencies::kImpossible);
+}

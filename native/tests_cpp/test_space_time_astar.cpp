@@ -1,0 +1,131 @@
+#include "check.hpp"
+#include "grids.hpp"
+#include "mrpbench_mapf/cbs/mdd.hpp"
+#include "mrpbench_mapf/cbs/space_time_astar.hpp"
+
+using namespace mrpbench::mapf;
+
+namespace {
+
+/// One robot among constraints.
+struct Alone {
+  explicit Alone(Instance given)
+      : instance(std::move(given)),
+        space(instance, limits),
+        tables(instance, limits),
+        table(space, limits),
+        astar(space, limits, statistics) {
+    table.reset(0);
+  }
+  Tick cost() { return astar.search(table, tables[0], nullptr, path) ? path.cost : kForever; }
+  Mdd mdd(Tick cost) { return MddBuilder(space, limits).build(table, tables[0], cost); }
+
+  Instance instance;
+  Limits limits = unlimited();
+  Statistics statistics;
+  Space space;
+  DistanceTables tables;
+  ConstraintTable table;
+  SpaceTimeAstar astar;
+  FoundPath path;
+};
+
+}  // namespace
+
+TEST("a robot waits or goes round as the constraints say") {
+  Alone it(instance(grid(4, 1), {robot(0, 3)}));
+  CHECK(it.cost() == 3);
+  CHECK((it.path.at == std::vector<std::int32_t>{0, 1, 2, 3}));
+  it.table.add(avoid_vertex(0, 2, 2, 2));
+  CHECK(it.cost() == 4);
+  it.table.add({0, 4 + edge_between(it.instance.roadmap(), 2, 3), {3, 5}});
+  CHECK(it.cost() == 7);
+}
+
+TEST("a goal that is crossed later may not be taken before") {
+  Alone it(instance(grid(3, 1), {robot(0, 2)}));
+  it.table.add(avoid_vertex(0, 2, 9, 9));
+  CHECK(it.cost() == 10);
+  it.table.add({0, 2, {11, 11}, Constraint::Kind::finish_after});
+  CHECK(it.cost() == 12);
+  it.table.add({0, 2, {11, 11}, Constraint::Kind::finish_by});
+  CHECK(it.cost() == kForever);
+}
+
+TEST("nobody passes a robot that has finished for good") {
+  Alone it(instance(grid(3, 1), {robot(0, 2), robot(2, 1)}));
+  it.table.add({1, 1, {1, 1}, Constraint::Kind::finish_by});
+  CHECK(it.cost() == kForever);
+  it.table.reset(0);
+  it.table.add({1, 1, {2, 2}, Constraint::Kind::finish_by});
+  CHECK(it.cost() == 2);
+}
+
+TEST("edges of many ticks are crossed whole") {
+  Alone it(instance(grid(3, 1, 5), {robot(0, 2)}));
+  CHECK(!it.space.textbook());
+  CHECK(it.cost() == 10);
+  it.table.add(avoid_vertex(0, 1, 5, 7));
+  CHECK(it.cost() == 13);
+  CHECK(it.path.occupied.size() == 5);
+  CHECK(it.path.occupied[0] == at_vertex(0, 0, 3));
+}
+
+TEST("diagrams hold all shortest paths and no other") {
+  Alone it(instance(grid(3, 3), {robot(0, 8)}));
+  const Mdd mdd = it.mdd(4);
+  CHECK(mdd.node_count() == 9);
+  CHECK(mdd.width(2) == 3);
+  CHECK(mdd.always_at(0, 0) && mdd.always_at(8, 4) && mdd.always_at(8, 9));
+  CHECK(!mdd.always_at(4, 2));
+  CHECK(mdd.find(4, 2) >= 0 && mdd.find(4, 3) < 0);
+  ConstraintTable scratch(it.space, it.limits);
+  const std::vector<Constraint> diagonal{avoid_vertex(0, 2, 2, 2), avoid_vertex(0, 4, 2, 2), avoid_vertex(0, 6, 2, 2)};
+  CHECK(mdd.blocked_by(diagonal, scratch));
+  CHECK(!mdd.blocked_by(std::span(diagonal).first(2), scratch));
+}
+
+TEST("constraints narrow the diagram") {
+  Alone it(instance(grid(3, 2, 2), {robot(0, 2)}));
+  CHECK(it.mdd(4).node_count() == 3);
+  it.table.add(avoid_vertex(0, 1, 2, 2));
+  CHECK(it.cost() == 5);
+  const Mdd mdd = it.mdd(5);
+  CHECK(mdd.node_count() == 4);  // waits at the start: one way only
+  CHECK(mdd.always_at(1, 3));
+}
+
+TEST("the queue returns the least f, then the fewest conflicts, then the newest") {
+  BucketQueue<int> queue;
+  queue.push(5000, 0, 6);
+  queue.push(2, 1, 4);
+  queue.push(2, 0, 2);
+  queue.push(2, 0, 3);
+  queue.push(0, 7, 1);
+  queue.push(9000, 0, 7);
+  queue.push(2, 9999, 5);
+  for (const int expected : {1, 3, 2, 4, 5, 6, 7}) CHECK(queue.pop() == expected);
+  CHECK(queue.empty());
+  queue.push(1, 1, 8);
+  queue.clear();
+  CHECK(queue.empty());
+}
+
+TEST("robots in the way are counted, and forgotten") {
+  const Instance two = instance(grid(3, 1), {robot(0, 2), robot(2, 0)});
+  Limits limits = unlimited();
+  const Space space(two, limits);
+  AvoidanceTable others(space, limits);
+  const std::vector<std::int32_t> at{2, 1, 0};
+  const TimedPath path{at, {}, 2};
+  others.add(1, path);
+  const Move& forth = space.moves(0, 0)[0];
+  CHECK(others.waiting(0, 0, 0) == 0);
+  CHECK(others.waiting(0, 0, 1) == 1);
+  CHECK(others.waiting(0, 0, 50) == 1);
+  CHECK(others.moving(0, forth, 0, false) == 1);  // both come to vertex 1
+  CHECK(others.moving(0, forth, 1, true) == 1);   // they swap
+  others.remove(1, path);
+  CHECK(others.waiting(0, 0, 1) == 0);
+  CHECK(others.moving(0, forth, 1, true) == 0);
+}
