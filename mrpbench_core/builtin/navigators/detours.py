@@ -75,7 +75,7 @@ class Detours:
                 continue
             self._asked[robot] = self._step
             way = self._controllers.reroute(observations, row)
-            if way is None or not len(way):
+            if way is None or not len(way) or np.hypot(*(way[-1] - place)) <= _REACHED:  # there already
                 self._ways.pop(robot, None)
                 continue
             if robot not in self._ways:

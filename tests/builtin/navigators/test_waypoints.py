@@ -134,3 +134,11 @@ def test_a_robot_goes_round_what_blocks_its_path_and_comes_back_to_it(fleet):
     for x, y in ((0.3, 0.3), (0.7, 0.3), (0.8, 0.05)):
         session.step(2.1, observe([[x, y, 0], [0, 5, 0]]), Orders(released=[1, 0]))
     assert controllers[0].seen[-1].path.tolist() == [[0.8, 0], [1, 0]]
+
+
+def test_a_way_around_that_ends_where_the_robot_is_is_none(fleet):
+    session, controllers = fleet
+    controllers[0].reroute = lambda observation: np.array([(0.22, 0.0)])
+    for period in range(90):
+        motion = session.step(period * 0.05, observe([[0.2, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+        assert not motion.events
