@@ -1,0 +1,89 @@
+"""What local navigation refuses, from Python."""
+
+import numpy as np
+import pytest
+from mrpbench_native.local import Fleet, critic
+
+SQUARE = np.array([(0.1, 0.1), (-0.1, 0.1), (-0.1, -0.1), (0.1, -0.1)])
+
+
+def fleet(settings=None, critics=(("PathDist", 1.0, {}),)):
+    found = Fleet(walls=np.empty((0, 4)), reach=4.0, threads=1)
+    found.add(settings={"robot_radius": 0.1} | (settings or {}), footprint=SQUARE, critics=list(critics))
+    return found
+
+
+def command(found, **changed):
+    seen = {
+        "now": 0.0,
+        "robot": np.zeros(1, np.int64),
+        "pose": np.zeros((1, 3)),
+        "twist": np.zeros((1, 2)),
+        "foot": np.zeros((1, 2)),
+        "points": np.array([[1.0, 0.0]]),
+        "begin": np.zeros(1, np.int64),
+        "end": np.ones(1, np.int64),
+        "yaw": np.full(1, np.nan),
+        "speed": np.full(1, np.inf),
+        "tolerance": 0.1,
+    }
+    return found.command(**(seen | changed))
+
+
+def test_a_robot_is_driven_along_its_path():
+    assert command(fleet())[0, 0] >= 0
+    assert command(fleet({"by_radius": 0.0})).shape == (1, 2)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"robot": np.ones(1, np.int64)}, "no such robot"),
+        ({"end": np.full(1, 2)}, "beyond the points"),
+        ({"begin": np.full(1, -1)}, "beyond the points"),
+        ({"yaw": np.zeros(2)}, "one row of everything"),
+    ],
+)
+def test_rows_that_make_no_sense_are_refused(changed, message):
+    with pytest.raises(ValueError, match=message):
+        command(fleet(), **changed)
+
+
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"simtime": 1.0}, "unknown option"),
+        ({"sim_time": 0.0}, "must be positive"),
+        ({"acc_lim_x": -1.0}, "acceleration limits must be positive"),
+        ({"min_vel_x": 1.0, "max_vel_x": 0.5}, "lowest speed exceeds"),
+        ({"vx_samples": 0.0}, "samples"),
+        ({"resolution": 0.0}, "resolution"),
+        ({"width": 1e6}, "cells"),
+        ({"inflation_radius": 99.0}, "inflation radius"),
+    ],
+)
+def test_settings_that_make_no_sense_are_refused(settings, message):
+    with pytest.raises(ValueError, match=message):
+        fleet(settings)
+
+
+def test_critics_that_do_not_exist_are_refused():
+    with pytest.raises(ValueError, match="there is no critic PathDits"):
+        critic("PathDits", {})
+    with pytest.raises(ValueError, match="unknown option of a critic: penalti"):
+        critic("PreferForward", {"penalti": 1.0})
+
+
+def test_scans_of_nobody_are_refused():
+    with pytest.raises(ValueError, match="no such robot"):
+        fleet().see(0.0, np.ones(1, np.int32), np.zeros((1, 3)), np.ones((1, 8)))
+    with pytest.raises(ValueError, match="a scan for each robot"):
+        fleet().see(0.0, np.zeros(1, np.int32), np.zeros((2, 3)), np.ones((1, 8)))
+
+
+def test_python_exceptions_of_scores_come_through():
+    def score(robot, twist, pose):
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        command(fleet(), score=score)
