@@ -8,6 +8,7 @@
 #include <string>
 
 #include "mrpbench_mapf/astar.hpp"
+#include "mrpbench_mapf/bounded/bounded_cbs.hpp"
 #include "mrpbench_mapf/cbs.hpp"
 #include "mrpbench_mapf/prioritized.hpp"
 
@@ -213,6 +214,25 @@ Answer cbs(const Instance& instance, bool prioritize, bool bypass, bool heuristi
   return {instance, solve_cbs(instance, options, limits)};
 }
 
+Answer bounded_cbs(const Instance& instance, const std::string& selection, double w, bool bypass, bool target,
+                   bool corridor, bool flex, double distance_weight, double conflict_weight, double wall_s,
+                   std::int64_t memory_bytes) {
+  static const std::map<std::string, Selection> choices{{"focal", Selection::focal},
+                                                        {"explicit_estimation", Selection::explicit_estimation}};
+  if (!(w >= 1.0 && w < 1e9)) throw std::invalid_argument("w is at least 1");
+  const BoundedOptions options{.w = w,
+                               .selection = choose(choices, selection),
+                               .bypass = bypass,
+                               .target = target,
+                               .corridor = corridor,
+                               .flex = flex,
+                               .distance_weight = distance_weight,
+                               .conflict_weight = conflict_weight};
+  nb::gil_scoped_release without_python;
+  Limits limits(wall_s, memory_bytes);
+  return {instance, solve_bounded(instance, options, limits)};
+}
+
 }  // namespace
 
 NB_MODULE(mapf, module) {
@@ -256,4 +276,7 @@ NB_MODULE(mapf, module) {
   module.def("cbs", &cbs, "instance"_a, nb::kw_only(), "prioritize"_a = true, "bypass"_a = true, "heuristic"_a = true,
              "target"_a = true, "corridor"_a = true, "rectangle"_a = true, "wall_s"_a, "memory_bytes"_a,
              "The least sum of arrival times, by conflict-based search.");
+  module.def("bounded_cbs", &bounded_cbs, "instance"_a, nb::kw_only(), "selection"_a, "w"_a, "bypass"_a, "target"_a,
+             "corridor"_a, "flex"_a, "distance_weight"_a, "conflict_weight"_a, "wall_s"_a, "memory_bytes"_a,
+             "At most w times the least sum of arrival times, by bounded-suboptimal conflict-based search.");
 }

@@ -85,6 +85,7 @@ def test_every_algorithm_answers_with_paths_from_starts_to_goals(seed, algorithm
         ({"algorithm": "magic"}, "there is no algorithm 'magic'; there are: astar"),
         ({"algorithm": "cbs", "v": 2}, "cbs has no option 'v'; it has: "),
         ({"algorithm": "cbs", "bypass": "no"}, "cbs: an option is of the wrong type"),
+        ({"algorithm": "eecbs", "w": 0.5}, "w is at least 1"),
         ({"roadmap": Graph(edges=[(0, 1)]), "starts": [5], "goals": [1]}, "starts: number 0 is 5"),
     ],
 )
@@ -110,6 +111,7 @@ def test_graphs_that_are_none_are_refused(arguments, said):
 def test_options_are_listed_with_their_defaults():
     assert options_of("cbs")["bypass"] is True
     assert options_of("prioritized")["restarts"] == 100
+    assert options_of("eecbs")["w"] == 1.2
     assert "wall_s" not in options_of("cbs")
 
 

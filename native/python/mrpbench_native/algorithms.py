@@ -8,6 +8,32 @@ from mrpbench_native import mapf
 ALGORITHMS: Mapping[str, tuple[Callable[..., mapf.Answer], dict[str, Any]]] = {
     "astar": (mapf.astar, {"heuristic": "exact"}),
     "cbs": (mapf.cbs, {}),
+    "ecbs": (
+        mapf.bounded_cbs,
+        {
+            "selection": "focal",
+            "w": 1.2,
+            "bypass": False,
+            "target": False,
+            "corridor": False,
+            "flex": False,
+            "distance_weight": 1.0,
+            "conflict_weight": 0.0,
+        },
+    ),
+    "eecbs": (
+        mapf.bounded_cbs,
+        {
+            "selection": "explicit_estimation",
+            "w": 1.2,
+            "bypass": True,
+            "target": True,
+            "corridor": True,
+            "flex": False,
+            "distance_weight": 1.2,
+            "conflict_weight": 20.0,
+        },
+    ),
     "prioritized": (mapf.prioritized, {"order": "longest_first", "restarts": 100, "seed": 0}),
 }
 """Function and preset options. The planners of mrpbench by the same names have the same options, and say more."""

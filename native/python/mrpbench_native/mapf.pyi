@@ -101,3 +101,19 @@ def cbs(
     memory_bytes: int,
 ) -> Answer:
     """The least sum of arrival times, by conflict-based search."""
+
+def bounded_cbs(
+    instance: Instance,
+    *,
+    selection: str,
+    w: float,
+    bypass: bool,
+    target: bool,
+    corridor: bool,
+    flex: bool,
+    distance_weight: float,
+    conflict_weight: float,
+    wall_s: float,
+    memory_bytes: int,
+) -> Answer:
+    """At most w times the least sum of arrival times, by bounded-suboptimal conflict-based search."""

@@ -1,1 +1,1 @@
-"""Native planners: `astar` (each robot alone), `prioritized` (SIPP) and `cbs` (optimal)."""
+"""Native planners: `astar` (each robot alone), `prioritized` (SIPP), `cbs` (optimal), `ecbs` and `eecbs` (bounded)."""

@@ -1,0 +1,66 @@
+#include "mrpbench_mapf/bounded/node_queue.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace mrpbench::mapf {
+
+void OnlineErrors::observe(Cost dearer, std::int32_t conflicts, std::int32_t left) {
+  const double cost_error = static_cast<double>(dearer), distance_error = left - (conflicts - 1);
+  ++observed_;
+  cost_error_ += (cost_error - cost_error_) / static_cast<double>(observed_);
+  distance_error_ += (distance_error - distance_error_) / static_cast<double>(observed_);
+  // Every conflict takes 1 / (1 - distance_error) steps; with an error of one or more the conflicts never end.
+  constexpr double kMostSteps = 100.0;
+  const double steps = distance_error_ < 1.0 ? std::min(kMostSteps, 1.0 / (1.0 - distance_error_)) : kMostSteps;
+  per_conflict_ = std::max(0.0, cost_error_) * steps;
+}
+
+void NodeQueue::push(const Candidate& node, double estimate) {
+  if (static_cast<std::size_t>(node.id) >= entries_.size()) entries_.resize(node.id + 1);
+  entries_[node.id] = {node, selection_ == Selection::focal ? static_cast<double>(node.cost) : estimate};
+  const Entry& entry = entries_[node.id];
+  by_least_.insert({node.least, node.conflicts, -node.id});
+  by_estimate_.insert({entry.estimate, node.conflicts, -node.id});
+  if (entry.estimate <= bound_) focal_.insert({node.conflicts, entry.estimate, -node.id});
+}
+
+double NodeQueue::focal_bound() const {
+  return w_ * (selection_ == Selection::focal ? static_cast<double>(least()) : std::get<0>(*by_estimate_.begin()));
+}
+
+void NodeQueue::update_focal() {
+  const double bound = focal_bound();
+  const auto beyond = [&](double estimate) {
+    return by_estimate_.upper_bound({estimate, std::numeric_limits<std::int32_t>::max(), 0});
+  };
+  const auto [low, high] = std::minmax(bound, bound_);
+  for (auto it = beyond(low), end = beyond(high); it != end; ++it) {
+    const auto [estimate, conflicts, id] = *it;
+    if (bound > bound_) {
+      focal_.insert({conflicts, estimate, id});
+    } else {
+      focal_.erase({conflicts, estimate, id});
+    }
+  }
+  bound_ = bound;
+}
+
+std::int32_t NodeQueue::choose() const {
+  const std::int32_t fewest = -std::get<2>(*focal_.begin());
+  if (selection_ == Selection::focal || affordable(fewest)) return fewest;
+  const std::int32_t likely = -std::get<2>(*by_estimate_.begin());
+  return affordable(likely) ? likely : -std::get<2>(*by_least_.begin());
+}
+
+std::int32_t NodeQueue::pop() {
+  update_focal();
+  const std::int32_t id = choose();
+  const auto& [node, estimate] = entries_[id];
+  by_least_.erase({node.least, node.conflicts, -id});
+  by_estimate_.erase({estimate, node.conflicts, -id});
+  focal_.erase({node.conflicts, estimate, -id});
+  return id;
+}
+
+}  // namespace mrpbench::mapf

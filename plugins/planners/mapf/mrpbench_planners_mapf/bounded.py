@@ -1,0 +1,104 @@
+"""Bounded-suboptimal conflict-based search: plans that cost at most `w` times the least."""
+
+from typing import ClassVar
+
+import attrs
+from mrpbench_native import mapf
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.model.plan import Budget, PlanResult
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_planners_mapf.native import SUPPORTED, solve
+
+PROMISES = frozenset({Promise.CONFLICT_FREE, Promise.BOUNDED, Promise.COMPLETE, Promise.DETERMINISTIC})
+W = attrs.validators.and_(attrs.validators.ge(1.0), attrs.validators.lt(float("inf")))
+
+
+@attrs.frozen(kw_only=True)
+class Ecbs(Planner):
+    """ECBS (Barer et al., SoCS 2014): a plan whose sum of costs is at most `w` times `lower_bound`.
+
+    Both levels search in a focal list: for one robot the path with the fewest conflicts with the others among those
+    that cost at most `w` times its least, in the constraint tree the node with the fewest conflicts among those that
+    cost at most `w` times the lower bound. Roadmaps of unit moves without footprints, commitments and goal sets (grids)
+    are searched tick by tick, all others by safe intervals, which takes longer.
+    """
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    promises: ClassVar[frozenset[Promise]] = PROMISES
+
+    w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """See `Planner.plan`."""
+        return solve(
+            problem,
+            budget,
+            lambda instance, wall_s, memory_bytes: mapf.bounded_cbs(
+                instance,
+                selection="focal",
+                w=self.w,
+                bypass=False,
+                target=False,
+                corridor=False,
+                flex=False,
+                distance_weight=1.0,
+                conflict_weight=0.0,
+                wall_s=wall_s,
+                memory_bytes=memory_bytes,
+            ),
+        )
+
+
+@attrs.frozen(kw_only=True)
+class Eecbs(Planner):
+    """EECBS (Li, Ruml and Koenig, AAAI 2021): as `ecbs`, but the constraint tree is searched by explicit estimation.
+
+    What a solution below a node will cost is estimated from the errors of the steps before; of the nodes that promise a
+    solution within the bound the one with the fewest conflicts is next, unless the lower bound has to be raised. The
+    options switch single techniques on or off, for ablations; `target` and `corridor` count on roadmaps of unit moves.
+    """
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    promises: ClassVar[frozenset[Promise]] = PROMISES
+
+    w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
+    bypass: bool = option(
+        True,
+        help="Take over paths within the bound with fewer conflicts, not branching (Boyarski et al., ICAPS 2015).",
+    )
+    target: bool = option(
+        True, help="Resolve conflicts with robots at their goals by the time of arrival (Li et al., AIJ 2021)."
+    )
+    corridor: bool = option(
+        True, help="Resolve head-on conflicts in corridors by the time of leaving them (Li et al., AIJ 2021)."
+    )
+    flex: bool = option(
+        False, help="Let a robot's path use what the others leave of the common bound (Chan et al., AAAI 2022)."
+    )
+    distance_weight: float = option(
+        1.2,
+        help="The search for one robot orders by elapsed time + this many times the distance to go + "
+        "`conflict_weight` ticks per conflict (Veerapaneni, Kusnur and Likhachev, AAAI 2023).",
+        validator=attrs.validators.ge(1.0),
+    )
+    conflict_weight: float = option(
+        20.0,
+        help="See `distance_weight`; 0 = conflicts count more than anything else, as in the original.",
+        validator=attrs.validators.ge(0.0),
+    )
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """See `Planner.plan`."""
+        return solve(
+            problem,
+            budget,
+            lambda instance, wall_s, memory_bytes: mapf.bounded_cbs(
+                instance,
+                selection="explicit_estimation",
+                **attrs.asdict(self),
+                wall_s=wall_s,
+                memory_bytes=memory_bytes,
+            ),
+        )

@@ -1,0 +1,162 @@
+"""Bounded-suboptimal conflict-based search: valid plans within their bounds, against oracles and published optima."""
+
+import csv
+import math
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mapf_instances import grid, movingai, problem, random_graph_problem, random_grid_problem, random_rules
+from mapf_oracle import TooLargeError, least_cost
+from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
+
+from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.model.problem import features_of
+
+BUDGET = Budget(wall_s=0.2, memory_bytes=1 << 30)
+seeds = st.integers(0, 2**32 - 1)
+bounds = st.sampled_from([1.0, 1.01, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0])
+switches = st.booleans()
+planners = st.one_of(
+    st.builds(Ecbs, w=bounds),
+    st.builds(
+        Eecbs,
+        w=bounds,
+        bypass=switches,
+        target=switches,
+        corridor=switches,
+        flex=switches,
+        distance_weight=st.sampled_from([1.0, 1.2, 3.0]),
+        conflict_weight=st.sampled_from([0.0, 2.0, 20.0]),
+    ),
+)
+
+
+def check_result(planner, asked, result, optimum: float | None = None) -> PlanStatus:
+    """The plan is valid and within its bound; the bound is below the optimum, the cost above."""
+    if result.status is PlanStatus.SOLVED:
+        report = check_plan(asked, result.plan)
+        assert report.valid, (report.faults, report.conflicts)
+        assert result.plan.sum_of_costs <= planner.w * result.lower_bound
+    if optimum is None:
+        return result.status
+    if result.status is PlanStatus.SOLVED:
+        assert result.lower_bound <= optimum <= result.plan.sum_of_costs
+    elif result.status is PlanStatus.UNSOLVABLE:
+        assert optimum == math.inf
+    else:
+        assert result.status is PlanStatus.TIMEOUT
+        assert result.lower_bound <= optimum
+    return result.status
+
+
+def solve_and_compare(planner, asked) -> PlanStatus:
+    try:
+        optimum = least_cost(asked)
+    except TooLargeError:
+        optimum = None
+    return check_result(planner, asked, planner.plan(asked, BUDGET), optimum)
+
+
+@settings(max_examples=150, deadline=None)
+@given(planner=planners, seed=seeds, robots=st.integers(2, 4), size=st.integers(3, 4))
+def test_bounds_hold_on_grids(planner, seed, robots, size):
+    solve_and_compare(planner, random_grid_problem(np.random.default_rng(seed), robots, size=size))
+
+
+@settings(max_examples=100, deadline=None)
+@given(planner=planners, seed=seeds, robots=st.integers(2, 3))
+def test_bounds_hold_on_graphs_with_durations_profiles_goal_sets_and_footprints(planner, seed, robots):
+    random = np.random.default_rng(seed)
+    ready = random.integers(0, 3, robots)
+    solve_and_compare(planner, random_graph_problem(random, robots, ready=ready, **random_rules(random)))
+
+
+@settings(max_examples=80, deadline=None)
+@given(planner=planners, seed=seeds, robots=st.integers(2, 3))
+def test_bounds_hold_on_graphs_of_unit_moves_with_one_way_lanes(planner, seed, robots):
+    random = np.random.default_rng(seed)
+    asked = random_graph_problem(random, robots, longest=1)
+    goals = [int(goal) for goal in random.choice(len(asked.roadmap.position), robots, replace=False)]
+    solve_and_compare(planner, problem(asked.roadmap, asked.start, goals))
+
+
+@settings(max_examples=40, deadline=None)
+@given(planner=planners, seed=seeds)
+def test_crowds_get_valid_plans_within_the_bound(planner, seed):
+    asked = random_grid_problem(np.random.default_rng(seed), 20, size=9)
+    check_result(planner, asked, planner.plan(asked, BUDGET))
+
+
+@settings(max_examples=30, deadline=None)
+@given(planner=planners, seed=seeds)
+def test_plans_begin_with_what_was_released(planner, seed):
+    random = np.random.default_rng(seed)
+    before = random_graph_problem(random, 3, **random_rules(random))
+    first = planner.plan(before, BUDGET)
+    if first.status is not PlanStatus.SOLVED:
+        return
+    released = tuple(
+        attrs.evolve(path, edge=path.edge[:size], enter=path.enter[:size], leave=path.leave[:size])
+        for path, size in zip(first.plan.paths, random.integers(0, 4, 3), strict=True)
+    )
+    after = attrs.evolve(before, commitments=released)
+    after = attrs.evolve(after, features=features_of(after) | before.features)
+    check_result(planner, after, planner.plan(after, BUDGET))
+
+
+@pytest.mark.parametrize("planner", [Ecbs(w=1.0), Eecbs(w=1.0)])
+def test_a_bound_of_one_is_optimal(planner):
+    statuses = [
+        solve_and_compare(planner, random_grid_problem(np.random.default_rng(seed), 3, size=4)) for seed in range(20)
+    ]
+    assert statuses.count(PlanStatus.SOLVED) > 10
+
+
+@pytest.mark.parametrize("corridor", [True, False])
+def test_who_meets_in_a_corridor_lets_the_other_out(corridor):
+    # Two robots meet head-on in a corridor of eight cells with a bay at each end.
+    road = grid(["#.########.#", "............"])
+    asked = problem(road, [2, 13], [13, 2])
+    result = Eecbs(w=1.0, corridor=corridor).plan(asked, Budget(wall_s=10, memory_bytes=1 << 30))
+    assert check_result(Eecbs(w=1.0), asked, result) is PlanStatus.SOLVED
+    assert result.plan.sum_of_costs == result.lower_bound
+    if corridor:
+        assert result.statistics["expansions"] < 10
+
+
+def test_a_robot_that_has_arrived_makes_way():
+    # Robot 0 arrives at once in the corridor through which robot 1 has to pass; the bay is beside its goal.
+    asked = problem(grid(["##.##", "....."]), [2, 1], [3, 5])
+    assert solve_and_compare(Eecbs(w=1.5), asked) is PlanStatus.SOLVED
+
+
+@pytest.mark.parametrize("planner", [Ecbs(), Eecbs(), Eecbs(w=1.05, flex=True)])
+def test_the_same_input_gives_the_same_output(planner):
+    asked = random_grid_problem(np.random.default_rng(5), 12, size=7)
+    budget = Budget(wall_s=20, memory_bytes=1 << 30)
+    one, other = planner.plan(asked, budget), planner.plan(asked, budget)
+    assert one.status is PlanStatus.SOLVED
+    assert one.plan == other.plan
+    assert one.statistics == other.statistics
+
+
+@pytest.mark.parametrize("w", [0.99, float("inf"), float("nan")])
+def test_bounds_that_make_no_sense_are_refused(w):
+    with pytest.raises(ValueError, match="w"):
+        Eecbs(w=w)
+
+
+@pytest.mark.parametrize("planner", [Ecbs(w=1.2), Eecbs(w=1.05)])
+def test_published_optima_lie_within_the_bounds(shared_data, planner):
+    with (shared_data / "mapf_optimal.csv").open() as file:
+        rows = [row for row in csv.DictReader(file) if int(row["agents"]) <= 30][::6]
+    solved = 0
+    for row in rows:
+        asked = movingai(shared_data, row["map"], row["scen"], int(row["agents"]))
+        result = planner.plan(asked, Budget(wall_s=0.2, memory_bytes=1 << 30))
+        solved += check_result(planner, asked, result, int(row["soc"])) is PlanStatus.SOLVED
+    assert solved > len(rows) / 2
