@@ -93,6 +93,8 @@ def channels() -> dict[str, NDArray[Any]]:
         "reached": reached,
         "cleared": reached,
         "mode": np.full((SAMPLES, ROBOTS), Mode.FOLLOWING, "u1"),
+        "waits_for": np.full((SAMPLES, ROBOTS), -1, "i4"),
+        "facility": np.zeros((SAMPLES, 0)),
         "contact_time": np.array([1.0, 1.05, 2.0]),
         "contact": np.array([(1, -1), (1, -1), (0, 2)], "i4"),
         "scan_time": scanned,
@@ -154,7 +156,7 @@ def permuted(order: Sequence[int]) -> FinishedRun:
 def chunks(seconds: float) -> list[Chunk]:
     """The recording in pieces of so many seconds, as exporters get it."""
     recorded = channels()
-    axes = {"time": PERIODIC, **OWN_AXES}
+    axes = {"time": (*PERIODIC, "facility"), **OWN_AXES}
     pieces: list[Chunk] = []
     for begin in np.arange(0.0, recorded["time"][-1] + 1e-9, seconds):
         piece: dict[str, NDArray[Any]] = {}

@@ -12,6 +12,7 @@ from mrpbench_metrics_standard.smoothness import Smoothness
 from mrpbench_metrics_standard.stops import Stops
 from mrpbench_metrics_standard.throughput import Throughput
 from mrpbench_metrics_standard.tracking import Tracking
+from mrpbench_metrics_standard.waiting import Waiting
 
 __all__ = [
     "Clearance",
@@ -26,4 +27,5 @@ __all__ = [
     "Stops",
     "Throughput",
     "Tracking",
+    "Waiting",
 ]

@@ -1,0 +1,85 @@
+"""How long robots wait for doors, lifts and mutexes, and how often doors and lifts move."""
+
+import math
+from collections.abc import Mapping
+from typing import ClassVar
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import Column, Metric, Value, option
+from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.facilities import Facilities
+from mrpbench_core.model.run import FinishedRun
+from mrpbench_metrics_standard.motion import steps
+from mrpbench_metrics_standard.samples import measurable, nulls
+
+DOING = frozenset({"facility"})
+
+
+@attrs.frozen(kw_only=True)
+class Waiting(Metric):
+    """Measures waiting: a robot stands from one sample to the next, and has asked for what it may not use yet.
+
+    Who asks while it still drives does not wait, and who rides in a lift does not either.
+    """
+
+    columns: ClassVar[tuple[Column, ...]] = (
+        Column("doors_s", "s", "lower", "sum over robots of the time they stood waiting for doors"),
+        Column("lifts_s", "s", "lower", "sum over robots of the time they stood waiting for lifts"),
+        Column("mutexes_s", "s", "lower", "sum over robots of the time they stood waiting for mutexes"),
+        Column("longest_s", "s", "lower", "the longest time that one robot waited in all, for whatever it was"),
+        Column("rides", "", "neither", "times a robot came to another level"),
+        Column(
+            "riding_s",
+            "s",
+            "lower",
+            "sum over robots of the time in the cabin of a lift that has left, or is not open yet",
+        ),
+        Column("openings", "", "lower", "times a door, of a lift too, began to open from shut", requires=DOING),
+    )
+    requires: ClassVar[frozenset[str]] = frozenset({"time", "truth", "level", "waits_for"})
+
+    speed: float = option(0.02, help="speed below which a robot stands", unit="m/s", validator=attrs.validators.gt(0))
+
+    def measure(self, run: FinishedRun) -> Mapping[str, Value]:
+        """Return all columns."""
+        if not measurable(self, run):
+            return nulls(self)
+        time, truth, waits = run.channel("time"), run.channel("truth"), run.channel("waits_for")
+        spent = np.diff(time)[:, None]
+        standing = steps(truth) < self.speed * spent
+        riding = _riding(run)[:-1]
+        asked = waits[:-1]
+        resources = run.context.problem.roadmap.resources
+        waited = np.where(standing & (asked >= 0) & ~riding, spent, 0.0)
+        kinds = np.array([resource.kind for resource in resources] + [""])[asked]
+        values: dict[str, Value] = {
+            f"{name}_s": math.fsum(waited[kinds == kind])
+            for name, kind in (("doors", "door"), ("lifts", "lift"), ("mutexes", "mutex"))
+        }
+        values["longest_s"] = max((math.fsum(own) for own in waited.T), default=0.0)
+        values["rides"] = int((np.diff(run.channel("level"), axis=0) != 0).sum())
+        values["riding_s"] = math.fsum(np.where(riding, spent, 0.0).ravel())
+        values["openings"] = None
+        if run.has("facility"):
+            doors = len(Facilities(run.context.world).gates)
+            values["openings"] = _openings(run.channel("facility")[:, :doors])
+        return values
+
+
+def _riding(run: FinishedRun) -> Bool:
+    """Tell bool[T,n] which robots are in the cabin of a lift that they may not leave now."""
+    truth, asked = run.channel("truth"), run.channel("waits_for")
+    lifts = {lift.name: lift for lift in run.context.world.lifts}
+    riding = np.zeros(asked.shape, bool)
+    for number, resource in enumerate(run.context.problem.roadmap.resources):
+        if resource.kind == "lift":
+            for sample, robot in np.argwhere(asked == number).tolist():
+                riding[sample, robot] = lifts[resource.name].holds(*truth[sample, robot, :2].tolist())
+    return riding
+
+
+def _openings(opening: Float) -> int:
+    begins = (opening[1:] > 0) & (opening[:-1] == 0)
+    return int(begins.sum())
