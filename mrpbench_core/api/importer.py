@@ -38,13 +38,30 @@ class Track:
 
 
 @attrs.frozen(kw_only=True)
+class Signal:
+    """What one robot measured, or was told. One row at least."""
+
+    robot: str
+    channel: str
+    """`odometry`, `command` or `scan_ranges`: rows are those of the channel of that name."""
+    topic: str
+    time: Float = array("f8")
+    """f8[k] seconds, as of tracks."""
+    rows: NDArray[Any] = attrs.field()
+    """f8[k,c]; of scans f4."""
+
+
+@attrs.frozen(kw_only=True)
 class Observed:
     """What a recording holds."""
 
     tracks: tuple[Track, ...]
     """In the natural order of the robots' names (`robot_2` before `robot_10`)."""
+    estimates: tuple[Track, ...] = ()
+    """Where localization believed robots to be, of those that have such a source."""
+    signals: tuple[Signal, ...] = ()
     context: RunContext | None = None
-    """That of the run, where mrpbench made the recording."""
+    """What was known before the run began, where mrpbench made the recording."""
     channels: Mapping[str, NDArray[Any]] = attrs.field(factory=dict)
     """Channels of `mrpbench_core.model.recording` that the recording holds as they are, with the times of `tracks`."""
     notes: tuple[str, ...] = ()

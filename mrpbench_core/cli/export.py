@@ -28,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     recording = Recording(paths.recording)
     destination = paths.exports / arguments.to if arguments.out is None else Path(arguments.out)
     destination.parent.mkdir(parents=True, exist_ok=True)
-    session = exporter.open(recording.context(), destination)
+    session = exporter.open(recording.first_context(), destination)
     for chunk in recording.chunks():
         session.write(chunk)
     session.close()

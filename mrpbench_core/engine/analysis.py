@@ -26,7 +26,7 @@ from mrpbench_core.files.robot import load_robot
 from mrpbench_core.files.scenario import read_scenario
 from mrpbench_core.model.execution import Mode
 from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.run import FinishedRun, RunContext, with_latest_routes
 from mrpbench_core.plugins.provenance import provenance
 from mrpbench_core.store.folder import ResultsFolder, new_invocation
 from mrpbench_core.store.invocation import write_document
@@ -69,9 +69,11 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
     observed = _in_order(analysis.importer.read(analysis.bag, analysis.robots), analysis.robots)
     found = _observe(analysis, observed)
     identity = _identity(analysis, found)
-    context = attrs.evolve(found.context, run_id=identity)
+    first = attrs.evolve(found.context, run_id=identity)
     known = {name: rows for name, rows in found.channels.items() if not (found.gaps and name == "truth")}
-    run = FinishedRun(context=context, executed=True, channels={name: _loader(rows) for name, rows in known.items()})
+    channels = {name: _loader(rows) for name, rows in known.items()}
+    context = with_latest_routes(first, channels)
+    run = FinishedRun(context=context, executed=True, channels=channels, alike=found.alike)
     values, reasons = measure(analysis.metrics, run)
     if found.gaps:
         reasons |= {name: "; ".join(found.gaps) for name, reason in reasons.items() if reason == "no truth"}
@@ -82,7 +84,7 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
         "config": _config(analysis, context.fleet),
         "seed": 0,
         "repeat": 0,
-        **_status(found),
+        **_status(found, context),
         "metrics": values,
         "unmeasured": reasons,
         "timing": {},
@@ -93,7 +95,7 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
             "notes": [*found.notes, *found.gaps],
         },
     }
-    attempt = _keep(analysis, attrs.evolve(found, context=context), record)
+    attempt = _keep(analysis, attrs.evolve(found, context=first), record)
     return {**record, "attempt": attempt}
 
 
@@ -137,10 +139,10 @@ def _observe(analysis: Analysis, observed: Observed) -> Observation:
     return observe(observed, world, fleet, scenario, analysis.sampling)
 
 
-def _status(found: Observation) -> dict[str, Any]:
+def _status(found: Observation, context: RunContext) -> dict[str, Any]:
     """How the run ended, as far as can be told."""
     last = found.channels["reached"][-1]
-    arrived = last >= np.array([len(route.speed) for route in found.context.routes])
+    arrived = last >= np.array([len(route.speed) for route in context.routes])
     if arrived.all():
         return {"status": "succeeded"}
     mode = found.channels.get("mode")

@@ -28,7 +28,7 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
             reasons[name] = reason
         for column in metric.columns:
             key, value = f"{name}.{column.name}", measured.get(column.name)
-            if (reason := _obstacle(column.requires, run)) is not None:
+            if (reason := _obstacle(metric.requires | column.requires, run)) is not None:
                 reasons[key], value = reason, None
             elif not isinstance(value, NUMBER | None):
                 reasons[key], value = f"the metric returned {type(value).__name__} instead of a number", None
@@ -66,5 +66,6 @@ def _obstacle(requires: frozenset[str], run: FinishedRun) -> str | None:
     """Why what is required is not there, or None if it is."""
     lacking = sorted(channel for channel in requires if not run.has(channel))
     if not lacking:
-        return None
+        same = next((channels for channels in run.alike if channels <= requires), None)
+        return None if same is None else f"{' and '.join(sorted(same))} are from one source"
     return "not executed" if not run.executed and lacking != ["plan"] else f"no {', '.join(lacking)}"

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.api.importer import Observed, Track
+from mrpbench_core.engine.beside import beside_truth
 from mrpbench_core.engine.resampling import even_times, resample
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Float, Int16, Int32
@@ -50,10 +51,14 @@ class Observation:
     notes: tuple[str, ...]
     gaps: tuple[str, ...]
     """Why not all positions are known."""
+    alike: tuple[frozenset[str], ...] = ()
+    """See `mrpbench_core.model.run.FinishedRun`."""
 
 
 def observe_own(observed: Observed, context: RunContext) -> Observation:
     """The run of a recording that mrpbench made: samples as they are."""
+    if "truth" in observed.channels:
+        return Observation(context=context, channels=observed.channels, notes=observed.notes, gaps=())
     time = observed.channels["time"]
     found = [resample(track, time, np.inf) for track in observed.tracks]
     truth = np.stack([resampled.pose for resampled in found], axis=1)
@@ -105,11 +110,13 @@ def observe(
     channels["reached"] = np.stack(
         [_reached(truth[:, robot], level, robot, task, sampling.tolerance) for robot, task in enumerate(tasks)], axis=1
     )
+    beside, alike = beside_truth(observed, time, sampling.max_gap, notes)
     return Observation(
         context=attrs.evolve(_context(world, fleet, scenario, tasks, 1 / sampling.rate), assigned=assigned),
-        channels=channels,
+        channels=channels | beside,
         notes=tuple(notes),
         gaps=tuple(gaps),
+        alike=alike,
     )
 
 

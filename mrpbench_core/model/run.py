@@ -44,6 +44,8 @@ class FinishedRun:
     """False when the run ended after planning (`simulator: none`, or no plan to execute)."""
     channels: Mapping[str, Callable[[], NDArray[Any]]] = attrs.field(factory=dict)
     """Loads a whole channel by name; see `mrpbench_core.model.recording`."""
+    alike: tuple[frozenset[str], ...] = ()
+    """Channels that one source gave, so that comparing them would say nothing; only where others recorded the run."""
 
     def channel(self, name: str) -> NDArray[Any]:
         """The whole of a channel."""
@@ -77,3 +79,8 @@ def latest_routes(routes: tuple[Route, ...], channels: Mapping[str, Callable[[],
         Route(waypoint=waypoint[robot == one], level=level[robot == one], speed=speed[robot == one][1:])
         for one in range(len(routes))
     )
+
+
+def with_latest_routes(context: RunContext, channels: Mapping[str, Callable[[], NDArray[Any]]]) -> RunContext:
+    """The context of a finished run, from that of its beginning."""
+    return attrs.evolve(context, routes=latest_routes(context.routes, channels))

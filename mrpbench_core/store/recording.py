@@ -9,14 +9,13 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext, latest_routes
+from mrpbench_core.model.run import RunContext, with_latest_routes
 
 FORMAT = 1
 """Raised when a reader of the old format would misread the new one."""
@@ -92,10 +91,13 @@ class Recording:
         array: NDArray[Any] = np.load(BytesIO(self._zip.read(name)), allow_pickle=False)
         return array
 
+    def first_context(self) -> RunContext:
+        """What was known before execution began, as exporters take it; new plans are in the channels `route_...`."""
+        return decode(self._context, RunContext, self._load)
+
     def context(self) -> RunContext:
-        """What was known before execution began, with the routes that were driven in the end."""
-        context = decode(self._context, RunContext, self._load)
-        return attrs.evolve(context, routes=latest_routes(context.routes, self.channels))
+        """The same with the routes that were driven in the end, to which `reached` and `cleared` refer."""
+        return with_latest_routes(self.first_context(), self.channels)
 
     def channel(self, name: str) -> NDArray[Any]:
         """All rows of a channel."""

@@ -105,3 +105,23 @@ def test_what_is_no_number_is_null_and_said(run_context):
     assert reasons == {"broken.length_s": "the metric returned str instead of a number"}
     _, reasons = measure({"broken": Broken(returns=[1])}, run)
     assert reasons == {"broken": "the metric returned list instead of a mapping"}
+
+
+@attrs.frozen(kw_only=True)
+class Error(Metric):
+    columns = (
+        Column("error_m", "m", "lower", "Between both.", requires=frozenset({"estimate"})),
+        Column("rows", "", "neither", "Of one."),
+    )
+    requires = frozenset({"truth"})
+
+    def measure(self, run):
+        return {"error_m": 0.0, "rows": 3.0}
+
+
+def test_channels_from_one_source_are_not_compared(run_context):
+    rows = {"truth": lambda: np.zeros((3, 2, 3)), "estimate": lambda: np.zeros((3, 2, 3))}
+    run = FinishedRun(context=run_context, executed=True, channels=rows, alike=(frozenset({"truth", "estimate"}),))
+    values, reasons = measure({"error": Error()}, run)
+    assert values == {"error.error_m": None, "error.rows": 3.0}
+    assert reasons == {"error.error_m": "estimate and truth are from one source"}

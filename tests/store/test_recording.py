@@ -39,3 +39,23 @@ def test_a_missing_or_foreign_file_is_named(tmp_path):
     (tmp_path / "foreign.zip").write_text("hello")
     with pytest.raises(InputError, match="not a recording"):
         Recording(tmp_path / "foreign.zip")
+
+
+def test_the_routes_of_the_first_plan_and_of_the_last_are_both_there(tmp_path, run_context):
+    count = len(run_context.routes)
+    writer = RecordingWriter(tmp_path / "a.zip", run_context)
+    writer.write(
+        {
+            "route_time": np.full(count, 2.0),
+            "route_revision": np.ones(count, "i4"),
+            "route_robot": np.arange(count, dtype="i4"),
+            "route_waypoint": np.full((count, 3), 9.0),
+            "route_level": np.zeros(count, "i2"),
+            "route_speed": np.full(count, np.inf),
+        }
+    )
+    writer.close()
+    recording = Recording(tmp_path / "a.zip")
+    assert recording.first_context().routes == run_context.routes
+    assert [route.waypoint.tolist() for route in recording.context().routes] == [[[9, 9, 9]]] * count
+    recording.close()

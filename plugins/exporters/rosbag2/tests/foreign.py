@@ -56,16 +56,37 @@ class Foreign:
     def point(self, name, x, y):
         return self.make(f"geometry_msgs/{name}", x=float(x), y=float(y), z=0.0)
 
-    def odometry(self, topic, stamp, x, y, yaw, frame="odom", log=None):
-        still = self.make(
-            "geometry_msgs/Twist", linear=self.point("Vector3", 0, 0), angular=self.point("Vector3", 0, 0)
+    def moving(self, speed, turn_rate):
+        linear, angular = self.point("Vector3", speed, 0), self.point("Vector3", 0, 0)
+        angular.z = float(turn_rate)
+        return self.make("geometry_msgs/Twist", linear=linear, angular=angular)
+
+    def twist(self, topic, log, speed, turn_rate):
+        self.say(topic, "geometry_msgs/Twist", self.moving(speed, turn_rate), log)
+
+    def scan(self, topic, stamp, ranges, log=None):
+        message = self.make(
+            "sensor_msgs/LaserScan",
+            header=self.header(stamp, "base_scan"),
+            angle_min=0.0,
+            angle_max=3.0,
+            angle_increment=1.0,
+            time_increment=0.0,
+            scan_time=0.1,
+            range_min=0.1,
+            range_max=3.5,
+            ranges=np.array(ranges, np.float32),
+            intensities=np.zeros(0, np.float32),
         )
+        self.say(topic, "sensor_msgs/LaserScan", message, stamp if log is None else log)
+
+    def odometry(self, topic, stamp, x, y, yaw, frame="odom", log=None, speed=(0.0, 0.0)):
         message = self.make(
             "nav_msgs/Odometry",
             header=self.header(stamp, frame),
             child_frame_id="base_footprint",
             pose=self.make("geometry_msgs/PoseWithCovariance", pose=self.pose(x, y, yaw), covariance=np.zeros(36)),
-            twist=self.make("geometry_msgs/TwistWithCovariance", twist=still, covariance=np.zeros(36)),
+            twist=self.make("geometry_msgs/TwistWithCovariance", twist=self.moving(*speed), covariance=np.zeros(36)),
         )
         self.say(topic, "nav_msgs/Odometry", message, stamp if log is None else log)
 

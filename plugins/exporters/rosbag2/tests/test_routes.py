@@ -6,8 +6,9 @@ from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 
 from mrpbench_core import run
+from mrpbench_core.api import Metric
+from mrpbench_core.cli.main import main
 from mrpbench_core.engine.analysis import Analysis, analyze
-from mrpbench_core.model.run import latest_routes
 from mrpbench_core.plugins.registry import Registry
 
 NAN = float("nan")
@@ -39,44 +40,83 @@ def test_viewers_get_the_paths_of_every_plan(bag, read):
     assert (last.x, last.y, last.z) == (3, 3, 0.5)
 
 
-def test_the_last_routes_and_all_rows_come_back(bag, context):
+def test_the_first_routes_and_all_rows_of_later_ones_come_back(bag, context):
     observed = FromRosbag2().read(bag)
     for name, rows in NEW.items():
         np.testing.assert_array_equal(observed.channels[name], rows)
-    expected = latest_routes(context.routes, {name: lambda rows=rows: rows for name, rows in NEW.items()})
-    for found, wanted in zip(observed.context.routes, expected, strict=True):
+    for found, wanted in zip(observed.context.routes, context.routes, strict=True):
         np.testing.assert_array_equal(found.waypoint, wanted.waypoint)
         np.testing.assert_array_equal(found.speed, wanted.speed)
 
 
+BESIDE = '''
+import attrs
+import numpy as np
+from mrpbench_core.api import Column, Metric
+
+
+@attrs.frozen(kw_only=True)
+class Beside(Metric):
+    """Sums of everything that robots believed, measured and were told."""
+
+    columns = tuple(Column(name, "", "higher", name) for name in ("estimate", "odometry", "command", "scans", "twist"))
+    requires = frozenset({"estimate", "odometry", "command", "scan_time", "scan_robot", "scan_ranges", "truth_twist"})
+
+    def measure(self, run):
+        ranges, robot = run.channel("scan_ranges"), run.channel("scan_robot")
+        seen = np.where(np.isfinite(ranges), ranges, 0).sum(axis=1, dtype=float)
+        return {
+            "estimate": float(np.abs(run.channel("estimate") - run.channel("truth")).sum()),
+            "odometry": float(np.abs(run.channel("odometry")).sum()),
+            "command": float((run.channel("command") ** 2).sum()),
+            "scans": float((seen * (1 + robot) * run.channel("scan_time")).mean()),
+            "twist": float(np.abs(run.channel("truth_twist")).sum()),
+        }
+'''
+
+
 def test_a_run_with_new_plans_comes_back_with_its_numbers(tmp_path, monkeypatch):
     pytest.importorskip("mrpbench_planners_mapf")
+    pytest.importorskip("mrpbench_simulators_planar")
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "free.map").write_text("type octile\nheight 6\nwidth 12\nmap\n" + "............\n" * 6)
+    (tmp_path / "beside.py").write_text(BESIDE)
+    names = ("execution", "tracking", "stops")
     (record,) = run(
         {
             "name": "replanned",
-            "world": {"plugin": "movingai", "file": "free.map"},
-            "roadmap": "grid",
+            "world": "office",
+            "fleet": "turtlebot3_burger",
             "scenario": {"plugin": "random", "robots": 3},
-            "assigner": "identity",
             "planner": "prioritized",
-            "replanning": {"delay": "2 s"},
-            "noise": {"start_jitter": "6 s"},
-            "metrics": ["execution", "tracking", "stops"],
+            "replanning": {"delay": "5 s"},
+            "noise": {"start_jitter": "8 s", "odometry": 0.05},
+            "simulator": "planar",
+            "recording": {"scans": True},
+            "metrics": [*names, {"plugin": "./beside.py:Beside"}],
             "export": ["rosbag2"],
         }
     )
     bag = tmp_path / f"results/replanned/exports/{record['run_id']}/rosbag2"
-    metrics = {name: Registry(_metric()).get(name)() for name in ("execution", "tracking", "stops")}
+    local = next(name for name in record["metrics"] if name.endswith(".estimate")).removesuffix(".estimate")
+    metrics = {name: Registry(Metric).get(name)() for name in names} | {local: _local(tmp_path / "beside.py")}
     found = analyze(Analysis(bag=bag, importer=FromRosbag2(), metrics=metrics, out=tmp_path / "back"))
-    assert "route_time" in FromRosbag2().read(bag).channels
-    assert found["status"] == record["status"]
+    observed = FromRosbag2().read(bag)
+    assert "route_time" in observed.channels
+    assert (found["status"], found["unmeasured"]) == (record["status"], {})
+    assert found["metrics"].keys() == record["metrics"].keys()
     for name, value in record["metrics"].items():
         assert found["metrics"][name] == pytest.approx(value, abs=1e-6), name
 
+    assert main(["export", "results/replanned", "--to", "rosbag2", "--out", "again"]) == 0
+    again = FromRosbag2().read(tmp_path / "again")
+    for one, other in zip(observed.context.routes, again.context.routes, strict=True):
+        np.testing.assert_array_equal(one.waypoint, other.waypoint)
+    assert observed.channels.keys() == again.channels.keys()
+    for name, rows in observed.channels.items():
+        np.testing.assert_array_equal(rows, again.channels[name])
 
-def _metric():
-    from mrpbench_core.api import Metric
 
-    return Metric
+def _local(file):
+    space = {"__name__": "beside"}
+    exec(file.read_text(), space)
+    return space["Beside"]()

@@ -94,15 +94,11 @@ class Patterns:
     def takers(self, topics: Mapping[str, str], into: Collected) -> dict[str, Take]:
         """Who takes in the messages of each topic that says something about poses; `topics` give types by name."""
         found: dict[str, Take] = {}
-        exact: dict[str, Take] = {}
-        robots = set()
         for topic, kind in topics.items():
             if kind in POSES:
                 for source, patterns in self.by_source.items():
                     if (robot := robot_in(topic, patterns)) is not None:
                         found[topic] = into.of_pose(robot, source, topic)
-                        robots.add(robot)
-                        exact |= {topic: found[topic]} if source == "ground_truth" else {}
                         break
             elif kind == FLEET and topic in self.fleet_states:
                 found[topic] = into.of_fleet(topic, self.fleet)
@@ -113,7 +109,7 @@ class Patterns:
                     found[topic] = into.of_transforms("", topic, static)
                 elif (robot := robot_in(name, self.tf)) is not None:
                     found[topic] = into.of_transforms(robot, topic, static)
-        return exact if 0 < len(exact) == len(robots) else found  # nothing is better than the truth of every robot
+        return found
 
 
 def nanoseconds(stamp: Any) -> int:

@@ -1,25 +1,24 @@
 """The importer `rosbag2`: from the messages of a bag to one track per robot."""
 
 from collections.abc import Iterator
-from functools import partial
 from pathlib import Path
 
 import attrs
-import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.importer import SOURCES, Importer, Observed, Track
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext, latest_routes
 from mrpbench_exporters_rosbag2.messages import SECOND
 from mrpbench_exporters_rosbag2.reading.collected import Collected, Patterns
 from mrpbench_exporters_rosbag2.reading.names import natural, robot_in, wanted, without_robot
 from mrpbench_exporters_rosbag2.reading.own import Own
 from mrpbench_exporters_rosbag2.reading.series import Ordered, Span, longest_even_span
+from mrpbench_exporters_rosbag2.reading.signals import Signals
 from mrpbench_exporters_rosbag2.reading.stream import Stream
 from mrpbench_exporters_rosbag2.reading.transforms import placed
 
+ESTIMATES = ("tf", "amcl_pose")
+"""Sources that say where a robot believes to be, the best first."""
 SHOWN = 12
 """Topics that a message lists."""
 
@@ -36,6 +35,8 @@ class FromRosbag2(Importer):
     ground_truth: tuple[str, ...] = option(("/{robot}/ground_truth",), help="topics with true poses in `map`")
     amcl_pose: tuple[str, ...] = option(("/{robot}/amcl_pose",), help="topics with poses that localization estimates")
     odometry: tuple[str, ...] = option(("/{robot}/odom",), help="topics with odometry")
+    command: tuple[str, ...] = option(("/{robot}/cmd_vel",), help="topics with commands, Twist or TwistStamped")
+    scan: tuple[str, ...] = option(("/{robot}/scan",), help="topics with laser scans; empty = they are left out")
     tf: tuple[str, ...] = option(("/{robot}/tf",), help="topics with one robot's transforms, beside `/tf` of all")
     fleet_states: tuple[str, ...] = option(("/fleet_states",), help="topics with rmf_fleet_msgs/FleetState")
     fleet: str = option("", help="the fleet whose states are read, of several; empty = all")
@@ -50,17 +51,32 @@ class FromRosbag2(Importer):
             topics = stream.topics
             for alone in (False, True):
                 patterns, bases = self._patterns(alone)
-                collected, own = Collected(), Own(topics)
-                takers = patterns.takers(topics, collected) | own.takers()
-                for topic, logged, message in stream.messages(takers):
-                    takers[topic](logged, message)
-                tracks, notes = self._tracks(collected, bases, robots, own.begin)
-                if tracks:
-                    channels = own.channels()
+                collected, signals = Collected(), Signals(patterns=self._signals(alone))
+                own = Own(topics, signals)
+                takers = (patterns.takers(topics, collected), signals.takers(topics), own.takers())
+                takes = {
+                    topic: [taker[topic] for taker in takers if topic in taker] for taker in takers for topic in taker
+                }
+                for topic, logged, message in stream.messages(takes):
+                    for take in takes[topic]:
+                        take(logged, message)
+                span, notes = self._span(collected)
+                best = self._best(collected, span, bases, robots, SOURCES)
+                if best:
+                    begin = own.begin
+                    if begin is None:
+                        begin = min(int(found.poses.stamps[0]) for found in best)
+                    tracks = tuple(found.track(begin) for found in best)
+                    names = {track.robot for track in tracks}
+                    clocks = {robot: series for (robot, _), series in collected.poses.items() if series.stamps}
+                    anybody = next(series for series in collected.series if series.stamps)
+                    believed = self._best(collected, span, bases, robots, ESTIMATES)
                     return Observed(
-                        tracks=tuple(tracks),
-                        context=own.context and _with_latest_routes(own.context, channels),
-                        channels=channels,
+                        tracks=tracks,
+                        estimates=tuple(found.track(begin) for found in believed),
+                        signals=tuple(s for s in signals.placed(clocks, anybody, span, begin) if s.robot in names),
+                        context=own.context,
+                        channels=own.channels(),
                         notes=tuple(dict.fromkeys((*stream.notes, *own.notes, *notes))),
                     )
             raise self._nothing(path, robots, topics, stream.notes)
@@ -74,26 +90,43 @@ class FromRosbag2(Importer):
             bases = without_robot(bases)
         return Patterns(by_source=by_source, tf=self.tf, fleet_states=self.fleet_states, fleet=self.fleet), bases
 
-    def _tracks(
-        self, collected: Collected, bases: tuple[str, ...], chosen: tuple[str, ...], begin: int | None
-    ) -> tuple[list[Track], list[str]]:
-        """Tracks with times since `begin` (nanoseconds; None = their first pose), and what to say about them."""
+    def _signals(self, alone: bool) -> dict[str, tuple[str, ...]]:
+        """The patterns of topics by channel."""
+        by_channel = {
+            "truth": self.ground_truth,
+            "odometry": self.odometry,
+            "command": self.command,
+            "scan_ranges": self.scan,
+        }
+        return {channel: without_robot(patterns) if alone else patterns for channel, patterns in by_channel.items()}
+
+    def _span(self, collected: Collected) -> tuple[Span, list[str]]:
+        """The part that is used, and what to say about it."""
         span = longest_even_span(collected.series)
         notes = [] if span.note is None else [span.note]
         if span.use_log:
             notes.append("a topic has no stamps, so log times were used for all")
         notes += [f"{one.topic}: {one.refused} poses are not finite" for one in collected.series if one.refused]
+        return span, notes
+
+    def _best(
+        self,
+        collected: Collected,
+        span: Span,
+        bases: tuple[str, ...],
+        chosen: tuple[str, ...],
+        order: tuple[str, ...],
+    ) -> list["Placed"]:
+        """Poses of every robot by the first source that it has."""
         robots = {robot for robot, _ in collected.poses}
         robots |= {robot for tree, child in collected.frames if (robot := self._robot(tree, child, bases)) is not None}
         found = []
         for robot in sorted((robot for robot in robots if wanted(robot, chosen)), key=natural):
-            for source in SOURCES:
+            for source in order:
                 if (best := self._poses(collected, span, bases, robot, source)) is not None:
-                    found.append((robot, source, *best))
+                    found.append(Placed(robot, source, *best))
                     break
-        if begin is None:
-            begin = min((int(poses.stamps[0]) for *_, poses in found), default=0)
-        return [_track(*facts, begin) for facts in found], notes
+        return found
 
     def _robot(self, tree: str, child: str, bases: tuple[str, ...]) -> str | None:
         if tree:
@@ -143,20 +176,25 @@ def _edges(collected: Collected, span: Span, tree: str) -> Iterator[tuple[str, t
             yield child, (series.frame, poses)
 
 
-def _with_latest_routes(context: RunContext, channels: Chunk) -> RunContext:
-    """What was reached refers to the routes of the last plan."""
-    loaders = {name: partial(np.asarray, rows) for name, rows in channels.items()}
-    return attrs.evolve(context, routes=latest_routes(context.routes, loaders))
+@attrs.frozen
+class Placed:
+    """Poses of a robot by one source."""
 
+    robot: str
+    source: str
+    topic: str
+    in_map: bool
+    poses: Ordered
 
-def _track(robot: str, source: str, topic: str, placed_in_map: bool, poses: Ordered, begin: int) -> Track:
-    return Track(
-        robot=robot,
-        source=source,
-        topic=topic,
-        placed=placed_in_map,
-        time=(poses.stamps - begin) / SECOND,
-        pose=poses.rows[:, :3],
-        height=poses.rows[:, 3],
-        levels=poses.levels,
-    )
+    def track(self, begin: int) -> Track:
+        """Them with times since `begin`, nanoseconds."""
+        return Track(
+            robot=self.robot,
+            source=self.source,
+            topic=self.topic,
+            placed=self.in_map,
+            time=(self.poses.stamps - begin) / SECOND,
+            pose=self.poses.rows[:, :3],
+            height=self.poses.rows[:, 3],
+            levels=self.poses.levels,
+        )

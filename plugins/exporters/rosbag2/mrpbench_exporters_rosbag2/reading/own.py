@@ -1,4 +1,4 @@
-"""What only bags that mrpbench wrote say: the context, progress, contacts and events."""
+"""What bags that mrpbench wrote say: the context, progress, contacts and events, and the rows of the recording."""
 
 from collections import defaultdict
 from io import BytesIO
@@ -12,21 +12,27 @@ from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2 import advance, routes, whole
 from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS
 from mrpbench_exporters_rosbag2.messages import SECOND, full_name
-from mrpbench_exporters_rosbag2.reading.collected import Take, nanoseconds
+from mrpbench_exporters_rosbag2.reading.collected import TRANSFORMS, Take, nanoseconds
+from mrpbench_exporters_rosbag2.reading.signals import Said, Signals, table, turn
+from mrpbench_exporters_rosbag2.reading.transforms import compose
 
 TOPICS = (whole.TOPIC, advance.TOPIC, CONTACTS, EVENTS, routes.TOPIC)
+TF = "/tf"
 KINDS = {"released": "i4", "reached": "i4", "cleared": "i4", "mode": "u1", "level": "i2"}
 
 
 class Own:
     """Collects them."""
 
-    def __init__(self, topics: dict[str, str]) -> None:
-        """`topics` give types by name."""
+    def __init__(self, topics: dict[str, str], signals: Signals) -> None:
+        """`topics` give types by name; `signals` are those of the same pass."""
         self.context: RunContext | None = None
         self.notes: list[str] = []
         self._rows: dict[str, list[Any]] = defaultdict(list)
         self._topics = {topic.name for topic in TOPICS if topics.get(topic.name) == full_name(topic.type)}
+        self._types = topics
+        self._signals = signals
+        self._estimates: dict[str, Said] = {}
 
     def takers(self) -> dict[str, Take]:
         """Who takes in the messages of each topic, if the bag is one of mrpbench's."""
@@ -39,7 +45,9 @@ class Own:
             EVENTS.name: self._event,
             routes.TOPIC.name: self._routes,
         }
-        return {topic: takes[topic] for topic in self._topics}
+        return {topic: takes[topic] for topic in self._topics} | (
+            {TF: self._transforms} if self._types.get(TF) == TRANSFORMS else {}
+        )
 
     @property
     def begin(self) -> int | None:
@@ -62,7 +70,10 @@ class Own:
         pairs = [[numbers.get(name, -1) for name in pair] for pair in self._rows["contact"]]
         new: list[Chunk] = self._rows["routes"]
         found |= {name: np.concatenate([rows[name] for rows in new]) for name in routes.CHANNELS if new}
-        return found | {
+        return {
+            **found,
+            **self._sampled(),
+            **self._scans(begin),
             "contact_time": times("contact_time"),
             "contact": np.array(pairs, "i4").reshape(-1, 2),
             "event_time": times("event_time"),
@@ -70,6 +81,50 @@ class Own:
             "event_robot": np.array([numbers.get(name, -1) for name in self._rows["event_robot"]], "i4"),
             "event_detail": np.array(self._rows["event_detail"], "U"),
         }
+
+    def _sampled(self) -> Chunk:
+        """Periodic channels of which every robot has a message at every sample."""
+        assert self.context is not None
+        said = self._signals.said | {(robot, "estimate"): rows for robot, rows in self._estimates.items()}
+        found: dict[str, NDArray[Any]] = {}
+        for channel in ("truth", "odometry", "command", "estimate"):
+            every = [said.get((name, channel)) for name in self.context.fleet.names]
+            rows = [one.rows for one in every if one is not None and one.logged == self._rows["time"]]
+            if len(rows) == len(every):
+                found[channel] = np.swapaxes(np.array(rows, float), 0, 1)
+            elif any(every):
+                self.notes.append(f"not every robot has every sample of {channel}: it was not read")
+        for channel in ("truth", "odometry", "estimate"):
+            if channel in found:  # a quaternion tells turns from turns and a half, not from double ones
+                found[channel][..., 2] = np.unwrap(found[channel][..., 2], period=4 * np.pi, axis=0)
+        if "truth" in found:
+            found["truth_twist"], found["truth"] = found["truth"][..., 3:], found["truth"][..., :3]
+        return found
+
+    def _scans(self, begin: int) -> Chunk:
+        assert self.context is not None
+        said = [self._signals.said.get((name, "scan_ranges")) for name in self.context.fleet.names]
+        stamps = np.array([stamp for one in said if one for stamp in one.logged], np.int64)
+        if not len(stamps):
+            return {}
+        robot = np.repeat(np.arange(len(said), dtype="i4"), [len(one.rows) if one else 0 for one in said])
+        ranges = table([row for one in said if one for row in one.rows])
+        order = np.argsort(stamps, kind="stable")
+        return {
+            "scan_time": (stamps[order] - begin) / SECOND,
+            "scan_robot": robot[order],
+            "scan_ranges": ranges[order],
+        }
+
+    def _transforms(self, logged: int, message: Any) -> None:
+        """Estimates, which are what a robot's two transforms make together; see `frames`."""
+        rows = {said.child_frame_id: _planar(said.transform) for said in message.transforms}
+        for said in message.transforms:
+            robot, _, frame = said.child_frame_id.rpartition("/")
+            if frame == "base_footprint" and (driven := rows.get(f"{robot}/odom")) is not None:
+                into = self._estimates.setdefault(robot, Said(TF))
+                into.logged.append(logged)
+                into.rows.append(compose(driven, rows[said.child_frame_id])[0, :3])
 
     def _whole(self, _logged: int, message: Any) -> None:
         try:
@@ -96,3 +151,9 @@ class Own:
     def _routes(self, _logged: int, message: Any) -> None:
         with np.load(BytesIO(message.data.tobytes()), allow_pickle=False) as file:
             self._rows["routes"].append({name: file[name] for name in routes.CHANNELS})
+
+
+def _planar(transform: Any) -> NDArray[Any]:
+    """x, y, yaw and z f8[1,4]."""
+    place = transform.translation
+    return np.array([[place.x, place.y, turn(transform.rotation), place.z]])
