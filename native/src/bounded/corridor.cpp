@@ -25,7 +25,7 @@ std::optional<Exit> find_exit(Steps path, std::span<const std::int32_t> chain, T
 
 }  // namespace
 
-Corridors::Corridors(const UnitRoadmap& roadmap, FocalSearch& search, Limits& limits)
+UnitCorridors::UnitCorridors(const UnitRoadmap& roadmap, FocalSearch& search, Limits& limits)
     : roadmap_(roadmap), search_(search), limits_(limits), inside_(roadmap.vertex_count()) {
   for (int vertex = 0; vertex < roadmap.vertex_count(); ++vertex) {
     const auto out = roadmap.successors(vertex), in = roadmap.predecessors(vertex);
@@ -34,7 +34,7 @@ Corridors::Corridors(const UnitRoadmap& roadmap, FocalSearch& search, Limits& li
 }
 
 /// Extend a chain of at least two vertices at its back as far as the corridor goes; false if it comes round.
-bool Corridors::follow(std::vector<std::int32_t>& chain, const std::array<int, 4>& stops) const {
+bool UnitCorridors::follow(std::vector<std::int32_t>& chain, const std::array<int, 4>& stops) const {
   const std::int32_t origin = chain.front();
   while (inside_[chain.back()] && std::ranges::find(stops, chain.back()) == stops.end()) {
     const auto next = roadmap_.successors(chain.back());
@@ -44,8 +44,8 @@ bool Corridors::follow(std::vector<std::int32_t>& chain, const std::array<int, 4
   return true;
 }
 
-std::optional<Corridors::Meeting> Corridors::find(const UnitConflict& conflict, const PathTable& table,
-                                                  const std::array<int, 4>& stops) const {
+std::optional<UnitCorridors::Meeting> UnitCorridors::find(const UnitConflict& conflict, const PathTable& table,
+                                                          const std::array<int, 4>& stops) const {
   const auto usable = [&](std::int32_t vertex) {
     return vertex >= 0 && inside_[vertex] && std::ranges::find(stops, vertex) == stops.end();
   };
@@ -69,7 +69,7 @@ std::optional<Corridors::Meeting> Corridors::find(const UnitConflict& conflict, 
   return Meeting{conflict.one, conflict.other, std::move(front), one->tick, other->tick};
 }
 
-UnitDistance& Corridors::distance_to(int vertex, int closed) {
+UnitDistance& UnitCorridors::distance_to(int vertex, int closed) {
   const Key key = static_cast<Key>(vertex) * (roadmap_.vertex_count() + 1) + closed + 1;
   const auto place = distances_.find(key);
   if (place != distances_.end()) return place->second;
@@ -79,7 +79,8 @@ UnitDistance& Corridors::distance_to(int vertex, int closed) {
   return distances_.try_emplace(key, roadmap_, vertex, limits_, closed).first->second;
 }
 
-Corridors::Passage Corridors::passage(std::span<const std::int32_t> chain, int start, UnitConstraints& constraints) {
+UnitCorridors::Passage UnitCorridors::passage(std::span<const std::int32_t> chain, int start,
+                                              UnitConstraints& constraints) {
   const std::int32_t end = chain.back(), gate = chain[chain.size() - 2];
   Passage result;
   result.through = search_.earliest_visit(start, end, distance_to(end, -1), constraints);
@@ -88,8 +89,8 @@ Corridors::Passage Corridors::passage(std::span<const std::int32_t> chain, int s
   return result;
 }
 
-std::optional<std::array<UnitConstraint, 2>> Corridors::split(const Meeting& meeting, const Passage& one,
-                                                              const Passage& other) {
+std::optional<std::array<UnitConstraint, 2>> UnitCorridors::split(const Meeting& meeting, const Passage& one,
+                                                                  const Passage& other) {
   const auto length = static_cast<Tick>(meeting.chain.size()) - 1;
   const auto last = [&](const Passage& own, const Passage& opposite) {
     return std::min(own.around - 1, std::min(opposite.through, kLatestTime) + length);

@@ -13,7 +13,7 @@
 
 namespace mrpbench::mapf {
 
-class Corridors {
+class UnitCorridors {
  public:
   /// A corridor through which `one` goes from front to back, and `other` from back to front.
   struct Meeting {
@@ -26,7 +26,7 @@ class Corridors {
     Tick through, around;
   };
 
-  Corridors(const UnitRoadmap& roadmap, FocalSearch& search, Limits& limits);
+  UnitCorridors(const UnitRoadmap& roadmap, FocalSearch& search, Limits& limits);
 
   /// `stops` are vertices at which corridors end in any case: the starts and goals of the two robots.
   std::optional<Meeting> find(const UnitConflict& conflict, const PathTable& table,

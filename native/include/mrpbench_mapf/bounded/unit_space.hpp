@@ -69,11 +69,11 @@ class UnitSpace {
       bind_to_node(robot);
       return corridors_.passage(meeting->chain, start(robot), constraints_);
     };
-    const Corridors::Passage first = passage(one);
+    const UnitCorridors::Passage first = passage(one);
     std::ranges::reverse(meeting->chain);
-    const Corridors::Passage second = passage(other);
+    const UnitCorridors::Passage second = passage(other);
     std::ranges::reverse(meeting->chain);
-    return Corridors::split(*meeting, first, second);
+    return UnitCorridors::split(*meeting, first, second);
   }
 
   const Instance& instance_;
@@ -83,7 +83,7 @@ class UnitSpace {
   PathTable table_;
   UnitConstraints constraints_;
   FocalSearch search_;
-  Corridors corridors_;
+  UnitCorridors corridors_;
   int robot_ = 0;
 };
 
