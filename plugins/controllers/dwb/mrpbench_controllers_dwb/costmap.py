@@ -90,9 +90,16 @@ class LocalCostmap(Grid, Inflation, Observation):
                 elif kind in ("obstacle_layer", "voxel_layer"):
                     for source in block.take(f"{name}.observation_sources", str, "").split():
                         observation = settle(self, block, f"{name}.{source}.", of=Observation)
+                        if block.take(f"{name}.{source}.observation_persistence", float, 0.0):
+                            raise block.error(
+                                "only the newest scan marks here: give 0.0", f"{name}.{source}.observation_persistence"
+                            )
                         block.ignore(*(f"{name}.{source}.{word}" for word in _OF_SOURCES))
+                    cleared = block.take(f"{name}.footprint_clearing_enabled", bool)
+                    if cleared is not None and self.footprint_clearing_enabled is None:
+                        values["footprint_clearing_enabled"] = cleared
                 block.ignore(*(f"{name}.{word}" for word in _OF_LAYERS))
-            block.ignore(*_IGNORED)
+            block.ignore(*_IGNORED, *(name for name in _LAYERS if named and name not in named))
             block.refuse_unknown()
         values |= inflation | observation
         radius = values.pop("robot_radius")
@@ -136,7 +143,16 @@ def _kind(block: Nav2Block, name: str) -> Layer | None:
     return known[kind] if enabled else None
 
 
-_OF_SOURCES = ("topic", "data_type", "max_obstacle_height", "min_obstacle_height", "sensor_frame")
+_LAYERS = get_args(Layer)
+"""Nav2's own file describes layers that its list of plugins leaves out."""
+_OF_SOURCES = (
+    "topic",
+    "data_type",
+    "max_obstacle_height",
+    "min_obstacle_height",
+    "sensor_frame",
+    "expected_update_rate",
+)
 _OF_LAYERS = (
     *("plugin", "enabled", "publish_voxel_map", "origin_z", "z_resolution", "z_voxels", "max_obstacle_height"),
     *(
@@ -144,7 +160,6 @@ _OF_LAYERS = (
         "mark_threshold",
         "unknown_threshold",
         "map_subscribe_transient_local",
-        "footprint_clearing_enabled",
     ),
     *("combination_method", "inflate_unknown", "inflate_around_unknown"),
 )

@@ -62,6 +62,12 @@ local_costmap:
           clearing: True
           obstacle_max_range: 2.2
           data_type: "LaserScan"
+          observation_persistence: 0.0
+          expected_update_rate: 0.0
+        footprint_clearing_enabled: False
+      static_layer:
+        plugin: "nav2_costmap_2d::StaticLayer"
+        map_subscribe_transient_local: True
       always_send_full_costmap: True
 """
 
@@ -93,7 +99,8 @@ def test_a_nav2_file_says_everything(tmp_path):
         "obstacle_max_range": 2.2,
         "raytrace_max_range": 3.0,
         "obstacle_layer": 1.0,
-        "static_layer": 0.0,
+        "static_layer": 0.0,  # described, as in Nav2's own file, but not among the plugins
+        "footprint_clearing_enabled": 0.0,
     }
     assert {name: numbers[name] for name in wanted} == wanted
     assert critics == (
@@ -145,6 +152,8 @@ def test_no_option_exceeds_what_the_robot_can():
         ("max_vel_y: 0.0\n      max_vel_t", "max_vel_y: 0.2\n      max_vel_t", r":11:7: .*cannot drive sideways"),
         ('"PathAlign"]', '"PathAling"]', r"params.yaml:22:7: .*no critic 'PathAling'"),
         ("inflation_radius: 0.4", "inflation_radios: 0.4", r"params.yaml:\d+:9: .*'inflation_layer.inflation_radios'"),
+        ("observation_persistence: 0.0", "observation_persistence: 5.0", r":\d+:11: .*only the newest scan marks"),
+        ("          clearing: True", "          clearin: True", r"\d+:11: .*'scan_layer.scan.clearin' \(did you mean"),
         ("VoxelLayer", "SonarLayer", r"'SonarLayer' is no layer that exists here"),
         ("dwb_core::DWBLocalPlanner", "nav2_mppi_controller::MPPIController", r"params.yaml:6:7: .*is not dwb_core"),
     ],
