@@ -1,0 +1,59 @@
+"""The paper's studies: every file loads, and is as large as the page says."""
+
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from mrpbench_core.api.planner import Planner
+from mrpbench_core.cli.main import main
+from mrpbench_core.config.study import load_study
+from mrpbench_core.plugins.registry import Registry
+
+FOLDER = Path(__file__).parents[1] / "studies"
+RUNS_PER_PLANNER = {"table2": 216, "table3": 216, "fig5": 34, "table4": 54, "replicability": 300}
+"""Runs of each planner that is installed."""
+PLANNERS = {"table2": 4, "table3": 4, "fig5": 4, "table4": 4, "replicability": 1}
+
+
+def missing_planners():
+    return {"ecbs", "eecbs"} - {provider.name for provider in Registry(Planner)}
+
+
+def test_every_study_is_known_here():
+    assert {file.stem for file in FOLDER.glob("*.yaml")} == set(RUNS_PER_PLANNER)
+
+
+@pytest.mark.parametrize("name", RUNS_PER_PLANNER)
+def test_a_study_has_its_runs_and_no_mistakes_but_planners_that_are_not_installed(name):
+    study = load_study(FOLDER / f"{name}.yaml")
+    assert study.name == name
+    found = Counter(point.canonical["planner"]["plugin"] for point in study.runs)
+    assert set(found.values()) == {RUNS_PER_PLANNER[name]}
+    refused = {word for word in missing_planners() if any(f"called '{word}'" in str(error) for error in study.errors)}
+    assert len(study.errors) == len(refused)
+    assert len(found) + len(refused) == PLANNERS[name]
+    assert study.invalid == len(refused) * RUNS_PER_PLANNER[name]
+
+
+@pytest.mark.parametrize("name", RUNS_PER_PLANNER)
+def test_a_study_can_be_listed(name, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    code = main(["run", str(FOLDER / f"{name}.yaml"), "--dry-run", "planner=[astar, cbs]"])
+    runs = RUNS_PER_PLANNER[name] * 2
+    assert f"{runs} of {runs} runs to do" in capsys.readouterr().out
+    assert code == 0
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("name", ["table2", "table3"])
+def test_the_original_maps_take_the_place_of_the_worlds(name, shared_data):
+    maps = shared_data / "rmf" / "mrp_bench"
+    worlds = ", ".join(f"{{plugin: rmf, file: {maps / world}.building.yaml}}" for world in ("office", "warehouse"))
+    study = load_study(
+        FOLDER / f"{name}.yaml",
+        ["roadmap.compatible=mrp_bench", "scenario.compatible=mrp_bench", f"world=[{worlds}]", "planner=[astar]"],
+    )
+    assert not study.errors
+    assert len(study.runs) == RUNS_PER_PLANNER[name]
+    assert {point.canonical["world"]["plugin"] for point in study.runs} == {"rmf"}
