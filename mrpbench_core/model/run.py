@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import attrs
+import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.model.execution import Route
@@ -69,16 +70,24 @@ def latest_routes(routes: tuple[Route, ...], channels: Mapping[str, Callable[[],
     Every plan's routes begin with what was released of the plan before, index by index: `reached` and `cleared` refer
     to the last routes as well as to those of their time.
     """
-    if "route_time" not in channels or not len(revision := channels["route_revision"]()):
-        return routes
-    last = revision == revision[-1]
-    robot, waypoint, level, speed = (
-        channels[f"route_{name}"]()[last] for name in ("robot", "waypoint", "level", "speed")
-    )
-    return tuple(
-        Route(waypoint=waypoint[robot == one], level=level[robot == one], speed=speed[robot == one][1:])
-        for one in range(len(routes))
-    )
+    return all_routes(routes, channels, newest=1)[-1][1]
+
+
+def all_routes(
+    routes: tuple[Route, ...], channels: Mapping[str, Callable[[], NDArray[Any]]], newest: int | None = None
+) -> list[tuple[float, tuple[Route, ...]]]:
+    """The routes of every plan, or of the `newest`, with the simulated second since which they hold."""
+    found = [(0.0, routes)]
+    if "route_time" in channels and len(revision := channels["route_revision"]()):
+        time, robot, waypoint, level, speed = (
+            channels[f"route_{name}"]() for name in ("time", "robot", "waypoint", "level", "speed")
+        )
+        numbers = np.unique(revision)
+        for number in numbers if newest is None else numbers[-newest:]:
+            own = [np.flatnonzero((revision == number) & (robot == one)) for one in range(len(routes))]
+            plan = tuple(Route(waypoint=waypoint[rows], level=level[rows], speed=speed[rows][1:]) for rows in own)
+            found.append((float(time[revision == number][0]), plan))
+    return found
 
 
 def with_latest_routes(context: RunContext, channels: Mapping[str, Callable[[], NDArray[Any]]]) -> RunContext:

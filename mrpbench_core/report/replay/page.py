@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.run import all_routes
 from mrpbench_core.report.replay.facts import facts_of
 from mrpbench_core.report.replay.happenings import read_contacts, read_events
 from mrpbench_core.report.replay.motion import pack_motion
@@ -45,7 +46,7 @@ def write_page(
     data = {
         "facts": facts_of(record, columns or {}, planner),
         "world": pack_world(context.world, motion),
-        "robots": pack_robots(context, motion),
+        "robots": pack_robots(context, motion, all_routes(recording.first_context().routes, recording.channels)),
         "events": read_events(recording, context),
         "contacts": read_contacts(recording),
         "scans": thinned,

@@ -5,11 +5,17 @@ from typing import Any
 import numpy as np
 
 from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Route
 from mrpbench_core.model.fleet import RobotModel
 from mrpbench_core.model.run import RunContext
 from mrpbench_core.model.solids import wall_boxes
 from mrpbench_core.model.world import Level, World
 from mrpbench_core.report.replay.packing import Packing
+
+Plans = list[tuple[float, tuple[Route, ...]]]
+"""Routes with the simulated second since which they hold; see `mrpbench_core.model.run.all_routes`."""
+MOST_WAYPOINTS = 1_000_000
+"""If all plans together have more, only the last is shown."""
 
 
 def pack_world(world: World, packing: Packing) -> dict[str, Any]:
@@ -39,12 +45,16 @@ def _level(level: Level, number: int, packing: Packing) -> dict[str, Any]:
     return found
 
 
-def pack_robots(context: RunContext, packing: Packing) -> dict[str, Any]:
-    """Robot models as JSON; each robot's model, and its route, packed."""
+def pack_robots(context: RunContext, packing: Packing, plans: Plans | None = None) -> dict[str, Any]:
+    """Robot models as JSON; each robot's model, and its routes by plan (by default only the last), packed."""
     models, kind = context.fleet.profiles
     packing.add("kind", kind)
-    routes = context.routes  # none where nothing was planned
+    plans = plans or [(0.0, context.routes)]
+    if sum(len(route.waypoint) for _, routes in plans for route in routes) > MOST_WAYPOINTS:
+        plans = [(0.0, context.routes)]
+    routes = [route for _, plan in plans for route in plan]  # none where nothing was planned
     lengths = [len(route.waypoint) for route in routes] or [0] * len(context.fleet)
+    packing.add_metres("plan_time", [time for time, _ in plans])
     packing.add("route_first", np.cumsum([0, *lengths]))
     waypoints = np.concatenate([route.waypoint[:, :2] for route in routes] or [np.empty((0, 2))])
     packing.add_metres("route_x", waypoints[:, 0])

@@ -272,6 +272,27 @@ def test_events_lead_to_their_moment(show, chunk):
     assert ask(browser, "replay.clock.now") == pytest.approx(1.5)
 
 
+def test_the_plan_shown_is_the_one_of_that_time(show, chunk):
+    new = {
+        "route_time": np.full(4, 2.0),
+        "route_revision": np.ones(4, "i4"),
+        "route_robot": np.array([0, 0, 0, 1], "i4"),
+        "route_waypoint": np.array([[0.5, 0.5, 0], [0.5, 0.5, 0], [0.75, 0.9, 0], [1.5, 0.5, 0]]),
+        "route_level": np.zeros(4, "i2"),
+        "route_speed": np.ones(4),
+    }
+    browser = show(chunk | new)
+    ends = []
+    for now in (0, 1.99, 2.0, 4.0, 1.0):
+        browser.execute_script(f"replay.clock.seek({now})")
+        settle(browser)
+        ends.append(
+            ask(browser, "[0, 1].map((robot) => replay.run.routeX[replay.run.routeNow[robot + 1] - 1].toFixed(2))")
+        )
+    assert ends == [["1.50", "2.50"], ["1.50", "2.50"], ["0.75", "1.50"], ["0.75", "1.50"], ["1.50", "2.50"]]
+    assert ask(browser, "[0, 1].map((robot) => replay.run.segments(robot))") == [2, 0]
+
+
 def test_dark_and_light_both_work(show, chunk, browser):
     features = [{"name": "prefers-color-scheme", "value": "dark"}]
     browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})

@@ -29,12 +29,13 @@ export class Paths {
     const { run } = this;
     const bands = colours.palette.map(() => new Path2D());
     const used = new Set();
+    const routes = run.routeNow;
     let radius = 0;
     for (let robot = 0; robot < run.count; robot++) {
       const reached = run.value("reached", robot, 0);
-      const released = Math.min(run.value("released", robot, 0), run.segments(robot));
+      const released = Math.min(run.value("released", robot, 0), routes[robot + 1] - routes[robot] - 1);
       if (released <= reached || run.value("level", robot, 0) !== shown.level || !run.isKnown(robot)) continue;
-      const first = run.routeFirst[robot];
+      const first = routes[robot];
       const band = bands[colours.of(robot)];
       band.moveTo(...view.toScreen(run.pose.x[robot], run.pose.y[robot]));
       for (let i = first + reached + 1; i <= first + released; i++) {
@@ -56,10 +57,11 @@ export class Paths {
   #drawPlans(context, view, shown, colours) {
     const { run } = this;
     const crowd = run.count > MANY && shown.selected < 0;
+    const routes = run.routeNow;
     const lines = colours.palette.map(() => new Path2D());
     const goals = colours.palette.map(() => new Path2D());
     this.#each(shown, (robot) => {
-      const [first, end] = [run.routeFirst[robot], run.routeFirst[robot + 1]];
+      const [first, end] = [routes[robot], routes[robot + 1]];
       const colour = colours.of(robot);
       for (let i = first; i < end; i++) {
         const onward = i > first && run.routeLevel[i] === shown.level && run.routeLevel[i - 1] === shown.level;

@@ -24,7 +24,10 @@ export class Run {
     this.count = this.names.length;
     this.models = data.robots.models;
     this.kind = arrays.kind.values;
-    this.routeFirst = arrays.route_first.values;
+    this.planTime = decoded(arrays.plan_time);
+    const first = arrays.route_first.values;
+    this.plans = Array.from(this.planTime, (_, plan) => first.subarray(plan * this.count, (plan + 1) * this.count + 1));
+    this.routeFirst = this.plans.at(-1); // of the last plan, which begins with all that was driven before
     this.routeX = decoded(arrays.route_x);
     this.routeY = decoded(arrays.route_y);
     this.routeLevel = arrays.route_level.values;
@@ -80,7 +83,12 @@ export class Run {
     return this.value("known", robot, 1) === 1;
   }
 
-  /** Number of path segments of a robot. */
+  /** First waypoints of every robot's route by the plan that holds now, and where the last one ends. */
+  get routeNow() {
+    return this.plans[Math.max(lastAtMost(this.planTime, this.now), 0)];
+  }
+
+  /** Number of path segments of a robot, by the last plan. */
   segments(robot) {
     return Math.max(this.routeFirst[robot + 1] - this.routeFirst[robot] - 1, 0);
   }
