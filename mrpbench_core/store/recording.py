@@ -100,8 +100,12 @@ class Recording:
         return with_latest_routes(self.first_context(), self.channels)
 
     def channel(self, name: str) -> NDArray[Any]:
-        """All rows of a channel."""
-        return np.concatenate([self._load(part) for part in self._parts[name]])
+        """All rows of a channel; scans are as wide as the widest lidar's, filled with NaN."""
+        parts = [self._load(part) for part in self._parts[name]]
+        if name == "scan_ranges":
+            width = max(part.shape[1] for part in parts)
+            parts = [np.pad(part, ((0, 0), (0, width - part.shape[1])), constant_values=np.nan) for part in parts]
+        return np.concatenate(parts)
 
     @property
     def channels(self) -> Mapping[str, Callable[[], NDArray[Any]]]:

@@ -59,3 +59,14 @@ def test_the_routes_of_the_first_plan_and_of_the_last_are_both_there(tmp_path, r
     assert recording.first_context().routes == run_context.routes
     assert [route.waypoint.tolist() for route in recording.context().routes] == [[[9, 9, 9]]] * count
     recording.close()
+
+
+def test_scans_of_unlike_lidars_are_one_channel(tmp_path, run_context):
+    writer = RecordingWriter(tmp_path / "a.zip", run_context)
+    writer.write({"scan_ranges": np.ones((2, 3), "f4")})
+    writer.write({"scan_ranges": np.ones((1, 5), "f4")})
+    writer.close()
+    recording = Recording(tmp_path / "a.zip")
+    ranges = recording.channel("scan_ranges")
+    assert np.isnan(ranges).tolist() == [[False] * 3 + [True] * 2] * 2 + [[False] * 5]
+    recording.close()

@@ -290,7 +290,8 @@ def test_the_plan_shown_is_the_one_of_that_time(show, chunk):
             ask(browser, "[0, 1].map((robot) => replay.run.routeX[replay.run.routeNow[robot + 1] - 1].toFixed(2))")
         )
     assert ends == [["1.50", "2.50"], ["1.50", "2.50"], ["0.75", "1.50"], ["0.75", "1.50"], ["1.50", "2.50"]]
-    assert ask(browser, "[0, 1].map((robot) => replay.run.segments(robot))") == [2, 0]
+    assert ask(browser, "[0, 39].map((sample) => replay.run.segments(1, sample))") == [1, 0]
+    assert ask(browser, "[0, 30].map((sample) => replay.run.state(1, sample))") == [0, 5]  # following, arrived
 
 
 def test_dark_and_light_both_work(show, chunk, browser):

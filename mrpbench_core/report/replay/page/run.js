@@ -27,6 +27,7 @@ export class Run {
     this.planTime = decoded(arrays.plan_time);
     const first = arrays.route_first.values;
     this.plans = Array.from(this.planTime, (_, plan) => first.subarray(plan * this.count, (plan + 1) * this.count + 1));
+    this.planOf = Int32Array.from(this.time, (time) => Math.max(lastAtMost(this.planTime, time), 0));
     this.routeFirst = this.plans.at(-1); // of the last plan, which begins with all that was driven before
     this.routeX = decoded(arrays.route_x);
     this.routeY = decoded(arrays.route_y);
@@ -88,15 +89,16 @@ export class Run {
     return this.plans[Math.max(lastAtMost(this.planTime, this.now), 0)];
   }
 
-  /** Number of path segments of a robot, by the last plan. */
-  segments(robot) {
-    return Math.max(this.routeFirst[robot + 1] - this.routeFirst[robot] - 1, 0);
+  /** Number of path segments of a robot, by the plan of a sample. */
+  segments(robot, sample = this.latest) {
+    const routes = this.plans[this.planOf[sample]];
+    return Math.max(routes[robot + 1] - routes[robot] - 1, 0);
   }
 
   state(robot, sample = this.latest) {
     const mode = this.value("mode", robot, 0, sample);
     if (mode === ABORTED || !this.arrays.reached) return mode;
-    const over = this.value("reached", robot, 0, sample) >= this.segments(robot);
+    const over = this.value("reached", robot, 0, sample) >= this.segments(robot, sample);
     return over && mode <= WAITING ? ARRIVED : mode;
   }
 
