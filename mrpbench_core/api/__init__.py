@@ -8,7 +8,7 @@ from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSe
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.api.exporter import Exporter, ExporterSession
 from mrpbench_core.api.hooks import hookimpl
-from mrpbench_core.api.importer import Importer, Observed, Track
+from mrpbench_core.api.importer import Importer, Observed, Signal, Track
 from mrpbench_core.api.localizer import Localizer, LocalizerSession
 from mrpbench_core.api.metric import Column, Metric, Value
 from mrpbench_core.api.navigator import Navigator, NavigatorSession
@@ -72,6 +72,7 @@ __all__ = [
     "RecoverySession",
     "RoadmapBuilder",
     "ScenarioSource",
+    "Signal",
     "Simulation",
     "Simulator",
     "Surroundings",
