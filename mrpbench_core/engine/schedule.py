@@ -7,8 +7,9 @@ from contextlib import contextmanager
 
 import attrs
 
+from mrpbench_core.api.executor import RemoteExecutor, WorkerLost
 from mrpbench_core.config.study import RunPoint
-from mrpbench_core.engine.job import Job, Outcome
+from mrpbench_core.engine.job import Failure, Job, Outcome
 from mrpbench_core.engine.progress import Progress
 from mrpbench_core.engine.record import complete
 from mrpbench_core.engine.slots import close_slots, run_in_slot
@@ -49,10 +50,14 @@ class Schedule:
                 ended = [(*self._going.pop(future), future) for future in done]
                 self._hand_out(executor)  # before storing, so that no worker waits for the disk
                 for point, attempt, future in ended:
-                    if future.exception() is None:
+                    failed = future.exception()
+                    if isinstance(failed, WorkerLost):
+                        self._take(point, attempt, _lost(point, failed))
+                    elif failed is None:
                         self._take(point, attempt, future.result())
-                for _, _, future in ended:
-                    future.result()  # an executor's own failure ends the study, after what is finished was stored
+                for _, _, future in ended:  # an executor's own failure ends the study, after the others were stored
+                    if not isinstance(future.exception(), WorkerLost):
+                        future.result()
 
     def _hand_out(self, executor: Executor) -> bool:
         """Tell whether any run is going on."""
@@ -101,7 +106,17 @@ class Schedule:
             yield
         finally:
             close_slots(self.invocation)
+            if isinstance(executor, RemoteExecutor):
+                for future in self._going:
+                    future.cancel()
+                executor.everywhere(close_slots, self.invocation)
             executor.shutdown(wait=True, cancel_futures=True)
+
+
+def _lost(point: RunPoint, loss: WorkerLost) -> Outcome:
+    """What is known of a run whose remote worker was lost."""
+    failure = Failure(status="crashed", stage="worker", message=str(loss), seconds=0.0)
+    return Outcome(run_id=point.run_id, failure=failure, lost=True)
 
 
 def _left_a_recording(outcome: Outcome) -> bool:

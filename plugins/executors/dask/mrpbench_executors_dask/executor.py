@@ -1,0 +1,111 @@
+"""The executor `dask`: runs on the workers of a Dask cluster.
+
+Dask repeats a task whose worker was lost, also when its result had not been fetched yet, and tells nobody. A run that
+is executed again must be an attempt of its own. So each call leaves a mark at the scheduler when it begins; one that
+finds its mark there already does nothing but say that the first was lost.
+"""
+
+import itertools
+import uuid
+from collections.abc import Callable
+from concurrent.futures import Executor, Future
+from concurrent.futures import wait as wait_for
+from typing import Any, TypeVar
+
+import attrs
+from distributed import CancelledError, Client, Event
+from distributed import Future as Remote
+from distributed.scheduler import KilledWorker
+
+from mrpbench_core.api import ExecutorSource, option
+from mrpbench_core.api.executor import RemoteExecutor, WorkerLost
+from mrpbench_core.files.errors import InputError
+
+T = TypeVar("T")
+LOST = "the Dask worker that executed it was lost"
+
+
+@attrs.frozen(kw_only=True)
+class Dask(ExecutorSource):
+    """Runs execute on the workers of a Dask cluster, which see the results folder and have the same plugins."""
+
+    scheduler: str = option(help="address of the scheduler, e.g. tcp://10.0.0.1:8786")
+    timeout: float = option(10.0, help="how long to wait for the scheduler", unit="s", validator=attrs.validators.gt(0))
+
+    def open(self, workers: int) -> Executor:  # noqa: ARG002 - the engine hands out no more calls than this
+        """Connect to the scheduler."""
+        try:
+            client = Client(self.scheduler, timeout=self.timeout, set_as_default=False)
+        except (OSError, ValueError) as error:
+            reason = " ".join(str(error).split())
+            raise InputError(f"executor.scheduler: no Dask scheduler answers at {self.scheduler}: {reason}") from None
+        return Cluster(client)
+
+
+class Cluster(RemoteExecutor):
+    """Calls on the workers of one cluster."""
+
+    def __init__(self, client: Client) -> None:
+        self._client = client
+        self._name = f"mrpbench-{uuid.uuid4().hex}"
+        self._number = itertools.count()
+        self._going: set[Future[Any]] = set()
+
+    def submit(self, function: Callable[..., T], /, *args: Any, **kwargs: Any) -> Future[T]:
+        """Call once on some worker; raises `WorkerLost` there if that worker was lost."""
+        key = f"{self._name}-{next(self._number)}"
+        ours: Future[T] = Future()
+        self._going.add(ours)
+        remote = self._client.submit(once, key, function, args, kwargs, key=key, pure=False, retries=0)
+
+        def hand_on(remote: Remote) -> None:
+            self._going.discard(ours)
+            if not ours.set_running_or_notify_cancel():
+                return
+            try:
+                ours.set_result(remote.result())
+            except KilledWorker:
+                ours.set_exception(WorkerLost(LOST))
+            except CancelledError:
+                ours.set_exception(
+                    InputError("the Dask scheduler was lost", hint="the same command goes on from there")
+                )
+            except BaseException as error:  # noqa: BLE001 - whatever the call raised
+                ours.set_exception(error)
+
+        def take_back(ours: Future[T]) -> None:
+            self._going.discard(ours)
+            if ours.cancelled():
+                remote.cancel()
+
+        ours.add_done_callback(take_back)
+        remote.add_done_callback(hand_on)
+        return ours
+
+    def everywhere(self, function: Callable[..., object], *arguments: Any) -> None:
+        """Call once on each worker that is left."""
+        if self._client.status == "running":
+            self._client.run(function, *arguments, on_error="ignore")
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        """Leave the cluster as it was."""
+        going = list(self._going)
+        if cancel_futures:
+            for future in going:
+                future.cancel()
+        if wait:
+            wait_for(going)
+        self._client.close()
+
+
+def once(key: str, function: Callable[..., T], args: tuple[Any, ...], kwargs: dict[str, Any]) -> T:
+    """Make the call unless it was begun before; executed by a worker.
+
+    Raises:
+        WorkerLost: it was.
+    """
+    begun = Event(f"{key}-begun")
+    if begun.is_set():
+        raise WorkerLost(LOST)
+    begun.set()
+    return function(*args, **kwargs)
