@@ -18,6 +18,9 @@ robots:
 """
 COMPONENTS = [provider for provider in installed() if provider.kind in KINDS]
 
+NEEDS_A_CLUSTER = {("executor", "dask")}
+"""Its own tests start one."""
+
 
 def required(kind, name, folder):
     """Options of plugins that have no defaults for them."""
@@ -39,6 +42,8 @@ def required(kind, name, folder):
 
 @pytest.mark.parametrize("provider", COMPONENTS, ids=lambda provider: f"{provider.kind}:{provider.name}")
 def test_keeps_the_contract_of_its_kind(provider, tmp_path, monkeypatch, frozen_scenario):
+    if (provider.kind, provider.name) in NEEDS_A_CLUSTER:
+        pytest.skip("needs a cluster; its own tests start one")
     monkeypatch.chdir(tmp_path)
     frozen_scenario(tmp_path / "frozen.yaml")
     try:
