@@ -57,7 +57,12 @@ def swept(door: Door) -> list[Float]:
     if "hinged" not in door.motion:
         return [np.concatenate([a, b]).reshape(-1, 2) for a, b in zip(shut, open_, strict=True)]
     arcs = np.stack([leaves(door, share)[:, 2:] for share in np.linspace(0, 1, _STEPS)], axis=1)
-    return [np.concatenate([line[None, :2], arc]) for line, arc in zip(shut, arcs, strict=True)]
+    # Farther out, so that no straight piece cuts the arc.
+    outside = 1 / math.cos(math.radians(door.motion_degrees) / (_STEPS - 1) / 2)
+    return [
+        np.concatenate([line[None, :2], line[:2] + outside * (arc - line[:2])])
+        for line, arc in zip(shut, arcs, strict=True)
+    ]
 
 
 def _lengths(door: Door) -> tuple[float, float]:

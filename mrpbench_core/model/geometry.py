@@ -22,7 +22,9 @@ def segment_distance(a: Float, b: Float, c: Float, d: Float) -> Float:
         np.minimum(point_segment_distance(a, c, d), point_segment_distance(b, c, d)),
         np.minimum(point_segment_distance(c, a, b), point_segment_distance(d, a, b)),
     )
-    crossing = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
+    # Of segments on one line the sides are rounding errors: those can only cross where their boxes overlap.
+    low, high = np.maximum(np.minimum(a, b), np.minimum(c, d)), np.minimum(np.maximum(a, b), np.maximum(c, d))
+    crossing = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0) & (low <= high).all(axis=-1)
     result: Float = np.where(crossing, 0.0, distance)
     return result
 

@@ -85,4 +85,4 @@ def test_what_is_swept_holds_the_leaves_at_every_opening(motion, axis, direction
                 else point_segment_distance(point, polygon, np.roll(polygon, -1, axis=0)).min()
                 for polygon in polygons
             ]
-            assert min(gap) < 0.015  # the arc is drawn by straight pieces
+            assert min(gap) < 1e-6

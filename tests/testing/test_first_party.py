@@ -1,5 +1,7 @@
 """Every plugin that is installed here keeps the contract of its kind."""
 
+import sys
+
 import pytest
 
 from mrpbench_core.api import KINDS
@@ -16,6 +18,21 @@ SCENARIO = """\
 robots:
   - {start: [1.0, 1.0], goal: [2.0, 2.0]}
 """
+SOLVER = """\
+#!{python}
+import sys
+
+import numpy as np
+from mrpbench_native import solve
+
+world, scen, paths = sys.argv[1:]
+free = np.array([[cell == "." for cell in row] for row in open(world).read().splitlines()[4:]])
+rows = [list(map(int, line.split()[4:8])) for line in open(scen).read().splitlines()[1:]]
+places = np.array(rows).reshape(-1, 2, 2)[..., ::-1]
+with open(paths, "w") as file:
+    for robot, path in enumerate(solve(free, places[:, 0], places[:, 1], algorithm="cbs", time_limit=5).paths):
+        file.write(f"Agent {{robot}}: " + "".join(f"({{row}},{{column}})->" for row, column in path.tolist()) + "\\n")
+"""
 COMPONENTS = [provider for provider in installed() if provider.kind in KINDS]
 
 NEEDS_A_CLUSTER = {("executor", "dask")}
@@ -28,11 +45,15 @@ def required(kind, name, folder):
     (folder / "tiny.scen").write_text(INSTANCES)
     (folder / "tiny.pgm").write_text("P2 2 1 255 0 255")
     (folder / "tiny.yaml").write_text("image: tiny.pgm\nresolution: 1\norigin: [0, 0, 0]\n")
+    solver = folder / "solver"
+    solver.write_text(SOLVER.format(python=sys.executable))
+    solver.chmod(0o755)
     places = [vertex.name for vertex in office().vertices if vertex.name]
     return {
         ("world", "movingai"): {"file": folder / "tiny.map"},
         ("world", "ros_map"): {"file": folder / "tiny.yaml"},
         ("world", "rmf"): {"file": FOLDER / "office.building.yaml"},
+        ("planner", "external"): {"binary": solver, "arguments": "{map} {scen} {paths}"},
         ("scenario", "random"): {"robots": 3},
         ("scenario", "named"): {"starts": tuple(places[:2]), "goals": tuple(places[2:4])},
         ("scenario", "movingai"): {"file": folder / "tiny.scen", "robots": 2},

@@ -32,6 +32,7 @@ def test_lanes_that_meet_are_connected_and_others_are_not(drawn):
 
 @settings(deadline=None, max_examples=150)
 @given(lanes)
+@example([((0, 2), (12, 1)), ((3, 8), (11, 7)), ((8, 3), (10, 6)), ((12, 0), (2, 11))])
 def test_pieces_meet_at_their_ends_only(drawn):
     _, pieces = cut(drawn)
     position, ends = pieces.position, np.unique(np.sort(pieces.ends, axis=1), axis=0)

@@ -20,7 +20,8 @@ def why_not(problem: Problem) -> str | None:
         return "reads maps of cells, and this roadmap has none"
     if problem.rules.at_goal != "stay":
         return "reads problems in which robots stay at their goals"
-    if len(roadmap.edges) != _neighbours(roadmap.grid):
+    usable = (roadmap.duration[problem.profile] >= 0).all(axis=0)
+    if int(usable.sum()) != _neighbours(roadmap.grid):
         return "reads maps in which robots may move between any two cells side by side, and here they may not"
     return None
 
