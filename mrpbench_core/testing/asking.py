@@ -12,6 +12,8 @@ AMPLE = 10.0
 """seconds for problems that a pen solves."""
 MARGIN = 2.0
 """seconds by which a planner may be late: machines are busy, and Python sleeps."""
+ITERATIONS = 200
+"""steps of improvement of a planner that would go on until its time is over."""
 PATIENCE = 10.0
 """seconds after which it is said to hang."""
 
@@ -27,7 +29,7 @@ def ask(planner: Planner, problem: Problem, wall_s: float = AMPLE) -> PlanResult
 
     def call() -> None:
         try:
-            answers.append(planner.plan(problem, Budget(wall_s=wall_s, memory_bytes=1 << 30)))
+            answers.append(planner.plan(problem, Budget(wall_s=wall_s, memory_bytes=1 << 30, iterations=ITERATIONS)))
         except BaseException as error:  # noqa: BLE001 - raised again in the caller's thread
             failures.append(error)
 

@@ -1,6 +1,7 @@
 // Python bindings: arrays in, arrays out. The only file that knows Python; nothing here decides anything.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
 #include <map>
@@ -10,6 +11,10 @@
 #include "mrpbench_mapf/astar.hpp"
 #include "mrpbench_mapf/bounded/bounded_cbs.hpp"
 #include "mrpbench_mapf/cbs.hpp"
+#include "mrpbench_mapf/lacam.hpp"
+#include "mrpbench_mapf/lns.hpp"
+#include "mrpbench_mapf/pbs.hpp"
+#include "mrpbench_mapf/pibt.hpp"
 #include "mrpbench_mapf/prioritized.hpp"
 
 namespace nb = nanobind;
@@ -233,6 +238,43 @@ Answer bounded_cbs(const Instance& instance, const std::string& selection, doubl
   return {instance, solve_bounded(instance, options, limits)};
 }
 
+Answer pbs(const Instance& instance, double wall_s, std::int64_t memory_bytes) {
+  nb::gil_scoped_release without_python;
+  Limits limits(wall_s, memory_bytes);
+  return {instance, solve_pbs(instance, limits)};
+}
+
+Answer pibt(const Instance& instance, bool swap, int steps, std::uint64_t seed, double wall_s,
+            std::int64_t memory_bytes) {
+  nb::gil_scoped_release without_python;
+  Limits limits(wall_s, memory_bytes);
+  return {instance, solve_pibt(instance, {swap, steps, seed}, limits)};
+}
+
+Objective objective_of(const std::string& name) {
+  static const std::map<std::string, Objective> choices{{"flowtime", Objective::flowtime},
+                                                        {"makespan", Objective::makespan}};
+  return choose(choices, name);
+}
+
+Answer lacam(const Instance& instance, const std::string& objective, bool swap, bool star, bool neighbourhoods,
+             std::optional<std::int64_t> iterations, std::uint64_t seed, double wall_s, std::int64_t memory_bytes) {
+  const LacamOptions options{objective_of(objective), swap, star, neighbourhoods, iterations, seed};
+  nb::gil_scoped_release without_python;
+  Limits limits(wall_s, memory_bytes);
+  return {instance, solve_lacam(instance, options, limits)};
+}
+
+Answer lns(const Instance& instance, const std::string& objective, const std::string& initial, int neighbourhood,
+           std::optional<std::int64_t> iterations, std::uint64_t seed, double wall_s, std::int64_t memory_bytes) {
+  static const std::map<std::string, Initial> choices{
+      {"repair", Initial::repair}, {"lacam", Initial::lacam}, {"either", Initial::either}};
+  const LnsOptions options{objective_of(objective), choose(choices, initial), neighbourhood, iterations, seed};
+  nb::gil_scoped_release without_python;
+  Limits limits(wall_s, memory_bytes);
+  return {instance, solve_lns(instance, options, limits)};
+}
+
 }  // namespace
 
 NB_MODULE(mapf, module) {
@@ -279,4 +321,14 @@ NB_MODULE(mapf, module) {
   module.def("bounded_cbs", &bounded_cbs, "instance"_a, nb::kw_only(), "selection"_a, "w"_a, "bypass"_a, "target"_a,
              "corridor"_a, "flex"_a, "distance_weight"_a, "conflict_weight"_a, "wall_s"_a, "memory_bytes"_a,
              "At most w times the least sum of arrival times, by bounded-suboptimal conflict-based search.");
+  module.def("pbs", &pbs, "instance"_a, nb::kw_only(), "wall_s"_a, "memory_bytes"_a,
+             "One robot after another, by a search over who comes before whom.");
+  module.def("pibt", &pibt, "instance"_a, nb::kw_only(), "swap"_a, "steps"_a, "seed"_a, "wall_s"_a, "memory_bytes"_a,
+             "Tick by tick, by priority inheritance. Unit moves only.");
+  module.def("lacam", &lacam, "instance"_a, nb::kw_only(), "objective"_a, "swap"_a, "star"_a, "neighbourhoods"_a,
+             "iterations"_a.none(), "seed"_a, "wall_s"_a, "memory_bytes"_a,
+             "A plan soon, by a search over configurations, and better ones later. Unit moves only.");
+  module.def("lns", &lns, "instance"_a, nb::kw_only(), "objective"_a, "initial"_a, "neighbourhood"_a,
+             "iterations"_a.none(), "seed"_a, "wall_s"_a, "memory_bytes"_a,
+             "Plans groups of robots anew until there is no conflict, then for better plans.");
 }

@@ -62,12 +62,14 @@ DistanceTables::DistanceTables(const Instance& instance, Limits& limits) {
 
 Cost DistanceTables::sum_of_costs(const Instance& instance) {
   Cost sum = 0;
-  for (int robot = 0; robot < instance.size(); ++robot) {
-    const Beginning& beginning = instance.beginning(robot);
-    const Tick distance = (*this)[robot](beginning.vertex);
-    sum += distance == 0 ? enter_tick(beginning.occupied.back()) : beginning.free_at + distance;
-  }
+  for (int robot = 0; robot < instance.size(); ++robot) sum += least_cost(instance, robot);
   return sum;
+}
+
+Cost DistanceTables::least_cost(const Instance& instance, int robot) {
+  const Beginning& beginning = instance.beginning(robot);
+  const Tick distance = (*this)[robot](beginning.vertex);
+  return distance == 0 ? enter_tick(beginning.occupied.back()) : beginning.free_at + distance;
 }
 
 }  // namespace mrpbench::mapf

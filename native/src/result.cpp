@@ -2,6 +2,21 @@
 
 namespace mrpbench::mapf {
 
+void Result::note(double seconds, double cost, double bound) {
+  constexpr double kApart = 1.02;  // times the seconds of the point before
+  const std::size_t size = history.size();
+  if (size > 1 && seconds < kApart * history[size - 2].seconds) history.pop_back();
+  history.push_back({seconds, cost, bound});
+}
+
+void Result::stop(Status limit) {
+  if (status == Status::solved) {
+    clock_bound = limit == Status::timeout;
+  } else {
+    status = limit;
+  }
+}
+
 std::vector<Segment> segments(const Instance& instance, int robot, const Path& path) {
   std::vector<Segment> result = instance.robots()[robot].committed;
   const std::size_t known = instance.beginning(robot).occupied.size() - 1;

@@ -49,6 +49,8 @@ class DistanceTables {
   DistanceTable& operator[](int robot) { return *tables_[of_robot_[robot]]; }
   /// Sum of costs if every robot were alone: a lower bound. All of them must be able to reach a goal.
   Cost sum_of_costs(const Instance& instance);
+  /// Of one robot.
+  Cost least_cost(const Instance& instance, int robot);
 
  private:
   std::vector<std::unique_ptr<DistanceTable>> tables_;

@@ -38,6 +38,11 @@ struct Result {
   std::vector<Path> paths;        // one per robot if solved
   double lower_bound = std::numeric_limits<double>::quiet_NaN();
   Statistics statistics;
+
+  /// Add a point to the history; one that comes right after another takes its place, the first one stays.
+  void note(double seconds, double cost, double bound);
+  /// A limit ended the solver: a plan that it has is one nevertheless.
+  void stop(Status limit);
 };
 
 /// Tick at which the last move ends, 0 if the robot never moves.

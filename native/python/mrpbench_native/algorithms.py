@@ -34,6 +34,16 @@ ALGORITHMS: Mapping[str, tuple[Callable[..., mapf.Answer], dict[str, Any]]] = {
             "conflict_weight": 20.0,
         },
     ),
+    "lacam": (
+        mapf.lacam,
+        {"objective": "flowtime", "swap": True, "star": True, "neighbourhoods": True, "iterations": None, "seed": 0},
+    ),
+    "lns": (
+        mapf.lns,
+        {"objective": "flowtime", "initial": "either", "neighbourhood": 8, "iterations": None, "seed": 0},
+    ),
+    "pbs": (mapf.pbs, {}),
+    "pibt": (mapf.pibt, {"swap": True, "steps": 0, "seed": 0}),
     "prioritized": (mapf.prioritized, {"order": "longest_first", "restarts": 100, "seed": 0}),
 }
 """Function and preset options. The planners of mrpbench by the same names have the same options, and say more."""

@@ -117,3 +117,47 @@ def bounded_cbs(
     memory_bytes: int,
 ) -> Answer:
     """At most w times the least sum of arrival times, by bounded-suboptimal conflict-based search."""
+
+def pbs(instance: Instance, *, wall_s: float, memory_bytes: int) -> Answer:
+    """One robot after another, by a search over who comes before whom."""
+
+def pibt(
+    instance: Instance,
+    *,
+    swap: bool,
+    steps: int,
+    seed: int,
+    wall_s: float,
+    memory_bytes: int,
+) -> Answer:
+    """Tick by tick, by priority inheritance. Unit moves only: raises ValueError for other roadmaps."""
+
+def lacam(
+    instance: Instance,
+    *,
+    objective: str,
+    swap: bool,
+    star: bool,
+    neighbourhoods: bool,
+    iterations: int | None,
+    seed: int,
+    wall_s: float,
+    memory_bytes: int,
+) -> Answer:
+    """A plan soon, by a search over configurations, and better ones later.
+
+    Unit moves only: raises ValueError for other roadmaps.
+    """
+
+def lns(
+    instance: Instance,
+    *,
+    objective: str,
+    initial: str,
+    neighbourhood: int,
+    iterations: int | None,
+    seed: int,
+    wall_s: float,
+    memory_bytes: int,
+) -> Answer:
+    """Plans groups of robots anew until there is no conflict, then for better plans."""

@@ -1,1 +1,1 @@
-"""Native planners: `astar` (each robot alone), `prioritized` (SIPP), `cbs` (optimal), `ecbs` and `eecbs` (bounded)."""
+"""Native planners: decentralised, prioritised, optimal, bounded and anytime; one module for each."""

@@ -1,0 +1,149 @@
+#include "lacam/configuration_step.hpp"
+
+#include <algorithm>
+
+namespace mrpbench::mapf::lacam {
+
+ConfigurationStep::ConfigurationStep(const Instance& instance, const Moves& moves, DistanceTables& tables, bool swap,
+                                     std::uint64_t seed, Limits& limits)
+    : moves_(moves), robots_(instance.size()), swap_(swap), random_(seed) {
+  for (int vertex = 0; vertex < moves.vertex_count(); ++vertex) {
+    most_candidates_ = std::max(most_candidates_, static_cast<int>(moves.successors(vertex).size()) + 1);
+  }
+  limits.charge(static_cast<std::size_t>(robots_) * most_candidates_ * sizeof(Candidate) +
+                static_cast<std::size_t>(moves.vertex_count()) * 2 * sizeof(std::int32_t));
+  candidates_.resize(static_cast<std::size_t>(robots_) * most_candidates_);
+  now_.assign(moves.vertex_count(), -1);
+  next_.assign(moves.vertex_count(), -1);
+  for (int robot = 0; robot < robots_; ++robot) {
+    distance_.push_back(&tables[robot]);
+    goal_.push_back(instance.robots()[robot].goals.front());
+  }
+}
+
+bool ConfigurationStep::operator()(const std::int32_t* from, const std::int32_t* order, std::int32_t* to) {
+  from_ = from;
+  to_ = to;
+  for (int robot = 0; robot < robots_; ++robot) now_[from[robot]] = robot;
+  bool complete = reserve_fixed();
+  for (int k = 0; complete && k < robots_; ++k) complete = to[order[k]] >= 0 || move(order[k], 0);
+  for (int robot = 0; robot < robots_; ++robot) {
+    now_[from[robot]] = -1;
+    if (to[robot] >= 0) next_[to[robot]] = -1;
+  }
+  return complete;
+}
+
+/// What is asked for, unless it conflicts.
+bool ConfigurationStep::reserve_fixed() {
+  for (int robot = 0; robot < robots_; ++robot) {
+    const std::int32_t vertex = to_[robot];
+    if (vertex < 0) continue;
+    const std::int32_t there = now_[vertex];
+    if (next_[vertex] >= 0 || (there >= 0 && there != robot && to_[there] == from_[robot])) return false;
+    next_[vertex] = robot;
+  }
+  return true;
+}
+
+bool ConfigurationStep::move(int robot, int depth) {
+  if (depth > kDeepest) {
+    settle(robot, from_[robot]);
+    return false;
+  }
+  Candidate* candidates = &candidates_[static_cast<std::size_t>(robot) * most_candidates_];
+  const int count = rank(robot, candidates);
+  const std::int32_t here = from_[robot];
+  const int partner = swap_ ? swap_partner(robot, candidates[0].vertex) : -1;
+  if (partner >= 0) std::reverse(candidates, candidates + count);
+  for (int k = 0; k < count; ++k) {
+    const std::int32_t vertex = candidates[k].vertex;
+    if (next_[vertex] >= 0) continue;
+    const std::int32_t there = now_[vertex];
+    if (there >= 0 && to_[there] == here) continue;  // they would swap places
+    settle(robot, vertex);
+    if (there >= 0 && there != robot && to_[there] < 0 && !move(there, depth + 1)) continue;
+    if (k == 0 && partner >= 0 && to_[partner] < 0 && next_[here] < 0) settle(partner, here);
+    return true;
+  }
+  // All that was tried is taken by now; whoever inherited from here has to look elsewhere.
+  settle(robot, here);
+  return false;
+}
+
+/// Neighbours and the present vertex, nearest to the goal first, equals in random order.
+int ConfigurationStep::rank(int robot, Candidate* candidates) {
+  DistanceTable& distance = *distance_[robot];
+  std::uint64_t ties = random_();
+  int count = 0;
+  const auto add = [&](std::int32_t vertex) {
+    const auto tie = static_cast<std::uint32_t>(ties & 15);
+    ties = ties >> 4 | ties << 60;
+    const Candidate candidate{static_cast<std::uint32_t>(std::min(distance(vertex), kLatestTime - 1)) << 4 | tie,
+                              vertex};
+    int place = count++;
+    for (; place > 0 && candidates[place - 1].key > candidate.key; --place) candidates[place] = candidates[place - 1];
+    candidates[place] = candidate;
+  };
+  for (const std::int32_t vertex : moves_.successors(from_[robot])) add(vertex);
+  add(from_[robot]);
+  return count;
+}
+
+/// The robot with which `robot` should change places, or -1; it then backs away first and pulls the other along.
+int ConfigurationStep::swap_partner(int robot, int wanted) {
+  const std::int32_t here = from_[robot];
+  if (wanted == here) return -1;
+  const std::int32_t ahead = now_[wanted];
+  if (ahead >= 0 && to_[ahead] < 0 && must_swap(robot, ahead, here, wanted) && can_swap(wanted, here)) return ahead;
+  // Someone behind may have to pass through here while this robot goes on into a dead end.
+  for (const std::int32_t vertex : moves_.successors(here)) {
+    const std::int32_t behind = now_[vertex];
+    if (behind < 0 || vertex == wanted) continue;
+    if (must_swap(behind, robot, here, wanted) && can_swap(wanted, here)) return behind;
+  }
+  return -1;
+}
+
+/// The way on from `here` when coming from `before`, past dead ends in which a robot is parked; or that there are none
+/// or several.
+std::int32_t ConfigurationStep::only_way(int before, int here) const {
+  std::int32_t way = kNone;
+  for (const std::int32_t vertex : moves_.successors(here)) {
+    if (vertex == before) continue;
+    const std::int32_t there = now_[vertex];
+    if (there >= 0 && goal_[there] == vertex && moves_.successors(vertex).size() == 1) continue;
+    if (way != kNone) return kSeveral;
+    way = vertex;
+  }
+  return way;
+}
+
+/// Would the pusher only ever push the puller before it, along a passage without a place to let it by, until either is
+/// on the wrong side of the other?
+bool ConfigurationStep::must_swap(int pusher, int puller, int pusher_at, int puller_at) {
+  DistanceTable& to_go = *distance_[pusher];
+  while (to_go(puller_at) < to_go(pusher_at)) {
+    const std::int32_t way = only_way(pusher_at, puller_at);
+    if (way == kSeveral) return false;
+    if (way == kNone) break;
+    pusher_at = puller_at;
+    puller_at = way;
+  }
+  DistanceTable& other = *distance_[puller];
+  return other(pusher_at) < other(puller_at) && (to_go(pusher_at) == 0 || to_go(puller_at) < to_go(pusher_at));
+}
+
+/// Backing away from `pusher_at`, does `puller_at` come to a place where one robot can step aside?
+bool ConfigurationStep::can_swap(int pusher_at, int puller_at) const {
+  const int begin = pusher_at;
+  for (int steps = 0; puller_at != begin && steps < moves_.vertex_count(); ++steps) {
+    const std::int32_t way = only_way(pusher_at, puller_at);
+    if (way < 0) return way == kSeveral;
+    pusher_at = puller_at;
+    puller_at = way;
+  }
+  return false;
+}
+
+}  // namespace mrpbench::mapf::lacam

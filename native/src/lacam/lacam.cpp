@@ -1,0 +1,133 @@
+#include "mrpbench_mapf/lacam.hpp"
+
+#include <stdexcept>
+
+#include "lacam/arrivals.hpp"
+#include "lacam/lacam_search.hpp"
+#include "lns/improvement.hpp"
+
+namespace mrpbench::mapf {
+
+namespace {
+
+using namespace lacam;
+using namespace lns;
+
+class Lacam {
+ public:
+  Lacam(const Instance& instance, const Moves& moves, const LacamOptions& options, Limits& limits, Result& result)
+      : instance_(instance),
+        moves_(moves),
+        options_(options),
+        limits_(limits),
+        result_(result),
+        tables_(instance, limits),
+        cut_off_(prove_unsolvable(instance, tables_, limits, result)),
+        search_(instance, moves, tables_, options, limits, result.statistics) {}
+
+  void solve() {
+    if (cut_off_) return;
+    while (!search_.exhausted() && !search_.advance()) {
+    }
+    if (!search_.found()) {
+      result_.status = Status::unsolvable;
+      return;
+    }
+    least_ = least();
+    result_.status = Status::solved;
+    keep(paths_of(moves_, search_.way(), instance_.size()));
+    if (options_.iterations != 0 && best_.first > least_ && (options_.star || options_.neighbourhoods)) improve();
+  }
+
+ private:
+  /// What the objective is at least.
+  Cost least() {
+    Cost sum = 0, latest = 0;
+    for (int robot = 0; robot < instance_.size(); ++robot) {
+      const Cost alone = tables_.least_cost(instance_, robot);
+      sum += alone;
+      latest = std::max(latest, alone);
+    }
+    return options_.objective == Objective::makespan ? latest : sum;
+  }
+
+  void keep(std::vector<Path> paths) {
+    best_ = value(options_.objective, paths);
+    result_.paths = std::move(paths);
+    search_.bound(best_.first);
+    result_.note(limits_.seconds(), static_cast<double>(best_.first), static_cast<double>(least_));
+  }
+
+  void improve() {
+    const Relations relations(instance_, limits_);
+    Schedule schedule(instance_, tables_, relations, options_.seed, limits_, result_.statistics);
+    schedule.replace(result_.paths);
+    Improvement improvement(schedule, options_.objective, kNeighbourhood, options_.seed);
+    for (std::int64_t k = 0; !options_.iterations || k < *options_.iterations; ++k) {
+      if (options_.neighbourhoods && improvement.advance()) keep(schedule.paths());
+      if (options_.star && !search_.exhausted() && search_.advance()) {
+        std::vector<Path> paths = paths_of(moves_, search_.way(), instance_.size());
+        if (value(options_.objective, paths) < best_) {
+          schedule.replace(paths);
+          keep(std::move(paths));
+        }
+      }
+      if (best_.first == least_ || (search_.exhausted() && rule_out_better())) return;
+      if (search_.exhausted() && !options_.neighbourhoods) return;
+    }
+  }
+
+  /// When all configurations were seen that a better plan could contain: take the best of all, and true.
+  bool rule_out_better() {
+    if (options_.objective == Objective::flowtime) {
+      if (instance_.size() > kMostRobotsInSet) return false;
+      const std::vector<Configuration> way = least_arrivals(search_.graph(), *search_.graph().nodes().front(),
+                                                            *search_.goal(), instance_.size(), best_.first, limits_);
+      least_ = best_.first;
+      if (!way.empty()) {
+        std::vector<Path> paths = paths_of(moves_, way, instance_.size());
+        least_ = value(options_.objective, paths).first;
+        keep(std::move(paths));
+      }
+      result_.lower_bound = static_cast<double>(least_);
+    }
+    least_ = best_.first;
+    result_.note(limits_.seconds(), static_cast<double>(best_.first), static_cast<double>(least_));
+    return true;
+  }
+
+  static constexpr int kNeighbourhood = 8;
+  const Instance& instance_;
+  const Moves& moves_;
+  const LacamOptions& options_;
+  Limits& limits_;
+  Result& result_;
+  DistanceTables tables_;
+  bool cut_off_;
+  LacamSearch search_;
+  Value best_{};
+  Cost least_ = 0;
+};
+
+}  // namespace
+
+Result solve_lacam(const Instance& instance, const LacamOptions& options, Limits& limits) {
+  Result result;
+  const auto moves = lacam::unit_moves(instance);
+  if (!moves && instance.size() > 0) throw std::invalid_argument("lacam needs a roadmap of unit moves");
+  try {
+    if (moves) {
+      Lacam(instance, *moves, options, limits, result).solve();
+    } else {
+      result.status = Status::solved;
+      result.lower_bound = 0;
+    }
+  } catch (const LimitReached& limit) {
+    result.stop(limit.status);
+  } catch (const std::bad_alloc&) {
+    result.stop(Status::out_of_memory);
+  }
+  return result;
+}
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,59 @@
+#include "lacam/lacam_search.hpp"
+
+#include <algorithm>
+
+namespace mrpbench::mapf::lacam {
+
+LacamSearch::LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables,
+                         const LacamOptions& options, Limits& limits, Statistics& statistics)
+    : moves_(moves),
+      limits_(limits),
+      statistics_(statistics),
+      step_(instance, moves, tables, options.swap, options.seed, limits),
+      graph_(instance, tables, options.objective, limits),
+      goals_(goals_of(instance)),
+      to_(instance.size()) {
+  std::vector<std::int32_t> start;
+  for (const Robot& robot : instance.robots()) start.push_back(robot.start);
+  open_.push_back(&graph_.add(start.data(), nullptr));
+  ++statistics_.generated;
+}
+
+bool LacamSearch::advance() {
+  limits_.check_clock();
+  Node& node = *open_.back();
+  if (goal_ == nullptr && is_goal(goals_, node.at)) {
+    goal_ = &node;
+    return true;
+  }
+  const Demand* demand = is_useful(node) ? graph_.next_demand(node, moves_) : nullptr;
+  if (demand == nullptr) {
+    open_.pop_back();
+    return false;
+  }
+  ++statistics_.expansions;
+  std::ranges::fill(to_, -1);
+  for (; demand->parent != nullptr; demand = demand->parent) to_[demand->robot] = demand->vertex;
+  if (!step_(node.at, node.order, to_.data())) return false;
+  return visit(node);
+}
+
+/// Go on with the configuration that was reached from `node`.
+bool LacamSearch::visit(Node& node) {
+  Node* reached = graph_.find(to_.data());
+  const Cost before = goal_ == nullptr ? 0 : goal_->g;
+  if (reached == nullptr) {
+    reached = &graph_.add(to_.data(), &node);
+    ++statistics_.generated;
+    open_.push_back(reached);
+  } else {
+    open_.push_back(reached);
+    graph_.connect(node, *reached, [&](Node& cheaper) {
+      if (goal_ != nullptr && &cheaper != goal_ && is_useful(cheaper)) open_.push_back(&cheaper);
+    });
+  }
+  limits_.charge_growth(counted_, open_.capacity() * sizeof(Node*));
+  return goal_ != nullptr && goal_->g < before;
+}
+
+}  // namespace mrpbench::mapf::lacam

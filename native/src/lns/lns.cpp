@@ -1,0 +1,100 @@
+#include "mrpbench_mapf/lns.hpp"
+
+#include "lacam/moves.hpp"
+#include "lns/improvement.hpp"
+#include "lns/repair.hpp"
+#include "mrpbench_mapf/lacam.hpp"
+#include "mrpbench_mapf/solvability.hpp"
+
+namespace mrpbench::mapf {
+
+namespace {
+
+using namespace lns;
+
+class Lns {
+ public:
+  Lns(const Instance& instance, const LnsOptions& options, Limits& limits, Result& result)
+      : instance_(instance), options_(options), limits_(limits), result_(result), tables_(instance, limits) {}
+
+  void solve() {
+    if (const auto robot = find_cut_off_robot(instance_, tables_, limits_)) return unsolvable(*robot);
+    result_.lower_bound = static_cast<double>(tables_.sum_of_costs(instance_));
+    const Relations relations(instance_, limits_);
+    if (const auto robot = find_clash(instance_, relations, limits_)) return unsolvable(*robot);
+    Schedule schedule(instance_, tables_, relations, options_.seed, limits_, result_.statistics);
+    if (!begin(schedule)) return;
+    result_.status = Status::solved;
+    keep(schedule);
+    Improvement improvement(schedule, options_.objective, options_.neighbourhood, options_.seed);
+    for (std::int64_t k = 0; (!options_.iterations || k < *options_.iterations) && !improvement.is_done(); ++k) {
+      ++result_.statistics.expansions;
+      if (improvement.advance()) keep(schedule);
+    }
+  }
+
+ private:
+  void unsolvable(int robot) {
+    result_.statistics.failed_robot = robot;
+    result_.status = Status::unsolvable;
+  }
+
+  void keep(const Schedule& schedule) {
+    result_.paths = schedule.paths();
+    result_.note(limits_.seconds(), static_cast<double>(value(options_.objective, result_.paths).first), least());
+  }
+
+  double least() const {
+    return options_.objective == Objective::makespan ? std::numeric_limits<double>::quiet_NaN() : result_.lower_bound;
+  }
+
+  /// Put a plan without conflicts into `schedule`, or set the status.
+  bool begin(Schedule& schedule) {
+    const bool unit = options_.initial != Initial::repair && lacam::unit_moves(instance_).has_value();
+    if (options_.initial == Initial::lacam && unit) return begin_by_lacam(schedule);
+    Repair repair(schedule, options_.neighbourhood, options_.seed);
+    if (!repair.begin()) return false;  // stays `gave_up`
+    const std::int64_t patience = unit ? kPatience : std::numeric_limits<std::int64_t>::max();
+    const std::int64_t most = std::min(patience, options_.iterations.value_or(patience));
+    for (std::int64_t k = 0; k < most && !repair.is_done(); ++k) {
+      ++result_.statistics.expansions;
+      repair.advance();
+    }
+    if (repair.is_done()) return true;
+    return unit && begin_by_lacam(schedule);
+  }
+
+  bool begin_by_lacam(Schedule& schedule) {
+    LacamOptions options;
+    options.iterations = 0;
+    options.seed = options_.seed;
+    Result first = solve_lacam(instance_, options, limits_);
+    result_.status = first.status;
+    if (first.status != Status::solved) return false;
+    schedule.replace(std::move(first.paths));
+    return true;
+  }
+
+  static constexpr std::int64_t kPatience = 100;  // groups to repair before LaCAM takes over
+  const Instance& instance_;
+  const LnsOptions& options_;
+  Limits& limits_;
+  Result& result_;
+  DistanceTables tables_;
+};
+
+}  // namespace
+
+Result solve_lns(const Instance& instance, const LnsOptions& options, Limits& limits) {
+  Result result;
+  try {
+    Lns(instance, options, limits, result).solve();
+  } catch (const LimitReached& limit) {
+    result.stop(limit.status);
+  } catch (const std::bad_alloc&) {
+    result.stop(Status::out_of_memory);
+  }
+  return result;
+}
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,45 @@
+// Which robots to plan anew together. Of a plan without conflicts: those in the way of one that is late, those that
+// meet at a crossing, or any (Li et al., IJCAI 2021). Of one with conflicts: robots in conflict with one another, those
+// in the way to a goal, or any (Li et al., AAAI 2022).
+#pragma once
+
+#include "lns/schedule.hpp"
+#include "mrpbench_mapf/random.hpp"
+
+namespace mrpbench::mapf::lns {
+
+class Neighbourhood {
+ public:
+  Neighbourhood(const Schedule& schedule, DistanceTables& tables, int size, std::uint64_t seed);
+
+  /// Robot `late`, and robots that keep it from getting to its goal earlier.
+  const std::vector<int>& around_late(int late);
+  /// Robots that pass the crossings around a place.
+  const std::vector<int>& at_crossing();
+  const std::vector<int>& any();
+  /// Robots that conflict with `robot`, directly or through others; `partners` is by robot.
+  const std::vector<int>& in_conflict(int robot, const std::vector<std::vector<int>>& partners);
+  /// `robot`, those that pass its goal, and those whose goals it passes.
+  const std::vector<int>& at_goal(int robot);
+
+ private:
+  void clear();
+  bool full() const { return static_cast<int>(chosen_.size()) >= size_; }
+  void add(int robot);
+  void walk(int robot);
+  void meet(int vertex, Tick from, Tick to);
+  void fill();
+
+  const Schedule& schedule_;
+  const Roadmap& roadmap_;
+  DistanceTables& tables_;
+  int size_;
+  Random random_;
+  std::vector<int> chosen_;
+  std::vector<bool> is_chosen_;
+  std::vector<std::int32_t> queue_;
+  std::vector<std::uint32_t> seen_;  // by vertex: the search that came by last
+  std::uint32_t search_ = 0;
+};
+
+}  // namespace mrpbench::mapf::lns

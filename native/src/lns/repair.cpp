@@ -1,0 +1,120 @@
+#include "lns/repair.hpp"
+
+#include <algorithm>
+
+namespace mrpbench::mapf::lns {
+
+namespace {
+
+Tick whenever(int) {
+  return kLatestTime;
+}
+
+}  // namespace
+
+Repair::Repair(Schedule& schedule, int neighbourhood, std::uint64_t seed)
+    : schedule_(schedule),
+      neighbourhood_(schedule, schedule.tables(), neighbourhood, seed + 1),
+      random_(seed),
+      partners_(schedule.instance().size()),
+      seen_(schedule.instance().size()) {}
+
+bool Repair::begin() {
+  std::vector<int> order(schedule_.instance().size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
+  random_.shuffle(order);
+  const bool found = schedule_.plan(order, Others::soft, whenever);
+  if (!found) {
+    schedule_.reject(order);
+    return false;
+  }
+  schedule_.accept(order);
+  std::vector<int> partners;
+  for (const int robot : order) {
+    conflicts_of(robot, schedule_.paths()[robot], partners);
+    partners_[robot] = partners;
+    pairs_ += static_cast<int>(partners.size());
+  }
+  pairs_ /= 2;
+  return true;
+}
+
+/// The robots with which this path conflicts, each once.
+int Repair::conflicts_of(int robot, const Path& path, std::vector<int>& partners) {
+  partners.clear();
+  ++count_;
+  for (const Occupation& occupation : path) {
+    schedule_.limits().check();
+    schedule_.traffic().conflicts_of(robot, occupation, [&](int other) {
+      if (seen_[other] != count_) partners.push_back(other);
+      seen_[other] = count_;
+    });
+  }
+  return static_cast<int>(partners.size());
+}
+
+void Repair::link(int robot, const std::vector<int>& partners) {
+  for (const int other : partners) {
+    partners_[other].push_back(robot);
+    partners_[robot].push_back(other);
+  }
+  pairs_ += static_cast<int>(partners.size());
+}
+
+void Repair::unlink(int robot) {
+  for (const int other : partners_[robot]) {
+    std::erase(partners_[other], robot);
+    --pairs_;
+  }
+  partners_[robot].clear();
+}
+
+void Repair::advance() {
+  schedule_.limits().check_clock();
+  const int heuristic = roulette_.spin(random_);
+  robots_ = choose(heuristic);
+  random_.shuffle(robots_);
+  const int before = pairs_;
+  std::vector<std::vector<int>> old;
+  for (const int robot : robots_) {
+    old.push_back(partners_[robot]);
+    unlink(robot);
+  }
+  const bool found = schedule_.plan(robots_, Others::soft, whenever);
+  std::vector<int> partners;
+  for (std::size_t k = 0; found && k < robots_.size(); ++k) {
+    conflicts_of(robots_[k], schedule_.fresh()[k], partners);
+    // Conflicts within the group are seen from both sides: count them with the one that was planned first.
+    std::erase_if(partners, [&](int other) {
+      return std::find(robots_.begin(), robots_.begin() + static_cast<std::ptrdiff_t>(k), other) !=
+             robots_.begin() + static_cast<std::ptrdiff_t>(k);
+    });
+    link(robots_[k], partners);
+  }
+  roulette_.reward(heuristic,
+                   std::max(0.0, static_cast<double>(before - pairs_) / static_cast<double>(robots_.size())));
+  if (found && pairs_ <= before) {
+    schedule_.accept(robots_);
+    return;
+  }
+  schedule_.reject(robots_);
+  for (const int robot : robots_) unlink(robot);
+  for (std::size_t k = 0; k < robots_.size(); ++k) {
+    for (const int other : old[k]) {
+      if (std::ranges::find(partners_[robots_[k]], other) != partners_[robots_[k]].end()) continue;
+      link(robots_[k], {other});
+    }
+  }
+}
+
+const std::vector<int>& Repair::choose(int heuristic) {
+  std::vector<int> in_conflict;
+  for (int robot = 0; robot < schedule_.instance().size(); ++robot) {
+    if (!partners_[robot].empty()) in_conflict.push_back(robot);
+  }
+  const int robot = in_conflict[random_.below(in_conflict.size())];
+  if (heuristic == 0) return neighbourhood_.in_conflict(robot, partners_);
+  return heuristic == 1 ? neighbourhood_.at_goal(robot) : neighbourhood_.any();
+}
+
+}  // namespace mrpbench::mapf::lns

@@ -1,0 +1,283 @@
+#include "lns/sipps.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "mrpbench_mapf/obstacles.hpp"
+
+namespace mrpbench::mapf::lns {
+
+Sipps::Sipps(const Traffic& traffic, std::uint64_t seed, Limits& limits, Statistics& statistics)
+    : traffic_(traffic),
+      instance_(traffic.instance()),
+      roadmap_(instance_.roadmap()),
+      limits_(limits),
+      statistics_(statistics),
+      random_(seed) {
+  limits.charge(static_cast<std::size_t>(roadmap_.element_count()) * sizeof(Slot));
+  vertex_slot_.resize(roadmap_.vertex_count());
+  edge_slot_.resize(roadmap_.edge_count());
+}
+
+bool Sipps::search(int robot, DistanceTable& distance, Others others, Tick latest, Path& path) {
+  others_ = others;
+  distance_ = &distance;
+  latest_ = latest;
+  begin(robot);
+  const Beginning& beginning = instance_.beginning(robot);
+  least_ = is_soft() ? 0 : earliest_stay();
+  if (least_ > latest || distance(beginning.vertex) == kForever) return false;
+  const Slot slot = states_of(beginning.vertex);
+  for (int state = slot.first; state < slot.first + slot.count; ++state) {
+    if (states_[state].first > beginning.free_at || states_[state].last < beginning.free_at) continue;
+    reach(-1, state, -1, beginning.free_at, states_[state].company.present);
+  }
+  bool found = false;
+  while (!open_.empty() && !found) {
+    limits_.check();
+    std::ranges::pop_heap(open_, std::greater{});
+    const int label = open_.back().label;
+    open_.pop_back();
+    if (labels_[label].final) {
+      trace(label, path);
+      found = true;
+      continue;
+    }
+    State& state = states_[labels_[label].state];
+    if (labels_[label].arrival >= state.closed) continue;
+    state.closed = labels_[label].arrival;
+    expand(label);
+  }
+  limits_.charge_growth(counted_, states_.capacity() * sizeof(State) + labels_.capacity() * sizeof(Label) +
+                                      open_.capacity() * sizeof(Open) + departures_.capacity() * sizeof(Range));
+  return found;
+}
+
+void Sipps::begin(int robot) {
+  robot_ = robot;
+  duration_ = roadmap_.duration(instance_.robots()[robot].profile);
+  if (++epoch_ == 0) {  // wrapped round: old stamps would look new
+    std::ranges::fill(vertex_slot_, Slot{});
+    std::ranges::fill(edge_slot_, Slot{});
+    epoch_ = 1;
+  }
+  states_.clear();
+  departures_.clear();
+  labels_.clear();
+  open_.clear();
+}
+
+/// Earliest tick from which some goal is free for good.
+Tick Sipps::earliest_stay() {
+  if (instance_.rules().disappear_at_goal) return 0;
+  Tick earliest = kForever;
+  for (const int goal : instance_.robots()[robot_].goals) {
+    const Slot slot = states_of(goal);
+    if (slot.count == 0) continue;
+    const State& last = states_[slot.first + slot.count - 1];
+    if (last.last == kForever) earliest = std::min(earliest, last.first);
+  }
+  return earliest;
+}
+
+Sipps::Slot Sipps::states_of(int vertex) {
+  Slot& slot = vertex_slot_[vertex];
+  if (slot.epoch == epoch_) return slot;
+  slot = {epoch_, static_cast<std::int32_t>(states_.size()), 0};
+  if (is_soft()) {
+    add_shared(vertex);
+  } else {
+    add_free(vertex);
+  }
+  slot.count = static_cast<std::int32_t>(states_.size()) - slot.first;
+  return slot;
+}
+
+/// The visits that exclude the robot from `vertex`, by their beginnings.
+std::span<const Visit> Sipps::visits_at(int vertex) {
+  const std::span<const Near> row = traffic_.relations().row(vertex);
+  if (row.size() == 1) return traffic_.at(vertex);
+  visits_.clear();
+  for (const Near& near : row) {
+    for (const Visit& visit : traffic_.at(near.element)) {
+      if (near.distance < instance_.reach(robot_, visit.robot)) visits_.push_back(visit);
+    }
+  }
+  std::ranges::sort(visits_, {}, &Visit::begin);
+  return visits_;
+}
+
+void Sipps::add_free(int vertex) {
+  Half free = 0;
+  std::int32_t before = -1;
+  for (const Visit& visit : visits_at(vertex)) {
+    if (visit.begin > free) add_state(vertex, free, visit.begin - 1, {.before = before, .after = visit.robot});
+    free = std::max(free, visit.end + 1);
+    before = visit.robot;
+  }
+  if (free <= kForeverHalf) add_state(vertex, free, kForeverHalf, {.before = before});
+}
+
+void Sipps::add_shared(int vertex) {
+  const std::span<const Visit> visits = visits_at(vertex);
+  ends_.clear();
+  for (const Visit& visit : visits) ends_.push_back(visit.end);
+  std::ranges::sort(ends_);
+  Half from = 0;
+  int present = 0, begun = 0;
+  std::size_t next = 0, ended = 0;
+  while (from <= kForeverHalf) {
+    for (; next < visits.size() && visits[next].begin <= from; ++next) ++present, ++begun;
+    for (; ended < ends_.size() && ends_[ended] < from; ++ended) --present;
+    Half until = kForeverHalf;
+    if (next < visits.size()) until = std::min(until, visits[next].begin - 1);
+    if (ended < ends_.size()) until = std::min(until, ends_[ended]);
+    const std::size_t before = states_.size();
+    add_state(vertex, from, until, {.present = present, .begun = begun});
+    if (states_.size() > before) begun = 0;  // else it lies between two ticks: whoever waits on meets them as well
+    from = until + 1;
+  }
+}
+
+void Sipps::add_state(int vertex, Half first, Half last, Company company) {
+  const Tick begin = (first + 1) / 2, end = last / 2;
+  if (begin <= end) states_.push_back({begin, end, vertex, company, kForever, kForever, 0});
+}
+
+/// Departures at which the robot conflicts with others on `edge`; hard: sorted and united.
+Sipps::Slot Sipps::departures_of(int edge) {
+  Slot& slot = edge_slot_[edge];
+  if (slot.epoch == epoch_) return slot;
+  ranges_.clear();
+  const Tick duration = duration_[edge];
+  for (const Near& near : traffic_.relations().row(roadmap_.vertex_count() + edge)) {
+    for (const Visit& visit : traffic_.at(near.element)) {
+      const Relation relation = near.relation(instance_.reach(robot_, visit.robot));
+      if (relation == Relation::none) continue;
+      Range range{visit.begin / 2 + 1 - duration, (visit.end - 1) >> 1};  // [2d+1, 2(d+duration)-1] meets the visit
+      if (relation == Relation::ordered) {                                // not the same order at both ends
+        const Tick enter = visit.begin / 2, level = (visit.end + 1) / 2 - duration;
+        range = {std::min(enter, level), std::max(enter, level)};
+      }
+      if (range.first <= range.last) ranges_.push_back(range);
+    }
+  }
+  if (!is_soft()) unite(ranges_);
+  slot = {epoch_, static_cast<std::int32_t>(departures_.size()), static_cast<std::int32_t>(ranges_.size())};
+  departures_.insert(departures_.end(), ranges_.begin(), ranges_.end());
+  return slot;
+}
+
+void Sipps::expand(int label) {
+  ++statistics_.low_level_expansions;
+  const Label from = labels_[label];
+  const State here = states_[from.state];
+  if ((*distance_)(here.vertex) == 0) finish(label);
+  for (const int edge : roadmap_.out(here.vertex)) {
+    const Tick duration = duration_[edge];
+    if (duration < 0) continue;
+    const int head = roadmap_.head(edge);
+    const Tick h = (*distance_)(head);
+    if (h == kForever || from.arrival + duration + h > latest_) continue;
+    const Slot slot = states_of(head);
+    int to = slot.first, end = slot.first + slot.count;
+    while (to < end && states_[to].last < from.arrival + duration) ++to;
+    for (; to < end && states_[to].first - duration <= here.last; ++to) follow(label, edge, to);
+  }
+  if (!is_soft()) return;
+  const Slot slot = states_of(here.vertex);
+  const int next = from.state + 1;
+  if (next < slot.first + slot.count) {
+    reach(label, next, -1, states_[next].first, from.conflicts + states_[next].company.begun);
+  }
+}
+
+/// Cross `edge` into the interval `to`, as early as possible and, if that conflicts, as early as it does not.
+void Sipps::follow(int label, int edge, int to) {
+  const Label& from = labels_[label];
+  const State &here = states_[from.state], &there = states_[to];
+  const Tick duration = duration_[edge], last = std::min(here.last, there.last - duration);
+  Tick departure = std::max(from.arrival, there.first - duration);
+  int conflicts = from.conflicts + there.company.present;
+  if (traffic_.is_unit()) {
+    // Who comes the other way leaves `there` when the robot leaves `here`: at a boundary of both intervals.
+    if (departure == here.last && there.first == departure + 1) {
+      if (!is_soft() && here.company.after == there.company.before) return;
+      if (is_soft()) traffic_.swappers(here.vertex, there.vertex, departure, [&](int) { ++conflicts; });
+    }
+    return reach(label, to, edge, departure + 1, conflicts);
+  }
+  const Slot slot = departures_of(edge);
+  const std::span<const Range> ranges(departures_.data() + slot.first, slot.count);
+  if (is_soft()) {
+    const auto met = [&](Tick tick) {
+      return std::ranges::count_if(ranges, [&](const Range& it) { return it.first <= tick && tick <= it.last; });
+    };
+    const auto number = static_cast<int>(met(departure));
+    reach(label, to, edge, departure + duration, conflicts + number);
+    if (number == 0) return;
+  }
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (const Range& range : ranges) {
+      if (departure < range.first || departure > range.last) continue;
+      departure = range.last + 1;
+      moved = true;
+    }
+  }
+  if (departure <= last) reach(label, to, edge, departure + duration, conflicts);
+}
+
+void Sipps::reach(int parent, int to, int edge, Tick arrival, int conflicts) {
+  State& state = states_[to];
+  if (arrival >= state.closed || (arrival >= state.arrival && conflicts >= state.conflicts)) return;
+  const Tick h = (*distance_)(state.vertex);
+  if (arrival + h > latest_) return;
+  state.arrival = arrival;
+  state.conflicts = conflicts;
+  push({arrival, conflicts, to, parent, edge, false}, h);
+}
+
+/// The path may end here: hard if nobody comes any more, soft with a conflict for each who does.
+void Sipps::finish(int label) {
+  Label end = labels_[label];
+  const State& state = states_[end.state];
+  if (!instance_.rules().disappear_at_goal) {
+    if (!is_soft() && state.last != kForever) return;
+    const Slot slot = vertex_slot_[state.vertex];
+    for (int later = end.state + 1; is_soft() && later < slot.first + slot.count; ++later) {
+      end.conflicts += states_[later].company.begun;
+    }
+  }
+  end.final = true;
+  push(end, 0);
+}
+
+void Sipps::push(const Label& label, Tick h) {
+  ++statistics_.low_level_generated;
+  const auto chance = static_cast<std::uint32_t>(random_() >> 60);
+  const auto arrival = static_cast<std::uint32_t>(std::max(label.arrival + h, least_));
+  open_.push_back({static_cast<std::uint64_t>(label.conflicts) << 32 | arrival,
+                   static_cast<std::uint32_t>(h) << 4 | (label.final ? 0 : chance),
+                   static_cast<std::int32_t>(labels_.size())});
+  labels_.push_back(label);
+  std::ranges::push_heap(open_, std::greater{});
+}
+
+void Sipps::trace(int label, Path& path) const {
+  const Beginning& beginning = instance_.beginning(robot_);
+  path.assign(beginning.occupied.begin(), beginning.occupied.end());
+  const std::size_t known = path.size();
+  for (int it = label; it >= 0; it = labels_[it].parent) {
+    const Label& reached = labels_[it];
+    if (reached.edge < 0) continue;
+    const Tick depart = reached.arrival - duration_[reached.edge];
+    path.push_back(at_vertex(states_[reached.state].vertex, reached.arrival, reached.arrival));
+    path.push_back(on_edge(roadmap_.vertex_count() + reached.edge, depart, reached.arrival));
+  }
+  std::reverse(path.begin() + static_cast<std::ptrdiff_t>(known), path.end());
+  for (std::size_t step = known - 1; step + 2 < path.size(); step += 2) path[step].end = path[step + 1].begin - 1;
+  if (!instance_.rules().disappear_at_goal) path.back().end = kForeverHalf;
+}
+
+}  // namespace mrpbench::mapf::lns

@@ -1,0 +1,100 @@
+// Safe interval path planning with soft constraints: the path of one robot that has the fewest conflicts with those of
+// others, the earliest among these; or the earliest without any.
+// Li, Chen, Harabor, Stuckey and Koenig, "MAPF-LNS2: Fast repairing for multi-agent path finding via large neighborhood
+// search", AAAI 2022.
+#pragma once
+
+#include "lns/traffic.hpp"
+#include "mrpbench_mapf/distance_table.hpp"
+#include "mrpbench_mapf/random.hpp"
+
+namespace mrpbench::mapf::lns {
+
+enum class Others { hard, soft };
+
+class Sipps {
+ public:
+  Sipps(const Traffic& traffic, std::uint64_t seed, Limits& limits, Statistics& statistics);
+
+  /// Find a path of `robot`, which must not be in the traffic, that arrives at `latest` or before; false if there is
+  /// none.
+  bool search(int robot, DistanceTable& distance, Others others, Tick latest, Path& path);
+
+ private:
+  /// Who else is at a vertex at some time.
+  struct Company {
+    std::int32_t present = 0;              // soft: visits
+    std::int32_t begun = 0;                // soft: of these, those that were not there in the interval before
+    std::int32_t before = -1, after = -1;  // hard: robots that are there just before and just after, -1 = none
+  };
+  /// An interval at a vertex in which the same others are there (hard: nobody).
+  struct State {
+    Tick first, last;
+    std::int32_t vertex;
+    Company company;
+    Tick closed;             // earliest arrival of a label that was expanded
+    Tick arrival;            // of the label generated last
+    std::int32_t conflicts;  // of that label
+  };
+  struct Label {
+    Tick arrival;
+    std::int32_t conflicts;
+    std::int32_t state;
+    std::int32_t parent;  // label, -1 = none
+    std::int32_t edge;    // by which it was reached, -1 = by waiting
+    bool final;
+  };
+  struct Open {
+    std::uint64_t key;     // conflicts, then arrival at the goal
+    std::uint32_t second;  // then distance, then chance
+    std::int32_t label;
+    bool operator>(const Open& other) const { return key != other.key ? key > other.key : second > other.second; }
+  };
+  struct Slot {
+    std::uint32_t epoch = 0;  // valid for the current search if equal to `epoch_`
+    std::int32_t first = 0;
+    std::int32_t count = 0;
+  };
+
+  void begin(int robot);
+  Slot states_of(int vertex);
+  std::span<const Visit> visits_at(int vertex);
+  void add_free(int vertex);
+  void add_shared(int vertex);
+  void add_state(int vertex, Half first, Half last, Company company);
+  Slot departures_of(int edge);
+  Tick earliest_stay();
+  void expand(int label);
+  void follow(int label, int edge, int to);
+  void reach(int parent, int to, int edge, Tick arrival, int conflicts);
+  void finish(int label);
+  void push(const Label& label, Tick h);
+  void trace(int label, Path& path) const;
+  bool is_soft() const { return others_ == Others::soft; }
+
+  const Traffic& traffic_;
+  const Instance& instance_;
+  const Roadmap& roadmap_;
+  Limits& limits_;
+  Statistics& statistics_;
+  Random random_;
+  // the current search
+  int robot_ = -1;
+  Others others_ = Others::hard;
+  Tick latest_ = 0;
+  Tick least_ = 0;
+  DistanceTable* distance_ = nullptr;
+  std::span<const Tick> duration_;
+  std::uint32_t epoch_ = 0;
+  std::vector<Slot> vertex_slot_, edge_slot_;
+  std::vector<State> states_;
+  std::vector<Range> departures_;  // forbidden ones (soft: in conflict) of all edges touched so far
+  std::vector<Label> labels_;
+  std::vector<Open> open_;
+  std::vector<Visit> visits_;
+  std::vector<Range> ranges_;
+  std::vector<Half> ends_;
+  std::size_t counted_ = 0;
+};
+
+}  // namespace mrpbench::mapf::lns

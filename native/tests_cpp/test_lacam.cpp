@@ -1,0 +1,125 @@
+#include "check.hpp"
+#include "mrpbench_mapf/cbs.hpp"
+#include "mrpbench_mapf/lacam.hpp"
+#include "mrpbench_mapf/pibt.hpp"
+#include "plans.hpp"
+
+using namespace mrpbench::mapf;
+
+namespace {
+
+Result lacam(const Instance& it, LacamOptions options = {}) {
+  Limits limits = unlimited();
+  return solve_lacam(it, options, limits);
+}
+
+Result pibt(const Instance& it, PibtOptions options = {}) {
+  Limits limits = unlimited();
+  return solve_pibt(it, options, limits);
+}
+
+}  // namespace
+
+TEST("it finds a plan exactly where there is one, and ends with the best") {
+  Random random(1);
+  int unsolvable = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Instance it = random_instance(random, 3, 3, 2 + random.below(2));
+    const Cost makespan = least_makespan(it);
+    const Result shortest = lacam(it, {.objective = Objective::makespan, .iterations = {}, .seed = 7});
+    const Result cheapest = lacam(it);
+    unsolvable += makespan < 0;
+    CHECK((shortest.status == Status::solved) == (makespan >= 0));
+    CHECK(shortest.status == Status::solved || shortest.status == Status::unsolvable);
+    CHECK(cheapest.status == shortest.status);
+    if (makespan < 0) continue;
+    CHECK(faults(it, shortest) == 0);
+    CHECK(faults(it, cheapest) == 0);
+    CHECK(value(Objective::makespan, shortest.paths).first == makespan);
+    Limits limits = unlimited();
+    CHECK(sum_of_costs(cheapest) == sum_of_costs(solve_cbs(it, {}, limits)));
+    CHECK(cheapest.lower_bound == static_cast<double>(sum_of_costs(cheapest)));
+    CHECK(!cheapest.clock_bound);
+  }
+  CHECK(unsolvable > 10);
+}
+
+TEST("the search alone proves what needs every configuration") {
+  Random random(2);
+  for (int k = 0; k < 100; ++k) {
+    const Instance it = random_instance(random, 4, 2, 4);
+    const Result alone = lacam(it, {.neighbourhoods = false, .iterations = {}});
+    const Result both = lacam(it);
+    CHECK(alone.status == both.status);
+    if (alone.status == Status::solved) CHECK(sum_of_costs(alone) == sum_of_costs(both));
+  }
+}
+
+TEST("crowds are planned, and iterations only make plans better") {
+  Random random(3);
+  for (int k = 0; k < 20; ++k) {
+    const Instance it = random_instance(random, 9, 9, 25);
+    const Result first = lacam(it, {.iterations = 0});
+    const Result later = lacam(it, {.iterations = 200});
+    CHECK(first.status == later.status);
+    if (first.status != Status::solved) continue;
+    CHECK(faults(it, first) == 0);
+    CHECK(faults(it, later) == 0);
+    CHECK(sum_of_costs(later) <= sum_of_costs(first));
+    CHECK(static_cast<double>(sum_of_costs(later)) >= later.lower_bound);
+    CHECK(later.history.front().cost == static_cast<double>(sum_of_costs(first)));
+    CHECK(later.history.back().cost == static_cast<double>(sum_of_costs(later)));
+    CHECK(lacam(it, {.iterations = 200}).paths == later.paths);
+  }
+}
+
+TEST("a swap in a dead end is unsolvable without a limit") {
+  CHECK(lacam(instance(grid(5, 1), {robot(0, 4), robot(4, 0)})).status == Status::unsolvable);
+  CHECK(lacam(instance(grid(2, 1), {robot(0, 1), robot(1, 0)})).status == Status::unsolvable);
+  CHECK(lacam(instance(grid(3, 1), {robot(0, 1), robot(2, 1)})).status == Status::unsolvable);
+  CHECK(lacam(instance(grid(3, 1), {})).status == Status::solved);
+}
+
+TEST("one-way lanes that lead in circles end as well") {
+  // A path into a ring that no robot leaves.
+  const auto ring = [] { return Roadmap(4, {0, 1, 2, 3}, {1, 2, 3, 1}, std::vector<Tick>(4, 1)); };
+  CHECK(lacam(instance(ring(), {robot(0, 3), robot(1, 2)})).status == Status::solved);
+  CHECK(lacam(instance(ring(), {robot(2, 3), robot(3, 2)})).status == Status::solved);
+  CHECK(lacam(instance(ring(), {robot(1, 2), robot(2, 1), robot(3, 3)})).status == Status::unsolvable);
+}
+
+TEST("priority inheritance plans crowds in the open, or gives up") {
+  Random random(4);
+  int solved = 0;
+  for (int k = 0; k < 50; ++k) {
+    const Instance it = random_instance(random, 10, 10, 20);
+    const Result result = pibt(it, {.steps = 500, .seed = 1});
+    CHECK(result.status != Status::timeout);
+    if (result.status != Status::solved) continue;
+    ++solved;
+    CHECK(faults(it, result) == 0);
+  }
+  CHECK(solved > 10);
+  CHECK(pibt(instance(grid(4, 1), {robot(0, 3), robot(3, 0)})).status == Status::gave_up);
+}
+
+TEST("limits hold, and a plan that was found is kept") {
+  std::vector<Robot> crowd;
+  for (int k = 0; k < 60; ++k) crowd.push_back(robot(k, 143 - k));
+  const Instance it = instance(grid(12, 12), crowd);
+  Limits soon(0.5, 1LL << 40);
+  const Result late = solve_lacam(it, {}, soon);
+  CHECK(late.status == Status::solved && late.clock_bound);
+  CHECK(faults(it, late) == 0);
+  Limits none(0.0, 1LL << 40);
+  CHECK(solve_lacam(it, {}, none).status == Status::timeout);
+  Limits tiny(10.0, 1 << 16);
+  CHECK(solve_lacam(it, {}, tiny).status == Status::out_of_memory);
+}
+
+TEST("what is no roadmap of unit moves is refused") {
+  const Instance slow = instance(grid(3, 1, 2), {robot(0, 2)});
+  Limits limits = unlimited();
+  CHECK(check::throws<std::invalid_argument>([&] { solve_lacam(slow, {}, limits); }));
+  CHECK(check::throws<std::invalid_argument>([&] { solve_pibt(slow, {}, limits); }));
+}

@@ -1,0 +1,54 @@
+"""Large neighbourhood search: groups of robots are planned anew, for fewer conflicts and then for less cost."""
+
+from typing import ClassVar, Literal, get_args
+
+import attrs
+from mrpbench_native import mapf
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.model.plan import Budget, PlanResult
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_planners_mapf.native import SUPPORTED, solve
+from mrpbench_planners_mapf.objective import Objective, objective_option
+
+Initial = Literal["repair", "lacam", "either"]
+
+
+@attrs.frozen(kw_only=True)
+class Lns(Planner):
+    """First a plan by repairing one with conflicts (Li et al., AAAI 2022), then better ones (Li et al., IJCAI 2021).
+
+    Improves until all robots arrive as early as if alone, `limits.iterations` groups were planned anew, or the
+    time is over. Incomplete where the first plan comes from repairing alone.
+    """
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
+
+    objective: Objective = objective_option()
+    initial: Initial = option(
+        "either",
+        help="Where the first plan comes from: repair, lacam (where every move takes one tick; elsewhere repair), or "
+        "either: lacam where repairing takes long.",
+        validator=attrs.validators.in_(get_args(Initial)),
+    )
+    neighbourhood: int = option(8, help="Robots that are planned anew at a time.", validator=attrs.validators.ge(1))
+    seed: int = option(0, help="Seed of all random choices.", validator=attrs.validators.ge(0))
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """See `Planner.plan`."""
+        return solve(
+            problem,
+            budget,
+            lambda instance, wall_s, memory_bytes: mapf.lns(
+                instance,
+                objective=self.objective,
+                initial=self.initial,
+                neighbourhood=self.neighbourhood,
+                iterations=budget.iterations,
+                seed=self.seed,
+                wall_s=wall_s,
+                memory_bytes=memory_bytes,
+            ),
+        )

@@ -1,0 +1,116 @@
+"""LaCAM, LNS, PIBT and PBS: valid plans by the independent checker, definite answers, the same again."""
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mapf_instances import grid, movingai, problem, random_graph_problem, random_grid_problem, random_rules
+from mapf_oracle import TooLargeError, least_cost
+from mrpbench_planners_mapf.lacam import Lacam
+from mrpbench_planners_mapf.lns import Lns
+from mrpbench_planners_mapf.pbs import Pbs
+from mrpbench_planners_mapf.pibt import Pibt
+
+from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.model.plan import Budget, PlanStatus
+
+BUDGET = Budget(wall_s=20, memory_bytes=1 << 30, iterations=50)
+seeds = st.integers(0, 2**32 - 1)
+
+
+@settings(max_examples=25, deadline=None)
+@given(seed=seeds, robots=st.integers(2, 3))
+def test_lacam_ends_with_the_optimum_or_proves_that_there_is_no_plan(seed, robots):
+    asked = random_grid_problem(np.random.default_rng(seed), robots, size=3)
+    try:
+        optimum = least_cost(asked)
+    except TooLargeError:
+        return
+    result = Lacam(seed=seed % 5).plan(asked, attrs.evolve(BUDGET, iterations=None))
+    if np.isinf(optimum):
+        assert result.status is PlanStatus.UNSOLVABLE
+    else:
+        assert check_plan(asked, result.plan).valid
+        assert result.plan.sum_of_costs == optimum == result.lower_bound
+        assert not result.clock_bound
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    seed=seeds,
+    planner=st.sampled_from(
+        [Lacam(), Lacam(objective="makespan"), Lns(), Lns(initial="repair"), Lns(objective="makespan"), Pbs(), Pibt()]
+    ),
+)
+def test_plans_on_grids_are_valid(seed, planner):
+    asked = random_grid_problem(np.random.default_rng(seed), 6, size=5)
+    result = planner.plan(asked, BUDGET)
+    assert result.status in {PlanStatus.SOLVED, PlanStatus.UNSOLVABLE, PlanStatus.GAVE_UP}
+    if result.plan is not None:
+        report = check_plan(asked, result.plan)
+        assert report.valid, (report.faults, report.conflicts)
+        assert not result.plan.sum_of_costs < result.lower_bound
+        assert planner.plan(asked, BUDGET).plan == result.plan
+        assert Lacam().plan(asked, BUDGET).status is PlanStatus.SOLVED
+
+
+@settings(max_examples=80, deadline=None)
+@given(seed=seeds, robots=st.integers(2, 4), planner=st.sampled_from([Lns(), Lns(neighbourhood=2), Pbs()]))
+def test_plans_on_graphs_are_valid(seed, robots, planner):
+    random = np.random.default_rng(seed)
+    asked = random_graph_problem(random, robots, ready=random.integers(0, 3, robots), **random_rules(random))
+    result = planner.plan(asked, BUDGET)
+    if result.plan is not None:
+        report = check_plan(asked, result.plan)
+        assert report.valid, (report.faults, report.conflicts)
+        assert not result.plan.sum_of_costs < result.lower_bound
+    elif result.status is PlanStatus.UNSOLVABLE:
+        assert Pbs().plan(asked, BUDGET).plan is None
+
+
+@pytest.mark.parametrize("planner", [Lacam(), Lns()])
+def test_the_curve_falls_to_the_cost_of_the_plan(planner):
+    asked = random_grid_problem(np.random.default_rng(2), 20, size=9)
+    result = planner.plan(asked, attrs.evolve(BUDGET, iterations=300))
+    cost = [point.cost for point in result.history]
+    seconds = [point.seconds for point in result.history]
+    assert len(cost) > 1
+    assert cost == sorted(cost, reverse=True)
+    assert seconds == sorted(seconds)
+    assert cost[-1] == result.plan.sum_of_costs
+    assert all(point.lower_bound <= cost[-1] for point in result.history)
+
+
+def test_a_swap_in_a_dead_end_is_proved_unsolvable():
+    asked = problem(grid(["...."]), [0, 3], [3, 0])
+    assert Lacam().plan(asked, attrs.evolve(BUDGET, iterations=None)).status is PlanStatus.UNSOLVABLE
+    assert Lns().plan(asked, attrs.evolve(BUDGET, iterations=None)).status is PlanStatus.UNSOLVABLE
+    assert Pbs().plan(asked, BUDGET).status is PlanStatus.GAVE_UP
+
+
+@pytest.mark.parametrize("planner", [Lacam(), Pibt()])
+def test_more_than_unit_moves_is_skipped_with_the_reason(planner):
+    road = grid(["..."])
+    assert planner.skip(problem(road, [0], [2])) is None
+    assert planner.skip(problem(attrs.evolve(road, duration=[[2, 2, 2, 2]]), [0], [2])) == (
+        "does not support edge_durations"
+    )
+    assert "disappear" in planner.skip(problem(road, [0], [2], at_goal="disappear"))
+    assert "footprints" in planner.skip(problem(road, [0], [2], radius=0.3))
+
+
+@pytest.mark.parametrize("planner", [Lacam(), Lns(), Pibt(), Pbs()])
+def test_limits_hold(planner):
+    asked = random_grid_problem(np.random.default_rng(1), 30, size=20)
+    assert planner.plan(asked, Budget(wall_s=0, memory_bytes=1 << 30)).status is PlanStatus.TIMEOUT
+    assert planner.plan(asked, Budget(wall_s=60, memory_bytes=1 << 16)).status is PlanStatus.OUT_OF_MEMORY
+
+
+@pytest.mark.parametrize("planner", [Lacam(), Lns(initial="lacam")])
+def test_crowds_have_a_first_plan_and_better_ones(shared_data, planner):
+    asked = movingai(shared_data, "warehouse-10-20-10-2-1", "random-1", 500)
+    first = planner.plan(asked, attrs.evolve(BUDGET, iterations=0))
+    later = planner.plan(asked, attrs.evolve(BUDGET, iterations=30))
+    assert check_plan(asked, later.plan).valid
+    assert later.plan.sum_of_costs < first.plan.sum_of_costs
