@@ -131,22 +131,3 @@ def test_the_same_work_may_be_measured_and_named_otherwise():
     one = run(BASE).canonical
     assert same_work(one, run(BASE | {"name": "x", "metrics": [], "limits": {"wall": 9}}).canonical)
     assert not same_work(one, run(BASE | {"limits": {"planning": 9}}).canonical)
-
-
-def test_an_image_counts_that_a_map_names(tmp_path):
-    pytest.importorskip("PIL")
-    image = tmp_path / "map.pgm"
-    image.write_bytes(b"P5 2 1 255 \xfe\xfe")
-    (tmp_path / "map.yaml").write_text("image: map.pgm\nresolution: 1\norigin: [0, 0, 0]\n")
-    (tmp_path / "run.yaml").write_text(
-        "world: {plugin: ros_map, file: map.yaml}\nroadmap: grid\nscenario: {plugin: random, robots: 1}\n"
-        "assigner: identity\nplanner: astar\nsimulator: none\n"
-    )
-
-    def run_id():
-        return load_study(tmp_path / "run.yaml").runs[0].run_id
-
-    before = run_id()
-    assert run_id() == before
-    image.write_bytes(b"P5 2 1 255 \xfe\x00")
-    assert run_id() != before
