@@ -168,25 +168,11 @@ def test_a_robot_without_a_task_makes_way_and_does_not_hinder_planning(tmp_path)
     assert record["metrics"]["execution.success"] is True
 
 
-CHOOSING = """
-import attrs
-
-from mrpbench_core.api import option
-from mrpbench_planners_mapf.cbs import Cbs
-
-
-@attrs.frozen(kw_only=True)
-class Choosing(Cbs):
-    assign: bool = option(True, help="also decide which robot does which task")
-"""
-
-
 @pytest.fixture
 def choosing(tmp_path, monkeypatch):
     pytest.importorskip("mrpbench_planners_mapf")
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "choosing.py").write_text(CHOOSING)
-    return {"plugin": "./choosing.py:Choosing"}
+    return {"plugin": "cbs", "assign": True}
 
 
 def test_a_planner_that_assigns_takes_the_assigners_place(tmp_path, choosing):

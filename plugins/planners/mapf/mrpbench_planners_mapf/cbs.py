@@ -47,12 +47,17 @@ class Cbs(Planner):
         "footprints (generalised rectangles; Li et al., AIJ 2021).",
     )
 
+    assign: bool = option(
+        False, help="Also decide which robot does which task: the least sum of costs over all assignments."
+    )
+
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
+        techniques = {name: value for name, value in attrs.asdict(self).items() if name != "assign"}
         return solve(
             problem,
             budget,
             lambda instance, wall_s, memory_bytes: mapf.cbs(
-                instance, **attrs.asdict(self), wall_s=wall_s, memory_bytes=memory_bytes
+                instance, **techniques, wall_s=wall_s, memory_bytes=memory_bytes
             ),
         )
