@@ -24,7 +24,7 @@ PLAN = Plan(
 def late(executed):
     """From t = 10 s, each second: robot 0 completes its third segment at 14 s, robot 1 its only move at 12 s."""
     reached = [[0, 1, 1, 2, 3, 3], [0, 0, 1, 1, 1, 1], [0] * 6]
-    points = [[(0, 0)] * 4, [(0, 0)] * 3, [(0, 0)]]
+    points = [[(0, 0), (1, 0), (1, 0), (2, 0)], [(0, 0), (0, 1), (0, 1)], [(0, 0)]]
     run = executed(range(10, 16), [[(0, 0)] * 6] * 3, reached, points)
     result = PlanResult(status=PlanStatus.SOLVED, plan=PLAN)
     return attrs.evolve(run, context=attrs.evolve(run.context, result=result))
