@@ -82,7 +82,7 @@ class Clock:
         self.began: float | None = None
         self.simulated = self.spent = 0.0
 
-    def stepped(self, *, now: float, state: object) -> None:  # noqa: ARG002
+    def stepped(self, *, now: float, **_: object) -> None:
         """Take note of a period that has ended."""
         if self.began is None:
             self.began = time.process_time()
