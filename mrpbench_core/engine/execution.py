@@ -14,13 +14,13 @@ from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.mission import Outcome, Stack, execute_plan
 from mrpbench_core.engine.noise import Disturbances
 from mrpbench_core.engine.observers import Observers
-from mrpbench_core.engine.planning import call_planner, judge, left_for_planning
+from mrpbench_core.engine.planning import budget_within, call_planner, judge
 from mrpbench_core.engine.preparation import Announce, Ended
 from mrpbench_core.engine.recorder import Recorder
 from mrpbench_core.engine.replanning import Replans
 from mrpbench_core.engine.routes import Router, placements
 from mrpbench_core.engine.seeds import seed_of
-from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
+from mrpbench_core.model.plan import PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import FinishedRun, RunContext
@@ -92,8 +92,7 @@ def _replans(
         if reason := config.planner.skip(problem):
             return PlanResult(status=PlanStatus.GAVE_UP), f"the planner {reason}"
         announce("replanning", {"limit_s": config.limits.planning})
-        budget = Budget(wall_s=config.limits.planning, memory_bytes=left_for_planning(config.limits.memory))
-        result, spent = call_planner(config.planner, problem, budget)
+        result, spent = call_planner(config.planner, problem, budget_within(config.limits))
         announce("execution", {})
         timing["replanning_s"] = timing.get("replanning_s", 0.0) + spent["planning_s"]
         timing["clock_bound"] = timing.get("clock_bound", False) or spent["clock_bound"]

@@ -10,11 +10,11 @@ from mrpbench_core.engine.execution import drive, measure_recording
 from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.plain import readable
-from mrpbench_core.engine.planning import STATUS, call_planner, judge, left_for_planning
+from mrpbench_core.engine.planning import STATUS, budget_within, call_planner, judge
 from mrpbench_core.engine.preparation import Announce, Ended, Setting, assign, pose_problem, set_scene, taken
 from mrpbench_core.engine.replanning import replanning_fault
 from mrpbench_core.engine.routes import Router, speed_limits
-from mrpbench_core.model.plan import Budget, PlanResult
+from mrpbench_core.model.plan import PlanResult
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.run import FinishedRun, RunContext
 from mrpbench_core.store.paths import RunPaths
@@ -67,12 +67,7 @@ def _plan(
     if reason := config.planner.skip(problem) or replanning_fault(config):
         raise Ended("skipped", "planning", reason)
     announce("planning", {"limit_s": config.limits.planning})
-    budget = Budget(
-        wall_s=config.limits.planning,
-        memory_bytes=left_for_planning(config.limits.memory),
-        iterations=config.limits.iterations,
-    )
-    result, spent = call_planner(config.planner, problem, budget)
+    result, spent = call_planner(config.planner, problem, budget_within(config.limits))
     timing |= spent
     announce("checking", {})  # which is no part of the planner's time
     result, fault = judge(config.planner, problem, result)

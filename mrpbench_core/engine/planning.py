@@ -11,6 +11,7 @@ import attrs
 from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.checking.plan_result import result_fault
+from mrpbench_core.config.settings import Limits
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
@@ -56,9 +57,10 @@ def _history(result: Any) -> list[list[float | None]]:
     return [[value if math.isfinite(value) else None for value in attrs.astuple(point)] for point in result.history]
 
 
-def left_for_planning(limit_bytes: int) -> int:
-    """What of a run's memory limit a planner may use, so that it stops by itself before the run is killed."""
-    return max(1, int(0.9 * limit_bytes) - _resident())
+def budget_within(limits: Limits) -> Budget:
+    """What one call of a planner may use: of the memory so much that it stops by itself before the run is killed."""
+    memory = max(1, int(0.9 * limits.memory) - _resident())
+    return Budget(wall_s=limits.planning, memory_bytes=memory, iterations=limits.iterations)
 
 
 def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
