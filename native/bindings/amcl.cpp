@@ -8,29 +8,22 @@
 #include <stdexcept>
 #include <string>
 
+#include "arrays.hpp"
 #include "mrpbench_amcl/fleet.hpp"
 
 namespace nb = nanobind;
+using namespace mrpbench::bindings;
 using namespace nb::literals;
 using namespace mrpbench::amcl;
 using mrpbench::sim::Segment;
 
 namespace {
 
-template <class T>
-using Vector = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-template <int columns>
-using Matrix = nb::ndarray<const double, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
 using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Output = nb::ndarray<nb::numpy, double>;
 
 static_assert(sizeof(Segment) == 4 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
 static_assert(sizeof(Point) == 2 * sizeof(double));
-
-template <class Row, class Array>
-std::span<const Row> rows(const Array& array) {
-  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
-}
 
 /// A new array that owns its values.
 Output own(std::unique_ptr<double[]> values, std::initializer_list<std::size_t> shape) {

@@ -10,36 +10,23 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "arrays.hpp"
 #include "mrpbench_local/fleet.hpp"
 #include "mrpbench_local/footprint.hpp"
 
 namespace nb = nanobind;
+using namespace mrpbench::bindings;
 using namespace nb::literals;
 using namespace mrpbench::local;
 
 namespace {
 
-template <class T>
-using Vector = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-template <int columns>
-using Matrix = nb::ndarray<const double, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
 using Output = nb::ndarray<nb::numpy, double>;
 using Settings = std::map<std::string, double>;
 using Critics = std::vector<std::tuple<std::string, double, Settings>>;
 
 static_assert(sizeof(Segment) == 4 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
 static_assert(sizeof(Twist) == 2 * sizeof(double) && sizeof(Point) == 2 * sizeof(double));
-
-template <class Row, class Array>
-std::span<const Row> rows(const Array& array) {
-  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
-}
-
-template <class Row, class Array>
-std::vector<Row> copy(const Array& array) {
-  const auto found = rows<Row>(array);
-  return {found.begin(), found.end()};
-}
 
 /// A new array that owns its values.
 Output own(std::vector<double> values, std::initializer_list<std::size_t> shape) {

@@ -8,36 +8,22 @@
 #include <stdexcept>
 #include <string>
 
+#include "arrays.hpp"
 #include "mrpbench_sim/caster.hpp"
 #include "mrpbench_sim/plane.hpp"
 
 namespace nb = nanobind;
+using namespace mrpbench::bindings;
 using namespace nb::literals;
 using namespace mrpbench::sim;
 
 namespace {
 
 template <class T>
-using Vector = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-template <int columns>
-using Matrix = nb::ndarray<const double, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
-template <class T>
 using Output = nb::ndarray<nb::numpy, T, nb::ndim<2>>;
 
 static_assert(sizeof(Segment) == 4 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
 static_assert(sizeof(Twist) == 2 * sizeof(double) && sizeof(Point) == 2 * sizeof(double));
-
-/// The rows of an array as what they are.
-template <class Row, class Array>
-std::span<const Row> rows(const Array& array) {
-  return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
-}
-
-template <class Row, class Array>
-std::vector<Row> copy(const Array& array) {
-  const auto found = rows<Row>(array);
-  return {found.begin(), found.end()};
-}
 
 /// A new array that owns its values.
 template <class T>
