@@ -11,7 +11,16 @@ from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.plain import readable
 from mrpbench_core.engine.planning import STATUS, budget_within, call_planner, judge
-from mrpbench_core.engine.preparation import Announce, Ended, Setting, assign, pose_problem, set_scene, taken
+from mrpbench_core.engine.preparation import (
+    Announce,
+    Ended,
+    Setting,
+    assign,
+    keep_off_doors,
+    pose_problem,
+    set_scene,
+    taken,
+)
 from mrpbench_core.engine.replanning import replanning_fault
 from mrpbench_core.engine.routes import Router, speed_limits
 from mrpbench_core.model.plan import PlanResult
@@ -35,6 +44,8 @@ def execute(
     try:
         setting = set_scene(config, announce)
         record["scenario_id"] = setting.scenario.id
+        if config.simulator is not None:
+            keep_off_doors(setting)
         chosen = None if config.planner.assigns else assign(config, setting, announce, record["timing"])
         problem = pose_problem(setting, chosen, config.assigner)
         result, ended = _plan(config, problem, announce, record["timing"], observers)

@@ -9,6 +9,7 @@ import numpy as np
 
 from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
+from mrpbench_core.checking.doorways import check_doorways
 from mrpbench_core.checking.scenario import check_reach, check_scenario, check_travel
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.answers import check_drawn
@@ -133,6 +134,17 @@ def pose_problem(setting: Setting, assigned: tuple[int, ...] | None, assigner: A
             )
         raise Ended("scenario_infeasible", "scenario", summary(faults))
     return problem
+
+
+def keep_off_doors(setting: Setting) -> None:
+    """Make sure that doors can move from the start.
+
+    Raises:
+        Ended: a robot stands in the way of one.
+    """
+    radii, names = setting.fleet.radii, setting.scenario.start_names
+    if faults := check_doorways(setting.world, setting.roadmap, setting.start, radii, names):
+        raise Ended("scenario_infeasible", "scenario", summary(faults))
 
 
 def _could_be_assigned(setting: Setting) -> bool:

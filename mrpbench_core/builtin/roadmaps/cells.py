@@ -3,7 +3,8 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.builtin.roadmaps.facilities import clear_of_open_doors, with_facilities
+from mrpbench_core.builtin.roadmaps.facilities import with_facilities
+from mrpbench_core.builtin.roadmaps.open_doors import clear_of_open_doors
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import called

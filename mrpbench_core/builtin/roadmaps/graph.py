@@ -5,8 +5,9 @@ import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.roadmap import RoadmapBuilder
-from mrpbench_core.builtin.roadmaps.facilities import clear_of_open_doors, with_facilities
+from mrpbench_core.builtin.roadmaps.facilities import with_facilities
 from mrpbench_core.builtin.roadmaps.junctions import Pieces, cut_at_junctions
+from mrpbench_core.builtin.roadmaps.open_doors import clear_of_open_doors
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError

@@ -7,7 +7,7 @@ from mrpbench_core.model.fleet import Fleet, RobotModel
 from mrpbench_core.model.world import Lane, Level, Vertex, World
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def make_fleet():
     def make(*radii, speeds=None) -> Fleet:
         corners = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])

@@ -1,0 +1,44 @@
+"""Which parts of a roadmap lie within a robot's reach of something drawn, and roadmaps with other edges."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.checking.clearance import touches
+from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.roadmap import Roadmap
+
+MARGIN = 0.1
+"""metres by which a robot may be off its place: the tolerance of navigators."""
+
+
+def in_reach(outlines: list[Float], roadmap: Roadmap, levels: tuple[int, ...], radius: float) -> tuple[Int, Int]:
+    """Vertices and edges on some levels at which a disc of `radius` metres touches any of `outlines` f8[k,2]."""
+    here = np.isin(roadmap.level, levels)
+    start, end = roadmap.edges[:, 0], roadmap.edges[:, 1]
+    flat = here[start] & here[end] & (roadmap.level[start] == roadmap.level[end])
+    vertices, edges = np.flatnonzero(here), np.flatnonzero(flat)
+    at, a, b = roadmap.position[vertices], roadmap.position[start[edges]], roadmap.position[end[edges]]
+    stands, drives = np.zeros(len(at), bool), np.zeros(len(a), bool)
+    for outline in outlines:
+        stands |= touches(outline, at, at, radius)
+        drives |= touches(outline, a, b, radius)
+    return vertices[stands], edges[drives]
+
+
+def with_edges(roadmap: Roadmap, chosen: Int) -> Roadmap:
+    """The roadmap with its edges `chosen` i8[k], in that order; its resources keep what is left of them."""
+    number = np.full(len(roadmap.edges), -1)
+    number[chosen] = np.arange(len(chosen))
+
+    def left(edges: tuple[int, ...]) -> tuple[int, ...]:
+        return tuple(sorted(set(number[list(edges)].tolist()) - {-1}))
+
+    return attrs.evolve(
+        roadmap,
+        edges=roadmap.edges[chosen],
+        duration=roadmap.duration[:, chosen],
+        resources=tuple(
+            attrs.evolve(resource, edges=left(resource.edges), passage=left(resource.passage))
+            for resource in roadmap.resources
+        ),
+    )

@@ -1,0 +1,56 @@
+"""Whether robots start where doors would hit them."""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from mrpbench_core.checking.clearance import touches
+from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.doors import leaves, swept
+from mrpbench_core.model.facilities import Facilities, Gate
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.solids import wall_boxes
+from mrpbench_core.model.world import World
+
+
+def check_doorways(
+    world: World, roadmap: Roadmap, start: Int, radii: Float, start_names: Sequence[str] = ()
+) -> list[str]:
+    """The robots that start in a shut door, or where the leaf of a door in use would hit them, one sentence each.
+
+    A leaf stops before a robot, so who stands in its swing keeps the door from opening. Doors that no edge leads
+    through stay shut: only to be in them is a fault.
+
+    Args:
+        world: whose doors they are.
+        roadmap: says which doors are in use.
+        start: vertices i4[n], -1 = not on the roadmap, which others say.
+        radii: of the robots f8[n], metres.
+        start_names: where known, the names of the starts.
+    """
+    faults = []
+    for robot in np.flatnonzero(start >= 0).tolist():
+        place = roadmap.position[start[robot] : start[robot] + 1]
+        names = start_names[robot : robot + 1]
+        where = next((name for name in names if name), "({:.2f}, {:.2f})".format(*place[0]))
+        troubles = _troubles(world, roadmap, int(roadmap.level[start[robot]]), place, float(radii[robot]))
+        faults += [f"robot {robot} starts at {where}, {trouble}" for trouble in troubles]
+    return faults
+
+
+def _troubles(world: World, roadmap: Roadmap, level: int, place: Float, radius: float) -> Iterator[str]:
+    used = {resource.name for resource in roadmap.resources}
+    for gate in Facilities(world).gates:
+        if level in gate.levels:
+            if _meets(_shut_leaves(gate), place, radius):
+                yield f"in the shut door {gate.name}"
+            elif gate.name in used and _meets(swept(gate.door), place, radius):
+                yield f"where the leaf of door {gate.name} opens"
+
+
+def _shut_leaves(gate: Gate) -> Sequence[Float]:
+    return list(wall_boxes(leaves(gate.door, 0.0), gate.door.thickness).reshape(-1, 4, 4)[:, :, :2])
+
+
+def _meets(outlines: Sequence[Float], place: Float, radius: float) -> bool:
+    return any(bool(touches(outline, place, place, radius)[0]) for outline in outlines)
