@@ -5,7 +5,6 @@ exit code. Mistakes of the user are raised as `InputError` and printed here, one
 """
 
 import argparse
-import errno
 import importlib
 import logging
 import os
@@ -17,6 +16,7 @@ from pathlib import Path
 from typing import NoReturn
 
 from mrpbench_core import __version__
+from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
 
 COMMANDS = {
@@ -66,7 +66,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = 0
     except OSError as error:
-        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+        if not is_full(error):
             code = _defect(error)
         else:  # of what was printed, or of a file that was being written
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.api.exporter import Exporter, ExporterSession
+from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import RunContext
@@ -65,5 +66,7 @@ class Exports:
             traceback.print_exc()
 
     def _note(self, name: str, error: BaseException) -> None:
+        if is_full(error):  # the run is to be done again, with this export
+            raise error
         traceback.print_exc()  # into the run's log
         self.failed[name] = one_line(error)

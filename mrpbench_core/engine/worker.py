@@ -6,7 +6,6 @@ the run's log.
 
 import contextlib
 import ctypes
-import errno
 import faulthandler
 import json
 import os
@@ -26,6 +25,7 @@ from mrpbench_core.engine.machine import machine
 from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.plain import plain, readable
+from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.plugins.hooks import Hooks, load_hooks
 from mrpbench_core.store.paths import RunPaths
@@ -89,15 +89,12 @@ def _execute(job: dict[str, Any], say: Say, hooks: Hooks) -> dict[str, Any]:
         record = plain(execute(unpack(job["parcel"]), job["run_id"], paths, announce, observers))
     except (InputError, InputErrors) as error:
         return {"mistake": plain(str(error))}
-    except OSError as error:
-        traceback.print_exc()
-        if error.errno in (errno.ENOSPC, errno.EDQUOT):
-            return {"mistake": f"{error.strerror}: {error.filename or job['recording']}"}
-        return {"status": "crashed", "message": describe(error)}
     except MemoryError as error:
         traceback.print_exc()
         return {"status": "out_of_memory", "message": readable(str(error)) or "no memory left"}
     except BaseException as error:  # noqa: BLE001 - a plugin may raise anything, even SystemExit
+        if is_full(error):  # the run is to be done again
+            return {"mistake": f"{job['recording']}: cannot be written: {plain(readable(str(error)))}"}
         traceback.print_exc()
         return {"status": "crashed", "message": describe(error)}
     return {"record": record}

@@ -18,6 +18,7 @@ RUN = {
     "limits": {"execution": "8 s"},
 }
 EXPORTERS = """
+import errno
 from pathlib import Path
 
 import attrs
@@ -59,6 +60,8 @@ class Broken(Exporter):
     def open(self, context, destination):
         if self.when == "open":
             raise ValueError("not this time: open")
+        if self.when == "full":
+            raise OSError(errno.ENOSPC, "no space left")
         if not self.when:
             raise InputError("no such place")
         return Session(destination, self.when)
@@ -96,6 +99,17 @@ def test_an_export_that_fails_is_named_and_costs_nothing_else(tmp_path, monkeypa
     (file,) = (tmp_path / "exports").iterdir()
     assert file.name.endswith("Fine")
     assert file.read_text() == "closed"
+
+
+def test_a_full_disk_fails_the_run_and_not_one_export_alone(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "exporters.py").write_text(EXPORTERS)
+    with pytest.raises(OSError, match="no space left"):
+        executed(
+            tmp_path, export=[{"plugin": "./exporters.py:Fine"}, {"plugin": "./exporters.py:Broken", "when": "full"}]
+        )
+    assert list((tmp_path / "recordings").iterdir()) == []
+    assert list((tmp_path / "exports").iterdir()) == []
 
 
 def test_an_option_of_an_exporter_that_does_not_fit_is_the_users_to_mend(tmp_path, monkeypatch):

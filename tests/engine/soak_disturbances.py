@@ -1,0 +1,120 @@
+"""A study disturbed again and again ends with the records, recordings and bags of one that was left alone.
+
+`make soak` runs it; `python soak_disturbances.py COUNT SEED` prints each disturbance and, in the end, what differs.
+"""
+
+import random
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import psutil
+from test_kills import essence
+
+from mrpbench_core import load
+from mrpbench_core.store.invocation import write_document
+
+RUNS = 40
+STUDY = {
+    "name": "disturbed",
+    "world": "office",
+    "scenario": {"plugin": "random", "robots": 3},
+    "planner": "prioritized",
+    "dispatcher": "adg",
+    "controller": "pure_pursuit",
+    "simulator": "kinematic",
+    "recording": {"keep": "all"},
+    "matrix": {"seed": f"0..{RUNS - 1}"},
+}
+
+
+def invoke(out: Path) -> psutil.Popen:
+    """Run the study, or what is left of it, with two workers."""
+    command = [sys.executable, "-m", "mrpbench_core.cli.main", "run", "study.yaml", "--out", str(out), "--workers", "2"]
+    return psutil.Popen(command, cwd=out.parent, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+
+def kill(process: psutil.Process) -> None:
+    """As `kill -9`, or the kernel when memory ends."""
+    process.kill()
+
+
+def terminate(process: psutil.Process) -> None:
+    """As a batch system at the end of its time."""
+    process.terminate()
+
+
+def fill_disk(process: psutil.Process) -> None:
+    """No file may grow beyond what is written already: every write fails from now on, as on a full disk."""
+    largest = random.randrange(20_000)
+    process.rlimit(resource.RLIMIT_FSIZE, (largest, largest))
+
+
+DISTURBANCES: tuple[Callable[[psutil.Process], None], ...] = (kill, terminate, fill_disk)
+
+
+def disturb(study: psutil.Popen, chance: random.Random) -> str:
+    """Do something to the invoking process or to a worker; says what."""
+    workers = study.children()
+    victim = chance.choice(workers) if workers and chance.random() < 0.5 else study
+    act = chance.choice(DISTURBANCES)
+    act(victim)
+    return f"{act.__name__} {'the invoker' if victim is study else 'a worker'}"
+
+
+def recorded(out: Path) -> int:
+    """How many runs have their record."""
+    return len(load(out)) if Path(out, "runs").is_dir() else 0
+
+
+def contents(folder: Path) -> dict[str, bytes | int]:
+    """Every recording byte by byte, and every exported file by its size: bags hold the time of writing."""
+    return {str(file.relative_to(folder)): file.read_bytes() for file in folder.glob("recordings/*")} | {
+        str(file.relative_to(folder)): len(file.read_bytes()) for file in folder.glob("exports/**/*") if file.is_file()
+    }
+
+
+def differences(one: Path, other: Path) -> list[str]:
+    """Which records and files are not the same in two results folders."""
+    pairs = (essence(one), essence(other)), (contents(one), contents(other))
+    return [key for left, right in pairs for key in left.keys() | right.keys() if left.get(key) != right.get(key)]
+
+
+def main(count: int, seed: int) -> int:
+    """Print what differs; the number of differences."""
+    chance, done, rounds, wrong = random.Random(seed), 0, 0, 0
+    with tempfile.TemporaryDirectory() as name:
+        alone = Path(name, "alone")
+        export = {"plugin": "rosbag2", "storage": ("mcap", "sqlite3")[seed % 2]}
+        write_document(Path(name, "study.yaml"), STUDY | {"export": [export]})
+        assert invoke(alone).wait() == 0
+        while done < count:
+            rounds += 1
+            out = Path(name, f"disturbed-{rounds}")
+            while recorded(out) < RUNS and done < count:
+                study = invoke(out)
+                more = recorded(out) + chance.randrange(6)
+                while study.poll() is None and recorded(out) < more:
+                    time.sleep(0.1)
+                time.sleep(chance.uniform(0.0, 2.0))
+                if study.poll() is None:
+                    done += 1
+                    print(f"{done:3}: {disturb(study, chance)}", end="", flush=True)
+                    time.sleep(chance.uniform(0.0, 8.0))
+                study.send_signal(signal.SIGINT)
+                errors = study.communicate()[1]
+                print(f"; exit {study.returncode}, {recorded(out)} of {RUNS} runs recorded; {errors.strip()}")
+            assert invoke(out).wait() == 0
+            differing = differences(alone, out)
+            wrong += len(differing)
+            print(f"study {rounds}: different from the undisturbed one: {differing or 'nothing'}")
+    return wrong
+
+
+if __name__ == "__main__":
+    sys.exit(main(int(sys.argv[1]), int(sys.argv[2])) > 0)
