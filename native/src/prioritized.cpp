@@ -15,6 +15,10 @@ namespace mrpbench::mapf {
 namespace {
 
 using Priorities = std::vector<int>;
+using Delays = std::vector<Tick>;  // by robot
+
+/// Restarts in which all robots start as early as they can.
+constexpr int kPunctual = 100;
 
 /// Fisher-Yates with the raw generator: std::shuffle differs between standard libraries.
 void shuffle(Priorities& order, std::mt19937_64& random) {
@@ -38,6 +42,13 @@ void reorder(Priorities& order, int failed, const std::set<Priorities>& tried, s
   if (tried.contains(order)) shuffle(order, random);
 }
 
+/// Half of the robots start up to `longest` late.
+void draw(Delays& delays, Tick longest, std::mt19937_64& random) {
+  for (Tick& delay : delays) {
+    delay = random() % 2 == 0 ? 0 : static_cast<Tick>(random() % (static_cast<std::uint64_t>(longest) + 1));
+  }
+}
+
 class Prioritized {
  public:
   Prioritized(const Instance& instance, DistanceTables& tables, const Relations& relations, Limits& limits,
@@ -50,16 +61,31 @@ class Prioritized {
         paths_(instance.size()) {}
 
   /// Plan in this order; the robot for which there is no path, or nothing.
-  std::optional<int> plan(const Priorities& order) {
+  std::optional<int> plan(const Priorities& order, const Delays& delays) {
     reservations_.clear();
     reserve_beginnings(instance_, reservations_);
     for (const int robot : order) {
       ++statistics_.generated;
-      if (!sipp_.search(robot, tables_[robot], Others(reservations_, robot), paths_[robot])) return robot;
+      const Others others(reservations_, robot);
+      if (!sipp_.search(robot, tables_[robot], others, paths_[robot], nullptr, delays[robot])) return robot;
       ++statistics_.expansions;
       reservations_.add(robot, paths_[robot]);
     }
     return std::nullopt;
+  }
+
+  /// Give every robot in turn its earliest path around the others as they are: it has one, the one it had.
+  void hurry(const Priorities& order) {
+    try {
+      for (const int robot : order) {
+        reservations_.clear();
+        for (const int other : order) {
+          if (other != robot) reservations_.add(other, paths_[other]);
+        }
+        sipp_.search(robot, tables_[robot], Others(reservations_, robot), paths_[robot]);
+      }
+    } catch (const LimitReached&) {  // there is a plan; some robots stay late
+    }
   }
 
   std::vector<Path>& paths() { return paths_; }
@@ -88,15 +114,24 @@ void solve(const Instance& instance, const PrioritizedOptions& options, Limits& 
   Prioritized search(instance, tables, relations, limits, statistics);
   std::mt19937_64 random(options.seed);
   Priorities order = first_order(instance, options.order, tables, random);
+  Delays delays(instance.size(), 0);
+  Tick longest = 0;
+  for (int robot = 0; robot < instance.size(); ++robot) {
+    longest = std::max(longest, tables[robot](instance.beginning(robot).vertex));
+  }
   std::set<Priorities> tried;
-  while (const auto failed = search.plan(order)) {
-    if (*failed == order.front()) return unsolvable(*failed);  // only what is certain stood in its way
+  while (const auto failed = search.plan(order, delays)) {
+    if (*failed == order.front() && delays[*failed] == 0) return unsolvable(*failed);  // certain things are in its way
     statistics.failed_robot = *failed;
     if (statistics.restarts == options.restarts) return;
     ++statistics.restarts;
     tried.insert(order);
     reorder(order, *failed, tried, random);
+    // Robots that park in one another's way can be planned in no order, unless one lets the other pass before it
+    // starts.
+    if (statistics.restarts > kPunctual) draw(delays, 2 * longest, random);
   }
+  if (std::ranges::any_of(delays, [](Tick delay) { return delay > 0; })) search.hurry(order);
   statistics.failed_robot = -1;
   result.paths = std::move(search.paths());
   result.status = Status::solved;

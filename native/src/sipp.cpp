@@ -13,7 +13,7 @@ Sipp::Sipp(const Instance& instance, Limits& limits, Statistics& statistics)
 }
 
 bool Sipp::search(int robot, DistanceTable& distance, const Obstacles& obstacles, Path& path,
-                  const Reservations* others) {
+                  const Reservations* others, Tick delay) {
   const Beginning& beginning = instance_.beginning(robot);
   distance_ = &distance;
   begin(robot, obstacles, others);
@@ -23,7 +23,7 @@ bool Sipp::search(int robot, DistanceTable& distance, const Obstacles& obstacles
   const Slot slot = states_of(beginning.vertex);
   for (int state = slot.first; state < slot.first + slot.count; ++state) {
     if (states_[state].first > beginning.free_at || states_[state].last < beginning.free_at) continue;
-    states_[state].arrival = beginning.free_at;
+    states_[state].arrival = std::min(states_[state].last, beginning.free_at + delay);
     push(state);
   }
   bool found = false;

@@ -110,7 +110,7 @@ def test_graphs_that_are_none_are_refused(arguments, said):
 
 def test_options_are_listed_with_their_defaults():
     assert options_of("cbs")["bypass"] is True
-    assert options_of("prioritized")["restarts"] == 100
+    assert options_of("prioritized")["restarts"] == 1000
     assert options_of("eecbs")["w"] == 1.2
     assert "wall_s" not in options_of("cbs")
 

@@ -18,8 +18,9 @@ class Sipp {
   /// `obstacles`. Writes `path` and returns true, or false if there is none. Among equally early paths it prefers few
   /// conflicts with `others`, as the conflict avoidance table of Standley, "Finding optimal solutions to cooperative
   /// pathfinding problems", AAAI 2010; not strictly the fewest, since a state keeps only its earliest arrival.
+  /// With a `delay` the robot stays at its start that much longer, as far as others let it.
   bool search(int robot, DistanceTable& distance, const Obstacles& obstacles, Path& path,
-              const Reservations* others = nullptr);
+              const Reservations* others = nullptr, Tick delay = 0);
 
  private:
   struct State {

@@ -44,6 +44,6 @@ ALGORITHMS: Mapping[str, tuple[Callable[..., mapf.Answer], dict[str, Any]]] = {
     ),
     "pbs": (mapf.pbs, {}),
     "pibt": (mapf.pibt, {"swap": True, "steps": 0, "seed": 0}),
-    "prioritized": (mapf.prioritized, {"order": "longest_first", "restarts": 100, "seed": 0}),
+    "prioritized": (mapf.prioritized, {"order": "longest_first", "restarts": 1000, "seed": 0}),
 }
 """Function and preset options. The planners of mrpbench by the same names have the same options, and say more."""

@@ -19,8 +19,10 @@ class Prioritized(Planner):
     """One robot after another, each on its earliest path around those before it.
 
     Fast, but incomplete: when some robot finds no path, the robot goes to the front and all are planned again, up to
-    `restarts` times (an order that was tried before is shuffled). Then the planner gives up, and
-    `statistics["failed_robot"]` names the robot. `lower_bound` is what the robots would cost if each were alone.
+    `restarts` times (an order that was tried before is shuffled). From the hundredth restart on some robots also start
+    late, by chance: robots that park in one another's way can be planned in no order otherwise. After all restarts the
+    planner gives up, and `statistics["failed_robot"]` names the robot. `lower_bound` is what the robots would cost if
+    each were alone.
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
@@ -32,8 +34,8 @@ class Prioritized(Planner):
         "the goal), random.",
         validator=attrs.validators.in_(get_args(Order)),
     )
-    restarts: int = option(100, help="Further orders to try after a failure.", validator=attrs.validators.ge(0))
-    seed: int = option(0, help="Seed of random orders.", validator=attrs.validators.ge(0))
+    restarts: int = option(1000, help="Further orders to try after a failure.", validator=attrs.validators.ge(0))
+    seed: int = option(0, help="Seed of random orders and late starts.", validator=attrs.validators.ge(0))
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""

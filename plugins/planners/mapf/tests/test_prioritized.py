@@ -77,6 +77,16 @@ def test_a_robot_that_blocks_another_plans_after_it():
     assert Prioritized(order="index", restarts=1).plan(asked, BUDGET).status is PlanStatus.SOLVED
 
 
+def test_robots_that_park_in_one_anothers_way_start_late_by_chance_and_are_hurried_afterwards():
+    # Robot 0 has to be past 1 before robot 1 parks there, and robot 1 past 2 before robot 0 parks there.
+    road = grid(["#.#", "...", "#.#", "#.#"])  # 0; 1 2 3; 4; 5
+    asked = problem(road, [5, 1], [2, 4])
+    assert Prioritized(restarts=100).plan(asked, BUDGET).status is PlanStatus.GAVE_UP
+    result = Prioritized().plan(asked, BUDGET)
+    assert check_plan(asked, result.plan).valid
+    assert 8 == Cbs().plan(asked, BUDGET).plan.sum_of_costs <= result.plan.sum_of_costs <= 10
+
+
 def test_seeds_change_random_orders_and_repeat_themselves():
     asked = random_grid_problem(np.random.default_rng(3), 10, size=5)
     plans = [Prioritized(order="random", seed=seed).plan(asked, BUDGET).plan for seed in range(8)]
