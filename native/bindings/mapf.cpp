@@ -219,17 +219,20 @@ Answer cbs(const Instance& instance, bool prioritize, bool bypass, bool heuristi
   return {instance, solve_cbs(instance, options, limits)};
 }
 
-Answer bounded_cbs(const Instance& instance, const std::string& selection, double w, bool bypass, bool target,
-                   bool corridor, bool flex, double distance_weight, double conflict_weight, double wall_s,
-                   std::int64_t memory_bytes) {
+Answer bounded_cbs(const Instance& instance, const std::string& selection, double w, bool prioritize, bool bypass,
+                   bool heuristic, bool target, bool corridor, bool rectangle, bool flex, double distance_weight,
+                   double conflict_weight, double wall_s, std::int64_t memory_bytes) {
   static const std::map<std::string, Selection> choices{{"focal", Selection::focal},
                                                         {"explicit_estimation", Selection::explicit_estimation}};
   if (!(w >= 1.0 && w < 1e9)) throw std::invalid_argument("w is at least 1");
   const BoundedOptions options{.w = w,
                                .selection = choose(choices, selection),
-                               .bypass = bypass,
-                               .target = target,
-                               .corridor = corridor,
+                               .techniques = {.prioritize = prioritize,
+                                              .bypass = bypass,
+                                              .heuristic = heuristic,
+                                              .target = target,
+                                              .corridor = corridor,
+                                              .rectangle = rectangle},
                                .flex = flex,
                                .distance_weight = distance_weight,
                                .conflict_weight = conflict_weight};
@@ -318,8 +321,9 @@ NB_MODULE(mapf, module) {
   module.def("cbs", &cbs, "instance"_a, nb::kw_only(), "prioritize"_a = true, "bypass"_a = true, "heuristic"_a = true,
              "target"_a = true, "corridor"_a = true, "rectangle"_a = true, "wall_s"_a, "memory_bytes"_a,
              "The least sum of arrival times, by conflict-based search.");
-  module.def("bounded_cbs", &bounded_cbs, "instance"_a, nb::kw_only(), "selection"_a, "w"_a, "bypass"_a, "target"_a,
-             "corridor"_a, "flex"_a, "distance_weight"_a, "conflict_weight"_a, "wall_s"_a, "memory_bytes"_a,
+  module.def("bounded_cbs", &bounded_cbs, "instance"_a, nb::kw_only(), "selection"_a, "w"_a, "prioritize"_a, "bypass"_a,
+             "heuristic"_a, "target"_a, "corridor"_a, "rectangle"_a, "flex"_a, "distance_weight"_a, "conflict_weight"_a,
+             "wall_s"_a, "memory_bytes"_a,
              "At most w times the least sum of arrival times, by bounded-suboptimal conflict-based search.");
   module.def("pbs", &pbs, "instance"_a, nb::kw_only(), "wall_s"_a, "memory_bytes"_a,
              "One robot after another, by a search over who comes before whom.");

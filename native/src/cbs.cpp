@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "mrpbench_mapf/cbs/dependencies.hpp"
-#include "mrpbench_mapf/solvability.hpp"
 
 namespace mrpbench::mapf {
 
@@ -14,17 +13,11 @@ void unsolvable(Result& result, int robot) {
   result.status = Status::unsolvable;
 }
 
-std::optional<int> find_clash(const Space& space, Limits& limits) {
-  if (space.textbook() && !space.committed()) return find_shared_place(space.instance(), limits);
-  return find_clash(space.instance(), space.relations(), limits);
-}
-
 void solve(const Instance& instance, const CbsOptions& options, Limits& limits, Result& result) {
   limits.check_clock();
   Workbench bench(instance, options, limits, result.statistics);
-  if (const auto robot = find_cut_off_robot(instance, bench.distances, limits)) return unsolvable(result, *robot);
+  if (const auto robot = find_hopeless(bench)) return unsolvable(result, *robot);
   result.lower_bound = static_cast<double>(bench.distances.sum_of_costs(instance));
-  if (const auto robot = find_clash(bench.space, limits)) return unsolvable(result, *robot);
   std::optional<Dependencies> dependencies;
   if (options.heuristic) dependencies.emplace(bench);
   ConstraintTree tree(bench, dependencies ? &*dependencies : nullptr);

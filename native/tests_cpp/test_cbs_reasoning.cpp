@@ -20,7 +20,10 @@ struct Root {
       CHECK(bench.plan(situation, robot, {}, nullptr, path));
       situation.set_path(robot, paths.keep(path));
     }
-    find_conflicts(bench.space, 0, situation.path(0), 1, situation.path(1), constraints, conflicts);
+    AvoidanceTable present(bench.space, limits);
+    present.add(1, situation.path(1));
+    present.refresh();
+    find_conflicts(bench.space, present, 0, situation.path(0), constraints, conflicts);
     for (Conflict& conflict : conflicts) reasoning.examine(situation, conflict);
   }
 

@@ -7,55 +7,74 @@
 #include "check.hpp"
 #include "grids.hpp"
 #include "mrpbench_mapf/bounded/focal_search.hpp"
+#include "mrpbench_mapf/cbs/conflict.hpp"
 
 using namespace mrpbench::mapf;
 
 namespace {
 
-using Steps_ = std::vector<std::int32_t>;
-
-/// A random walk that ends at a vertex of its own.
-Steps_ walk(const UnitRoadmap& roadmap, std::mt19937& random, int start, int length) {
-  Steps_ steps{start};
-  for (int i = 0; i < length; ++i) {
-    const auto next = roadmap.successors(steps.back());
-    const auto choice = random() % (next.size() + 1);
-    steps.push_back(choice == next.size() ? steps.back() : next[choice]);
+/// A 4 x 3 raster whose edges take up to `longest` ticks.
+Roadmap raster(std::mt19937& random, int longest) {
+  const Roadmap plain = grid(4, 3);
+  std::vector<int> tail, head;
+  std::vector<Tick> duration;
+  for (int edge = 0; edge < plain.edge_count(); ++edge) {
+    tail.push_back(plain.tail(edge));
+    head.push_back(plain.head(edge));
+    duration.push_back(1 + static_cast<Tick>(random() % longest));
   }
-  return steps;
+  return Roadmap(12, std::move(tail), std::move(head), std::move(duration));
 }
 
-/// By cost: the fewest conflicts of any path from start to goal that costs so much, for costs up to `latest`.
-std::map<Tick, int> fewest_conflicts(const UnitRoadmap& roadmap, int start, int goal,
-                                     const UnitConstraints& constraints, const PathTable& others, Tick latest) {
-  constexpr int kNone = 1 << 20;
-  const Tick end = std::max(latest, others.ticks()) + 1;
-  std::map<Tick, int> result;
-  std::vector<int> now(roadmap.vertex_count(), kNone);
-  if (!constraints.forbids(start, start, 0)) now[start] = 0;
-  for (Tick tick = 0; tick <= latest; ++tick) {
-    std::vector<int> next(now.size(), kNone), moved(now.size(), kNone);
-    for (int from = 0; from < roadmap.vertex_count(); ++from) {
-      if (now[from] == kNone) continue;
-      const auto go = [&](int to) {
-        if (constraints.forbids(from, to, tick + 1)) return;
-        const int conflicts = now[from] + others.count(from, to, tick);
-        next[to] = std::min(next[to], conflicts);
-        if (to != from) moved[to] = std::min(moved[to], conflicts);
-      };
-      go(from);
-      for (const int to : roadmap.successors(from)) go(to);
+/// A random walk of `robot` from its start.
+void walk(const Space& space, int robot, int length, std::mt19937& random, FoundPath& path) {
+  std::vector<Stop> stops{{space.instance().beginning(robot).vertex, 0, -1}};
+  for (int i = 0; i < length; ++i) {
+    const auto [vertex, tick, edge] = stops.back();
+    const auto moves = space.moves(robot, vertex);
+    const auto choice = random() % (moves.size() + 1);
+    if (choice == moves.size()) {
+      stops.push_back({vertex, tick + 1, -1});
+    } else {
+      stops.push_back({moves[choice].head, tick + moves[choice].duration, moves[choice].edge});
     }
-    const auto stay = [&](Tick since, int conflicts) {
-      if (since < constraints.free_from(goal) || since > constraints.latest_arrival() || conflicts >= kNone) return;
-      for (Tick t = since; t < end; ++t) conflicts += others.count(goal, goal, t);
-      result[since] = conflicts;
-    };
-    if (tick == 0 && start == goal) stay(0, now[start]);
-    stay(tick + 1, moved[goal]);
-    now = next;
+  }
+  follow(space, robot, stops, path);
+}
+
+/// By cost: the fewest conflicts of any path of robot 0 that costs so much, for costs up to `latest`.
+std::map<Tick, int> fewest_conflicts(const Space& space, const ConstraintTable& table, const AvoidanceTable& others,
+                                     int goal, Tick latest) {
+  constexpr int kNone = 1 << 20;
+  std::map<Tick, int> result;
+  std::vector<std::vector<int>> fewest(latest + 10, std::vector<int>(space.vertex_count(), kNone));
+  if (!table.forbids_beginning()) fewest[0][space.instance().beginning(0).vertex] = 0;
+  for (Tick tick = 0; tick <= latest; ++tick) {
+    for (int from = 0; from < space.vertex_count(); ++from) {
+      const int here = fewest[tick][from];
+      if (here == kNone) continue;
+      const auto reach = [&](int to, Tick arrive, int conflicts) {
+        fewest[arrive][to] = std::min(fewest[arrive][to], here + conflicts);
+      };
+      if (!table.forbids_waiting(from, tick)) reach(from, tick + 1, others.waiting(0, from, tick));
+      for (const Move& move : space.moves(0, from)) {
+        if (table.forbids_entering(from, move.edge, tick) || table.forbids(move.head, tick + move.duration)) continue;
+        reach(move.head, tick + move.duration, others.moving(0, from, move, tick));
+      }
+    }
+    if (fewest[tick][goal] == kNone || tick < table.earliest_finish(goal) || tick > table.latest_finish()) continue;
+    result[tick] = fewest[tick][goal] + others.staying(0, goal, tick);
   }
   return result;
+}
+
+/// Conflicts of a path of robot 0 that was found.
+int count(const Space& space, const AvoidanceTable& others, const FoundPath& path) {
+  Limits limits = unlimited();
+  Arena<Constraint> constraints(limits);
+  std::vector<Conflict> found;
+  find_conflicts(space, others, 0, {path.at, path.occupied, path.cost, true}, constraints, found);
+  return static_cast<int>(found.size());
 }
 
 }  // namespace
@@ -64,61 +83,61 @@ TEST("a path costs at most w times its bound, which is exact, and meets as few o
   std::mt19937 random(7);
   int found = 0, none = 0;
   for (int round = 0; round < 600; ++round) {
-    const Instance it = instance(grid(4, 3), {robot(0, 1)});
-    const UnitRoadmap roadmap(it.roadmap(), 0);
+    const int longest = round % 3 == 0 ? 3 : 1;
+    const int start = static_cast<int>(random() % 12);
+    std::vector<Robot> robots{robot(start, static_cast<int>(random() % 12))};
+    for (int k : {1, 4, 7}) robots.push_back(robot((start + k) % 12, 0));
+    const Instance it = instance(raster(random, longest), robots);
     Limits limits = unlimited();
     Statistics statistics;
+    const Space space(it, limits);
     BoundedOptions options;
     options.w = std::array{1.0, 1.3, 2.0, 4.0}[random() % 4];
     options.distance_weight = 1.0;
     options.conflict_weight = round % 2 ? 0.0 : 5.0;
-    PathTable others(roadmap.vertex_count(), 3, limits);
-    std::vector<Steps_> walks;
-    std::vector<int> ends;
-    for (int other = 0; other < 3; ++other) walks.push_back(walk(roadmap, random, random() % 12, random() % 9));
-    for (int other = 0; other < 3; ++other) {
-      if (std::ranges::find(ends, walks[other].back()) != ends.end()) continue;
-      ends.push_back(walks[other].back());
-      others.add(other, walks[other]);
+    AvoidanceTable others(space, limits);
+    std::array<FoundPath, 4> walks;
+    for (int other = 1; other < 4; ++other) {
+      walk(space, other, static_cast<int>(random() % 9), random, walks[other]);
+      others.add(other, {walks[other].at, walks[other].occupied, walks[other].cost, true});
     }
-    const int start = random() % 12;
-    int goal = random() % 12;
-    while (std::ranges::find(ends, goal) != ends.end()) goal = (goal + 1) % 12;
-    UnitConstraints constraints(roadmap.vertex_count(), limits);
+    others.refresh();
+    const int goal = it.robots()[0].goals[0];
+    ConstraintTable table(space, limits);
+    table.reset(0);
     for (int i = random() % 8; i > 0; --i) {
-      const Tick first = random() % 8;
-      const int to = random() % 12;
+      const Tick first = static_cast<Tick>(random() % 8);
+      const int vertex = static_cast<int>(random() % 12);
       if (random() % 3 == 0) {
-        constraints.forbid_move(roadmap.successors(to)[0], to, {first, first});
+        table.add({0, 12 + space.moves(0, vertex)[0].edge, {first, first}});
       } else {
-        constraints.forbid_vertex(to, {first, random() % 9 == 0 ? kForever : first + static_cast<Tick>(random() % 3)});
+        table.add(
+            avoid_vertex(0, vertex, first, random() % 9 == 0 ? kForever : first + static_cast<Tick>(random() % 3)));
       }
     }
-    if (random() % 5 == 0) constraints.limit_arrival({static_cast<Tick>(random() % 7), kForever});
-    if (random() % 5 == 0) constraints.limit_arrival({0, 6 + static_cast<Tick>(random() % 4)});
+    using Kind = Constraint::Kind;
+    if (random() % 5 == 0) table.add({0, goal, {static_cast<Tick>(random() % 7), 0}, Kind::finish_after});
+    if (random() % 5 == 0) table.add({0, goal, {6 + static_cast<Tick>(random() % 4), 0}, Kind::finish_by});
 
-    FocalSearch search(roadmap, options, limits, statistics);
-    UnitDistance distance(roadmap, goal, limits);
-    Steps_ steps;
-    const Tick least = search.search(start, goal, distance, constraints, others, {options.w}, 0, steps);
-    const auto best = fewest_conflicts(roadmap, start, goal, constraints, others, 60);
+    FocalSearch search(space, options, limits, statistics);
+    DistanceTables distances(it, limits);
+    FoundPath path;
+    const Tick least = search.search(table, distances[0], others, {options.w}, 0, path);
+    const auto best = fewest_conflicts(space, table, others, goal, 60);
     CHECK((least == kForever) == best.empty());
     if (best.empty()) {
       ++none;
       continue;
     }
     ++found;
-    const Tick cost = static_cast<Tick>(steps.size()) - 1;
     CHECK(least <= best.begin()->first);
-    CHECK(cost <= options.w * least);
-    if (options.w == 1.0) CHECK(cost == best.begin()->first);
-    CHECK(steps.front() == start && steps.back() == goal);
-    int conflicts = 0;
-    for (Tick tick = 0; tick < std::max(cost, others.ticks()); ++tick) {
-      const int from = steps[std::min(tick, cost)], to = steps[std::min(tick + 1, cost)];
-      CHECK(!constraints.forbids(from, to, tick + 1));
-      conflicts += others.count(from, to, tick);
-    }
+    CHECK(path.cost <= options.w * least);
+    if (options.w == 1.0) CHECK(path.cost == best.begin()->first);
+    CHECK(best.contains(path.cost));
+    if (longest > 1) continue;
+    CHECK(path.at.front() == it.robots()[0].start && path.at.back() == goal);
+    const int conflicts = count(space, others, path);
+    CHECK(best.at(path.cost) <= conflicts);
     if (options.conflict_weight > 0.0) continue;
     int fewest = 1 << 20;
     for (const auto& [ticks, number] : best) {

@@ -123,9 +123,9 @@ TEST("robots in the way are counted, and forgotten") {
   CHECK(others.waiting(0, 0, 0) == 0);
   CHECK(others.waiting(0, 0, 1) == 1);
   CHECK(others.waiting(0, 0, 50) == 1);
-  CHECK(others.moving(0, forth, 0, false) == 1);  // both come to vertex 1
-  CHECK(others.moving(0, forth, 1, true) == 1);   // they swap
-  others.remove(1, path);
+  CHECK(others.moving(0, 0, forth, 0) == 1);  // both come to vertex 1
+  CHECK(others.moving(0, 0, forth, 1) == 1);  // they swap
+  others.remove(1);
   CHECK(others.waiting(0, 0, 1) == 0);
-  CHECK(others.moving(0, forth, 1, true) == 0);
+  CHECK(others.moving(0, 0, forth, 1) == 0);
 }

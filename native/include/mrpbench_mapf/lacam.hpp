@@ -22,7 +22,7 @@ struct LacamOptions {
   std::uint64_t seed = 0;
 };
 
-/// Needs a plain unit roadmap (`unit_roadmap`), throws std::invalid_argument for any other. Complete: unsolvable if all
+/// Needs a roadmap of unit moves, throws std::invalid_argument for any other. Complete: unsolvable if all
 /// configurations were seen. The lower bound is the cost itself where all better ones were ruled out.
 Result solve_lacam(const Instance& instance, const LacamOptions& options, Limits& limits);
 

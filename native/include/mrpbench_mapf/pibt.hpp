@@ -14,7 +14,7 @@ struct PibtOptions {
   std::uint64_t seed = 0;
 };
 
-/// Needs a plain unit roadmap (`unit_roadmap`), throws std::invalid_argument for any other.
+/// Needs a roadmap of unit moves, throws std::invalid_argument for any other.
 Result solve_pibt(const Instance& instance, const PibtOptions& options, Limits& limits);
 
 }  // namespace mrpbench::mapf

@@ -2,124 +2,112 @@
 
 #include <algorithm>
 #include <bit>
+#include <functional>
 
 namespace mrpbench::mapf {
 
 namespace {
-constexpr std::size_t kSmallTable = 1024;
+constexpr std::size_t kFewSlots = 1024;
 constexpr std::size_t kLongSearch = 4096;
 }  // namespace
 
-FocalSearch::FocalSearch(const UnitRoadmap& roadmap, const BoundedOptions& options, Limits& limits,
-                         Statistics& statistics)
-    : roadmap_(roadmap),
-      options_(options),
-      limits_(limits),
-      statistics_(statistics),
-      nobody_(roadmap.vertex_count(), 0, limits) {}
+FocalSearch::FocalSearch(const Space& space, const BoundedOptions& options, Limits& limits, Statistics& statistics)
+    : space_(space), options_(options), limits_(limits), statistics_(statistics), vertices_(space.vertex_count()) {}
 
-Tick FocalSearch::search(int start, int goal, UnitDistance& distance, const UnitConstraints& constraints,
-                         const PathTable& others, const CostBound& bound, Tick known,
-                         std::vector<std::int32_t>& steps) {
-  free_from_ = constraints.free_from(goal);
-  latest_ = constraints.latest_arrival();
-  least_ = std::max({known, free_from_, distance(start)});
-  passing_.assign(others.ticks() + 1, 0);
-  for (Tick tick = others.ticks() - 1; tick > 0; --tick) {
-    passing_[tick - 1] = passing_[tick];
-    others.visitors(goal, tick, [&](int) { ++passing_[tick - 1]; });
-  }
-  const auto [least, end] = run(start, goal, distance, constraints, others, bound);
-  if (least != kForever) trace(end, steps);
-  return least;
-}
-
-Tick FocalSearch::earliest_visit(int start, int vertex, UnitDistance& distance, const UnitConstraints& constraints) {
-  free_from_ = 0;
-  latest_ = kForever;
-  least_ = distance(start);
-  passing_.clear();
-  return run(start, vertex, distance, constraints, nobody_, {}).least;
-}
-
-FocalSearch::Found FocalSearch::run(int start, int goal, UnitDistance& distance, const UnitConstraints& constraints,
-                                    const PathTable& others, const CostBound& bound) {
-  if (least_ > latest_ || least_ == kForever || constraints.forbids(start, start, 0)) return {kForever, -1};
+Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable& others,
+                         const CostBound& bound, Tick known, FoundPath& path) {
+  table_ = &table;
   distance_ = &distance;
-  constraints_ = &constraints;
   others_ = &others;
-  goal_ = goal;
-  last_tick_ = std::max(constraints.last_change(), least_) + roadmap_.vertex_count();
+  const Beginning& beginning = space_.instance().beginning(table.robot());
+  const Tick to_go = distance(beginning.vertex), since = enter_tick(beginning.occupied.back());
+  if (to_go == kForever || table.forbids_beginning()) return kForever;
+  least_ = std::max({known, table.earliest_finish(), to_go == 0 ? since : beginning.free_at + to_go});
+  if (least_ > table.latest_finish() || least_ == kForever) return kForever;
   detours_ = false;
   nodes_.clear();
-  table_.assign(kSmallTable, 0);
+  known_.assign(kFewSlots, 0);
   queue_.reset(least_, bound(least_));
-  relax(start, 0, least_, distance(start), -1, 0);
-  if (start == goal) arrive(0, -1, 0);
+  reach(beginning.vertex, beginning.free_at, -1, -1, 0);
+  if (to_go == 0 && !nodes_.empty() && since >= table.earliest_finish(beginning.vertex)) finish(0, since);
 
   Tick least = least_;
-  Found found{kForever, -1};
-  while (!queue_.empty() && found.node < 0) {
+  bool found = false;
+  while (!queue_.empty() && !found) {
     limits_.check();
-    if (nodes_.size() > kLongSearch && !detours_ && !constraints.closed().empty()) find_detours();
+    if (nodes_.size() > kLongSearch && !detours_) find_detours();
     if (queue_.least_f() > least) {
       least = queue_.least_f();
       queue_.raise(bound(least));
     }
     const std::int32_t node = queue_.pop();
     nodes_[node].closed = true;
-    if (nodes_[node].vertex == roadmap_.vertex_count()) {
-      found = {least, node};
+    found = nodes_[node].vertex >= vertices_;
+    if (found) {
+      trace(node, path);
     } else {
       expand(node);
     }
   }
   limits_.charge_growth(
-      counted_, nodes_.capacity() * (sizeof(Node) + FocalQueue::kNodeBytes) + table_.capacity() * sizeof(std::int32_t));
-  return found;
-}
-
-/// Let the path that is at the goal at `tick` end there, if that is allowed.
-void FocalSearch::arrive(Tick tick, std::int32_t parent, std::int32_t conflicts) {
-  if (tick < free_from_) return;
-  const auto passing = static_cast<std::size_t>(tick) < passing_.size() ? passing_[tick] : 0;
-  relax(roadmap_.vertex_count(), tick, std::max(tick, least_), 0, parent, conflicts + passing);
+      counted_, nodes_.capacity() * (sizeof(Node) + FocalQueue::kNodeBytes) + known_.capacity() * sizeof(std::int32_t));
+  return found ? least : kForever;
 }
 
 void FocalSearch::expand(std::int32_t node) {
   ++statistics_.low_level_expansions;
   const Node from = nodes_[node];
-  const Tick tick = from.tick + 1;
-  if (tick > last_tick_) return;
-  const auto go = [&](std::int32_t to) {
-    const Tick h = estimate(to, tick);
-    if (h == kForever || constraints_->forbids(from.vertex, to, tick)) return;
-    const Tick f = std::max(tick + h, least_);
-    if (f > latest_) return;
-    const std::int32_t conflicts = from.conflicts + others_->count(from.vertex, to, from.tick);
-    relax(to, tick, f, h, node, conflicts);
-    if (to == goal_ && to != from.vertex) arrive(tick, node, conflicts);  // who only waits there arrived before
-  };
-  go(from.vertex);
-  for (const std::int32_t to : roadmap_.successors(from.vertex)) go(to);
+  const ConstraintTable& table = *table_;
+  const int robot = table.robot();
+  const bool constrained = table.constrains(from.vertex);
+  if (!(constrained && table.forbids_waiting(from.vertex, from.tick))) {
+    reach(from.vertex, from.tick + 1, node, -1, from.conflicts + others_->waiting(robot, from.vertex, from.tick));
+  }
+  for (const Move& move : space_.moves(robot, from.vertex)) {
+    const Tick arrive = from.tick + move.duration;
+    if (constrained && table.forbids_entering(from.vertex, move.edge, from.tick)) continue;
+    if (table.forbids(move.head, arrive)) continue;
+    reach(move.head, arrive, node, move.edge, from.conflicts + others_->moving(robot, from.vertex, move, from.tick));
+  }
 }
 
-/// Vertices that are closed for ever may cut the robot off: without this the search would go on to its last tick.
-void FocalSearch::find_detours() {
-  detours_ = true;
-  detour_.assign(roadmap_.vertex_count(), kForever);
-  breadth_.assign(1, goal_);
-  detour_[goal_] = 0;
-  for (const std::int32_t vertex : constraints_->closed()) detour_[vertex] = -1;
-  for (std::size_t next = 0; next < breadth_.size(); ++next) {
-    const Tick farther = detour_[breadth_[next]] + 1;
-    for (const std::int32_t vertex : roadmap_.predecessors(breadth_[next])) {
-      if (detour_[vertex] != kForever) continue;
-      detour_[vertex] = farther;
-      breadth_.push_back(vertex);
-    }
+/// A robot that follows `parent` comes to `vertex` at `tick`.
+void FocalSearch::reach(std::int32_t vertex, Tick tick, std::int32_t parent, std::int32_t edge,
+                        std::int32_t conflicts) {
+  const Tick h = estimate(vertex, tick);
+  if (h == kForever) return;
+  const Tick f = std::max(tick + h, least_);
+  if (f > std::max(table_->latest_finish(), space_.instance().beginning(table_->robot()).free_at)) return;
+  relax({vertex, tick, parent, edge, conflicts, false}, f, h);
+  if (h != 0 || parent < 0) return;
+  // Who only waits at a goal could have finished before, unless it was too early.
+  const Tick earliest = table_->earliest_finish(vertex);
+  if (edge >= 0 ? tick >= earliest : tick == earliest) finish(slot(vertex, tick) - 1, tick);
+}
+
+/// Let the path to `node` end there.
+void FocalSearch::finish(std::int32_t node, Tick cost) {
+  const Node& from = nodes_[node];
+  const bool stays = !space_.instance().rules().disappear_at_goal;
+  const int passing = stays ? others_->staying(table_->robot(), from.vertex, from.tick) : 0;
+  relax({from.vertex + vertices_, from.tick, node, -1, from.conflicts + passing, false}, std::max(cost, least_), 0);
+}
+
+void FocalSearch::relax(const Node& node, Tick f, Tick h) {
+  const int row = options_.conflict_weight > 0.0 ? 0 : node.conflicts;
+  std::int32_t& known = slot(node.vertex, node.tick);
+  if (known != 0) {
+    Node& old = nodes_[known - 1];
+    if (old.closed || old.conflicts <= node.conflicts) return;
+    old = node;
+    queue_.update(known - 1, row, column(f, h, node.conflicts));
+    return;
   }
-  for (const std::int32_t vertex : constraints_->closed()) detour_[vertex] = kForever;
+  ++statistics_.low_level_generated;
+  nodes_.push_back(node);
+  known = static_cast<std::int32_t>(nodes_.size());
+  queue_.push(known - 1, f, row, column(f, h, node.conflicts));
+  if (nodes_.size() * 2 > known_.size()) grow();
 }
 
 int FocalSearch::column(Tick f, Tick h, std::int32_t conflicts) const {
@@ -127,50 +115,62 @@ int FocalSearch::column(Tick f, Tick h, std::int32_t conflicts) const {
   return f - least_ + static_cast<int>(rest);
 }
 
-void FocalSearch::relax(std::int32_t vertex, Tick tick, Tick f, Tick h, std::int32_t parent, std::int32_t conflicts) {
-  const int row = options_.conflict_weight > 0.0 ? 0 : conflicts;
-  std::int32_t& known = slot(vertex, tick);
-  if (known != 0) {
-    Node& node = nodes_[known - 1];
-    if (node.closed || node.conflicts <= conflicts) return;
-    node.parent = parent;
-    node.conflicts = conflicts;
-    queue_.update(known - 1, row, column(f, h, conflicts));
-    return;
+/// Vertices that are closed for ever may cut the robot off: without this the search would go on for ever.
+void FocalSearch::find_detours() {
+  detours_ = true;
+  detour_.assign(vertices_, kForever);
+  const Roadmap& roadmap = space_.instance().roadmap();
+  const std::span<const Tick> duration = roadmap.duration(space_.instance().robots()[table_->robot()].profile);
+  const Tick settled = table_->settled();
+  using Entry = std::pair<Tick, std::int32_t>;
+  std::vector<Entry> open;
+  const auto reach = [&](std::int32_t vertex, Tick distance) {
+    if (distance >= detour_[vertex] || table_->forbids(vertex, settled)) return;
+    detour_[vertex] = distance;
+    open.push_back({distance, vertex});
+    std::ranges::push_heap(open, std::greater{});
+  };
+  for (const int goal : space_.instance().robots()[table_->robot()].goals) {
+    if (table_->earliest_finish(goal) < kForever) reach(goal, 0);
   }
-  ++statistics_.low_level_generated;
-  nodes_.push_back({vertex, tick, parent, conflicts, false});
-  const auto node = static_cast<std::int32_t>(nodes_.size());
-  known = node;
-  queue_.push(node - 1, f, row, column(f, h, conflicts));
-  if (nodes_.size() * 2 > table_.size()) grow();
+  while (!open.empty()) {
+    std::ranges::pop_heap(open, std::greater{});
+    const auto [distance, vertex] = open.back();
+    open.pop_back();
+    if (distance > detour_[vertex]) continue;
+    for (const int edge : roadmap.in(vertex)) {
+      const int tail = roadmap.tail(edge);
+      if (duration[edge] > 0 && !table_->forbids_entering(tail, edge, settled)) reach(tail, distance + duration[edge]);
+    }
+  }
 }
 
 std::int32_t& FocalSearch::slot(std::int32_t vertex, Tick tick) {
   const std::uint64_t key = static_cast<std::uint64_t>(tick) << 32 | static_cast<std::uint32_t>(vertex);
-  const int shift = std::countl_zero(table_.size()) + 1;
+  const int shift = std::countl_zero(known_.size()) + 1;
   std::size_t place = (key * 0x9E3779B97F4A7C15ULL) >> shift;
-  while (table_[place] != 0) {
-    const Node& node = nodes_[table_[place] - 1];
+  while (known_[place] != 0) {
+    const Node& node = nodes_[known_[place] - 1];
     if (node.vertex == vertex && node.tick == tick) break;
-    place = (place + 1) & (table_.size() - 1);
+    place = (place + 1) & (known_.size() - 1);
   }
-  return table_[place];
+  return known_[place];
 }
 
 void FocalSearch::grow() {
-  table_.assign(table_.size() * 4, 0);
+  known_.assign(known_.size() * 4, 0);
   for (std::size_t node = 0; node < nodes_.size(); ++node) {
     slot(nodes_[node].vertex, nodes_[node].tick) = static_cast<std::int32_t>(node) + 1;
   }
 }
 
-void FocalSearch::trace(std::int32_t node, std::vector<std::int32_t>& steps) const {
-  steps.resize(nodes_[node].tick + 1);
-  steps.back() = goal_;
+void FocalSearch::trace(std::int32_t node, FoundPath& path) {
+  stops_.clear();
   for (std::int32_t it = nodes_[node].parent; it >= 0; it = nodes_[it].parent) {
-    steps[nodes_[it].tick] = nodes_[it].vertex;
+    stops_.push_back({nodes_[it].vertex, nodes_[it].tick, nodes_[it].edge});
   }
+  std::ranges::reverse(stops_);
+  follow(space_, table_->robot(), stops_, path);
 }
 
 }  // namespace mrpbench::mapf

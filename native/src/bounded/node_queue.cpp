@@ -46,11 +46,14 @@ void NodeQueue::update_focal() {
   bound_ = bound;
 }
 
-std::int32_t NodeQueue::choose() const {
+std::int32_t NodeQueue::choose() {
+  to_raise_ = false;
   const std::int32_t fewest = -std::get<2>(*focal_.begin());
   if (selection_ == Selection::focal || affordable(fewest)) return fewest;
   const std::int32_t likely = -std::get<2>(*by_estimate_.begin());
-  return affordable(likely) ? likely : -std::get<2>(*by_least_.begin());
+  if (affordable(likely)) return likely;
+  to_raise_ = true;
+  return -std::get<2>(*by_least_.begin());
 }
 
 std::int32_t NodeQueue::pop() {

@@ -6,95 +6,93 @@ namespace mrpbench::mapf {
 
 namespace {
 
-/// Textbook: two paths tick by tick.
+using Pair = std::array<Constraint, 2>;
+
+/// Textbook: one path tick by tick.
 class Ticks {
  public:
-  Ticks(const Space& space, int one, const TimedPath& one_path, int other, const TimedPath& other_path,
-        Arena<Constraint>& constraints, std::vector<Conflict>& found)
-      : space_(space),
-        one_(one),
-        other_(other),
-        a_(one_path),
-        b_(other_path),
-        constraints_(constraints),
-        found_(found) {}
+  Ticks(const Space& space, const PathTable& present, int robot, const TimedPath& path, Arena<Constraint>& constraints,
+        std::vector<Conflict>& found)
+      : space_(space), present_(present), robot_(robot), path_(path), constraints_(constraints), found_(found) {}
 
   void sweep() {
-    const Tick both = std::min(a_.last_tick(), b_.last_tick());
-    for (Tick tick = 0; tick <= both; ++tick) {
-      if (a_.at[tick] == b_.at[tick]) {
-        meet(a_.at[tick], tick);
-      } else if (tick < both && a_.at[tick] == b_.at[tick + 1] && a_.at[tick + 1] == b_.at[tick]) {
-        swap(tick);
-      }
+    for (Tick tick = 0; tick <= path_.last_tick(); ++tick) {
+      const int vertex = path_.at[tick];
+      present_.visitors(vertex, tick, [&](int other) { meet(other, vertex, tick); });
+      present_.parked(vertex, tick, [&](int other) { meet(other, vertex, tick); });
+      if (tick == path_.last_tick() || path_.at[tick + 1] == vertex) continue;
+      present_.swappers(vertex, path_.at[tick + 1], tick, [&](int other) { swap(other, tick); });
     }
-    if (!a_.stays) return;
-    const TimedPath& longer = a_.last_tick() > both ? a_ : b_;
-    const int parked = a_.last_tick() > both ? b_.at.back() : a_.at.back();
-    for (Tick tick = both + 1; tick <= longer.last_tick(); ++tick) {
-      if (longer.at[tick] == parked) meet(parked, tick);
+    if (!path_.stays) return;
+    const int goal = path_.at.back();
+    for (Tick tick = path_.last_tick() + 1; tick < present_.ticks() && present_.is_visited(goal); ++tick) {
+      present_.visitors(goal, tick, [&](int other) { meet(other, goal, tick); });
     }
   }
 
  private:
-  void meet(int vertex, Tick tick) {
-    const Constraint first = avoid_vertex(one_, vertex, tick, tick), second = avoid_vertex(other_, vertex, tick, tick);
-    found_.push_back(
-        {one_, other_, vertex, vertex, 2 * tick, a_.stays && tick >= a_.cost, b_.stays && tick >= b_.cost});
-    keep(first, second);
+  void meet(int other, int vertex, Tick tick) {
+    if (other == robot_) return;
+    found_.push_back({robot_, other, vertex, vertex, 2 * tick, stays(path_, tick), stays(present_.path(other), tick)});
+    keep({avoid_vertex(robot_, vertex, tick, tick), avoid_vertex(other, vertex, tick, tick)});
   }
-  void swap(Tick tick) {
-    const int vertices = space_.vertex_count();
-    const int first = vertices + space_.edge(one_, a_.at[tick], a_.at[tick + 1]);
-    const int second = vertices + space_.edge(other_, b_.at[tick], b_.at[tick + 1]);
-    found_.push_back({one_, other_, first, second, 2 * tick + 1, false, false});
-    keep({one_, first, {tick, tick}}, {other_, second, {tick, tick}});
+  void swap(int other, Tick tick) {
+    if (other == robot_) return;
+    const int from = path_.at[tick], to = path_.at[tick + 1], vertices = space_.vertex_count();
+    const int here = vertices + space_.edge(robot_, from, to), there = vertices + space_.edge(other, to, from);
+    found_.push_back({robot_, other, here, there, 2 * tick + 1, false, false});
+    keep({Constraint{robot_, here, {tick, tick}}, Constraint{other, there, {tick, tick}}});
   }
-  void keep(const Constraint& first, const Constraint& second) {
-    found_.back().branch = {constraints_.copy(std::span(&first, 1)), constraints_.copy(std::span(&second, 1))};
+  static bool stays(const TimedPath& path, Tick tick) { return path.stays && tick >= path.cost; }
+  void keep(const Pair& branch) {
+    const std::span<const Constraint> kept = constraints_.copy(branch);
+    found_.back().branch = {kept.first(1), kept.last(1)};
   }
 
   const Space& space_;
-  int one_, other_;
-  const TimedPath &a_, &b_;
+  const PathTable& present_;
+  int robot_;
+  const TimedPath& path_;
   Arena<Constraint>& constraints_;
   std::vector<Conflict>& found_;
 };
 
-void find_between_occupations(const Space& space, int one, const TimedPath& one_path, int other,
-                              const TimedPath& other_path, Arena<Constraint>& constraints,
-                              std::vector<Conflict>& found) {
-  const double reach = space.instance().reach(one, other);
-  const std::span<const Occupation> a = one_path.occupied, b = other_path.occupied;
-  const auto stays = [](const TimedPath& path, Half time) {
-    return path.occupied.back().end == kForeverHalf && time >= 2 * path.cost;
+void find_between_occupations(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,
+                              Arena<Constraint>& constraints, std::vector<Conflict>& found) {
+  const auto stays = [](const TimedPath& it, Half time) {
+    return it.occupied.back().end == kForeverHalf && time >= 2 * it.cost;
   };
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    const Relation relation = space.relations().between(a[i].element, b[j].element, reach);
-    if (relation == Relation::exclusive || (relation == Relation::ordered && overtakes(a[i], b[j]))) {
-      const Half time = std::max(a[i].begin, b[j].begin);
-      const PairConflict pair{one,      other, static_cast<std::int32_t>(i), static_cast<std::int32_t>(j), time,
-                              relation, 1};
-      const auto [first, second] = split(pair, a, b, space.vertex_count());
-      found.push_back({one, other, a[i].element, b[j].element, time, stays(one_path, time), stays(other_path, time)});
-      found.back().branch = {constraints.copy(std::span(&first, 1)), constraints.copy(std::span(&second, 1))};
-    }
-    const Half a_end = a[i].end, b_end = b[j].end;
-    i += a_end <= b_end;
-    j += b_end <= a_end;
+  for (std::size_t step = 0; step < path.occupied.size(); ++step) {
+    const Occupation& here = path.occupied[step];
+    present.reservations().conflicts_of(robot, here, [&](const auto& entry, Relation relation) {
+      const TimedPath& other = present.path(entry.robot);
+      const Half time = std::max(here.begin, entry.begin);
+      const PairConflict pair{robot, entry.robot, static_cast<std::int32_t>(step), entry.step, time, relation, 1};
+      const Pair branch = split(pair, path.occupied, other.occupied, space.vertex_count());
+      const std::span<const Constraint> kept = constraints.copy(branch);
+      found.push_back({robot, entry.robot, here.element, other.occupied[entry.step].element, time, stays(path, time),
+                       stays(other, time)});
+      found.back().branch = {kept.first(1), kept.last(1)};
+    });
   }
 }
 
 }  // namespace
 
-void find_conflicts(const Space& space, int one, const TimedPath& one_path, int other, const TimedPath& other_path,
+void find_conflicts(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,
                     Arena<Constraint>& constraints, std::vector<Conflict>& found) {
   if (space.textbook()) {
-    Ticks(space, one, one_path, other, other_path, constraints, found).sweep();
+    Ticks(space, present.ticks(), robot, path, constraints, found).sweep();
   } else {
-    find_between_occupations(space, one, one_path, other, other_path, constraints, found);
+    find_between_occupations(space, present, robot, path, constraints, found);
   }
+}
+
+bool breaks(const Space& space, int robot, const TimedPath& path, std::span<const Constraint> constraints) {
+  return std::ranges::any_of(constraints, [&](const Constraint& it) {
+    if (it.kind == Constraint::Kind::finish_by) return it.robot != robot && stands_in_way(space, robot, path, it);
+    return it.robot == robot;
+  });
 }
 
 bool stands_in_way(const Space& space, int robot, const TimedPath& path, const Constraint& parked) {

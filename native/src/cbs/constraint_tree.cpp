@@ -11,7 +11,6 @@ namespace mrpbench::mapf {
 ConstraintTree::ConstraintTree(Workbench& bench, Dependencies* dependencies)
     : bench_(bench),
       dependencies_(dependencies),
-
       situation_(bench.space.instance().size()),
       others_(bench.space, bench.limits),
       nodes_(bench.limits),
@@ -42,8 +41,8 @@ void ConstraintTree::start(const Situation& situation, int one, int other) {
   for (const int robot : {one, other}) {
     const auto own = situation.constraints(robot);
     root_constraints_.insert(root_constraints_.end(), own.begin(), own.end());
-    begin_with(robot, situation.path(robot));
-    root.cost += situation.path(robot).cost;
+    begin_with(robot, cheapest_path(situation, robot));
+    root.cost += situation_.path(robot).cost;
   }
   for (const Constraint& constraint : situation.parked()) {
     if (constraint.robot != one && constraint.robot != other) root_constraints_.push_back(constraint);
@@ -52,8 +51,14 @@ void ConstraintTree::start(const Situation& situation, int one, int other) {
   push(complete(root));
 }
 
+TimedPath ConstraintTree::cheapest_path(const Situation& situation, int robot) {
+  if (situation.path(robot).cost <= situation.least(robot)) return situation.path(robot);
+  bench_.plan(situation, robot, {}, nullptr, path_);
+  return paths_.keep(path_);
+}
+
 void ConstraintTree::clear() {
-  for (const int robot : robots_) others_.remove(robot, situation_.path(robot));
+  for (const int robot : robots_) others_.remove(robot);
   robots_.clear();
   open_.clear();
   nodes_.clear();
@@ -177,8 +182,8 @@ ConstraintTree::Node* ConstraintTree::child(const Node& parent, std::span<const 
 /// New paths for all robots that break `constraints`; false if one has none.
 bool ConstraintTree::replan_all(std::span<const Constraint> constraints) {
   for (const int robot : robots_) {
-    if (!breaks(robot, constraints)) continue;
-    others_.remove(robot, situation_.path(robot));
+    if (!breaks(bench_.space, robot, situation_.path(robot), constraints)) continue;
+    others_.remove(robot);
     others_.refresh();
     const bool found = bench_.plan(situation_, robot, constraints, &others_, path_);
     others_.add(robot, situation_.path(robot));
@@ -191,17 +196,8 @@ bool ConstraintTree::replan_all(std::span<const Constraint> constraints) {
   return true;
 }
 
-bool ConstraintTree::breaks(int robot, std::span<const Constraint> constraints) const {
-  return std::ranges::any_of(constraints, [&](const Constraint& it) {
-    if (it.kind == Constraint::Kind::finish_by) {
-      return it.robot != robot && stands_in_way(bench_.space, robot, situation_.path(robot), it);
-    }
-    return it.robot == robot;
-  });
-}
-
 void ConstraintTree::replace(int robot, const TimedPath& path) {
-  others_.remove(robot, situation_.path(robot));
+  others_.remove(robot);
   situation_.set_path(robot, path);
   others_.add(robot, path);
 }
@@ -215,12 +211,14 @@ ConstraintTree::Node& ConstraintTree::complete(Node node) {
   found_.clear();
   for (std::size_t k = 0; k < changed_.size(); ++k) {
     const int robot = changed_[k].robot;
-    for (const int other : robots_) {
-      const auto compared = std::span(changed_).first(k + 1);
-      if (std::ranges::any_of(compared, [&](const Replanned& it) { return it.robot == other; })) continue;
-      bench_.limits.check();
-      find_conflicts(bench_.space, robot, situation_.path(robot), other, situation_.path(other), constraints_, found_);
-    }
+    bench_.limits.check();
+    const std::size_t before = found_.size();
+    find_conflicts(bench_.space, others_, robot, situation_.path(robot), constraints_, found_);
+    const auto is_known = [&](const Conflict& it) {
+      return std::ranges::find(changed_.begin(), changed_.begin() + k, it.other, &Replanned::robot) !=
+             changed_.begin() + k;
+    };
+    if (k > 0) found_.erase(std::remove_if(found_.begin() + before, found_.end(), is_known), found_.end());
   }
   node.conflict_count += static_cast<std::int32_t>(found_.size());
   node.conflicts = conflicts_.copy(found_);

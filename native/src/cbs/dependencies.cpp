@@ -13,9 +13,10 @@ Cost Dependencies::evaluate(const Situation& situation, std::span<const Conflict
   edges_.clear();
   std::int32_t vertices = 0;
   for (const auto& [one, other] : pairs_) {
-    const std::int32_t weight = extra(situation, one, other);
-    if (weight == kImpossible) return kImpossible;
-    if (weight == 0) continue;
+    const std::int32_t together = least_cost(situation, one, other);
+    if (together == kImpossible) return kImpossible;
+    const std::int32_t weight = together - situation.least(one) - situation.least(other);
+    if (weight <= 0) continue;
     for (const int robot : {one, other}) {
       if (number_[robot] < 0) number_[robot] = vertices++;
     }
@@ -24,21 +25,21 @@ Cost Dependencies::evaluate(const Situation& situation, std::span<const Conflict
   return minimum_cover(vertices, edges_, bench_.limits);
 }
 
-/// By how much two robots cost more together than each on its own.
-std::int32_t Dependencies::extra(const Situation& situation, int one, int other) {
+/// What two robots cost at least together.
+std::int32_t Dependencies::least_cost(const Situation& situation, int one, int other) {
   const Name name{one, other, situation.key(one), situation.key(other)};
   const auto place = known_.find(name);
   if (place != known_.end()) return place->second;
-  const std::int32_t weight = solve(situation, one, other);
-  known_.emplace(name, weight);
+  const std::int32_t cost = solve(situation, one, other);
+  known_.emplace(name, cost);
   bench_.limits.charge_growth(counted_, known_.size() * (sizeof(Name) + 32));
-  return weight;
+  return cost;
 }
 
 std::int32_t Dependencies::solve(const Situation& situation, int one, int other) {
   pair_.start(situation, one, other);
   if (pair_.run(bench_.options.pair_expansions) == ConstraintTree::Outcome::exhausted) return kImpossible;
-  return static_cast<std::int32_t>(pair_.lower_bound() - situation.path(one).cost - situation.path(other).cost);
+  return static_cast<std::int32_t>(pair_.lower_bound());
 }
 
 }  // namespace mrpbench::mapf

@@ -8,6 +8,7 @@ namespace mrpbench::mapf {
 bool Rectangles::resolve(const Mdd& one, const TimedPath& one_path, const Mdd& other, const TimedPath& other_path,
                          int vertex, Tick tick) {
   const Mdds mdds{&one, &other};
+  if (one.find(vertex, tick) < 0 || other.find(vertex, tick) < 0) return false;
   if (!find_region(mdds, vertex, tick)) return false;
   propagate();
   relate_exits();

@@ -28,6 +28,7 @@ Space::Space(const Instance& instance, Limits& limits) : instance_(instance), te
 bool Space::is_textbook() const {
   const Roadmap& roadmap = instance_.roadmap();
   if (instance_.footprints() || instance_.rules().following_forbidden) return false;
+  if (instance_.size() > kMostRobots) return false;
   for (int profile = 0; profile < roadmap.profile_count(); ++profile) {
     if (std::ranges::any_of(roadmap.duration(profile), [](Tick ticks) { return ticks != 1 && ticks != -1; })) {
       return false;

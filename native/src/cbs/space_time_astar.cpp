@@ -83,7 +83,7 @@ void SpaceTimeAstar::expand(int index) {
         table.forbids(move.head, node.tick + move.duration)) {
       continue;
     }
-    const int moving = others_ == nullptr ? 0 : others_->moving(robot, move, node.tick, waiting > 0);
+    const int moving = others_ == nullptr ? 0 : others_->moving(robot, node.vertex, move, node.tick);
     push(move.head, node.tick + move.duration, index, move.edge, node.conflicts + moving, h);
   }
 }
@@ -139,29 +139,12 @@ void SpaceTimeAstar::grow_seen() {
 }
 
 void SpaceTimeAstar::trace(int index, FoundPath& path) {
-  const Beginning& beginning = space_.instance().beginning(table_->robot());
-  chain_.clear();
-  for (int node = index; node >= 0; node = nodes_[node].parent) chain_.push_back(node);
-  std::ranges::reverse(chain_);
-  path.at.clear();
-  path.occupied.assign(beginning.occupied.begin(), beginning.occupied.end());
-  path.cost = nodes_[index].parent < 0 ? enter_tick(beginning.occupied.back()) : nodes_[index].tick;
-  if (space_.textbook()) {
-    for (const Occupation& it : beginning.occupied) {
-      if (it.element < space_.vertex_count()) path.at.resize(it.end / 2 + 1, it.element);
-    }
-    for (std::size_t k = 1; k < chain_.size(); ++k) path.at.push_back(nodes_[chain_[k]].vertex);
-    path.occupied.clear();
-    return;
+  stops_.clear();
+  for (int node = index; node >= 0; node = nodes_[node].parent) {
+    stops_.push_back({nodes_[node].vertex, nodes_[node].tick, nodes_[node].edge});
   }
-  for (std::size_t k = 1; k < chain_.size(); ++k) {
-    const Node &from = nodes_[chain_[k - 1]], &to = nodes_[chain_[k]];
-    path.occupied.back().end = 2 * from.tick;
-    if (to.edge < 0) continue;
-    path.occupied.push_back(on_edge(space_.vertex_count() + to.edge, from.tick, to.tick));
-    path.occupied.push_back(at_vertex(to.vertex, to.tick, to.tick));
-  }
-  if (!space_.instance().rules().disappear_at_goal) path.occupied.back().end = kForeverHalf;
+  std::ranges::reverse(stops_);
+  follow(space_, table_->robot(), stops_, path);
 }
 
 }  // namespace mrpbench::mapf

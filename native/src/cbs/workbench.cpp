@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mrpbench_mapf/solvability.hpp"
+
 namespace mrpbench::mapf {
 
 namespace {
@@ -29,8 +31,20 @@ bool Workbench::plan(const Situation& situation, int robot, std::span<const Cons
   return astar.search(table, distances[robot], others, path);
 }
 
+Tick Workbench::least_cost(const Situation& situation, int robot) {
+  if (situation.least(robot) >= situation.path(robot).cost) return situation.path(robot).cost;
+  Key name = situation.key(robot);
+  name += key_of({robot, 0, {0, 0}});
+  const auto place = least_cost_.find(name);
+  if (place != least_cost_.end()) return place->second;
+  const Tick cost = plan(situation, robot, {}, nullptr, path_) ? path_.cost : kForever;
+  least_cost_.emplace(name, cost);
+  limits.charge_growth(counted_, least_cost_.size() * (sizeof(Key) + 40));
+  return cost;
+}
+
 std::shared_ptr<const Mdd> Workbench::mdd(const Situation& situation, int robot) {
-  const Tick cost = situation.path(robot).cost;
+  const Tick cost = least_cost(situation, robot);
   return mdds_.get(robot, situation.key(robot), cost, [&] {
     situation.load(robot, table);
     return builder_.build(table, distances[robot], cost);
@@ -51,6 +65,13 @@ DistanceTable& Workbench::distance_to(int robot, int vertex) {
   if (!place)
     place = std::make_unique<DistanceTable>(space.instance().roadmap(), profile, std::span(&vertex, 1), limits);
   return *place;
+}
+
+std::optional<int> find_hopeless(Workbench& bench) {
+  const Instance& instance = bench.space.instance();
+  if (const auto robot = find_cut_off_robot(instance, bench.distances, bench.limits)) return robot;
+  if (bench.space.textbook() && !bench.space.committed()) return find_shared_place(instance, bench.limits);
+  return find_clash(instance, bench.space.relations(), bench.limits);
 }
 
 }  // namespace mrpbench::mapf

@@ -52,6 +52,8 @@ class NodeQueue {
   void push(const Candidate& node, double estimate);
   /// Take out the node to expand next.
   std::int32_t pop();
+  /// Was the one popped last taken only because it had the least lower bound?
+  bool popped_to_raise_the_bound() const { return to_raise_; }
 
  private:
   using Estimate = double;
@@ -65,7 +67,7 @@ class NodeQueue {
 
   double focal_bound() const;
   void update_focal();
-  std::int32_t choose() const;
+  std::int32_t choose();
   bool affordable(std::int32_t id) const {
     return static_cast<double>(entries_[id].node.cost) <= w_ * static_cast<double>(least());
   }
@@ -76,6 +78,7 @@ class NodeQueue {
   ByLeast by_least_;
   ByEstimate by_estimate_;
   ByConflicts focal_;
+  bool to_raise_ = false;
   double bound_ = -1.0;  // nodes with estimates up to this are in `focal_`
 };
 

@@ -1,6 +1,8 @@
 // What can be chosen in bounded-suboptimal conflict-based search, each with the paper it comes from.
 #pragma once
 
+#include "mrpbench_mapf/cbs/options.hpp"
+
 namespace mrpbench::mapf {
 
 /// Which node to expand next: see `NodeQueue`.
@@ -10,15 +12,10 @@ struct BoundedOptions {
   /// The solution costs at most this many times the lower bound; at least 1.
   double w = 1.2;
   Selection selection = Selection::explicit_estimation;
-  /// Take over paths within the bound that have fewer conflicts instead of branching: Boyarski et al., "Don't split,
-  /// try to work it out: bypassing conflicts in multi-agent pathfinding", ICAPS 2015; within a bound Li, Ruml and
-  /// Koenig, AAAI 2021.
-  bool bypass = true;
-  /// Resolve conflicts with robots at their goals by their time of arrival: Li, Harabor, Stuckey, Ma, Gange and Koenig,
-  /// "Pairwise symmetry reasoning for multi-agent path finding search", AIJ 2021.
-  bool target = true;
-  /// Resolve head-on conflicts in corridors by the time of leaving the corridor (same paper).
-  bool corridor = true;
+  /// Within a bound, paths that are taken over may cost more, as long as they keep to it; conflicts are rated by the
+  /// cheapest paths of the robots, not the present ones; and the heuristic is asked for nodes that are to raise the
+  /// lower bound (Li, Ruml and Koenig, AAAI 2021).
+  CbsOptions techniques = {};
   /// The bound of one robot's path is what the other robots leave of the common bound: Chan, Li, Gange, Harabor,
   /// Stuckey and Koenig, "Flex distribution for bounded-suboptimal multi-agent path finding", AAAI 2022.
   bool flex = false;

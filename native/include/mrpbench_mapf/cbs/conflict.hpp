@@ -3,9 +3,9 @@
 
 #include <array>
 
+#include "mrpbench_mapf/cbs/avoidance_table.hpp"
 #include "mrpbench_mapf/cbs/constraint.hpp"
 #include "mrpbench_mapf/cbs/space.hpp"
-#include "mrpbench_mapf/cbs/timed_path.hpp"
 
 namespace mrpbench::mapf {
 
@@ -26,11 +26,15 @@ struct Conflict {
   std::array<std::span<const Constraint>, 2> branch = {};
 };
 
-/// Append all conflicts between two paths to `found`, with the standard branches. `constraints` keeps the constraints.
-void find_conflicts(const Space& space, int one, const TimedPath& one_path, int other, const TimedPath& other_path,
+/// Append all conflicts of the path of `robot` with those of others in `present` to `found`, with the standard
+/// branches. `constraints` keeps the constraints.
+void find_conflicts(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,
                     Arena<Constraint>& constraints, std::vector<Conflict>& found);
 
 /// Does `robot` get in the way of the robot that `parked` (a `finish_by`) makes stand at its goal?
 bool stands_in_way(const Space& space, int robot, const TimedPath& path, const Constraint& parked);
+
+/// Does the path of `robot` break one of `constraints`, which are made to forbid what robots do at present?
+bool breaks(const Space& space, int robot, const TimedPath& path, std::span<const Constraint> constraints);
 
 }  // namespace mrpbench::mapf

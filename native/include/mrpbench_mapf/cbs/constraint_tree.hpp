@@ -25,7 +25,7 @@ class ConstraintTree {
 
   /// Plan every robot on its own; the robot that has no path, or nothing.
   std::optional<int> start();
-  /// Begin with two robots as they are in `situation`.
+  /// Begin with the cheapest paths of two robots in `situation`, which must exist.
   void start(const Situation& situation, int one, int other);
   /// Search until there is a solution, there can be none, or more than `expansions` nodes were expanded.
   Outcome run(std::int64_t expansions);
@@ -67,6 +67,7 @@ class ConstraintTree {
   };
 
   void clear();
+  TimedPath cheapest_path(const Situation& situation, int robot);
   void begin_with(int robot, const TimedPath& path);
   void gather(const Node& node);
   bool postpone(Node& node);
@@ -74,7 +75,6 @@ class ConstraintTree {
   const Conflict& choose();
   Node* child(const Node& parent, std::span<const Constraint> constraints);
   bool replan_all(std::span<const Constraint> constraints);
-  bool breaks(int robot, std::span<const Constraint> constraints) const;
   void replace(int robot, const TimedPath& path);
   bool is_changed(int robot) const;
   Node& complete(Node node);

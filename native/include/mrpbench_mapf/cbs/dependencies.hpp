@@ -17,7 +17,8 @@ class Dependencies {
 
   explicit Dependencies(Workbench& bench) : bench_(bench), pair_(bench) {}
 
-  /// A lower bound on what the node with these conflicts still lacks; `kImpossible` if it holds no solution.
+  /// A lower bound on how far the least costs of the robots are below that of any solution, given the conflicts of
+  /// their present paths; `kImpossible` if there is no solution.
   Cost evaluate(const Situation& situation, std::span<const Conflict* const> conflicts);
   /// What was expanded in the trees for pairs.
   const TreeCounts& counts() const { return pair_.counts(); }
@@ -34,7 +35,7 @@ class Dependencies {
     }
   };
 
-  std::int32_t extra(const Situation& situation, int one, int other);
+  std::int32_t least_cost(const Situation& situation, int one, int other);
   std::int32_t solve(const Situation& situation, int one, int other);
 
   Workbench& bench_;

@@ -19,6 +19,10 @@ struct Key {
   }
 };
 
+struct KeyHash {
+  std::size_t operator()(const Key& key) const { return key.low; }
+};
+
 /// The finaliser of Steele, Lea and Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
 inline std::uint64_t mix(std::uint64_t x) {
   x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9ULL;

@@ -16,7 +16,7 @@ class Rectangles {
 
   /// For two robots that meet at `vertex` at `tick` on textbook roadmaps: sets of places and ticks, one for each, such
   /// that whoever passes one of its own excludes that the other passes one of its own. Both contain a place of the
-  /// present paths. Nothing if that says no more than the conflict itself.
+  /// present paths. Nothing if that says no more than the conflict itself, or if they do not meet on cheapest paths.
   bool resolve(const Mdd& one, const TimedPath& one_path, const Mdd& other, const TimedPath& other_path, int vertex,
                Tick tick);
   std::span<const Constraint> one_branch() const { return branch_[0]; }

@@ -9,7 +9,7 @@ namespace mrpbench::mapf {
 
 class Situation {
  public:
-  explicit Situation(int robots) : paths_(robots), constraints_(robots), keys_(robots) {}
+  explicit Situation(int robots) : paths_(robots), least_(robots), constraints_(robots), keys_(robots) {}
 
   void clear_constraints() {
     for (const int robot : bound_) constraints_[robot].clear();
@@ -28,9 +28,15 @@ class Situation {
     parked_.push_back(constraint);
     parked_key_ += key;
   }
-  void set_path(int robot, const TimedPath& path) { paths_[robot] = path; }
+  /// `least`: no path of `robot` under what binds it costs less.
+  void set_path(int robot, const TimedPath& path, Tick least) {
+    paths_[robot] = path;
+    least_[robot] = least;
+  }
+  void set_path(int robot, const TimedPath& path) { set_path(robot, path, path.cost); }
 
   const TimedPath& path(int robot) const { return paths_[robot]; }
+  Tick least(int robot) const { return least_[robot]; }
   std::span<const Constraint> constraints(int robot) const { return constraints_[robot]; }
   /// The `finish_by` of all robots, which bind all the others.
   std::span<const Constraint> parked() const { return parked_; }
@@ -50,6 +56,7 @@ class Situation {
 
  private:
   std::vector<TimedPath> paths_;
+  std::vector<Tick> least_;                           // by robot
   std::vector<std::vector<Constraint>> constraints_;  // by robot
   std::vector<Key> keys_;                             // by robot
   std::vector<int> bound_;                            // robots with constraints

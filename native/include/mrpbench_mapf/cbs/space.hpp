@@ -21,6 +21,8 @@ class Space {
   Space(const Instance& instance, Limits& limits);
 
   const Instance& instance() const { return instance_; }
+  /// Of textbook instances, since path tables hold robots in 16 bits.
+  static constexpr int kMostRobots = 65'000;
   int vertex_count() const { return instance_.roadmap().vertex_count(); }
   /// Every edge takes one tick, robots have no footprint and may follow one another closely: then only vertices and
   /// swaps conflict, and a path is one vertex for each tick. Of parallel edges only the first is a move.

@@ -61,7 +61,7 @@ class SpaceTimeAstar {
   const AvoidanceTable* others_ = nullptr;
   Tick least_ = 0, latest_ = 0;
   std::vector<Node> nodes_;
-  std::vector<std::int32_t> chain_;  // the nodes of the path that was found
+  std::vector<Stop> stops_;  // of the path that was found
   BucketQueue<std::int32_t> open_;
   /// Open addressing in the first `seen_mask_` + 1 slots, few at first so that they stay in the cache; valid entries
   /// have the present epoch.

@@ -30,6 +30,16 @@ struct FoundPath {
   Tick cost = 0;
 };
 
+/// Where a robot is on a path.
+struct Stop {
+  std::int32_t vertex;
+  Tick tick;
+  std::int32_t edge;  // by which it came, -1 = by waiting
+};
+
+/// Make `path` from the stops of `robot`, of which the first is where it is free to move.
+void follow(const Space& space, int robot, std::span<const Stop> stops, FoundPath& path);
+
 /// Keeps paths.
 class PathStore {
  public:

@@ -15,7 +15,9 @@ class Workbench {
   /// The cheapest path of `robot` under what binds it in `situation` and `more`. False if there is none.
   bool plan(const Situation& situation, int robot, std::span<const Constraint> more, const AvoidanceTable* others,
             FoundPath& path);
-  /// All its cheapest paths; it has one of them in `situation`.
+  /// What its cheapest path costs, whatever it costs in `situation`; kForever if it has none.
+  Tick least_cost(const Situation& situation, int robot);
+  /// All its cheapest paths; it must have one.
   std::shared_ptr<const Mdd> mdd(const Situation& situation, int robot);
   /// Would every one of its cheapest paths break `constraints`?
   bool costs_more(const Situation& situation, int robot, std::span<const Constraint> constraints);
@@ -33,7 +35,13 @@ class Workbench {
  private:
   MddBuilder builder_;
   MddCache mdds_;
+  std::unordered_map<Key, Tick, KeyHash> least_cost_;  // by robot and what binds it
+  std::size_t counted_ = 0;
+  FoundPath path_;
   std::unordered_map<std::int64_t, std::unique_ptr<DistanceTable>> distance_to_;  // by profile and vertex
 };
+
+/// A robot for which there is no solution at first sight, or nothing.
+std::optional<int> find_hopeless(Workbench& bench);
 
 }  // namespace mrpbench::mapf

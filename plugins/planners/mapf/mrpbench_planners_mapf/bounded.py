@@ -21,8 +21,7 @@ class Ecbs(Planner):
 
     Both levels search in a focal list: for one robot the path with the fewest conflicts with the others among those
     that cost at most `w` times its least, in the constraint tree the node with the fewest conflicts among those that
-    cost at most `w` times the lower bound. Roadmaps of unit moves without footprints, commitments and goal sets (grids)
-    are searched tick by tick, all others by safe intervals, which takes longer.
+    cost at most `w` times the lower bound.
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED
@@ -39,9 +38,12 @@ class Ecbs(Planner):
                 instance,
                 selection="focal",
                 w=self.w,
+                prioritize=False,
                 bypass=False,
+                heuristic=False,
                 target=False,
                 corridor=False,
+                rectangle=False,
                 flex=False,
                 distance_weight=1.0,
                 conflict_weight=0.0,
@@ -57,22 +59,35 @@ class Eecbs(Planner):
 
     What a solution below a node will cost is estimated from the errors of the steps before; of the nodes that promise a
     solution within the bound the one with the fewest conflicts is next, unless the lower bound has to be raised. The
-    options switch single techniques on or off, for ablations; `target` and `corridor` count on roadmaps of unit moves.
+    options switch single techniques on or off, for ablations.
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
     w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
+    prioritize: bool = option(
+        True, help="Resolve conflicts first that raise the lower bound either way (Boyarski et al., IJCAI 2015)."
+    )
     bypass: bool = option(
         True,
         help="Take over paths within the bound with fewer conflicts, not branching (Boyarski et al., ICAPS 2015).",
+    )
+    heuristic: bool = option(
+        True,
+        help="Raise the lower bound of nodes by what pairs of robots must still cost (WDG; Li, Felner et al., IJCAI "
+        "2019).",
     )
     target: bool = option(
         True, help="Resolve conflicts with robots at their goals by the time of arrival (Li et al., AIJ 2021)."
     )
     corridor: bool = option(
         True, help="Resolve head-on conflicts in corridors by the time of leaving them (Li et al., AIJ 2021)."
+    )
+    rectangle: bool = option(
+        True,
+        help="Let one of two robots that cross the same region leave it later; needs unit durations and no "
+        "footprints (generalised rectangles; Li et al., AIJ 2021).",
     )
     flex: bool = option(
         False, help="Let a robot's path use what the others leave of the common bound (Chan et al., AAAI 2022)."

@@ -25,9 +25,12 @@ planners = st.one_of(
     st.builds(
         Eecbs,
         w=bounds,
+        prioritize=switches,
         bypass=switches,
+        heuristic=switches,
         target=switches,
         corridor=switches,
+        rectangle=switches,
         flex=switches,
         distance_weight=st.sampled_from([1.0, 1.2, 3.0]),
         conflict_weight=st.sampled_from([0.0, 2.0, 20.0]),

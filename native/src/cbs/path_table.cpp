@@ -1,15 +1,15 @@
-#include "mrpbench_mapf/bounded/path_table.hpp"
+#include "mrpbench_mapf/cbs/path_table.hpp"
 
-#include <algorithm>
 #include <new>
 
 namespace mrpbench::mapf {
 
 PathTable::PathTable(int vertex_count, int robots, Limits& limits)
     : vertex_count_(vertex_count), limits_(limits), next_(robots), paths_(robots) {
-  limits.charge(static_cast<std::size_t>(vertex_count) * (sizeof(Tick) + sizeof(std::int32_t)));
-  parked_from_.assign(vertex_count, kForever);
-  parked_.assign(vertex_count, -1);
+  limits.charge(static_cast<std::size_t>(vertex_count) * (sizeof(std::int32_t) + sizeof(std::uint16_t)));
+  visits_.assign(vertex_count, 0);
+  parked_.assign(vertex_count, 0);
+  next_parked_.assign(robots, 0);
 }
 
 void PathTable::grow() {
@@ -22,31 +22,40 @@ void PathTable::grow() {
   for (std::size_t i = 0; i < rows; ++i) row_.push_back(block + i * vertex_count_);
 }
 
-void PathTable::add(int robot, Steps steps) {
-  const auto ticks = static_cast<Tick>(steps.size());
+void PathTable::add(int robot, const TimedPath& path) {
+  const auto ticks = static_cast<Tick>(path.at.size());
   while (ticks > static_cast<Tick>(row_.size())) grow();
   ticks_ = std::max(ticks_, ticks);
-  paths_[robot] = steps;
+  paths_[robot] = path;
   std::vector<std::uint16_t>& next = next_[robot];
-  if (next.size() < steps.size()) next.resize(steps.size());
+  if (next.size() < path.at.size()) next.resize(path.at.size());
+  const auto own = static_cast<std::uint16_t>(robot + 1);
   for (Tick tick = 0; tick < ticks; ++tick) {
-    std::uint16_t& head = row_[tick][steps[tick]];
+    std::uint16_t& head = row_[tick][path.at[tick]];
     next[tick] = head;
-    head = static_cast<std::uint16_t>(robot + 1);
+    head = own;
+    ++visits_[path.at[tick]];
   }
-  parked_from_[steps.back()] = ticks;
-  parked_[steps.back()] = robot;
+  if (!path.stays) return;
+  next_parked_[robot] = parked_[path.at.back()];
+  parked_[path.at.back()] = own;
 }
 
 void PathTable::remove(int robot) {
-  const Steps steps = paths_[robot];
+  const TimedPath& path = paths_[robot];
+  if (path.at.empty()) return;
   const auto own = static_cast<std::uint16_t>(robot + 1);
-  for (Tick tick = 0; tick < static_cast<Tick>(steps.size()); ++tick) {
-    std::uint16_t* link = &row_[tick][steps[tick]];
+  for (Tick tick = 0; tick < static_cast<Tick>(path.at.size()); ++tick) {
+    std::uint16_t* link = &row_[tick][path.at[tick]];
     while (*link != own) link = &next_[*link - 1][tick];
     *link = next_[robot][tick];
+    --visits_[path.at[tick]];
   }
-  parked_from_[steps.back()] = kForever;
+  if (path.stays) {
+    std::uint16_t* link = &parked_[path.at.back()];
+    while (*link != own) link = &next_parked_[*link - 1];
+    *link = next_parked_[robot];
+  }
   paths_[robot] = {};
 }
 

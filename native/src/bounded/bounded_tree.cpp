@@ -1,0 +1,263 @@
+#include "mrpbench_mapf/bounded/bounded_tree.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace mrpbench::mapf {
+
+BoundedTree::BoundedTree(Workbench& bench, const BoundedOptions& options, Result& result)
+    : bench_(bench),
+      options_(options),
+      limits_(bench.limits),
+      result_(result),
+      robots_(bench.space.instance().size()),
+      queue_(options.selection, options.w),
+      search_(bench.space, options, limits_, result.statistics),
+      situation_(robots_),
+      present_(bench.space, limits_),
+      nodes_(limits_),
+      plans_(limits_),
+      constraints_(limits_),
+      conflicts_(limits_),
+      conflict_lists_(limits_),
+      paths_(!bench.space.instance().rules().disappear_at_goal, limits_),
+      reasoning_(bench, constraints_),
+      dependencies_(bench),
+      current_(robots_) {}
+
+void BoundedTree::solve() {
+  if (const std::optional<int> robot = plan_root()) {
+    result_.statistics.failed_robot = *robot;
+    result_.status = Status::unsolvable;
+    return;
+  }
+  while (!queue_.empty()) {
+    result_.lower_bound = std::max(result_.lower_bound, static_cast<double>(queue_.least()));
+    const std::int32_t id = queue_.pop();
+    Node& node = *by_id_[id];
+    visit(node);
+    if (node.conflicts.empty()) return finish();
+    if (queue_.popped_to_raise_the_bound() && postpone(id)) continue;
+    expand(node);
+  }
+  result_.status = Status::unsolvable;  // the tree is exhausted
+}
+
+/// Plan every robot without constraints; the robot that has no path, or nothing.
+std::optional<int> BoundedTree::plan_root() {
+  Child root;
+  for (int robot = 0; robot < robots_; ++robot) {
+    bench_.table.reset(robot);
+    present_.refresh();
+    const Tick least = search_.search(bench_.table, bench_.distances[robot], present_, {options_.w}, 0, path_);
+    if (least == kForever) return robot;
+    replace({robot, least, paths_.keep(path_)});
+    find_conflicts(robot, current_[robot].path, root.conflicts);
+    root.cost += path_.cost;
+    root.least += least;
+  }
+  root_ = current_;
+  push(nullptr, root);
+  return std::nullopt;
+}
+
+void BoundedTree::finish() {
+  for (const Plan& plan : current_) result_.paths.push_back(occupations(bench_.space, plan.robot, plan.path));
+  result_.status = Status::solved;
+}
+
+void BoundedTree::push(const Node* parent, const Child& child) {
+  Node& node = nodes_.copy({parent, child.constraints, plans_.copy(child.plans), conflict_lists_.copy(child.conflicts),
+                            child.cost, child.least});
+  if (parent != nullptr) node.heuristic = std::max<Cost>(0, parent->least + parent->heuristic - node.least);
+  by_id_.push_back(&node);
+  enqueue(static_cast<std::int32_t>(by_id_.size()) - 1);
+  ++result_.statistics.generated;
+}
+
+void BoundedTree::enqueue(std::int32_t id) {
+  const Node& node = *by_id_[id];
+  queue_.push({id, node.least + node.heuristic, node.cost, node.conflict_count()},
+              estimate(node.cost, node.conflicts.size()));
+  constexpr std::size_t kQueueBytes = 300;  // of a node in the queue's trees
+  limits_.charge_growth(counted_, by_id_.size() * kQueueBytes);
+}
+
+/// Make the paths and constraints of `node` the present ones.
+void BoundedTree::visit(const Node& node) {
+  wanted_ = root_;
+  later_.assign(wanted_.size(), false);
+  situation_.clear_constraints();
+  for (const Node* it = &node; it != nullptr; it = it->parent) {
+    for (const Constraint& constraint : it->constraints) situation_.add(constraint);
+    for (const Plan& plan : it->plans) {
+      if (!later_[plan.robot]) wanted_[plan.robot] = plan;
+      later_[plan.robot] = true;
+    }
+  }
+  for (const Plan& plan : wanted_) replace(plan);
+}
+
+void BoundedTree::replace(const Plan& plan) {
+  Plan& current = current_[plan.robot];
+  if (!(plan.path == current.path)) {
+    present_.remove(plan.robot);
+    present_.add(plan.robot, plan.path);
+  }
+  current = plan;
+  situation_.set_path(plan.robot, plan.path, plan.least);
+}
+
+/// Find out what pairs of robots add to the lower bound of the node at hand; is it then out of turn, or no good at all?
+bool BoundedTree::postpone(std::int32_t id) {
+  Node& node = *by_id_[id];
+  if (!options_.techniques.heuristic || node.evaluated) return false;
+  node.evaluated = true;
+  const Cost before = node.least + node.heuristic;
+  for (const Conflict* conflict : node.conflicts) {
+    tighten(node, conflict->one);
+    tighten(node, conflict->other);
+  }
+  const Cost heuristic = dependencies_.evaluate(situation_, node.conflicts);
+  if (heuristic == Dependencies::kImpossible) return true;
+  node.heuristic = std::max(heuristic, before - node.least);
+  if (node.least + node.heuristic <= before) return false;
+  enqueue(id);
+  return true;
+}
+
+void BoundedTree::expand(Node& node) {
+  ++result_.statistics.expansions;
+  do {
+    const Conflict& conflict = choose(node);
+    bool bypassed = false;
+    for (int side = 0; side < 2 && !bypassed; ++side) {
+      children_[side].constraints = conflict.branch[side];
+      plan_child(node, children_[side]);
+      bypassed = options_.techniques.bypass && bypass(node, children_[side]);
+    }
+    if (!bypassed) return branch_into_children(node);
+    ++result_.statistics.bypasses;
+  } while (!node.conflicts.empty());
+  push(&node, {true, node.cost, node.least, {}, {}, {}});
+}
+
+/// Of the conflicts of `node` the one that raises the lower bound most surely, or just the first.
+Conflict& BoundedTree::choose(Node& node) {
+  const auto first = [](const Conflict* it) { return std::tuple(it->time, it->one, it->other); };
+  if (!options_.techniques.prioritize) {
+    Conflict& conflict = **std::ranges::min_element(node.conflicts, {}, first);
+    examine(node, conflict);
+    return conflict;
+  }
+  for (Conflict* conflict : node.conflicts) examine(node, *conflict);
+  return **std::ranges::min_element(node.conflicts, {}, [&](const Conflict* it) {
+    return std::tuple(-static_cast<int>(it->cardinality), -static_cast<int>(it->kind), first(it));
+  });
+}
+
+void BoundedTree::examine(Node& node, Conflict& conflict) {
+  if (conflict.examined) return;
+  if (options_.techniques.prioritize) {
+    tighten(node, conflict.one);
+    tighten(node, conflict.other);
+  }
+  reasoning_.examine(situation_, conflict);
+}
+
+/// Let `node` know what the cheapest path of `robot` costs.
+void BoundedTree::tighten(Node& node, int robot) {
+  const Tick least = bench_.least_cost(situation_, robot);
+  Plan plan = current_[robot];
+  if (least <= plan.least) return;
+  node.least += least - plan.least;
+  node.heuristic = std::max<Cost>(0, node.heuristic - (least - plan.least));
+  plan.least = least;
+  add_plan(node, plan);
+}
+
+void BoundedTree::add_plan(Node& node, const Plan& plan) {
+  std::vector<Plan> plans(node.plans.begin(), node.plans.end());
+  std::erase_if(plans, [&](const Plan& it) { return it.robot == plan.robot; });
+  plans.push_back(plan);
+  node.plans = plans_.copy(plans);
+  replace(plan);
+}
+
+void BoundedTree::branch_into_children(const Node& node) {
+  const auto value = [&](const Child& child) {
+    return child.possible ? estimate(child.cost, child.conflicts.size()) : std::numeric_limits<double>::infinity();
+  };
+  const Child& best = value(children_[1]) < value(children_[0]) ? children_[1] : children_[0];
+  if (best.possible) {
+    errors_.observe(best.cost - node.cost, node.conflict_count(), static_cast<std::int32_t>(best.conflicts.size()));
+  }
+  for (const Child& child : children_) {
+    if (child.possible) push(&node, child);
+  }
+}
+
+/// Replan all robots whose present paths break the constraints of `child`.
+void BoundedTree::plan_child(const Node& parent, Child& child) {
+  child.possible = true;
+  child.cost = parent.cost;
+  child.least = parent.least;
+  child.plans.clear();
+  child.conflicts.assign(parent.conflicts.begin(), parent.conflicts.end());
+  before_.clear();
+  for (int robot = 0; robot < robots_ && child.possible; ++robot) {
+    const Plan old = current_[robot];
+    if (!breaks(bench_.space, robot, old.path, child.constraints)) continue;
+    child.possible = replan(child, old);
+    if (child.possible) before_.push_back(old);
+  }
+  for (const Plan& old : before_) replace(old);
+}
+
+bool BoundedTree::replan(Child& child, const Plan& old) {
+  CostBound bound{options_.w};
+  if (options_.flex) bound = {options_.w, child.least - old.least, child.cost - old.path.cost};
+  situation_.load(old.robot, bench_.table);
+  bench_.table.add(child.constraints);
+  present_.remove(old.robot);
+  present_.refresh();
+  const Tick least = search_.search(bench_.table, bench_.distances[old.robot], present_, bound, old.least, path_);
+  present_.add(old.robot, old.path);
+  if (least == kForever) return false;
+  const Plan plan{old.robot, least, paths_.keep(path_)};
+  replace(plan);
+  std::erase_if(child.conflicts, [&](const Conflict* it) { return it->one == old.robot || it->other == old.robot; });
+  find_conflicts(plan.robot, plan.path, child.conflicts);
+  child.plans.push_back(plan);
+  child.cost += plan.path.cost - old.path.cost;
+  child.least += least - old.least;
+  return true;
+}
+
+void BoundedTree::find_conflicts(int robot, const TimedPath& path, std::vector<Conflict*>& conflicts) {
+  found_.clear();
+  present_.refresh();
+  mapf::find_conflicts(bench_.space, present_, robot, path, constraints_, found_);
+  for (Conflict& conflict : conflicts_.copy(found_)) conflicts.push_back(&conflict);
+}
+
+/// Take over the paths of a child that keep to the bound of `node` and have fewer conflicts.
+bool BoundedTree::bypass(Node& node, const Child& child) {
+  if (!child.possible || child.conflicts.size() >= node.conflicts.size()) return false;
+  if (static_cast<double>(child.cost) > options_.w * static_cast<double>(node.least)) return false;
+  if (!options_.flex && std::ranges::any_of(child.plans, [&](const Plan& plan) {
+        return plan.path.cost > CostBound{options_.w}(current_[plan.robot].least);
+      })) {
+    return false;
+  }
+  for (Plan plan : child.plans) {
+    plan.least = current_[plan.robot].least;
+    add_plan(node, plan);
+  }
+  node.conflicts = conflict_lists_.copy(child.conflicts);
+  node.cost = child.cost;
+  return true;
+}
+
+}  // namespace mrpbench::mapf
