@@ -74,10 +74,12 @@ class Costmap {
     std::vector<double> ranges;
     bool fresh = false;
   } scan_;
-  /// Cells of the inflation radius, and cost by squared distance in cells.
+  /// Cells of the inflation radius, and costs within it around one lethal cell, row by row.
   int reach_ = 0;
-  std::vector<std::uint8_t> cost_by_square_;
-  std::vector<std::uint16_t> column_, nearest_;
+  std::size_t stamp_width_ = 0;
+  std::vector<std::uint8_t> stamp_;
+  /// The costs with room for stamps all around.
+  std::vector<std::uint8_t> margined_;
   std::vector<Point> corners_, beam_;
 };
 

@@ -25,6 +25,7 @@ struct Scene {
   double tolerance = 0.1;
   const Costmap* costmap = nullptr;
   const PathGrid* path = nullptr;
+  EndCells* ends = nullptr;
 };
 
 /// Why a trajectory must not be driven; empty = it may.
@@ -61,10 +62,10 @@ class Critic {
   virtual void reset() {}
   /// Get ready for a scene.
   virtual void prepare(const Scene&) {}
-  /// Raw scores of all trajectories, lower is better, and why some are illegal.
+  /// Raw scores of all trajectories, lower is better, and why some are illegal; `why` comes full of `kLegal`.
   virtual void score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) = 0;
-  /// Look at all poses of one trajectory; asked only of those that could win.
-  virtual Reason check(const Scene&, const Trajectories&, std::size_t) { return kLegal; }
+  /// Look at one pose of a trajectory; asked only of those that could win.
+  virtual Reason check(const Scene&, Pose) { return kLegal; }
   /// Take note of the command that was chosen.
   virtual void debrief(const Scene&, Twist) {}
   /// Factor of the scale.

@@ -33,7 +33,7 @@ class PathGrid {
   const std::vector<Point>& points() const { return points_; }
 
   /// Steps along rows and columns to the nearest cell of the plan.
-  std::uint16_t distance(const Frame& frame, Cell c) const { return distance_[frame.index(c)]; }
+  std::int16_t distance(const Frame& frame, Cell c) const { return distance_[frame.index(c)]; }
   /// Compute the distances; obstacles do not matter.
   void spread(const Frame& frame);
 
@@ -41,7 +41,7 @@ class PathGrid {
   Point last_;
   std::vector<Cell> cells_, beyond_;
   std::vector<Point> points_;
-  std::vector<std::uint16_t> distance_;
+  std::vector<std::int16_t> distance_, away_;
 };
 
 }  // namespace mrpbench::local

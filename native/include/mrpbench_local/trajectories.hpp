@@ -3,6 +3,8 @@
 // rules and parameters of Nav2's DWB.
 #pragma once
 
+#include <algorithm>
+#include <map>
 #include <vector>
 
 #include "mrpbench_local/grid.hpp"
@@ -21,7 +23,10 @@ struct MotionOptions {
 };
 
 /// `speed` after `dt` on its way to `target`; `deceleration` is negative.
-double project(double speed, double acceleration, double deceleration, double dt, double target);
+inline double project(double speed, double acceleration, double deceleration, double dt, double target) {
+  if (speed < target) return std::min(target, speed + acceleration * dt);
+  return std::max(target, speed + deceleration * dt);
+}
 
 /// From lowest to highest, in Nav2's order, with one exact zero where they cross it.
 std::vector<double> samples(double current, double lowest, double highest, double acceleration, double deceleration,
@@ -36,14 +41,12 @@ class Trajectories {
   /// Sample and roll out; `fastest` is a further limit of speed.
   void generate(Pose start, Twist current, double fastest);
 
-  std::size_t size() const { return twist_.size(); }
+  std::size_t size() const { return size_; }
   Twist twist(std::size_t i) const { return twist_[i]; }
   /// The last pose.
   Pose end(std::size_t i) const { return {end_x_[i], end_y_[i], end_yaw_[i]}; }
   /// Unit vector along the last pose's heading.
   Point heading(std::size_t i) const { return {heading_x_[i], heading_y_[i]}; }
-  /// Metres that no trajectory gets farther from its start.
-  double reach() const { return reach_; }
   int steps(Twist twist) const;
 
   /// Calls `visit(pose)` for every pose of a trajectory in order, start included, until it returns false.
@@ -71,6 +74,7 @@ class Trajectories {
  private:
   /// Headings along a turn of so many steps: unit vectors before each step, and their sums.
   struct Turn {
+    int count = 0;
     std::vector<Point> sum;
     Point last;
     double yaw = 0;
@@ -81,16 +85,30 @@ class Trajectories {
             project(twist.turn, options_.acc_lim_theta, options_.decel_lim_theta, dt, wanted.turn)};
   }
   void turn(double rate, int count, Turn& result) const;
-  void roll_out(Twist wanted, int count, const Turn& turn);
+  void roll_out(Twist wanted, const Turn& turn);
 
   MotionOptions options_;
   Pose start_;
+  Point ahead_;  // unit vector along the start's heading
   Twist current_;
-  double reach_ = 0;
+  std::size_t size_ = 0;
   std::vector<Twist> twist_;
   std::vector<double> end_x_, end_y_, end_yaw_, heading_x_, heading_y_;
   std::vector<Turn> turns_;
   Turn own_;
+};
+
+/// The cells that hold the ends of trajectories, perhaps outside of the frame; found once for all critics that ask.
+class EndCells {
+ public:
+  EndCells(const Frame& frame, const Trajectories& all) : frame_(frame), all_(all) {}
+  /// Of the points `distance` metres ahead of the last poses.
+  const std::vector<Cell>& ahead(double distance);
+
+ private:
+  const Frame& frame_;
+  const Trajectories& all_;
+  std::map<double, std::vector<Cell>> found_;
 };
 
 }  // namespace mrpbench::local

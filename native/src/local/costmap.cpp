@@ -10,6 +10,9 @@ namespace mrpbench::local {
 
 namespace {
 
+/// Bytes that are compared at once.
+constexpr std::size_t kBlock = 16;
+
 CostmapOptions sound(CostmapOptions options) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(what);
@@ -50,6 +53,11 @@ void traverse(Point a, Point b, double resolution, Visit&& visit) {
   }
 }
 
+/// Raise each of `count` costs to another.
+void raise(std::uint8_t* to, const std::uint8_t* from, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) to[i] = std::max(to[i], from[i]);
+}
+
 }  // namespace
 
 std::uint8_t inflated_cost(double distance, double inscribed, double cost_scaling_factor) {
@@ -66,12 +74,17 @@ Costmap::Costmap(CostmapOptions options, std::shared_ptr<const StaticMap> walls)
   marks_.assign(frame_.size(), kFree);
   cost_ = spare_ = marks_;
   reach_ = static_cast<int>(std::floor(options_.inflation_radius / options_.resolution));
-  for (int square = 0; square <= reach_ * reach_; ++square) {
-    cost_by_square_.push_back(
-        inflated_cost(std::sqrt(square) * options_.resolution, inscribed_, options_.cost_scaling_factor));
+  const auto side = static_cast<std::size_t>(2 * reach_ + 1);
+  stamp_width_ = (side + kBlock - 1) / kBlock * kBlock;
+  stamp_.assign(side * stamp_width_, kFree);
+  for (int y = -reach_; y <= reach_; ++y) {
+    for (int x = -reach_; x <= reach_; ++x) {
+      if (x * x + y * y > reach_ * reach_) continue;
+      const double distance = std::sqrt(x * x + y * y) * options_.resolution;
+      stamp_[static_cast<std::size_t>(y + reach_) * stamp_width_ + static_cast<std::size_t>(x + reach_)] =
+          inflated_cost(distance, inscribed_, options_.cost_scaling_factor);
+    }
   }
-  column_.resize(static_cast<std::size_t>(frame_.width + 2 * reach_) * static_cast<std::size_t>(frame_.height));
-  nearest_.resize(static_cast<std::size_t>(frame_.width));
 }
 
 void Costmap::see(Pose pose, const Sensor& sensor, std::span<const double> ranges) {
@@ -136,9 +149,11 @@ void Costmap::trace() {
   }
   const double left = frame_.origin.x * frame_.resolution, bottom = frame_.origin.y * frame_.resolution;
   const double right = left + frame_.width * frame_.resolution, top = bottom + frame_.height * frame_.resolution;
+  const double hidden = options_.raytrace_min_range / frame_.resolution;
   const auto direction = [&](std::size_t i) {
     return Point{beam_[i].x * cosine - beam_[i].y * sine, beam_[i].x * sine + beam_[i].y * cosine};
   };
+  Cell cleared = start;  // neighbouring beams often end in one cell
   for (std::size_t i = 0; options_.clearing && i < beams; ++i) {
     double range = scan_.ranges[i];
     if (!std::isfinite(range)) {
@@ -154,7 +169,8 @@ void Costmap::trace() {
     if (ahead.y < 0) range = std::min(range, (bottom - origin.y) / ahead.y);
     Cell end = frame_.cell(origin + ahead * range);
     end = {std::clamp(end.x, 0, frame_.width - 1), std::clamp(end.y, 0, frame_.height - 1)};
-    const double hidden = options_.raytrace_min_range / frame_.resolution;
+    if (i > 0 && end == cleared) continue;
+    cleared = end;
     line(start, end, [&](Cell c) {
       const double x = c.x - start.x, y = c.y - start.y;
       if (hidden <= 0 || x * x + y * y >= hidden * hidden) marks_[frame_.index(c)] = kFree;
@@ -208,48 +224,26 @@ void Costmap::draw_static(Pose pose) {
   }
 }
 
-/// Exact distances, one axis after the other: first along columns, then the best over a row's neighbouring columns.
+/// Around each cell that is lethal the costs of what is near it. The nearest lethal cell to one that is not has a side
+/// towards it, so that those without a free side change nothing.
 void Costmap::inflate() {
   const auto width = static_cast<std::size_t>(frame_.width), height = static_cast<std::size_t>(frame_.height);
-  const auto reach = static_cast<std::size_t>(reach_), stride = width + 2 * reach;
-  const auto far = static_cast<std::uint16_t>(reach_ + 1);
-  std::fill(column_.begin(), column_.end(), far);
+  const auto reach = static_cast<std::size_t>(reach_), stride = width + 2 * reach + kBlock, side = 2 * reach + 1;
+  margined_.assign(stride * (height + 2 * reach), kFree);
+  const auto lethal = [&](std::size_t x, std::size_t y) { return cost_[y * width + x] == kLethal; };
   for (std::size_t y = 0; y < height; ++y) {
-    std::uint16_t* const row = &column_[y * stride + reach];
-    for (std::size_t x = 0; x < width; ++x) row[x] = cost_[y * width + x] == kLethal ? 0 : far;
-    if (y == 0) continue;
-    const std::uint16_t* const below = row - stride;
     for (std::size_t x = 0; x < width; ++x) {
-      row[x] = std::min<std::uint16_t>(row[x], static_cast<std::uint16_t>(below[x] + 1));
-    }
-  }
-  for (std::size_t y = height - 1; y-- > 0;) {
-    std::uint16_t* const row = &column_[y * stride + reach];
-    const std::uint16_t* const above = row + stride;
-    for (std::size_t x = 0; x < width; ++x) {
-      row[x] = std::min<std::uint16_t>(row[x], static_cast<std::uint16_t>(above[x] + 1));
-    }
-  }
-  const auto most = static_cast<std::uint16_t>(reach * reach);
-  for (auto& it : column_) it = static_cast<std::uint16_t>(it * it);
-  for (std::size_t y = 0; y < height; ++y) {
-    const std::uint16_t* const row = &column_[y * stride];
-    if (*std::min_element(row, row + stride) > most) continue;
-    std::fill(nearest_.begin(), nearest_.end(), static_cast<std::uint16_t>(most + 1));
-    for (std::size_t shift = 0; shift <= 2 * reach; ++shift) {
-      const int dx = static_cast<int>(shift) - reach_;
-      const auto square = static_cast<std::uint16_t>(dx * dx);
-      std::uint16_t* const best = nearest_.data();
-      for (std::size_t x = 0; x < width; ++x) {
-        best[x] = std::min<std::uint16_t>(best[x], static_cast<std::uint16_t>(row[x + shift] + square));
+      if (!lethal(x, y)) continue;
+      const bool buried = (x == 0 || lethal(x - 1, y)) && (x + 1 == width || lethal(x + 1, y)) &&
+                          (y == 0 || lethal(x, y - 1)) && (y + 1 == height || lethal(x, y + 1));
+      if (buried) continue;
+      for (std::size_t row = 0; row < side; ++row) {
+        raise(&margined_[(y + row) * stride + x], &stamp_[row * stamp_width_], stamp_width_);
       }
     }
-    for (std::size_t x = 0; x < width; ++x) {
-      if (nearest_[x] <= most) {
-        std::uint8_t& cost = cost_[y * width + x];
-        cost = std::max(cost, cost_by_square_[nearest_[x]]);
-      }
-    }
+  }
+  for (std::size_t y = 0; y < height; ++y) {
+    raise(&cost_[y * width], &margined_[(y + reach) * stride + reach], width);
   }
 }
 

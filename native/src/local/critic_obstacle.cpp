@@ -19,22 +19,24 @@ class Obstacle : public Critic {
   Obstacle(PoseScore score, bool sum) : score_(std::move(score)), sum_(sum) {}
 
   void score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
+    if (sum_) {
+      for (std::size_t i = 0; i < all.size(); ++i) raw[i] = sum(scene, all, i);
+    } else {
+      score_.ends(scene, all, raw);
+    }
     for (std::size_t i = 0; i < all.size(); ++i) {
-      raw[i] = sum_ ? sum(scene, all, i) : score_(*scene.costmap, all.end(i));
-      if (raw[i] < 0) why[i] = raw[i] == kOff ? kOffGrid : kHits;
+      if (raw[i] < 0) why[i] = reason(raw[i]);
     }
   }
 
-  Reason check(const Scene& scene, const Trajectories& all, std::size_t i) override {
-    double worst = 0;
-    all.walk(i, [&](Pose pose) {
-      worst = score_(*scene.costmap, pose);
-      return worst >= 0;
-    });
-    return worst >= 0 ? kLegal : worst == kOff ? kOffGrid : kHits;
+  Reason check(const Scene& scene, Pose pose) override {
+    const double score = score_(*scene.costmap, pose);
+    return score < 0 ? reason(score) : kLegal;
   }
 
  private:
+  static Reason reason(double score) { return score == kOff ? kOffGrid : kHits; }
+
   double sum(const Scene& scene, const Trajectories& all, std::size_t i) {
     double total = 0;
     all.walk(i, [&](Pose pose) {
@@ -51,7 +53,16 @@ class Obstacle : public Critic {
 
 struct Centre {
   double operator()(const Costmap& costmap, Pose pose) const {
-    const Cell c = costmap.frame().cell({pose.x, pose.y});
+    return at(costmap, costmap.frame().cell({pose.x, pose.y}));
+  }
+
+  void ends(const Scene& scene, const Trajectories&, std::span<double> raw) const {
+    const std::vector<Cell>& cells = scene.ends->ahead(0);
+    for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = at(*scene.costmap, cells[i]);
+  }
+
+ private:
+  static double at(const Costmap& costmap, Cell c) {
     if (!costmap.frame().holds(c)) return kOff;
     const std::uint8_t cost = costmap.at(c);
     return cost >= kInscribed ? kHit : cost;
@@ -77,6 +88,10 @@ struct Outline {
       });
     }
     return worst >= kLethal ? kHit : worst;
+  }
+
+  void ends(const Scene& scene, const Trajectories& all, std::span<double> raw) {
+    for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = (*this)(*scene.costmap, all.end(i));
   }
 };
 

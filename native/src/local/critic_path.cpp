@@ -48,10 +48,10 @@ class Distance : public Critic {
       for (std::size_t i = 0; i < all.size(); ++i) fail(i, raw, why, frame);
       return;
     }
+    const std::vector<Cell>& ends = scene.ends->ahead(nose_);
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (aggregation_ == Aggregation::last) {
-        const Pose end = all.end(i);
-        raw[i] = cells(scene, frame.cell(Point{end.x, end.y} + all.heading(i) * nose_));
+        raw[i] = cells(scene, ends[i]);
       } else {
         raw[i] = aggregate(aggregation_, all, i, [&](Pose pose) { return cells(scene, nose_cell(frame, pose)); });
       }
@@ -59,10 +59,10 @@ class Distance : public Critic {
     }
   }
 
-  Reason check(const Scene& scene, const Trajectories& all, std::size_t i) override {
+  Reason check(const Scene& scene, Pose pose) override {
     if (nose_ > 0) return kLegal;  // only the end matters
     const Frame& frame = scene.costmap->frame();
-    return all.walk(i, [&](Pose pose) { return frame.holds(frame.cell({pose.x, pose.y})); }) ? kLegal : kOffGrid;
+    return frame.holds(frame.cell({pose.x, pose.y})) ? kLegal : kOffGrid;
   }
 
  private:

@@ -50,8 +50,9 @@ std::optional<Twist> Dwb::command(double now, Pose pose, Twist twist, const Path
   if (!path_.empty()) path_.spread(frame);
   const Twist measured{thresholded(twist.ahead, options_.min_x_velocity_threshold),
                        thresholded(twist.turn, options_.min_theta_velocity_threshold)};
-  const Scene scene{now, pose, measured, goal, path.tolerance, &costmap, &path_};
   all_.generate(pose, measured, path.speed);
+  EndCells ends(frame, all_);
+  const Scene scene{now, pose, measured, goal, path.tolerance, &costmap, &path_, &ends};
   score(scene, extra);
   const auto chosen = best(scene);
   const Twist command = chosen ? all_.twist(*chosen) : Twist{};
@@ -66,20 +67,26 @@ void Dwb::score(const Scene& scene, const Extra& extra) {
   total_.assign(count, 0);
   why_.assign(count, kLegal);
   dropped_.assign(count, -1);
-  raw_.assign(count * critics_.size(), 0);
+  raw_.resize(count * critics_.size());
+  fault_.assign(count, kLegal);
   for (std::size_t c = 0; c < critics_.size(); ++c) {
     const Weighted& it = critics_[c];
     it.critic->prepare(scene);
-    const double scale = it.scale * it.critic->weight(scene);
-    if (scale == 0) continue;
     const std::span<double> raw(&raw_[c * count], count);
-    fault_.assign(count, kLegal);
+    const double scale = it.scale * it.critic->weight(scene);
+    if (scale == 0) {
+      std::fill(raw.begin(), raw.end(), 0);
+      continue;
+    }
     it.critic->score(scene, all_, raw, fault_);
+    for (std::size_t i = 0; i < count; ++i) total_[i] += raw[i] * scale;
     for (std::size_t i = 0; i < count; ++i) {
-      total_[i] += raw[i] * scale;
-      if (!fault_[i] || why_[i]) continue;
-      why_[i] = fault_[i];
-      dropped_[i] = static_cast<int>(c);
+      if (!fault_[i]) continue;
+      if (!why_[i]) {
+        why_[i] = fault_[i];
+        dropped_[i] = static_cast<int>(c);
+      }
+      fault_[i] = kLegal;
     }
   }
   if (extra) extra(all_, total_);
@@ -87,37 +94,45 @@ void Dwb::score(const Scene& scene, const Extra& extra) {
 
 /// Look at all poses of a trajectory.
 bool Dwb::passes(const Scene& scene, std::size_t i) {
-  for (std::size_t c = 0; c < critics_.size(); ++c) {
-    const Weighted& it = critics_[c];
-    if (it.scale * it.critic->weight(scene) == 0) continue;
-    why_[i] = it.critic->check(scene, all_, i);
-    if (why_[i]) {
+  return all_.walk(i, [&](Pose pose) {
+    for (std::size_t c = 0; c < critics_.size(); ++c) {
+      const Weighted& it = critics_[c];
+      if (it.scale == 0) continue;
+      why_[i] = it.critic->check(scene, pose);
+      if (!why_[i]) continue;
       dropped_[i] = static_cast<int>(c);
       return false;
     }
-  }
-  return true;
+    return true;
+  });
 }
 
 /// The lowest total, of equal ones the first. What loses by its total is not looked at closely: that is DWB's
 /// short-circuit evaluation carried to its end.
 std::optional<std::size_t> Dwb::best(const Scene& scene) {
   order_.clear();
+  std::size_t first = 0;
+  double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < all_.size(); ++i) {
-    if (!why_[i] && total_[i] < std::numeric_limits<double>::infinity()) order_.push_back(i);
+    if (why_[i] || !(total_[i] < std::numeric_limits<double>::infinity())) continue;
+    if (!options_.short_circuit && !passes(scene, i)) continue;
+    order_.push_back(i);
+    if (total_[i] >= lowest) continue;
+    lowest = total_[i];
+    first = i;
   }
-  if (!options_.short_circuit) std::erase_if(order_, [&](std::size_t i) { return !passes(scene, i); });
-  const auto better = [&](std::size_t a, std::size_t b) {
-    return total_[a] != total_[b] ? total_[a] < total_[b] : a < b;
+  if (order_.empty()) return std::nullopt;
+  if (passes(scene, first)) return first;
+  const auto worse = [&](std::size_t a, std::size_t b) {
+    return total_[a] != total_[b] ? total_[a] > total_[b] : a > b;
   };
-  const auto first = std::min_element(order_.begin(), order_.end(), better);
-  if (first == order_.end()) return std::nullopt;
-  if (!options_.short_circuit || passes(scene, *first)) return *first;
-  std::sort(order_.begin(), order_.end(), better);
-  for (std::size_t k = 1; k < order_.size(); ++k) {
-    if (passes(scene, order_[k])) return order_[k];
+  std::make_heap(order_.begin(), order_.end(), worse);
+  for (;;) {
+    std::pop_heap(order_.begin(), order_.end(), worse);
+    order_.pop_back();
+    if (order_.empty()) return std::nullopt;
+    if (passes(scene, order_.front())) return order_.front();
   }
-  return std::nullopt;
 }
 
 }  // namespace mrpbench::local

@@ -4,6 +4,13 @@
 
 namespace mrpbench::local {
 
+namespace {
+
+/// Farther than any cell of the largest frame is, and small enough to count on from there.
+constexpr std::int16_t kFar = 20000;
+
+}  // namespace
+
 void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<const Point> rest, const Pruning& pruning) {
   cells_.clear();
   beyond_.clear();
@@ -42,30 +49,28 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
   }
 }
 
+/// Along rows first, for each of the few cells of the path, then along columns.
 void PathGrid::spread(const Frame& frame) {
   const auto width = static_cast<std::size_t>(frame.width), height = static_cast<std::size_t>(frame.height);
-  const auto far = static_cast<std::uint16_t>(std::min<std::size_t>(frame.size() + 1, 60000));
-  distance_.assign(frame.size(), far);
-  for (const Cell& c : cells_) distance_[frame.index(c)] = 0;
-  for (const Cell& c : beyond_) distance_[frame.index(c)] = 0;
-  const auto nearer = [](std::uint16_t mine, std::uint16_t next) {
-    return std::min<std::uint16_t>(mine, static_cast<std::uint16_t>(next + 1));
+  distance_.assign(frame.size(), kFar);
+  away_.resize(2 * width);
+  for (std::size_t i = 0; i < away_.size(); ++i) {
+    away_[i] = static_cast<std::int16_t>(std::abs(static_cast<int>(i) - frame.width));
+  }
+  for (const auto* cells : {&cells_, &beyond_}) {
+    for (const Cell& c : *cells) {
+      std::int16_t* const row = &distance_[static_cast<std::size_t>(c.y) * width];
+      const std::int16_t* const along = &away_[width - static_cast<std::size_t>(c.x)];
+      for (std::size_t x = 0; x < width; ++x) row[x] = std::min(row[x], along[x]);
+    }
+  }
+  const auto approach = [&](std::size_t y, std::size_t next) {
+    std::int16_t* const row = &distance_[y * width];
+    const std::int16_t* const beside = &distance_[next * width];
+    for (std::size_t x = 0; x < width; ++x) row[x] = std::min(row[x], static_cast<std::int16_t>(beside[x] + 1));
   };
-  for (std::size_t y = 1; y < height; ++y) {
-    std::uint16_t* const row = &distance_[y * width];
-    const std::uint16_t* const below = row - width;
-    for (std::size_t x = 0; x < width; ++x) row[x] = nearer(row[x], below[x]);
-  }
-  for (std::size_t y = height - 1; y-- > 0;) {
-    std::uint16_t* const row = &distance_[y * width];
-    const std::uint16_t* const above = row + width;
-    for (std::size_t x = 0; x < width; ++x) row[x] = nearer(row[x], above[x]);
-  }
-  for (std::size_t y = 0; y < height; ++y) {
-    std::uint16_t* const row = &distance_[y * width];
-    for (std::size_t x = 1; x < width; ++x) row[x] = nearer(row[x], row[x - 1]);
-    for (std::size_t x = width - 1; x-- > 0;) row[x] = nearer(row[x], row[x + 1]);
-  }
+  for (std::size_t y = 1; y < height; ++y) approach(y, y - 1);
+  for (std::size_t y = height - 1; y-- > 0;) approach(y, y + 1);
 }
 
 }  // namespace mrpbench::local

@@ -5,11 +5,6 @@
 
 namespace mrpbench::local {
 
-double project(double speed, double acceleration, double deceleration, double dt, double target) {
-  if (speed < target) return std::min(target, speed + acceleration * dt);
-  return std::max(target, speed + deceleration * dt);
-}
-
 std::vector<double> samples(double current, double lowest, double highest, double acceleration, double deceleration,
                             double time, int count) {
   const double now = std::clamp(current, lowest, highest);
@@ -36,6 +31,7 @@ int Trajectories::steps(Twist twist) const {
 
 void Trajectories::generate(Pose start, Twist current, double fastest) {
   start_ = start;
+  ahead_ = {std::cos(start.yaw), std::sin(start.yaw)};
   current_ = current;
   const double time = options_.limited ? options_.period : options_.sim_time;
   const double highest = std::max(options_.min_vel_x, std::min(options_.max_vel_x, fastest));
@@ -43,49 +39,48 @@ void Trajectories::generate(Pose start, Twist current, double fastest) {
                              options_.vx_samples);
   const auto turns = samples(current.turn, -options_.max_vel_theta, options_.max_vel_theta, options_.acc_lim_theta,
                              options_.decel_lim_theta, time, options_.vtheta_samples);
-  twist_.clear();
-  for (auto* it : {&end_x_, &end_y_, &end_yaw_, &heading_x_, &heading_y_}) it->clear();
+  size_ = 0;
+  twist_.resize(ahead.size() * turns.size());
+  for (auto* it : {&end_x_, &end_y_, &end_yaw_, &heading_x_, &heading_y_}) it->resize(twist_.size());
   // Nearly all samples of a turn rate have as many steps as the rate alone asks for, so they share its headings.
   turns_.resize(turns.size());
   for (std::size_t i = 0; i < turns.size(); ++i) turn(turns[i], steps({0, turns[i]}), turns_[i]);
   const double slack = std::numeric_limits<float>::epsilon();
-  double quickest = std::abs(current.ahead);
   for (const double v : ahead) {
     const double speed = std::abs(v);
-    quickest = std::max(quickest, speed);
+    if (options_.max_speed_xy >= 0 && speed * speed > options_.max_speed_xy * options_.max_speed_xy + slack) continue;
+    const int least = steps({v, 0});
     for (std::size_t i = 0; i < turns.size(); ++i) {
       const double w = turns[i];
-      if (options_.max_speed_xy >= 0 && speed * speed > options_.max_speed_xy * options_.max_speed_xy + slack) continue;
       if (speed < options_.min_speed_xy && std::abs(w) < options_.min_speed_theta) continue;
       if (v == 0 && w == 0) continue;
-      const int count = steps({v, w});
-      const bool shared = count + 1 == static_cast<int>(turns_[i].sum.size());
-      if (!shared) turn(w, count, own_);
-      roll_out({v, w}, count, shared ? turns_[i] : own_);
+      const bool shared = least <= turns_[i].count;
+      if (!shared) turn(w, least, own_);
+      roll_out({v, w}, shared ? turns_[i] : own_);
     }
   }
-  reach_ = quickest * options_.sim_time;
 }
 
 /// Once the turn rate is what is wanted, each heading is the last one turned by the same angle.
 void Trajectories::turn(double rate, int count, Turn& result) const {
   const double dt = options_.sim_time / count;
   double yaw = start_.yaw, now = options_.limited ? rate : current_.turn;
-  Point heading{std::cos(yaw), std::sin(yaw)}, sum;
-  result.sum.clear();
-  result.sum.push_back(sum);
+  Point heading = ahead_, sum;
+  result.count = count;
+  result.sum.resize(static_cast<std::size_t>(count) + 1);
+  result.sum[0] = sum;
   int k = 0;
   for (; k < count && now != rate; ++k) {
     now = project(now, options_.acc_lim_theta, options_.decel_lim_theta, dt, rate);
     sum = sum + heading;
-    result.sum.push_back(sum);
+    result.sum[static_cast<std::size_t>(k) + 1] = sum;
     yaw += now * dt;
     heading = {std::cos(yaw), std::sin(yaw)};
   }
   const Point by{std::cos(rate * dt), std::sin(rate * dt)};
   for (; k < count; ++k) {
     sum = sum + heading;
-    result.sum.push_back(sum);
+    result.sum[static_cast<std::size_t>(k) + 1] = sum;
     yaw += rate * dt;
     heading = {heading.x * by.x - heading.y * by.y, heading.x * by.y + heading.y * by.x};
   }
@@ -93,22 +88,24 @@ void Trajectories::turn(double rate, int count, Turn& result) const {
   result.yaw = yaw;
 }
 
-void Trajectories::roll_out(Twist wanted, int count, const Turn& turn) {
-  const double dt = options_.sim_time / count;
+void Trajectories::roll_out(Twist wanted, const Turn& turn) {
+  const auto count = static_cast<std::size_t>(turn.count);
+  const double dt = options_.sim_time / turn.count;
   double speed = options_.limited ? wanted.ahead : current_.ahead;
   Point moved;
   std::size_t k = 0;
-  for (; k < static_cast<std::size_t>(count) && speed != wanted.ahead; ++k) {
+  for (; k < count && speed != wanted.ahead; ++k) {
     speed = project(speed, options_.acc_lim_x, options_.decel_lim_x, dt, wanted.ahead);
     moved = moved + (turn.sum[k + 1] - turn.sum[k]) * speed;
   }
-  moved = moved + (turn.sum.back() - turn.sum[k]) * wanted.ahead;
-  twist_.push_back(wanted);
-  end_x_.push_back(start_.x + moved.x * dt);
-  end_y_.push_back(start_.y + moved.y * dt);
-  end_yaw_.push_back(turn.yaw);
-  heading_x_.push_back(turn.last.x);
-  heading_y_.push_back(turn.last.y);
+  moved = moved + (turn.sum[count] - turn.sum[k]) * wanted.ahead;
+  twist_[size_] = wanted;
+  end_x_[size_] = start_.x + moved.x * dt;
+  end_y_[size_] = start_.y + moved.y * dt;
+  end_yaw_[size_] = turn.yaw;
+  heading_x_[size_] = turn.last.x;
+  heading_y_[size_] = turn.last.y;
+  ++size_;
 }
 
 Pose Trajectories::at(std::size_t i, double time) const {
@@ -121,6 +118,17 @@ Pose Trajectories::at(std::size_t i, double time) const {
     found = pose;
     return false;
   });
+  return found;
+}
+
+const std::vector<Cell>& EndCells::ahead(double distance) {
+  std::vector<Cell>& found = found_[distance];
+  if (!found.empty()) return found;
+  found.resize(all_.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Pose end = all_.end(i);
+    found[i] = frame_.cell(Point{end.x, end.y} + all_.heading(i) * distance);
+  }
   return found;
 }
 
