@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install demo test lint types layers cpp python format lock speed clean ros soak
+.PHONY: help install demo test lint types layers cpp python format lock speed clean ros soak worlds
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -52,6 +52,10 @@ python: install ## Python tests
 
 soak: install ## thousands of random instances against brute force (an hour)
 	$(BIN)/python plugins/planners/mapf/tests/soak_cbs.py 20000 1
+
+worlds: install ## robots driven on every built-in world, five seeds each, must touch nothing (half an hour)
+	$(BIN)/python benchmarks/worlds.py --controller pure_pursuit
+	$(BIN)/python benchmarks/worlds.py --controller dwb
 
 format: install ## rewrite the sources in the house style
 	$(BIN)/ruff check --fix .

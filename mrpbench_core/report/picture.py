@@ -9,11 +9,12 @@ import numpy as np
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.doors import leaves, swept
 from mrpbench_core.model.execution import Route
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.solids import segments, wall_boxes
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.world import Door, Level, World
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5195", "#8c6d31")
 """Told apart by colour-blind readers; after Okabe and Ito, "Color Universal Design", 2008."""
@@ -27,7 +28,7 @@ _DOT = 3
 """Pixels around a place that no name covers."""
 _LEAST = 250
 """Pixels of the shorter side of the map."""
-_WALL, _LANE, _ROAD, _NAME, _DOOR = "#3b4252", "#9db4c8", "#e8f0f6", "#51606e", "#b07d2b"
+_WALL, _LANE, _ROAD, _NAME, _DOOR, _LIFT = "#3b4252", "#9db4c8", "#e8f0f6", "#51606e", "#b07d2b", "#7a5195"
 
 
 def draw_world(
@@ -174,7 +175,7 @@ def _shade(axes: Any, roadmap: Roadmap) -> None:
 
 
 def _solids(axes: Any, level: Level) -> None:
-    from matplotlib.collections import LineCollection, PolyCollection
+    from matplotlib.collections import PolyCollection
     from matplotlib.colors import ListedColormap
 
     if level.occupancy is not None:
@@ -195,23 +196,33 @@ def _solids(axes: Any, level: Level) -> None:
     axes.add_collection(PolyCollection(obstacles, facecolor="#b9a68c", edgecolor="#8d7b62", linewidth=0.6, zorder=2))
     holes = [hole.polygon for hole in level.holes]
     axes.add_collection(PolyCollection(holes, facecolor="none", edgecolor=_WALL, hatch="xxx", linewidth=0.6, zorder=2))
-    doors = [(door.start, door.end) for door in level.doors]
-    axes.add_collection(LineCollection(doors, colors=_DOOR, linewidths=1.6, linestyles="dotted", zorder=3))
+    _doors(axes, level.doors, _DOOR)
+
+
+def _doors(axes: Any, doors: Sequence[Door], colour: str) -> None:
+    """Leaves where they are when shut and, thin, when open; what they sweep on hinges is tinted."""
+    from matplotlib.collections import LineCollection, PolyCollection
+
+    swings = [part for door in doors if "hinged" in door.motion for part in swept(door)]
+    axes.add_collection(PolyCollection(swings, facecolor=colour, alpha=0.15, linewidth=0, zorder=1))
+    for opening, width in ((0.0, 1.8), (1.0, 0.6)):
+        lines = [line for door in doors for line in leaves(door, opening).reshape(-1, 2, 2)]
+        axes.add_collection(LineCollection(lines, colors=colour, linewidths=width, capstyle="butt", zorder=3))
 
 
 def _lifts(axes: Any, world: World, level: int) -> None:
     """Cabins that stop here, and the doors that open here."""
-    from matplotlib.collections import LineCollection, PolyCollection
+    from matplotlib.collections import PolyCollection
 
     cabins = [lift.corners for lift in world.lifts if level in lift.levels]
-    axes.add_collection(PolyCollection(cabins, facecolor="#e9ddf0", edgecolor="#7a5195", linewidth=0.8, zorder=2))
+    axes.add_collection(PolyCollection(cabins, facecolor="#e9ddf0", edgecolor=_LIFT, linewidth=0.8, zorder=2))
     doors = [
-        (door.start, door.end)
+        door
         for lift in world.lifts
         for door, levels in zip(lift.doors, lift.door_levels, strict=True)
         if level in levels
     ]
-    axes.add_collection(LineCollection(doors, colors="#7a5195", linewidths=1.6, linestyles="dotted", zorder=3))
+    _doors(axes, doors, _LIFT)
 
 
 def _lanes(axes: Any, world: World, level: int) -> None:

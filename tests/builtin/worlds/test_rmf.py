@@ -66,6 +66,12 @@ def test_scale_is_the_mean_over_measurements(tmp_path):
     assert any("measurements disagree" in note for note in world.notes)
 
 
+def test_a_level_with_neither_drawing_nor_measurements_has_the_scale_of_the_editors_sheet(tmp_path):
+    world = load(tmp_path, BUILDING.replace("    measurements:\n      - [0, 1, {distance: [3, 5]}]\n", ""))
+    assert world.levels[0].walls.tolist() == [[0, 0, 5, 0]]
+    assert any("0.05 m per pixel" in note for note in world.notes)
+
+
 def test_cartesian_meters_are_taken_as_they_stand(tmp_path):
     text = "coordinate_system: cartesian_meters\n" + BUILDING
     assert (load(tmp_path, text).vertices[0].x, load(tmp_path, text).vertices[0].y) == (0, 100)
@@ -158,7 +164,11 @@ def test_floors_and_holes_are_kept(tmp_path):
         ("graph_idx: [2, 1]", "graph_idx: [2, -1]", "hut.building.yaml:19:9: lane of graph -1"),
         ("[0, 1, {distance", "[0, 0, {distance", "hut.building.yaml:6:9: measurement of zero length"),
         ("distance: [3, 5]", "distance: [3, 0]", "hut.building.yaml:6:9: measurement without a positive distance"),
-        ("      - [0, 1, {distance: [3, 5]}]\n", "      []\n", "hut.building.yaml:3:3: the level has no measurements"),
+        (
+            "    measurements:\n      - [0, 1, {distance: [3, 5]}]\n",
+            "    drawing: {filename: hut.png}\n",
+            "hut.building.yaml:3:3: the level has no measurements",
+        ),
         ("name: hut", "coordinate_system: web_mercator", "1:20: coordinate_system 'web_mercator' is not supported"),
         ("name: hut", "coordinate_system: polar", "'polar' is unknown"),
         ("[1, hinged]", "[1, hinged], motion_axis: [1, top]", "'motion_axis' should be start or end, not 'top'"),

@@ -14,6 +14,8 @@ from mrpbench_core.builtin.worlds.building.wgs84 import projection
 from mrpbench_core.model.arrays import Float
 
 KNOWN = ("reference_image", "cartesian_meters", "wgs84")
+BLANK = 0.05
+"""metres per pixel of the empty sheet on which the editor draws a level that has no drawing"""
 PARAMETERS: dict[str, Kind] = {
     "generate_crs": str,
     "generate_origin_vertex": str,
@@ -41,7 +43,8 @@ def read_frames(building: Node, levels: Mapping[str, Node], notes: Notes) -> dic
     """The frame of each level, the first of which is the reference.
 
     `reference_image`: pixels, y down. The reference level's scale is the mean of metres per pixel over its
-    measurements; the others are laid upon it by the fiducials of the same name.
+    measurements, or that of the editor's empty sheet if it has neither these nor a drawing; the others are laid upon it
+    by the fiducials of the same name.
     `cartesian_meters`: as they stand, less the suggested offset.
     `wgs84`: longitude and latitude, in the coordinate reference system `generate_crs`, less the suggested offset.
     """
@@ -143,6 +146,9 @@ def _metres_per_pixel(level: Node, notes: Notes) -> float:
         if length == 0:
             raise measurement.error("measurement of zero length: its two vertices are one point")
         scales.append(distance / length)
+    if not scales and "drawing" not in level.fields():
+        notes.add(f"a level without drawing and measurements: {BLANK} m per pixel, as the editor shows it")
+        return BLANK
     if not scales:
         raise level.error(
             "the level has no measurements, so that pixels cannot become metres",

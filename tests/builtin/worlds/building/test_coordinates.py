@@ -67,6 +67,7 @@ def test_without_common_marks_a_level_keeps_its_own_frame_and_says_so(load):
     world = load(yaml.safe_dump({"levels": {"L1": first, "L2": second}}))
     np.testing.assert_allclose(world.levels[1].walls[:, :2], SQUARE, atol=1e-9)
     assert any("'L2' shares fewer than two fiducials with 'L1'" in note for note in world.notes)
+    second["drawing"] = {"filename": "L2.png"}
     second.pop("measurements")
     with pytest.raises(InputError, match="no measurements"):
         load(yaml.safe_dump({"levels": {"L1": first, "L2": second}}))
