@@ -2,8 +2,9 @@
 
 Everything is on: lidars of 360 beams at 5 Hz, for every robot a costmap and Nav2's DWB with seven critics at 20 Hz,
 recoveries, the dispatcher `adg`, the recording. Robots cross a generated warehouse by plans of `prioritized`. The last
-row is a thousand robots with pure pursuit and no lidars. CPU time of the execution is counted, from its first control
-period to its last, so that a busy machine matters less; of several rounds the fastest counts.
+row is a thousand robots with pure pursuit and no lidars. What is asked is simulated seconds per second on one core;
+CPU time counts less of what else a machine does than wall time. From the first control period to the last; of several
+rounds the fastest.
 """
 
 import argparse
@@ -39,11 +40,16 @@ PARTS = {
 class Case:
     """One row of the table."""
 
-    simulator: str
+    simulator: str | dict[str, Any]
     robots: int
     controller: str = "dwb"
     seconds: float = 20.0
     options: dict[str, Any] = attrs.field(factory=dict)
+
+    @property
+    def simulator_name(self) -> str:
+        """Of the plugin."""
+        return self.simulator if isinstance(self.simulator, str) else str(self.simulator["plugin"])
 
     @property
     def config(self) -> dict[str, Any]:
@@ -75,34 +81,52 @@ class Case:
         }
 
 
+ROWS = {
+    "planar-9": (Case("planar", 9), 90),
+    "planar-100": (Case("planar", 100), 8),
+    "planar-400": (Case("planar", 400), 2),
+    "wheels-9": (Case("pybullet", 9), 12),
+    "bodies-9": (Case({"plugin": "pybullet", "model": "body"}, 9), 60),
+    "planar-1000-pure_pursuit": (Case("planar", 1000, "pure_pursuit"), 20),
+}
+"""Rows of the table, and how many times faster than real time each is to be."""
+
+
 class Clock:
-    """CPU seconds of the control periods of one execution."""
+    """CPU and wall seconds of one execution, from the end of its first control period to the end of its last."""
 
     def __init__(self) -> None:
-        self.began: float | None = None
-        self.simulated = self.spent = 0.0
+        self.simulated = 0.0
+        self._began: tuple[float, float] | None = None
 
     def stepped(self, *, now: float, **_: object) -> None:
         """Take note of a period that has ended."""
-        if self.began is None:
-            self.began = time.process_time()
-        self.simulated, self.spent = now, time.process_time() - self.began
+        if self._began is None:
+            self._began = time.process_time(), time.perf_counter()
+        self.simulated = now
+
+    def executed(self) -> None:
+        """Take note of the end."""
+        assert self._began is not None
+        cpu, wall = self._began
+        self.cpu, self.wall = time.process_time() - cpu, time.perf_counter() - wall
 
 
-def run(case: Case, profile: cProfile.Profile | None = None) -> float:
-    """Simulated seconds per CPU second."""
+def run(case: Case, profile: cProfile.Profile | None = None) -> Clock:
+    """Execute once."""
     (point,) = load_study(case.config).runs
     clock = Clock()
     with tempfile.TemporaryDirectory() as name:
         paths = RunPaths(recording=Path(name) / "run.zip", exports=Path(name) / "exports")
         if profile is not None:
             profile.enable()
-        record = execute(point.config, "speed", paths, lambda *_: None, Observers(stepped=clock.stepped))
+        watching = Observers(stepped=clock.stepped, executed=clock.executed)
+        record = execute(point.config, "speed", paths, lambda *_: None, watching)
         if profile is not None:
             profile.disable()
     if record["status"] not in ("succeeded", "goals_missed"):
         raise SystemExit(f"{case}: {record['status']}: {record.get('error')}")
-    return clock.simulated / clock.spent
+    return clock
 
 
 def shares(case: Case) -> dict[str, float]:
@@ -125,23 +149,29 @@ def shares(case: Case) -> dict[str, float]:
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("robots", nargs="*", type=int, default=[9, 100, 400], help="numbers of robots with dwb")
-    parser.add_argument("--rounds", type=int, default=2)
+    parser.add_argument("rows", nargs="*", default=list(ROWS), help=f"of {', '.join(ROWS)} (default: all)")
+    parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seconds", type=float, default=20.0, help="simulated, of each execution")
     parser.add_argument("--threads", type=int, default=1, help="of dwb")
     options = parser.parse_args()
-    threads = {"threads": options.threads}
-    cases = [Case("planar", robots, seconds=options.seconds, options=threads) for robots in options.robots]
-    if find_spec("pybullet") is not None:
-        cases += [Case("pybullet", 9, seconds=options.seconds, options=threads)]
-    cases += [Case("planar", 1000, "pure_pursuit", options.seconds)]
+    if unknown := set(options.rows) - set(ROWS):
+        parser.error(f"no such row: {', '.join(sorted(unknown))}")
+    print(f"{'':26}  x real time by")
     print(
-        "simulator  robots controller     x real time   milliseconds per simulated second, with the profiler's weight"
+        f"{'':26} {'asked':>6} {'CPU':>6} {'wall':>6}   milliseconds per simulated second, with the profiler's weight"
     )
-    for case in cases:
-        best = max(run(case) for _ in range(options.rounds))
+    for name in options.rows:
+        case, asked = ROWS[name]
+        if case.simulator_name == "pybullet" and find_spec("pybullet") is None:
+            print(f"{name:<26} {asked:>5}x   no PyBullet here")
+            continue
+        extra = {"threads": options.threads} if case.controller == "dwb" else {}
+        case = attrs.evolve(case, seconds=options.seconds, options=extra)
+        rounds = [run(case) for _ in range(options.rounds)]
+        cpu = max(clock.simulated / clock.cpu for clock in rounds)
+        wall = max(clock.simulated / clock.wall for clock in rounds)
         parts = ", ".join(f"{part} {spent:.1f}" for part, spent in sorted(shares(case).items(), key=lambda it: -it[1]))
-        print(f"{case.simulator:<10} {case.robots:>6} {case.controller:<13} {best:>10.1f}x   {parts}", flush=True)
+        print(f"{name:<26} {asked:>5}x {cpu:>5.1f}x {wall:>5.1f}x   {parts}", flush=True)
 
 
 if __name__ == "__main__":

@@ -14,9 +14,13 @@ from mrpbench_core.model.arrays import Int32
 from mrpbench_core.model.execution import Estimate, Mode, Motion, Orders, ScanBatch, State
 from mrpbench_core.model.scenario import Scenario
 
+_LAST_MODE = int(max(Mode))
+
 
 class Answers:
     """Checks the answers of one execution; each method returns what it was given.
+
+    What is the very array of the last answer is not looked at again: arrays that were answered do not change.
 
     Args:
         length: i8[n] segments of each robot's path.
@@ -24,10 +28,14 @@ class Answers:
 
     def __init__(self, length: NDArray[Any]) -> None:
         self.length = length
-        """Set it anew when a new plan takes effect."""
         self._robots = len(length)
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
+
+    def adopt(self, length: NDArray[Any]) -> None:
+        """Go on with the paths of a new plan."""
+        self.length = length
+        self._released = self._released.copy()  # so that the next answer is looked at
 
     def state(self, state: State) -> State:
         """Of a simulator."""
@@ -37,7 +45,10 @@ class Answers:
         self._finite(who, "twist", state.twist)
         self._one_each(who, "level", state.level)
         one, other = state.contacts.T
-        if ((one < 0) | (one >= self._robots) | (other < -1) | (other >= self._robots) | (one == other)).any():
+        if (
+            len(one)
+            and ((one < 0) | (one >= self._robots) | (other < -1) | (other >= self._robots) | (one == other)).any()
+        ):
             _refuse(who, "contacts that name no robot, or a robot twice")
         return state
 
@@ -65,6 +76,8 @@ class Answers:
         """Of a dispatcher."""
         who = "the dispatcher"
         self._is(who, orders, Orders)
+        if orders.released is self._released:
+            return orders
         self._one_each(who, "released", orders.released)
         self._no_robot(who, "released less than before", orders.released < self._released)
         self._no_robot(who, "released more segments than there are", orders.released > self.length)
@@ -78,12 +91,13 @@ class Answers:
         self._finite(who, "twist", motion.twist)
         for name in ("reached", "cleared", "mode"):
             self._one_each(who, name, getattr(motion, name))
-        self._no_robot(who, "reached less than before", motion.reached < self._reached)
-        self._no_robot(who, "reached what was not released", motion.reached > self._released)
-        self._no_robot(who, "cleared less than before", motion.cleared < self._cleared)
-        self._no_robot(who, "cleared what it had not come to", motion.cleared > motion.reached + 1)
-        self._no_robot(who, "a mode that does not exist", motion.mode > max(Mode))
-        self._reached, self._cleared = motion.reached, motion.cleared
+        if motion.reached is not self._reached or motion.cleared is not self._cleared:
+            self._no_robot(who, "reached less than before", motion.reached < self._reached)
+            self._no_robot(who, "reached what was not released", motion.reached > self._released)
+            self._no_robot(who, "cleared less than before", motion.cleared < self._cleared)
+            self._no_robot(who, "cleared what it had not come to", motion.cleared > motion.reached + 1)
+            self._reached, self._cleared = motion.reached, motion.cleared
+        self._no_robot(who, "a mode that does not exist", motion.mode > _LAST_MODE)
         return motion
 
     def _is(self, who: str, answer: object, wanted: type) -> None:

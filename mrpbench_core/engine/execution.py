@@ -52,7 +52,8 @@ def drive(
     ended: Ended | None
     try:
         exports.open(config.export, context, paths.exports)
-        recorder = Recorder(config.recording.rate, context.period, sink)
+        wants_scans = config.recording.scans or bool(config.export)
+        recorder = Recorder(config.recording.rate, context.period, sink, wants_scans)
         began = time.perf_counter()
         replans = _replans(config, context, router, announce, timing)
         observers.executing(context=context)

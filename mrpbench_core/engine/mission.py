@@ -33,6 +33,8 @@ from mrpbench_core.model.execution import (
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.run import RunContext
 
+WAITING, ABORTED = int(Mode.WAITING), int(Mode.ABORTED)
+
 
 @attrs.frozen(kw_only=True)
 class Stack:
@@ -142,7 +144,7 @@ def execute_plan(
             recorder.events((_adopt(new, now, dispatcher, navigator, replans),))
             if replans.plan is new.plan:
                 revision += 1
-                answers.length = _length(replans.plan)
+                answers.adopt(_length(replans.plan))
                 routes = new.routes
                 recorder.routes(now, revision, routes)
                 concierge.adopt(new.problem, replans.plan)
@@ -150,8 +152,8 @@ def execute_plan(
         concierge.take(orders)
         observation = FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
         motion = answers.motion(navigator.step(now, observation, _held_back(orders, now < noise.start_delay)))
-        at_goal = (motion.reached >= answers.length) & (motion.mode == Mode.WAITING)
-        gave_up = motion.mode == Mode.ABORTED
+        at_goal = (motion.reached >= answers.length) & (motion.mode == WAITING)
+        gave_up = motion.mode == ABORTED
         arrived = bool(at_goal.all())
         over = bool((at_goal | gave_up).all()) or now >= limit_s
         recorder.scans(scans)

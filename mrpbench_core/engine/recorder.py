@@ -39,10 +39,11 @@ INTEGERS = dict.fromkeys(("contact", "scan_robot", "event_robot", "route_revisio
 class Recorder:
     """Samples the periodic channels every `1 / rate` simulated seconds; contacts, scans and events as they come.
 
-    `sink` gets every chunk; memory does not grow with the run.
+    `sink` gets every chunk; memory does not grow with the run. Scans are kept where somebody wants them.
     """
 
-    def __init__(self, rate: float, period: float, sink: Callable[[Chunk], None]) -> None:
+    def __init__(self, rate: float, period: float, sink: Callable[[Chunk], None], scans: bool = True) -> None:
+        self._keeps_scans = scans
         self._every = max(1, round(1 / (rate * period)))
         self._sink = sink
         sink({name: np.empty((0, *shape), kind) for name, (kind, shape) in IRREGULAR.items()})
@@ -96,6 +97,8 @@ class Recorder:
 
     def scans(self, batches: Sequence[ScanBatch]) -> None:
         """Record scans, one row per robot; rows of unlike lidars are padded with NaN."""
+        if not self._keeps_scans:
+            return
         for batch in batches:
             for robot, ranges in zip(batch.robot, batch.ranges, strict=True):
                 self._rows["scan_time"].append(batch.stamp)

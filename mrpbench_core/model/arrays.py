@@ -17,15 +17,17 @@ Bool = NDArray[np.bool_]
 def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None) -> NDArray[Any]:
     """Return a read-only copy of `values` as `dtype`; `columns` shapes an empty list as (0, columns).
 
+    What is such a copy already is returned as it is.
+
     Raises:
         ValueError: there are not so many columns, or integers are wanted and some value is none, or too large.
     """
-    given = np.asarray(values)
-    whole = np.dtype(dtype).kind in "iu" and given.dtype.kind in "iuf" and given.dtype != np.dtype(dtype)
-    with np.errstate(invalid="ignore"):
-        array = np.array(given, dtype=dtype, order="C")
-    if whole and (array != given).any():  # NumPy would cut off or wrap round in silence
-        raise ValueError(f"expected whole numbers that fit in {array.dtype}, got {given[array != given][0]}")
+    given, wanted = np.asarray(values), np.dtype(dtype)
+    if given.dtype == wanted:
+        flags = given.flags
+        array = given if flags.c_contiguous and flags.owndata and not flags.writeable else np.array(given, order="C")
+    else:
+        array = _converted(given, wanted)
     if columns is not None and array.size == 0:
         array = array.reshape(0, columns)
     elif columns is not None and array.shape[1:] != (columns,):  # reshaping would hide rows and columns mixed up
@@ -34,10 +36,20 @@ def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None
     return array
 
 
+def _converted(given: NDArray[Any], wanted: np.dtype[Any]) -> NDArray[Any]:
+    with np.errstate(invalid="ignore"):
+        array = np.array(given, dtype=wanted, order="C")
+    if wanted.kind in "iu" and given.dtype.kind in "iuf" and (array != given).any():
+        # NumPy would cut off or wrap round in silence.
+        raise ValueError(f"expected whole numbers that fit in {wanted}, got {given[array != given][0]}")
+    return array
+
+
 def array(dtype: DTypeLike, columns: int | None = None, **arguments: Any) -> Any:
     """Declare an attrs field that holds a read-only array of `dtype` (with `columns` columns if two-dimensional)."""
+    wanted = np.dtype(dtype)
     return attrs.field(
-        converter=lambda values: frozen_array(values, dtype, columns),
+        converter=lambda values: frozen_array(values, wanted, columns),
         eq=attrs.cmp_using(eq=equal_arrays),
         **arguments,
     )

@@ -6,7 +6,7 @@ import numpy as np
 from mrpbench_core.model.arrays import Float, array
 
 
-@attrs.frozen(kw_only=True)
+@attrs.frozen(kw_only=True, cache_hash=True)
 class Lidar:
     """A planar scanner. Beam i points at `i * 2*pi / beams` counter-clockwise from straight ahead."""
 

@@ -11,22 +11,23 @@ class ScanSchedule:
     """
 
     def __init__(self, fleet: Fleet, period: float) -> None:
-        self._robots: dict[Lidar, list[int]] = {}
+        robots: dict[Lidar, list[int]] = {}
         for index, robot in enumerate(fleet.robots):
             if robot.lidar is not None:
-                self._robots.setdefault(robot.lidar, []).append(index)
-        self._every = {lidar: max(1, round(1 / (lidar.rate * period))) for lidar in self._robots}
+                robots.setdefault(robot.lidar, []).append(index)
+        self._turns = {lidar: _turns(own, max(1, round(1 / (lidar.rate * period)))) for lidar, own in robots.items()}
 
     @property
     def lidars(self) -> tuple[Lidar, ...]:
         """The distinct lidars of the fleet."""
-        return tuple(self._robots)
+        return tuple(self._turns)
 
     def due(self, period: int) -> list[tuple[Lidar, list[int]]]:
         """The robots that scan at the end of a period, by lidar."""
-        found = []
-        for lidar, robots in self._robots.items():
-            now = [robot for robot in robots if (period + robot) % self._every[lidar] == 0]
-            if now:
-                found.append((lidar, now))
-        return found
+        now = ((lidar, turns[period % len(turns)]) for lidar, turns in self._turns.items())
+        return [(lidar, robots) for lidar, robots in now if robots]
+
+
+def _turns(robots: list[int], every: int) -> list[list[int]]:
+    """The robots that scan in each of `every` periods."""
+    return [[robot for robot in robots if (period + robot) % every == 0] for period in range(every)]

@@ -37,13 +37,15 @@ class Storeys:
     def spread(self, pose: Float, level: Int16) -> Float:
         """Poses f8[n,2+] of robots on `level` i2[n], in the plane."""
         spread: Float = np.array(pose, float)
-        spread[:, :2] += self._shift[level]
+        if len(self._shift) > 1:
+            spread[:, :2] += self._shift[level]
         return spread
 
     def gather(self, pose: Float, level: Int16) -> Float:
         """Poses f8[n,2+] on their levels, from those in the plane."""
         gathered: Float = np.array(pose, float)
-        gathered[:, :2] -= self._shift[level]
+        if len(self._shift) > 1:
+            gathered[:, :2] -= self._shift[level]
         return gathered
 
     def leaves(self, facilities: Facilities, state: Mapping[str, float]) -> Float:

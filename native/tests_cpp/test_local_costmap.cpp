@@ -40,6 +40,34 @@ TEST("costs follow Nav2's formula") {
   CHECK(inflated_cost(0.3, 0.1, 3) == static_cast<std::uint8_t>(252 * std::exp(-0.6)));
 }
 
+TEST("inflated costs are those of the distance to the nearest lethal cell, also beside solid blocks and the border") {
+  CostmapOptions plain = options(), inflated = options();
+  plain.inflation_layer = false;
+  Costmap marks(plain, nullptr), map(inflated, nullptr);
+  for (int k = 0; k < 20; ++k) {  // walls that thicken as the robot comes nearer, and specks
+    std::vector<double> ranges = scan(1.2);
+    for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] += i % 7 == 0 ? -0.1 * (k % 5) : i < 90 ? 0.3 : 0;
+    const Pose pose{0.01 * k, 0.02 * k, 0.1 * k};
+    for (Costmap* it : {&marks, &map}) {
+      it->see(pose, {}, ranges);
+      it->update(pose);
+    }
+  }
+  const Frame& frame = map.frame();
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      double nearest = HUGE_VAL;
+      for (int v = 0; v < frame.height; ++v) {
+        for (int u = 0; u < frame.width; ++u) {
+          if (marks.at({u, v}) == kLethal) nearest = std::min(nearest, std::hypot(u - x, v - y) * frame.resolution);
+        }
+      }
+      const bool far = nearest > inflated.inflation_radius + 1e-9;
+      CHECK(map.at({x, y}) == (far ? kFree : inflated_cost(nearest, map.inscribed(), inflated.cost_scaling_factor)));
+    }
+  }
+}
+
 TEST("a scan marks where its beams end, and the next one clears what it sees through") {
   CostmapOptions plain = options();
   plain.inflation_layer = false;

@@ -119,3 +119,11 @@ def test_scenarios_that_are_none_are_refused(start, goal, message):
     scenario = Scenario(start=start, start_level=[0] * len(start), tasks=(Task(goals=[goal], name="dock"),))
     with pytest.raises(BrokenContractError, match=f"the scenario returned {message}"):
         check_drawn(scenario, 2)
+
+
+def test_what_was_answered_before_is_held_against_a_new_plan():
+    checked = answers()
+    checked.orders(ORDERS)
+    checked.adopt(np.array([1, 1]))
+    with pytest.raises(BrokenContractError, match="for robot 0: released more segments than there are"):
+        checked.orders(ORDERS)

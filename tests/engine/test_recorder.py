@@ -96,3 +96,11 @@ def test_doors_and_lifts_are_a_channel_where_there_are_some():
     feed(Recorder(10.0, 0.05, chunks.append), 1)
     assert joined(chunks, "facility").tolist() == [[0.5], [0.5]]
     assert joined(chunks, "waits_for").tolist() == [[-1, -1], [-1, -1]]
+
+
+def test_scans_that_nobody_wants_are_not_kept():
+    chunks = []
+    recorder = Recorder(10.0, 0.05, chunks.append, scans=False)
+    recorder.scans((ScanBatch(stamp=0.0, robot=[0], ranges=[[1, 2]]),))
+    recorder.flush()
+    assert not any("scan_ranges" in chunk for chunk in chunks)

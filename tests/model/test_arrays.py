@@ -34,3 +34,17 @@ def test_the_copy_cannot_be_written():
     assert held[0] == 0
     with pytest.raises(ValueError, match="read-only"):
         held[0] = 1
+
+
+def test_what_cannot_be_written_is_held_without_a_copy():
+    held = frozen_array([1.0, 2.0], "f8")
+    assert frozen_array(held, "f8") is held
+
+
+def test_a_view_of_what_can_be_written_is_copied():
+    given = np.zeros(2)
+    view = given[:]
+    view.flags.writeable = False
+    held = frozen_array(view, "f8")
+    given[0] = 1
+    assert held[0] == 0

@@ -11,7 +11,7 @@ import numpy as np
 from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
 from mrpbench_core.builtin.dispatchers.gates import REACHED, Gates
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.arrays import Int32
+from mrpbench_core.model.arrays import Int32, frozen_array
 from mrpbench_core.model.execution import FleetView, Orders
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
@@ -80,19 +80,20 @@ class AdgSession(DispatcherSession):
 
     def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - order is all that counts, not time
         """Release what the robots' progress has opened: work is done only for robots that got further."""
-        seen = np.maximum(self.seen, [view.reached, view.cleared])
-        changed = np.flatnonzero((seen != self.seen).any(axis=0))
-        self.seen = seen
+        seen = np.maximum(self.seen, (view.reached, view.cleared))
+        changed = (seen != self.seen).any(axis=0).nonzero()[0]
         if len(changed):
+            self.seen = seen
             self.gates.look(seen, changed)
-        self.gates.ask(seen, view.granted)
-        self._release()
+        asked = self.gates.ask(seen, view.granted)
+        if asked or len(changed):
+            self._release()
         requests = self.gates.requests.pairs()
         return Orders(released=self.released, requests=requests, replan=self.gates.exhausted(seen[REACHED]))
 
     def _release(self) -> None:
         ahead = (self.seen[REACHED] + 1 + self.options.lookahead).astype(np.int32)
-        self.released = np.maximum(self.released, np.minimum(self.gates.released, ahead))
+        self.released = frozen_array(np.maximum(self.released, np.minimum(self.gates.released, ahead)), "i4")
 
 
 def _check(problem: Problem, plan: Plan) -> None:

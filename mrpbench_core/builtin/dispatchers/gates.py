@@ -89,15 +89,19 @@ class Gates:
         elif move > self.first[robot]:
             self.released[robot] = self.segment[move - 1] + 1
 
-    def ask(self, counts: Int, granted: tuple[tuple[int, str], ...]) -> None:
-        """Release what was `granted`, and ask for what is needed next, given the `counts` i8[2,n]."""
+    def ask(self, counts: Int, granted: tuple[tuple[int, str], ...]) -> bool:
+        """Release what was `granted`, and ask for what is needed next, given the `counts` i8[2,n].
+
+        Tells whether anybody needs anything, now or later.
+        """
         if not self.requests:
-            return
+            return False
         self.granted = frozenset(granted)
         for robot in range(len(self.frontier)):
             self._advance(robot)
         free = [robot for robot, move in enumerate(self.frontier) if self._only_asks(robot, move)]
         self.requests.update(counts[REACHED], counts[CLEARED], self.frontier, free)
+        return True
 
     def _only_asks(self, robot: int, move: int) -> bool:
         """Tell whether a robot's next move waits for nothing but resources."""

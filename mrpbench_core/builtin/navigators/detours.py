@@ -67,7 +67,7 @@ class Detours:
         turn = self._turn[observations.robot] == self._step % self._every
         if stopped.any():
             turn |= stopped & (self._step - self._asked[observations.robot] >= self._every)
-        for row in np.flatnonzero(turn).tolist():
+        for row in turn.nonzero()[0].tolist():
             robot, place = int(observations.robot[row]), observations.pose[row, :2]
             moved = np.abs(place - self._place[robot]).max() > _MOVING
             self._place[robot] = place

@@ -1,12 +1,12 @@
 """All robots on their routes: what changes rarely is left to each `Follower`, what moves is computed at once."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from mrpbench_core.builtin.navigators.follower import WATCHED, Follower
-from mrpbench_core.model.arrays import Bool, Float, Int, Int16, Int32
+from mrpbench_core.model.arrays import Bool, Float, Int, Int16, Int32, frozen_array
 from mrpbench_core.model.execution import Route
 
 if TYPE_CHECKING:
@@ -31,8 +31,7 @@ class Followers:
         count = len(routes)
         self._options = options
         self.all = [Follower(route, options, clear) for route, clear in zip(routes, clearances.tolist(), strict=True)]
-        self.reached: Int32 = np.zeros(count, np.int32)
-        self.cleared: Int32 = np.zeros(count, np.int32)
+        self._counts: Int32 = np.zeros((2, count), np.int32)
         self._released: Int32 = np.zeros(count, np.int32)
         self._values: Float = np.full((len(WATCHED), count), np.nan)
         self._of: dict[str, Float] = dict(zip(WATCHED, self._values, strict=True))
@@ -53,8 +52,7 @@ class Followers:
             first += len(follower.corners)
         self.corners: Float = np.concatenate([np.empty((0, 2)), *(follower.corners for follower in self.all)])
         self._wants_yaw = any(not np.isnan(route.waypoint[:, 2]).all() for route in routes)
-        for robot in range(len(self.all)):
-            self._watch(robot)
+        self._watch(range(len(self.all)))
         self._released = np.full(len(self.all), -1, np.int32)  # all are looked at in the next period
 
     def update(self, pose: Float, speed: Float, released: Int32, level: Int16) -> None:
@@ -74,15 +72,17 @@ class Followers:
         changes |= self._busy
         changes |= released != self._released
         self._released = released
-        for robot in np.flatnonzero(changes).tolist():
+        changed = changes.nonzero()[0].tolist()
+        for robot in changed:
             px, py, yaw = pose[robot].tolist()
             self.all[robot].update(px, py, yaw, float(speed[robot]), int(released[robot]), int(level[robot]))
-            self._watch(robot)
+        if changed:
+            self._watch(changed)
 
     def rejoin(self, robot: int, x: float, y: float) -> None:
         """Let a robot continue from a point of its released route."""
         self.all[robot].rejoin(x, y)
-        self._watch(robot)
+        self._watch([robot])
 
     def foot(self, pose: Float) -> Float:
         """The nearest point f8[n,2] of each robot's leg of its route."""
@@ -126,11 +126,15 @@ class Followers:
         """f8[n] m/s allowed on the segment under way."""
         return self._of["speed"]
 
-    def _watch(self, robot: int) -> None:
-        follower = self.all[robot]
-        self._values[:, robot] = follower.watched()
-        self._busy[robot], self._rides[robot] = follower.is_busy, follower.rides
-        self._may_drive[robot] = follower.may_drive
-        self._is_last[robot] = follower.is_last
-        self.begin[robot], self.end[robot] = follower.path
-        self.reached[robot], self.cleared[robot] = follower.reached, follower.cleared
+    def _watch(self, robots: Iterable[int]) -> None:
+        for robot in robots:
+            follower = self.all[robot]
+            self._values[:, robot] = follower.watched()
+            self._busy[robot], self._rides[robot] = follower.is_busy, follower.rides
+            self._may_drive[robot] = follower.may_drive
+            self._is_last[robot] = follower.is_last
+            self.begin[robot], self.end[robot] = follower.path
+            self._counts[:, robot] = follower.reached, follower.cleared
+        self.reached: Int32 = frozen_array(self._counts[0], "i4")
+        """i4[n], as `FleetView` has it."""
+        self.cleared: Int32 = frozen_array(self._counts[1], "i4")

@@ -27,6 +27,10 @@ from mrpbench_core.model.execution import Event, FleetObservation, Mode, Motion,
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.world import World
 
+_FOLLOWING, _WAITING, _RECOVERING, _ABORTED = (
+    np.uint8(mode) for mode in (Mode.FOLLOWING, Mode.WAITING, Mode.RECOVERING, Mode.ABORTED)
+)
+
 
 @attrs.frozen(kw_only=True)
 class Waypoints(Navigator):
@@ -108,11 +112,11 @@ class _Session(NavigatorSession):
         foot = followers.foot(pose)
         under_way = followers.under_way(pose) & ~rescue.aborted
         following = followers.driven(pose, foot) & ~rescue.aborted & ~rescue.recovering
-        twist, events = self._drive(now, observation, foot, np.flatnonzero(following))
+        twist, events = self._drive(now, observation, foot, following.nonzero()[0])
         stuck = self._progress.check(now, pose, under_way & ~rescue.recovering)
         silent = following & (now - self._commanded > self._failure_tolerance)
         self._commanded[~following | silent] = now
-        for robot in np.flatnonzero(stuck | silent).tolist():
+        for robot in (stuck | silent).nonzero()[0].tolist():
             if stuck[robot]:
                 events.append(Event(stamp=now, kind="no_progress", robot=robot))
             else:
@@ -136,17 +140,18 @@ class _Session(NavigatorSession):
         """Commands of the controllers for the whole fleet f8[n,2], zero where there is none."""
         twist = np.zeros((len(foot), 2))
         followers = self._followers
+        rows = slice(None) if len(robots) == len(foot) else robots
         seen = Observations(
             now=now,
             robot=robots,
-            pose=observation.estimate.pose[robots],
-            twist=observation.odometry.twist[robots],
-            foot=foot[robots],
+            pose=observation.estimate.pose[rows],
+            twist=observation.odometry.twist[rows],
+            foot=foot[rows],
             points=followers.corners,
-            begin=followers.begin[robots],
-            end=followers.end[robots],
-            yaw=followers.yaw[robots],
-            speed=followers.speed[robots],
+            begin=followers.begin[rows],
+            end=followers.end[rows],
+            yaw=followers.yaw[rows],
+            speed=followers.speed[rows],
             tolerance=self._tolerance,
             scans=observation.scans,
             fleet_pose=observation.estimate.pose,
@@ -173,9 +178,9 @@ class _Session(NavigatorSession):
 
 
 def _modes(under_way: Bool, recovering: Bool, aborted: Bool) -> np.ndarray:
-    mode = np.where(under_way, np.uint8(Mode.FOLLOWING), np.uint8(Mode.WAITING))
-    mode[recovering] = Mode.RECOVERING
-    mode[aborted] = Mode.ABORTED
+    mode = np.where(under_way, _FOLLOWING, _WAITING)
+    mode[recovering] = _RECOVERING
+    mode[aborted] = _ABORTED
     return mode
 
 

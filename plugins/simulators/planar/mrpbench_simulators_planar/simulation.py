@@ -79,7 +79,8 @@ class PlanarSimulation(Simulation):
         """Advance by one control period."""
         if inputs.movers is not None:
             self._movers = np.ascontiguousarray(inputs.movers[:, :2])
-        self._operate(inputs.facilities)
+        if inputs.facilities:
+            self._operate(inputs.facilities)
         self._plane.step(inputs.twist, self._movers)
         self._periods += 1
         self._state = self._observe()
