@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install demo test lint types layers cpp python format lock speed clean ros soak worlds
+.PHONY: help install anchors demo test lint types layers cpp python format lock speed clean ros soak worlds
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -25,6 +25,9 @@ endif
 
 speed: install ## how fast executions are, and where the time goes
 	$(BIN)/python benchmarks/full_stack.py
+
+anchors: install ## cbs, ecbs and eecbs beside the reference solvers; ARGS="--maps maze-32-32-2" for less
+	$(BIN)/python benchmarks/anchors.py --shared ../shared/data $(ARGS)
 
 demo: install ## one small run, end to end: table, picture, bag
 	$(BIN)/mrpbench demo

@@ -1,0 +1,52 @@
+"""Conflict-based search beside the reference solvers, on every instance that these were measured on.
+
+    python benchmarks/anchors.py --shared ../shared/data
+    python benchmarks/anchors.py --shared ../shared/data --solvers "eecbs w=1.2" --maps maze-32-32-2 random-32-32-20
+
+What the columns mean: `movingai.py`. All of it takes up to an hour, since what nobody solves takes all its time;
+`--solvable` leaves out what the others did not solve (then who solves more does not show).
+"""
+
+import argparse
+import math
+from pathlib import Path
+
+from movingai import Instance, Outcome, measured, run, table
+
+CONTESTS = {
+    "cbs": ("CBSH2-RTC",),
+    "eecbs w=1.2": ("EECBS-w1.2", "EECBS-sipp-w1.2"),
+    "eecbs w=1.05": ("EECBS-w1.05",),
+    "ecbs w=1.2": ("libMRP-ecbs-w1.2",),
+}
+"""Our solver, and those of which the better counts."""
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--shared", type=Path, required=True, help="folder with movingai/ and anchors.csv")
+    parser.add_argument("--solvers", nargs="*", default=list(CONTESTS), choices=list(CONTESTS))
+    parser.add_argument("--maps", nargs="*", default=[])
+    parser.add_argument("--each", action="store_true", help="a line for each number of robots too")
+    parser.add_argument("--solvable", action="store_true", help="only what the others solved")
+    parser.add_argument("--time-limit", type=float, default=10.0, help="CPU seconds")
+    parser.add_argument("--repeat", type=int, default=1)
+    arguments = parser.parse_args()
+    for solver in arguments.solvers:
+        others = measured(arguments.shared / "anchors.csv", CONTESTS[solver])
+        found: dict[Instance, Outcome] = {}
+        for instance in sorted(others):
+            if arguments.maps and instance.map not in arguments.maps:
+                continue
+            if arguments.solvable and math.isinf(others[instance].seconds):
+                continue
+            ran = run(arguments.shared / "movingai", instance, solver, arguments.time_limit, arguments.repeat)
+            if ran is not None:
+                found[instance] = ran[0]
+        print(f"{solver} against {', '.join(CONTESTS[solver])}")
+        print("\n".join(table(found, others, arguments.each)), "\n", flush=True)
+
+
+if __name__ == "__main__":
+    main()
