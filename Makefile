@@ -56,9 +56,8 @@ python: install ## Python tests
 soak: install ## thousands of random instances against brute force (an hour)
 	$(BIN)/python plugins/planners/mapf/tests/soak_cbs.py 20000 1
 
-worlds: install ## robots driven on every built-in world, five seeds each, must touch nothing (half an hour)
-	$(BIN)/python benchmarks/worlds.py --controller pure_pursuit
-	$(BIN)/python benchmarks/worlds.py --controller dwb
+worlds: install ## robots driven on every built-in world must touch nothing (ten minutes); CONTROLLER=dwb for another
+	$(BIN)/python benchmarks/worlds.py --controller $(or $(CONTROLLER),pure_pursuit)
 
 format: install ## rewrite the sources in the house style
 	$(BIN)/ruff check --fix .

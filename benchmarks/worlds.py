@@ -71,7 +71,7 @@ def main() -> int:
     parser.add_argument("--seeds", type=int, default=5)
     parser.add_argument("--robots", type=int, default=5)
     parser.add_argument("--planner", default="prioritized")
-    parser.add_argument("--controller", default="dwb")
+    parser.add_argument("--controller", default="pure_pursuit")
     parser.add_argument("--simulator", default="planar")
     options = parser.parse_args()
     if unknown := [name for name in options.worlds if name not in WORLDS]:

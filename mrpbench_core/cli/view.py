@@ -22,7 +22,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("run", metavar="RUN", help=HELP)
     parser.add_argument("--out", metavar="FILE", help="the page (default: replay-<run id>.html in the results)")
-    parser.add_argument("--png", metavar="FILE", help="also a picture of the planned and driven paths")
+    parser.add_argument(
+        "--png", metavar="FILE", help="also a picture of the planned and driven paths, further levels beside it"
+    )
     parser.add_argument("--gif", metavar="FILE", help="also an animation of a few seconds")
 
 
@@ -85,12 +87,15 @@ def _planner(block: Any) -> str:
 
 def _draw(recording: Recording, file: Path) -> None:
     from mrpbench_core.report.picture import draw_world
-    from mrpbench_core.report.replay.motion import read_level
+    from mrpbench_core.report.replay.motion import read_levels
 
     context = recording.context()
-    _, truth, level = read_level(recording)
-    draw_world(context.world, file=file, fleet=context.fleet, routes=context.routes, truth=truth, level=level)
-    print(f"wrote {file}")
+    _, levels = read_levels(recording)
+    for index, (level, truth) in enumerate(sorted(levels.items())):
+        name = context.world.levels[level].name or level
+        drawn = file.with_name(f"{file.stem}-{name}{file.suffix}") if index else file
+        draw_world(context.world, file=drawn, fleet=context.fleet, routes=context.routes, truth=truth, level=level)
+        print(f"wrote {drawn}")
 
 
 def _animate(recording: Recording, file: Path) -> None:

@@ -28,7 +28,7 @@ _DOT = 3
 """Pixels around a place that no name covers."""
 _LEAST = 250
 """Pixels of the shorter side of the map."""
-_WALL, _LANE, _ROAD, _NAME, _DOOR, _LIFT = "#3b4252", "#9db4c8", "#e8f0f6", "#51606e", "#b07d2b", "#7a5195"
+WALL, _LANE, _ROAD, _NAME, _DOOR, _LIFT = "#3b4252", "#9db4c8", "#e8f0f6", "#51606e", "#b07d2b", "#7a5195"
 
 
 def draw_world(
@@ -50,7 +50,7 @@ def draw_world(
         fleet: draw robots in their true size at their starts.
         routes: planned paths, dashed; start as a circle, goal as a star, both with the robot's number.
         truth: driven paths f8[T,n,3], solid; NaN where unknown.
-        level: which level; routes and paths are drawn wherever they lead.
+        level: which level; of routes, the parts on it are drawn.
 
     Raises:
         InputError: matplotlib is missing, or the file cannot be written.
@@ -59,7 +59,7 @@ def draw_world(
     with _plain():
         figure, axes = world_figure(world, roadmap=roadmap, truth=truth, level=level, faint=moving)
         if moving:
-            _paths(axes, fleet, routes or (), truth)
+            _paths(axes, fleet, [_on_level(route, level) for route in routes or ()], truth)
         try:
             figure.savefig(file, format="png")
         except OSError as error:
@@ -74,8 +74,11 @@ def world_figure(
     level: int = 0,
     faint: bool = False,
     pixels: int = PIXELS,
+    shut: bool = True,
 ) -> tuple[Any, Any]:
     """A matplotlib figure of `pixels` width (or height) of a level, and its axes in metres; room for paths `truth`.
+
+    Doors are drawn open and, if `shut`, shut.
 
     Raises:
         InputError: matplotlib is missing.
@@ -91,7 +94,9 @@ def world_figure(
         if roadmap is not None and level in roadmap.level:
             _shade(axes, roadmap)
         _solids(axes, world.levels[level])
-        _lifts(axes, world, level)
+        _cabins(axes, world, level)
+        _doors(axes, world.levels[level].doors, _DOOR, shut=shut)
+        _doors(axes, _lift_doors(world, level), _LIFT, shut=shut)
         _lanes(axes, world, level)
         places = np.array([(v.x, v.y) for v in world.vertices if v.level == level]).reshape(-1, 2)
         _names(figure, axes, _labels(world, level), places, faint=faint)
@@ -122,6 +127,7 @@ def _bounds(world: World, truth: Float | None, level: int) -> tuple[Float, Float
     """Lower left and upper right corner of what is drawn, with a margin."""
     places = [(v.x, v.y) for v in world.vertices if v.level == level]
     points = [segments(world, level).reshape(-1, 2), np.array(places).reshape(-1, 2)]
+    points += [part for door in world.levels[level].doors for part in swept(door)]
     if truth is not None:
         points.append(truth[..., :2].reshape(-1, 2))
     everything = np.concatenate(points)
@@ -182,7 +188,7 @@ def _solids(axes: Any, level: Level) -> None:
         (rows, columns), size, (x, y) = level.occupancy.shape, level.occupancy.cell_size, level.occupancy.origin
         axes.imshow(
             np.ma.masked_equal(level.occupancy.blocked, 0),
-            cmap=ListedColormap([_WALL]),
+            cmap=ListedColormap([WALL]),
             origin="lower",
             extent=(x, x + columns * size, y, y + rows * size),
             interpolation="nearest",
@@ -191,38 +197,40 @@ def _solids(axes: Any, level: Level) -> None:
         )
     boxes = wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4)[:, :, :2]
     # a thin edge keeps walls visible on maps of hundreds of metres
-    axes.add_collection(PolyCollection(list(boxes), facecolor=_WALL, edgecolor=_WALL, linewidth=0.6, zorder=3))
+    axes.add_collection(PolyCollection(list(boxes), facecolor=WALL, edgecolor=WALL, linewidth=0.6, zorder=3))
     obstacles = [obstacle.polygon for obstacle in level.obstacles]
     axes.add_collection(PolyCollection(obstacles, facecolor="#b9a68c", edgecolor="#8d7b62", linewidth=0.6, zorder=2))
     holes = [hole.polygon for hole in level.holes]
-    axes.add_collection(PolyCollection(holes, facecolor="none", edgecolor=_WALL, hatch="xxx", linewidth=0.6, zorder=2))
-    _doors(axes, level.doors, _DOOR)
+    axes.add_collection(PolyCollection(holes, facecolor="none", edgecolor=WALL, hatch="xxx", linewidth=0.6, zorder=2))
 
 
-def _doors(axes: Any, doors: Sequence[Door], colour: str) -> None:
+def _doors(axes: Any, doors: Sequence[Door], colour: str, *, shut: bool) -> None:
     """Leaves where they are when shut and, thin, when open; what they sweep on hinges is tinted."""
     from matplotlib.collections import LineCollection, PolyCollection
 
     swings = [part for door in doors if "hinged" in door.motion for part in swept(door)]
     axes.add_collection(PolyCollection(swings, facecolor=colour, alpha=0.15, linewidth=0, zorder=1))
-    for opening, width in ((0.0, 1.8), (1.0, 0.6)):
+    for opening, width in ((0.0, 1.8), (1.0, 0.6)) if shut else ((1.0, 0.6),):
         lines = [line for door in doors for line in leaves(door, opening).reshape(-1, 2, 2)]
         axes.add_collection(LineCollection(lines, colors=colour, linewidths=width, capstyle="butt", zorder=3))
 
 
-def _lifts(axes: Any, world: World, level: int) -> None:
-    """Cabins that stop here, and the doors that open here."""
+def _cabins(axes: Any, world: World, level: int) -> None:
+    """Cabins that stop here."""
     from matplotlib.collections import PolyCollection
 
     cabins = [lift.corners for lift in world.lifts if level in lift.levels]
     axes.add_collection(PolyCollection(cabins, facecolor="#e9ddf0", edgecolor=_LIFT, linewidth=0.8, zorder=2))
-    doors = [
+
+
+def _lift_doors(world: World, level: int) -> list[Door]:
+    """Doors of lifts that open here."""
+    return [
         door
         for lift in world.lifts
         for door, levels in zip(lift.doors, lift.door_levels, strict=True)
         if level in levels
     ]
-    _doors(axes, doors, _LIFT)
 
 
 def _lanes(axes: Any, world: World, level: int) -> None:
@@ -243,35 +251,39 @@ def _lanes(axes: Any, world: World, level: int) -> None:
         axes.scatter(*zip(*point, strict=True), s=6, color="white", edgecolors=_LANE, linewidths=0.8, zorder=5)
 
 
-def _paths(axes: Any, fleet: Fleet | None, routes: Sequence[Route], truth: Float | None) -> None:
-    """Per robot: planned dashed, driven solid, start circle, goal star."""
+def _on_level(route: Route, level: int) -> Float:
+    """Waypoints f8[k,2], NaN on other levels."""
+    there: Float = np.where((route.level == level)[:, None], route.waypoint[:, :2], np.nan)
+    return there
+
+
+def _paths(axes: Any, fleet: Fleet | None, routes: Sequence[Float], truth: Float | None) -> None:
+    """Per robot: planned dashed, driven solid, start circle, goal star; NaN is elsewhere."""
     from matplotlib.patches import Circle
 
     robots = len(routes) if routes else (0 if truth is None else truth.shape[1])
     width = 1.6 if robots <= 20 else 0.9
     for robot in range(robots):
         colour = COLOURS[robot % len(COLOURS)]
-        planned = routes[robot].waypoint[:, :2] if routes else np.empty((0, 2))
+        planned = routes[robot] if routes else np.empty((0, 2))
         driven = np.empty((0, 2)) if truth is None else truth[:, robot, :2]
         if len(planned):
             axes.plot(*planned.T, "--", color=colour, linewidth=0.7 * width, alpha=0.7, zorder=6, dash_capstyle="round")
         if len(driven):
             axes.plot(*driven.T, "-", color=colour, linewidth=width, zorder=7, solid_joinstyle="round")
         start, goal = (planned if len(planned) else driven)[[0, -1]]
-        if fleet is not None:
+        if fleet is not None and np.isfinite(start).all():
             axes.add_patch(Circle(start, fleet.robots[robot].radius, facecolor=colour, alpha=0.25, zorder=7))
-        axes.plot(*start, "o", color=colour, markersize=9, markeredgecolor="white", markeredgewidth=0.8, zorder=8)
-        axes.plot(*goal, "*", color=colour, markersize=15, markeredgecolor="white", markeredgewidth=0.8, zorder=8)
-        for x, y in (start, goal):
-            style: dict[str, Any] = {
-                "color": "white",
-                "fontsize": 5.5,
-                "fontweight": "bold",
-                "ha": "center",
-                "va": "center_baseline",
-            }
-            axes.text(x, y, str(robot), zorder=9, **style)
+        for point, marker, size in ((start, "o", 9), (goal, "*", 15)):
+            if np.isfinite(point).all():
+                _mark(axes, point, marker, size, colour, str(robot))
     _legend(axes, bool(routes), truth is not None)
+
+
+def _mark(axes: Any, point: Float, marker: str, size: int, colour: str, text: str) -> None:
+    style: dict[str, Any] = {"ha": "center", "va": "center_baseline", "fontsize": 5.5, "fontweight": "bold"}
+    axes.plot(*point, marker, color=colour, markersize=size, markeredgecolor="white", markeredgewidth=0.8, zorder=8)
+    axes.text(*point, text, color="white", zorder=9, **style)
 
 
 def _legend(axes: Any, planned: bool, driven: bool) -> None:

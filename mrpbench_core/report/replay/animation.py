@@ -1,5 +1,6 @@
 """A run as a GIF of a few seconds, for papers and web pages."""
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -7,9 +8,11 @@ import numpy as np
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.doors import leaves
+from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.report.picture import COLOURS, world_figure
-from mrpbench_core.report.replay.motion import read_level
+from mrpbench_core.report.picture import COLOURS, WALL, world_figure
+from mrpbench_core.report.replay.motion import read_levels
 from mrpbench_core.store.recording import Recording
 
 PIXELS = 800
@@ -33,14 +36,16 @@ def write_gif(recording: Recording, file: Path) -> None:
         InputError: matplotlib is missing, nothing was recorded, or the file cannot be written.
     """
     context = recording.context()
-    times, poses, level = read_level(recording)
+    times, levels = read_levels(recording)
+    level, poses = next(iter(levels.items()))
     speed = max(1.0, (times[-1] - times[0]) / LENGTH_S)
     moments = np.arange(times[0], times[-1] + 1e-9, speed * FRAME_MS / 1000)
     if moments[-1] < times[-1]:
         moments = np.append(moments, times[-1])
-    figure, axes = world_figure(context.world, truth=poses, level=level, faint=True, pixels=PIXELS)
+    figure, axes = world_figure(context.world, truth=poses, level=level, faint=True, pixels=PIXELS, shut=False)
     frames = _Frames(figure, axes, context.fleet, len(poses[0]))
-    images = [frames.draw(poses, times, moment, f"{moment:.1f} s  ×{speed:.3g}") for moment in moments]
+    doors = _doors(recording, level)
+    images = [frames.draw(poses, times, moment, f"{moment:.1f} s  ×{speed:.3g}", doors) for moment in moments]
     shared = _share_palette(images)
     durations = [FRAME_MS] * (len(shared) - 1) + [HOLD_MS]
     try:
@@ -49,6 +54,22 @@ def write_gif(recording: Recording, file: Path) -> None:
         )
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror or error}", file=file) from None
+
+
+def _doors(recording: Recording, level: int) -> Callable[[int], list[Float]]:
+    """The leaves on a level at a sample, as lines f8[2,2]; where nothing was recorded of doors, none."""
+    facilities = Facilities(recording.context().world)
+    if "facility" not in recording.channels:
+        return lambda sample: []  # noqa: ARG005 - nobody knows
+    doing = recording.channel("facility")
+    here = [gate for gate in facilities.gates if level in gate.levels]
+
+    def at(sample: int) -> list[Float]:
+        state = dict(zip(facilities.names, doing[sample].tolist(), strict=True))
+        lines = [leaves(gate.door, facilities.opening(gate, state, level)) for gate in here]
+        return list(np.concatenate([np.empty((0, 4)), *lines]).reshape(-1, 2, 2))
+
+    return at
 
 
 def _share_palette(images: list[Any]) -> list[Any]:
@@ -79,23 +100,25 @@ class _Frames:
         self.bodies = PolyCollection(
             [], facecolors=colours, edgecolors="white", linewidths=0.4, zorder=9, animated=True
         )
+        self.leaves = LineCollection([], colors=WALL, linewidths=1.4, zorder=5, animated=True)
         self.noses = LineCollection([], colors="white", linewidths=1.0, zorder=10, animated=True)
         self.clock = axes.text(
             1, 1.01, "", transform=axes.transAxes, ha="right", va="bottom", fontsize=8, color="#51606e", animated=True
         )
-        for artist in (self.trails, self.bodies, self.noses):
+        for artist in (self.leaves, self.trails, self.bodies, self.noses):
             axes.add_collection(artist)
         canvas.draw()
         self.ground = canvas.copy_from_bbox(figure.bbox)
         metre = float(np.diff(axes.transData.transform([(0, 0), (1, 0)])[:, 0])[0])
         self.shapes = [robot.footprint * max(1.0, LEAST / (robot.radius * metre)) for robot in fleet.robots]
 
-    def draw(self, poses: Float, times: Float, moment: float, text: str) -> Any:
+    def draw(self, poses: Float, times: Float, moment: float, text: str, doors: Callable[[int], list[Float]]) -> Any:
         """The frame of a moment, as a Pillow image."""
         from PIL import Image
 
         sample = max(int(np.searchsorted(times, moment, side="right")) - 1, 0)
         now = poses[sample]
+        self.leaves.set_segments(doors(sample))
         self.trails.set_segments(list(poses[: sample + 1, :, :2].swapaxes(0, 1)))
         cos, sin = np.cos(now[:, 2]), np.sin(now[:, 2])
         turns = np.stack([np.stack([cos, sin], axis=1), np.stack([-sin, cos], axis=1)], axis=1)
@@ -107,6 +130,6 @@ class _Frames:
         self.noses.set_segments(list(np.stack([now[:, :2], tips], axis=1)))
         self.clock.set_text(text)
         self.canvas.restore_region(self.ground)
-        for artist in (self.trails, self.bodies, self.noses, self.clock):
+        for artist in (self.leaves, self.trails, self.bodies, self.noses, self.clock):
             self.axes.draw_artist(artist)
         return Image.fromarray(np.asarray(self.canvas.buffer_rgba())[..., :3].copy())

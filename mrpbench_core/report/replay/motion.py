@@ -11,7 +11,8 @@ ANGLE = 0.001
 """radians per step."""
 ASTRAY = 0.02
 """metres: estimates that are never further from the truth are not packed."""
-COUNTS = ("reached", "released", "mode", "level")
+COUNTS = {"reached": None, "released": None, "mode": None, "level": 0, "waits_for": -1}
+"""Channels of whole numbers, and the value that says nothing: a channel of it alone is not packed."""
 
 
 def read_poses(recording: Recording) -> tuple[Float, Float]:
@@ -26,14 +27,15 @@ def read_poses(recording: Recording) -> tuple[Float, Float]:
     return times, recording.channel(name)
 
 
-def read_level(recording: Recording) -> tuple[Float, Float, int]:
-    """As `read_poses`, on the level where the robots are most; poses elsewhere are NaN; and that level."""
+def read_levels(recording: Recording) -> tuple[Float, dict[int, Float]]:
+    """Times f8[T] and, for each level where robots were, where most are first, poses f8[T,n,3], NaN elsewhere."""
     times, poses = read_poses(recording)
     if "level" not in recording.channels:
-        return times, poses, 0
+        return times, {0: poses}
     levels = recording.channel("level")
-    level = int(np.bincount(levels.ravel()).argmax())
-    return times, np.where((levels == level)[..., None], poses, np.nan), level
+    count = np.bincount(levels.ravel())
+    visited = [level for level in np.argsort(-count, kind="stable").tolist() if count[level]]
+    return times, {level: np.where((levels == level)[..., None], poses, np.nan) for level in visited}
 
 
 def pack_motion(recording: Recording, packing: Packing) -> None:
@@ -45,8 +47,8 @@ def pack_motion(recording: Recording, packing: Packing) -> None:
         estimate = recording.channel("estimate")
         if np.nanmax(np.abs(estimate[..., :2] - poses[..., :2]), initial=0) > ASTRAY:
             _pack_poses(packing, "estimate_", estimate)
-    for name in COUNTS:
-        if name in recording.channels and (name != "level" or recording.channel(name).any()):
+    for name, nothing in COUNTS.items():
+        if name in recording.channels and (nothing is None or (recording.channel(name) != nothing).any()):
             packing.add(name, recording.channel(name).T)
 
 

@@ -11,6 +11,7 @@ from typing import Any
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.run import all_routes
 from mrpbench_core.report.replay.facts import facts_of
+from mrpbench_core.report.replay.gates import pack_facilities
 from mrpbench_core.report.replay.happenings import read_contacts, read_events
 from mrpbench_core.report.replay.motion import pack_motion
 from mrpbench_core.report.replay.packing import Packing
@@ -45,7 +46,9 @@ def write_page(
     thinned = pack_scans(recording, scans)
     data = {
         "facts": facts_of(record, columns or {}, planner),
-        "world": pack_world(context.world, motion),
+        "world": pack_world(context.world, motion)
+        | pack_facilities(recording, context.world, motion)
+        | {"resources": [resource.name for resource in context.problem.roadmap.resources]},
         "robots": pack_robots(context, motion, all_routes(recording.first_context().routes, recording.channels)),
         "events": read_events(recording, context),
         "contacts": read_contacts(recording),

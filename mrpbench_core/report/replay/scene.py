@@ -37,7 +37,6 @@ def _level(level: Level, number: int, packing: Packing) -> dict[str, Any]:
         "floors": [_points(area.polygon) for area in level.floors],
         "holes": [_points(area.polygon) for area in level.holes],
         "obstacles": [[obstacle.name, _points(obstacle.polygon)] for obstacle in level.obstacles],
-        "doors": [[door.name, [*map(_mm, (*door.start, *door.end))]] for door in level.doors],
     }
     if level.occupancy is not None:
         packing.add(f"blocked_{number}", level.occupancy.blocked)

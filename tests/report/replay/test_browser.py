@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from mrpbench_core.report.replay.page import write_page
+from mrpbench_core.testing.building import building
 
 webdriver = pytest.importorskip("selenium.webdriver", reason="the tests of the page in a browser need selenium")
 from selenium.webdriver.common.by import By  # noqa: E402
@@ -292,6 +293,43 @@ def test_the_plan_shown_is_the_one_of_that_time(show, chunk):
     assert ends == [["1.50", "2.50"], ["1.50", "2.50"], ["0.75", "1.50"], ["0.75", "1.50"], ["1.50", "2.50"]]
     assert ask(browser, "[0, 39].map((sample) => replay.run.segments(1, sample))") == [1, 0]
     assert ask(browser, "[0, 30].map((sample) => replay.run.state(1, sample))") == [0, 5]  # following, arrived
+
+
+def test_doors_open_cabins_ride_and_levels_count_their_robots(show, chunk, run_context):
+    two = building()
+    world = attrs.evolve(run_context.world, levels=two.levels, lifts=two.lifts)
+    facility = np.zeros((len(chunk["time"]), 3))  # the door, the lift's door, the cabin
+    facility[:, 0] = np.clip(chunk["time"] - 1, 0, 1)
+    facility[:, 1] = 1.0
+    facility[:, 2] = np.where(chunk["time"] < 2, 0.0, 3.0)
+    level = chunk["level"].copy()
+    level[20:, 1] = 1
+    waits = np.full((len(chunk["time"]), 2), -1, "i4")
+    browser = show(
+        chunk | {"facility": facility, "level": level, "waits_for": waits},
+        context=attrs.evolve(run_context, world=world),
+    )
+    seen = []
+    for now in (0.5, 1.5, 3.0):
+        browser.execute_script(f"replay.clock.seek({now})")
+        settle(browser)
+        seen.append(
+            [
+                round(ask(browser, "replay.facilities.opening(0, 0)"), 2),
+                [ask(browser, f"replay.facilities.opening(1, {number})") for number in (0, 1)],
+                ask(browser, "replay.facilities.level(0)"),
+                [button.text for button in browser.find_elements(By.CSS_SELECTOR, "#levels button")],
+            ]
+        )
+    assert seen == [
+        [0.0, [1, 0], 0, ["L2 · 0", "L1 · 2"]],
+        [0.5, [1, 0], 0, ["L2 · 0", "L1 · 2"]],
+        [1.0, [0, 1], 1, ["L2 · 1", "L1 · 1"]],
+    ]
+    before = pixels(browser)
+    browser.execute_script("replay.shown.set({ level: 1 })")
+    settle(browser)
+    assert pixels(browser) != before
 
 
 def test_dark_and_light_both_work(show, chunk, browser):

@@ -127,10 +127,11 @@ def test_every_part_of_a_world_is_there(store, chunk, record, run_context, tmp_p
         "floors": [triangle],
         "holes": [triangle],
         "obstacles": [["rack", triangle]],
-        "doors": [["gate", [0, 1, 1, 1]]],
         "raster": {"cell": 0.5, "origin": [1.0, -2.0]},
     }
     assert shown["levels"][1]["name"] == "L2"
+    slides = {"name": "gate", "levels": [0], "lift": -1, "opens_on": [], "leaves": [[0, 1, 1, 1, -1, 0, 0]]}
+    assert shown["gates"] == [slides]
     assert shown["lanes"] == [[0, 1, 1]]
     arrays = unpack(found["motion"][0]["data-layout"], found["motion"][1])
     assert arrays["blocked_0"].tolist() == [[1, 0, 0], [0, 0, 1]]

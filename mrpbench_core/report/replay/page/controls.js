@@ -29,7 +29,7 @@ export function layerControls(shown) {
   refresh();
 }
 
-/** Buttons for the levels of a building that has several. */
+/** Buttons for the levels of a building that has several, with the number of robots there; what is returned counts them. */
 export function levelControls(run, shown) {
   const box = document.getElementById("levels");
   const names = run.world.levels.map((level, number) => level.name || `Level ${number}`);
@@ -41,9 +41,20 @@ export function levelControls(run, shown) {
     return button;
   });
   box.append(...buttons.reverse());
-  const refresh = () => buttons.toReversed().forEach((button, level) => button.setAttribute("aria-pressed", String(level === shown.level)));
+  const refresh = () => {
+    const robots = new Array(names.length).fill(0);
+    for (let robot = 0; robot < run.count; robot++) robots[run.value("level", robot, 0)]++;
+    buttons.toReversed().forEach((button, level) => {
+      const text = `${names[level]} · ${robots[level]}`;
+      if (button.textContent !== text) button.textContent = text;
+      button.title = `Show level ${names[level]}, ${robots[level]} robots`;
+      button.setAttribute("aria-pressed", String(level === shown.level));
+    });
+  };
+  if (box.hidden) return () => {};
   shown.addEventListener("change", refresh);
   refresh();
+  return refresh;
 }
 
 /** What the colours of states mean; only states that occur. */

@@ -82,7 +82,7 @@ export class FleetPanel {
     const released = run.value("released", robot, reached);
     setText(this.title, run.names[robot]);
     this.followButton.setAttribute("aria-pressed", String(this.shown.follow));
-    setText(cells.state, STATES[run.state(robot)]);
+    setText(cells.state, run.doing(robot));
     setText(cells.speed, `${run.speed(robot).toFixed(2)} of ${run.model(robot).max_speed} m/s`);
     setText(cells.segments, `${reached} of ${run.segments(robot)} reached`);
     setText(cells.reserved, released > reached ? `${released - reached} ahead` : "none ahead");

@@ -1,4 +1,4 @@
-// What does not move: grid, walls, obstacles, doors, lanes, names. Drawn again only when the view changes.
+// What does not move: grid, walls, obstacles, lifts, lanes, names. Drawn again only when the view changes.
 
 import { decoded } from "replay/data.js";
 
@@ -79,7 +79,6 @@ export class Ground {
       context.fill(level.walls);
       context.stroke(level.walls);
     });
-    this.#drawDoors(context, view, theme, shown.level);
     if (shown.layers.lanes) {
       this.#drawArrows(context, view, theme, shown.level);
       this.#drawPlaces(context, view, theme, shown.level);
@@ -107,19 +106,6 @@ export class Ground {
     context.strokeStyle = theme.wall; // beyond its edge a raster is solid
     context.lineWidth = 2;
     context.strokeRect(area[0] - 1, area[1] - 1, area[2] + 2, area[3] + 2);
-  }
-
-  #drawDoors(context, view, theme, number) {
-    context.strokeStyle = theme.door;
-    context.lineWidth = Math.max(2, 0.06 * view.scale);
-    context.setLineDash([2, 3]);
-    context.beginPath();
-    for (const [, [x1, y1, x2, y2]] of this.run.world.levels[number].doors) {
-      context.moveTo(...view.toScreen(x1, y1));
-      context.lineTo(...view.toScreen(x2, y2));
-    }
-    context.stroke();
-    context.setLineDash([]);
   }
 
   /** Arrow heads in the middle of one-way lanes. */
@@ -163,8 +149,11 @@ export class Ground {
     context.strokeStyle = theme.paper;
     context.fillStyle = theme.name;
     const taken = [];
+    const written = new Set(); // one place of several lane graphs has its name once
     for (const [x, y, level, name] of this.run.world.vertices) {
-      if (!name || level !== number || taken.length >= MOST_NAMES) continue;
+      const place = `${x} ${y} ${name}`;
+      if (!name || level !== number || written.has(place) || taken.length >= MOST_NAMES) continue;
+      written.add(place);
       const [px, py] = view.toScreen(x, y);
       if (px < 0 || py < 0 || px > view.width || py > view.height) continue;
       const text = name.replaceAll("_", " ");

@@ -5,6 +5,7 @@ import { Clock, clockText, SPEEDS } from "replay/clock.js";
 import { coloursOf } from "replay/colours.js";
 import { layerControls, legend, levelControls, tabs } from "replay/controls.js";
 import { decoded, readArrays } from "replay/data.js";
+import { Facilities } from "replay/facilities.js";
 import { FleetPanel } from "replay/fleet.js";
 import { Ground } from "replay/ground.js";
 import { helpDialog, listenToKeys } from "replay/keys.js";
@@ -29,6 +30,7 @@ const clock = new Clock(run.begin, run.end);
 const shown = new Shown(run, Boolean(data.scans));
 const view = new View(boundsOf(run));
 const [ground, paths, robots] = [new Ground(run), new Paths(run), new Robots(run)];
+const facilities = new Facilities(run);
 const lidar = new Lidar(run, data.scans);
 const timeline = new Timeline(run, get("track"));
 const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
@@ -42,7 +44,7 @@ fillHeader(run);
 fillFigures(run);
 fillAbout(run, data.scans);
 layerControls(shown);
-levelControls(run, shown);
+const refreshLevels = levelControls(run, shown);
 legend(run);
 const fleet = new FleetPanel(run, shown, colours);
 const events = new EventPanel(run, ([time, , robot]) => {
@@ -101,6 +103,7 @@ function draw() {
   if (stale.ground) ground.draw(fitCanvas(get("ground")), view, theme, shown);
   const context = fitCanvas(get("actors"));
   context.clearRect(0, 0, view.width, view.height);
+  facilities.draw(context, view, theme, shown);
   paths.draw(context, view, shown, painted);
   if (shown.layers.lidar) lidar.draw(context, view, shown, painted);
   robots.draw(context, view, theme, shown, painted, calm.matches || !clock.playing);
@@ -111,7 +114,8 @@ function draw() {
 
 function follow() {
   if (!shown.follow || shown.selected < 0) return;
-  shown.level = run.value("level", shown.selected, shown.level);
+  const level = run.value("level", shown.selected, shown.level);
+  if (level !== shown.level) shown.set({ level });
   view.centre(run.pose.x[shown.selected], run.pose.y[shown.selected]);
   stale.ground = true;
 }
@@ -119,6 +123,7 @@ function follow() {
 function refreshPanel() {
   fleet.refresh();
   events.list.refresh();
+  refreshLevels();
   get("scrub").value = run.now;
   get("scrub").setAttribute("aria-valuetext", `${clockText(run.now)} of ${clockText(run.end)}`);
   stale.panel = false;
@@ -210,7 +215,7 @@ listenToPointers(get("actors"), {
   hover: (px, py) => {
     const robot = px < 0 ? -1 : robots.at(px, py, view, 3);
     get("actors").style.cursor = robot >= 0 ? "pointer" : "";
-    tip(robot >= 0 ? `${run.names[robot]}: ${STATES[run.state(robot)]}` : "", px, py);
+    tip(robot >= 0 ? `${run.names[robot]}: ${run.doing(robot)}` : "", px, py);
   },
 });
 
@@ -268,5 +273,5 @@ resize();
 requestAnimationFrame(frame);
 
 /** For the console and for tests. */
-window.replay = { run, clock, shown, view, robots, lidar };
+window.replay = { run, clock, shown, view, robots, lidar, facilities };
 document.body.classList.add("ready");

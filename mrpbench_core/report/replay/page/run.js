@@ -102,6 +102,13 @@ export class Run {
     return over && mode <= WAITING ? ARRIVED : mode;
   }
 
+  /** What a robot is doing, in words: its state, and which door, lift or mutex it waits for. */
+  doing(robot) {
+    const wanted = this.value("waits_for", robot, -1);
+    const state = STATES[this.state(robot)];
+    return wanted < 0 ? state : `${state} for ${this.world.resources[wanted]}`;
+  }
+
   /** Metres per second between the samples around now, of the robot's origin. */
   speed(robot) {
     if (this.samples < 2) return 0;

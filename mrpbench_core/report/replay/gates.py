@@ -1,0 +1,60 @@
+"""Doors and lifts, as the page moves them."""
+
+import math
+from typing import Any
+
+from mrpbench_core.model.doors import leaves
+from mrpbench_core.model.facilities import Facilities, Gate
+from mrpbench_core.model.world import Door, Lift, World
+from mrpbench_core.report.replay.packing import Packing
+from mrpbench_core.store.recording import Recording
+
+OPENING = 0.005
+"""Step of what doors and cabins do, shares or metres."""
+
+
+def pack_facilities(recording: Recording, world: World, packing: Packing) -> dict[str, Any]:
+    """What the page needs to draw doors and cabins; what they do is packed as `facility`, if it was recorded.
+
+    A leaf is `[x1, y1, x2, y2, dx, dy, turn]`: shut it is the line from 1 to 2; open it is moved by dx, dy metres and
+    turned by `turn` radians around 1; in between by a share of that.
+    """
+    facilities = Facilities(world)
+    if "facility" in recording.channels and facilities.names:
+        packing.add_metres("facility", recording.channel("facility").T, OPENING)
+    lifts = [lift.name for lift in world.lifts]
+    return {
+        "gates": [_gate(gate, lifts) for gate in facilities.gates],
+        "cabins": [_cabin(lift, facilities.heights[lift.name]) for lift in world.lifts],
+    }
+
+
+def _gate(gate: Gate, lifts: list[str]) -> dict[str, Any]:
+    return {
+        "name": gate.name,
+        "levels": list(gate.levels),
+        "lift": -1 if gate.lift is None else lifts.index(gate.lift.name),
+        "opens_on": list(gate.opens_on),
+        "leaves": _leaves(gate.door),
+    }
+
+
+def _leaves(door: Door) -> list[list[float]]:
+    """How each leaf lies and moves; hinged ones turn at their first point, the others slide."""
+    found = []
+    hinged = "hinged" in door.motion
+    for index, (shut, open_) in enumerate(zip(leaves(door, 0.0), leaves(door, 1.0), strict=True)):
+        way = [0.0, 0.0] if hinged else (open_ - shut)[:2].tolist()
+        opposite = door.motion == "double_hinged" and index == 1
+        turn = math.radians(door.motion_degrees) * door.motion_direction * (-1 if opposite else 1) if hinged else 0.0
+        found.append([round(float(value), 4) for value in (*shut.tolist(), *way, turn)])
+    return found
+
+
+def _cabin(lift: Lift, heights: dict[int, float]) -> dict[str, Any]:
+    return {
+        "name": lift.name,
+        "x": round(lift.x, 3),
+        "y": round(lift.y, 3),
+        "stops": [[level, round(height, 3)] for level, height in heights.items()],
+    }
