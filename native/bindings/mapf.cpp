@@ -164,6 +164,7 @@ struct Answer {
     values["bypasses"] = it.bypasses;
     values["pair_expansions"] = it.pair_expansions;
     values["memory_bytes"] = it.memory_bytes;
+    values["assignments"] = it.assignments;
     values["restarts"] = it.restarts;
     values["failed_robot"] = it.failed_robot;
     return values;
@@ -206,9 +207,16 @@ Answer prioritized(const Instance& instance, const std::string& order, int resta
   return {instance, solve_prioritized(instance, options, limits)};
 }
 
-Answer cbs(const Instance& instance, bool prioritize, bool bypass, bool heuristic, bool target, bool corridor,
-           bool rectangle, double wall_s, std::int64_t memory_bytes) {
-  const CbsOptions options{.prioritize = prioritize,
+GoalChoice goal_choice_of(const std::string& name) {
+  static const std::map<std::string, GoalChoice> choices{
+      {"own", GoalChoice::own}, {"ranked", GoalChoice::ranked}, {"by_node", GoalChoice::by_node}};
+  return choose(choices, name);
+}
+
+Answer cbs(const Instance& instance, const std::string& goal_choice, bool prioritize, bool bypass, bool heuristic,
+           bool target, bool corridor, bool rectangle, double wall_s, std::int64_t memory_bytes) {
+  const CbsOptions options{.goals = goal_choice_of(goal_choice),
+                           .prioritize = prioritize,
                            .bypass = bypass,
                            .heuristic = heuristic,
                            .target = target,
@@ -219,15 +227,16 @@ Answer cbs(const Instance& instance, bool prioritize, bool bypass, bool heuristi
   return {instance, solve_cbs(instance, options, limits)};
 }
 
-Answer bounded_cbs(const Instance& instance, const std::string& selection, double w, bool prioritize, bool bypass,
-                   bool heuristic, bool target, bool corridor, bool rectangle, bool flex, double distance_weight,
-                   double conflict_weight, double wall_s, std::int64_t memory_bytes) {
+Answer bounded_cbs(const Instance& instance, const std::string& goal_choice, const std::string& selection, double w,
+                   bool prioritize, bool bypass, bool heuristic, bool target, bool corridor, bool rectangle, bool flex,
+                   double distance_weight, double conflict_weight, double wall_s, std::int64_t memory_bytes) {
   static const std::map<std::string, Selection> choices{{"focal", Selection::focal},
                                                         {"explicit_estimation", Selection::explicit_estimation}};
   if (!(w >= 1.0 && w < 1e9)) throw std::invalid_argument("w is at least 1");
   const BoundedOptions options{.w = w,
                                .selection = choose(choices, selection),
-                               .techniques = {.prioritize = prioritize,
+                               .techniques = {.goals = goal_choice_of(goal_choice),
+                                              .prioritize = prioritize,
                                               .bypass = bypass,
                                               .heuristic = heuristic,
                                               .target = target,
@@ -318,12 +327,15 @@ NB_MODULE(mapf, module) {
              "Every robot alone: shortest paths that may conflict.");
   module.def("prioritized", &prioritized, "instance"_a, nb::kw_only(), "order"_a, "restarts"_a, "seed"_a, "wall_s"_a,
              "memory_bytes"_a, "One robot after another by safe interval path planning.");
-  module.def("cbs", &cbs, "instance"_a, nb::kw_only(), "prioritize"_a = true, "bypass"_a = true, "heuristic"_a = true,
-             "target"_a = true, "corridor"_a = true, "rectangle"_a = true, "wall_s"_a, "memory_bytes"_a,
-             "The least sum of arrival times, by conflict-based search.");
-  module.def("bounded_cbs", &bounded_cbs, "instance"_a, nb::kw_only(), "selection"_a, "w"_a, "prioritize"_a, "bypass"_a,
-             "heuristic"_a, "target"_a, "corridor"_a, "rectangle"_a, "flex"_a, "distance_weight"_a, "conflict_weight"_a,
-             "wall_s"_a, "memory_bytes"_a,
+  module.def(
+      "cbs", &cbs, "instance"_a, nb::kw_only(), "goal_choice"_a = "own", "prioritize"_a = true, "bypass"_a = true,
+      "heuristic"_a = true, "target"_a = true, "corridor"_a = true, "rectangle"_a = true, "wall_s"_a, "memory_bytes"_a,
+      "The least sum of arrival times, by conflict-based search. goal_choice: own (each robot takes any of its), "
+      "ranked "
+      "or by_node (all take different ones, by trees for the cheapest assignments or by an assignment in each node).");
+  module.def("bounded_cbs", &bounded_cbs, "instance"_a, nb::kw_only(), "goal_choice"_a = "own", "selection"_a, "w"_a,
+             "prioritize"_a, "bypass"_a, "heuristic"_a, "target"_a, "corridor"_a, "rectangle"_a, "flex"_a,
+             "distance_weight"_a, "conflict_weight"_a, "wall_s"_a, "memory_bytes"_a,
              "At most w times the least sum of arrival times, by bounded-suboptimal conflict-based search.");
   module.def("pbs", &pbs, "instance"_a, nb::kw_only(), "wall_s"_a, "memory_bytes"_a,
              "One robot after another, by a search over who comes before whom.");

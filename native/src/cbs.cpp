@@ -19,9 +19,17 @@ void solve(const Instance& instance, const CbsOptions& options, Limits& limits, 
   if (const auto robot = find_hopeless(bench)) return unsolvable(result, *robot);
   result.lower_bound = static_cast<double>(bench.distances.sum_of_costs(instance));
   std::optional<Dependencies> dependencies;
-  if (options.heuristic) dependencies.emplace(bench);
+  if (options.heuristic && options.goals != GoalChoice::by_node) dependencies.emplace(bench);
   ConstraintTree tree(bench, dependencies ? &*dependencies : nullptr);
-  if (const auto robot = tree.start()) return unsolvable(result, *robot);
+  std::optional<RankedGoals> ranked;
+  std::optional<NodeAssignment> assignment;
+  if (options.goals == GoalChoice::own) {
+    if (const auto robot = tree.start()) return unsolvable(result, *robot);
+  } else if (options.goals == GoalChoice::ranked) {
+    tree.start(ranked.emplace(find_candidates(bench), limits));
+  } else if (!tree.start(assignment.emplace(find_candidates(bench), limits))) {
+    return unsolvable(result, -1);
+  }
   try {
     const auto outcome = tree.run(std::numeric_limits<std::int64_t>::max());
     result.status = outcome == ConstraintTree::Outcome::solved ? Status::solved : Status::unsolvable;
@@ -34,6 +42,8 @@ void solve(const Instance& instance, const CbsOptions& options, Limits& limits, 
   result.statistics.expansions = tree.counts().expansions;
   result.statistics.generated = tree.counts().generated;
   result.statistics.bypasses = tree.counts().bypasses;
+  if (ranked) result.statistics.assignments = tree.counts().roots;
+  if (assignment) result.statistics.assignments = 1 + assignment->changes();
   if (dependencies) result.statistics.pair_expansions = dependencies->counts().expansions;
   if (result.status != Status::solved) return;
   for (int robot = 0; robot < instance.size(); ++robot) {

@@ -17,7 +17,7 @@ struct Root {
         reasoning(bench, constraints) {
     for (int robot = 0; robot < instance.size(); ++robot) {
       FoundPath path;
-      CHECK(bench.plan(situation, robot, {}, nullptr, path));
+      CHECK(bench.plan(situation, robot, TimedPath::kAnyGoal, {}, nullptr, path));
       situation.set_path(robot, paths.keep(path));
     }
     AvoidanceTable present(bench.space, limits);

@@ -7,7 +7,8 @@
 
 namespace mrpbench::mapf {
 
-/// The solution with the least sum of arrival times among those in which every edge is crossed in its duration.
+/// The solution with the least sum of arrival times among those in which every edge is crossed in its duration; over
+/// all assignments of robots to different goals if `options.goals` says so.
 Result solve_cbs(const Instance& instance, const CbsOptions& options, Limits& limits);
 
 }  // namespace mrpbench::mapf

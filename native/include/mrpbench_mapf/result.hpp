@@ -17,6 +17,7 @@ struct Statistics {
   std::int64_t low_level_generated = 0;
   std::int64_t bypasses = 0;         // conflicts that were bypassed instead of branched on
   std::int64_t pair_expansions = 0;  // nodes of upper searches for two robots, made for a lower bound
+  std::int64_t assignments = 0;      // of robots to goals that were tried, if the solver assigns
   std::int64_t restarts = 0;         // further priority orders that were tried
   std::int64_t memory_bytes = 0;     // that the solver counted
   int failed_robot = -1;             // the robot for which no path was found, -1 = none

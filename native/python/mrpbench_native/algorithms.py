@@ -5,41 +5,42 @@ from typing import Any
 
 from mrpbench_native import mapf
 
+_FOCAL: dict[str, Any] = {
+    "selection": "focal",
+    "w": 1.2,
+    "prioritize": False,
+    "bypass": False,
+    "heuristic": False,
+    "target": False,
+    "corridor": False,
+    "rectangle": False,
+    "flex": False,
+    "distance_weight": 1.0,
+    "conflict_weight": 0.0,
+}
+_EXPLICIT_ESTIMATION: dict[str, Any] = {
+    "selection": "explicit_estimation",
+    "w": 1.2,
+    "prioritize": True,
+    "bypass": True,
+    "heuristic": True,
+    "target": True,
+    "corridor": True,
+    "rectangle": True,
+    "flex": False,
+    "distance_weight": 1.2,
+    "conflict_weight": 20.0,
+}
+
 ALGORITHMS: Mapping[str, tuple[Callable[..., mapf.Answer], dict[str, Any]]] = {
     "astar": (mapf.astar, {"heuristic": "exact"}),
     "cbs": (mapf.cbs, {}),
-    "ecbs": (
-        mapf.bounded_cbs,
-        {
-            "selection": "focal",
-            "w": 1.2,
-            "prioritize": False,
-            "bypass": False,
-            "heuristic": False,
-            "target": False,
-            "corridor": False,
-            "rectangle": False,
-            "flex": False,
-            "distance_weight": 1.0,
-            "conflict_weight": 0.0,
-        },
-    ),
-    "eecbs": (
-        mapf.bounded_cbs,
-        {
-            "selection": "explicit_estimation",
-            "w": 1.2,
-            "prioritize": True,
-            "bypass": True,
-            "heuristic": True,
-            "target": True,
-            "corridor": True,
-            "rectangle": True,
-            "flex": False,
-            "distance_weight": 1.2,
-            "conflict_weight": 20.0,
-        },
-    ),
+    "cbs_ta": (mapf.cbs, {"goal_choice": "ranked"}),
+    "ecbs": (mapf.bounded_cbs, _FOCAL),
+    "ecbs_ta": (mapf.bounded_cbs, _EXPLICIT_ESTIMATION | {"goal_choice": "ranked"}),
+    "eecbs": (mapf.bounded_cbs, _EXPLICIT_ESTIMATION),
+    "ita_cbs": (mapf.cbs, {"goal_choice": "by_node"}),
+    "ita_ecbs": (mapf.bounded_cbs, _EXPLICIT_ESTIMATION | {"goal_choice": "by_node"}),
     "lacam": (
         mapf.lacam,
         {"objective": "flowtime", "swap": True, "star": True, "neighbourhoods": True, "iterations": None, "seed": 0},

@@ -91,6 +91,7 @@ def prioritized(
 def cbs(
     instance: Instance,
     *,
+    goal_choice: str = "own",
     prioritize: bool = True,
     bypass: bool = True,
     heuristic: bool = True,
@@ -100,11 +101,13 @@ def cbs(
     wall_s: float,
     memory_bytes: int,
 ) -> Answer:
-    """The least sum of arrival times, by conflict-based search."""
+    """The least sum of arrival times, by conflict-based search. goal_choice: own (each robot takes any of its), ranked
+    or by_node (all take different ones, by trees for the cheapest assignments or by an assignment in each node)."""
 
 def bounded_cbs(
     instance: Instance,
     *,
+    goal_choice: str = "own",
     selection: str,
     w: float,
     prioritize: bool,

@@ -27,14 +27,14 @@ BoundedTree::BoundedTree(Workbench& bench, const BoundedOptions& options, Result
       current_(robots_) {}
 
 void BoundedTree::solve() {
-  if (const std::optional<int> robot = plan_root()) {
-    result_.statistics.failed_robot = *robot;
-    result_.status = Status::unsolvable;
-    return;
-  }
+  start();
   while (!queue_.empty()) {
     result_.lower_bound = std::max(result_.lower_bound, static_cast<double>(queue_.least()));
     const std::int32_t id = queue_.pop();
+    if (by_id_[id] == nullptr) {
+      make_ranked_root();
+      continue;
+    }
     Node& node = *by_id_[id];
     visit(node);
     if (node.conflicts.empty()) return finish();
@@ -44,24 +44,6 @@ void BoundedTree::solve() {
   result_.status = Status::unsolvable;  // the tree is exhausted
 }
 
-/// Plan every robot without constraints; the robot that has no path, or nothing.
-std::optional<int> BoundedTree::plan_root() {
-  Child root;
-  for (int robot = 0; robot < robots_; ++robot) {
-    bench_.table.reset(robot);
-    present_.refresh();
-    const Tick least = search_.search(bench_.table, bench_.distances[robot], present_, {options_.w}, 0, path_);
-    if (least == kForever) return robot;
-    replace({robot, least, paths_.keep(path_)});
-    find_conflicts(robot, current_[robot].path, root.conflicts);
-    root.cost += path_.cost;
-    root.least += least;
-  }
-  root_ = current_;
-  push(nullptr, root);
-  return std::nullopt;
-}
-
 void BoundedTree::finish() {
   for (const Plan& plan : current_) result_.paths.push_back(occupations(bench_.space, plan.robot, plan.path));
   result_.status = Status::solved;
@@ -69,7 +51,7 @@ void BoundedTree::finish() {
 
 void BoundedTree::push(const Node* parent, const Child& child) {
   Node& node = nodes_.copy({parent, child.constraints, plans_.copy(child.plans), conflict_lists_.copy(child.conflicts),
-                            child.cost, child.least});
+                            child.cost, child.least, 0, false, child.assignment});
   if (parent != nullptr) node.heuristic = std::max<Cost>(0, parent->least + parent->heuristic - node.least);
   by_id_.push_back(&node);
   enqueue(static_cast<std::int32_t>(by_id_.size()) - 1);
@@ -86,8 +68,8 @@ void BoundedTree::enqueue(std::int32_t id) {
 
 /// Make the paths and constraints of `node` the present ones.
 void BoundedTree::visit(const Node& node) {
-  wanted_ = root_;
-  later_.assign(wanted_.size(), false);
+  wanted_.resize(robots_);
+  later_.assign(robots_, false);
   situation_.clear_constraints();
   for (const Node* it = &node; it != nullptr; it = it->parent) {
     for (const Constraint& constraint : it->constraints) situation_.add(constraint);
@@ -97,6 +79,7 @@ void BoundedTree::visit(const Node& node) {
     }
   }
   for (const Plan& plan : wanted_) replace(plan);
+  take_up(node);
 }
 
 void BoundedTree::replace(const Plan& plan) {
@@ -112,7 +95,7 @@ void BoundedTree::replace(const Plan& plan) {
 /// Find out what pairs of robots add to the lower bound of the node at hand; is it then out of turn, or no good at all?
 bool BoundedTree::postpone(std::int32_t id) {
   Node& node = *by_id_[id];
-  if (!options_.techniques.heuristic || node.evaluated) return false;
+  if (!options_.techniques.heuristic || assignment_ || node.evaluated) return false;
   node.evaluated = true;
   const Cost before = node.least + node.heuristic;
   for (const Conflict* conflict : node.conflicts) {
@@ -140,7 +123,7 @@ void BoundedTree::expand(Node& node) {
     if (!bypassed) return branch_into_children(node);
     ++result_.statistics.bypasses;
   } while (!node.conflicts.empty());
-  push(&node, {true, node.cost, node.least, {}, {}, {}});
+  push(&node, {true, node.cost, node.least, {}, {}, {}, node.assignment});
 }
 
 /// Of the conflicts of `node` the one that raises the lower bound most surely, or just the first.
@@ -166,8 +149,9 @@ void BoundedTree::examine(Node& node, Conflict& conflict) {
   reasoning_.examine(situation_, conflict);
 }
 
-/// Let `node` know what the cheapest path of `robot` costs.
+/// Let `node` know what the cheapest path of `robot` costs; unless it might then go elsewhere.
 void BoundedTree::tighten(Node& node, int robot) {
+  if (assignment_) return;
   const Tick least = bench_.least_cost(situation_, robot);
   Plan plan = current_[robot];
   if (least <= plan.least) return;
@@ -200,39 +184,93 @@ void BoundedTree::branch_into_children(const Node& node) {
 
 /// Replan all robots whose present paths break the constraints of `child`.
 void BoundedTree::plan_child(const Node& parent, Child& child) {
-  child.possible = true;
   child.cost = parent.cost;
   child.least = parent.least;
   child.plans.clear();
   child.conflicts.assign(parent.conflicts.begin(), parent.conflicts.end());
   before_.clear();
-  for (int robot = 0; robot < robots_ && child.possible; ++robot) {
-    const Plan old = current_[robot];
-    if (!breaks(bench_.space, robot, old.path, child.constraints)) continue;
-    child.possible = replan(child, old);
-    if (child.possible) before_.push_back(old);
+  pending_.clear();
+  for (int robot = 0; robot < robots_; ++robot) {
+    if (breaks(bench_.space, robot, current_[robot].path, child.constraints)) pending_.push_back(robot);
   }
+  child.possible = replan(child);
   for (const Plan& old : before_) replace(old);
+  take_up(parent);
 }
 
-bool BoundedTree::replan(Child& child, const Plan& old) {
-  CostBound bound{options_.w};
-  if (options_.flex) bound = {options_.w, child.least - old.least, child.cost - old.path.cost};
-  situation_.load(old.robot, bench_.table);
-  bench_.table.add(child.constraints);
-  present_.remove(old.robot);
-  present_.refresh();
-  const Tick least = search_.search(bench_.table, bench_.distances[old.robot], present_, bound, old.least, path_);
-  present_.add(old.robot, old.path);
-  if (least == kForever) return false;
-  const Plan plan{old.robot, least, paths_.keep(path_)};
-  replace(plan);
-  std::erase_if(child.conflicts, [&](const Conflict* it) { return it->one == old.robot || it->other == old.robot; });
-  find_conflicts(plan.robot, plan.path, child.conflicts);
-  child.plans.push_back(plan);
-  child.cost += plan.path.cost - old.path.cost;
-  child.least += least - old.least;
+/// New paths for the robots in `pending_`, and for those that get other goals by that; false if one has none.
+bool BoundedTree::replan(Child& child) {
+  for (std::size_t k = 0; k < pending_.size(); ++k) {
+    const int robot = failed_ = pending_[k];
+    const int goal = goal_of(robot);
+    if (is_settled(robot, goal, child)) continue;
+    const Plan old = current_[robot];
+    CostBound bound{options_.w};
+    if (options_.flex) bound = {options_.w, child.least - old.least, child.cost - old.path.cost};
+    situation_.load(robot, goal, bench_.table);
+    bench_.table.add(child.constraints);
+    present_.remove(robot);
+    present_.refresh();
+    const Tick known = assignment_ ? assignment_->bound(robot) : old.least;
+    const Tick least =
+        search_.search(bench_.table, bench_.distance_to_goal(robot, goal), present_, bound, known, path_);
+    present_.add(robot, old.path);
+    if (assignment_) {
+      if (!assignment_->raise(robot, least, [&](int other) { ask_for(other, k + 1); })) return false;
+      if (goal_of(robot) != goal) continue;
+    } else if (least == kForever) {
+      return false;
+    }
+    keep(child, {robot, least, paths_.keep(path_)});
+  }
+  if (assignment_) {
+    child.least = assignment_->sum();
+    child.assignment = assignment_->keep();
+    result_.statistics.assignments = 1 + assignment_->changes();
+  }
   return true;
+}
+
+int BoundedTree::goal_of(int robot) const {
+  if (assignment_) return assignment_->goal(robot);
+  const TimedPath& path = current_[robot].path;
+  return path.empty() ? root_goals_[robot] : path.goal;
+}
+
+/// Is there nothing to be done, though its goal may have changed meanwhile?
+bool BoundedTree::is_settled(int robot, int goal, const Child& child) const {
+  const TimedPath& path = current_[robot].path;
+  if (path.empty() || path.goal != goal) return false;
+  const bool changed = std::ranges::find(child.plans, robot, &Plan::robot) != child.plans.end();
+  return changed || !breaks(bench_.space, robot, path, child.constraints);
+}
+
+/// Let `robot` be among the pending ones from number `asked` on.
+void BoundedTree::ask_for(int robot, std::size_t asked) {
+  const auto ahead = std::span(pending_).subspan(asked);
+  if (std::ranges::find(ahead, robot) == ahead.end()) pending_.push_back(robot);
+}
+
+/// Give a robot a new path in the node being made.
+void BoundedTree::keep(Child& child, const Plan& plan) {
+  const Plan old = current_[plan.robot];
+  const auto place = std::ranges::find(child.plans, plan.robot, &Plan::robot);
+  if (place != child.plans.end()) {
+    *place = plan;
+  } else {
+    before_.push_back(old);
+    child.plans.push_back(plan);
+  }
+  replace(plan);
+  std::erase_if(child.conflicts, [&](const Conflict* it) { return it->one == plan.robot || it->other == plan.robot; });
+  find_conflicts(plan.robot, plan.path, child.conflicts);
+  child.cost += plan.path.cost - old.path.cost;
+  child.least += plan.least - old.least;
+}
+
+/// Make the assignment that of `node`, whose paths are present.
+void BoundedTree::take_up(const Node& node) {
+  if (assignment_) assignment_->restore(*node.assignment, [&](int robot) { return current_[robot].path.goal; });
 }
 
 void BoundedTree::find_conflicts(int robot, const TimedPath& path, std::vector<Conflict*>& conflicts) {
@@ -249,6 +287,10 @@ bool BoundedTree::bypass(Node& node, const Child& child) {
   if (!options_.flex && std::ranges::any_of(child.plans, [&](const Plan& plan) {
         return plan.path.cost > CostBound{options_.w}(current_[plan.robot].least);
       })) {
+    return false;
+  }
+  // Another assignment has another lower bound.
+  if (std::ranges::any_of(child.plans, [&](const Plan& it) { return it.path.goal != current_[it.robot].path.goal; })) {
     return false;
   }
   for (Plan plan : child.plans) {

@@ -17,6 +17,7 @@ FocalSearch::FocalSearch(const Space& space, const BoundedOptions& options, Limi
 Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable& others,
                          const CostBound& bound, Tick known, FoundPath& path) {
   table_ = &table;
+  path.goal = table.goal();
   distance_ = &distance;
   others_ = &others;
   const Beginning& beginning = space_.instance().beginning(table.robot());
@@ -131,6 +132,7 @@ void FocalSearch::find_detours() {
     std::ranges::push_heap(open, std::greater{});
   };
   for (const int goal : space_.instance().robots()[table_->robot()].goals) {
+    if (table_->goal() != TimedPath::kAnyGoal && table_->goal() != goal) continue;
     if (table_->earliest_finish(goal) < kForever) reach(goal, 0);
   }
   while (!open.empty()) {

@@ -9,10 +9,11 @@ ConstraintTable::ConstraintTable(const Space& space, Limits& limits) : space_(sp
   head_.assign(space.vertex_count(), -1);
 }
 
-void ConstraintTable::reset(int robot) {
+void ConstraintTable::reset(int robot, int goal) {
   robot_ = robot;
+  goal_ = goal;
   settled_ = 0;
-  finish_after_ = -1;
+  finish_at_ = TimedPath::kAnyGoal;
   latest_finish_ = kForever;
   for (const std::int32_t vertex : touched_) head_[vertex] = -1;
   touched_.clear();
@@ -27,12 +28,11 @@ void ConstraintTable::add(const Constraint& constraint) {
       if (mine) forbid(constraint.element, constraint.range);
       break;
     case Constraint::Kind::finish_after:
-      if (!mine) break;
-      finish_after_ = std::max(finish_after_, constraint.range.first);
-      settled_ = std::max(settled_, finish_after_ + 1);
+      if (mine) forbid_finishing(constraint.element, constraint.range.first);
       break;
     case Constraint::Kind::finish_by:
       if (mine) {
+        finish_at_ = constraint.element;
         latest_finish_ = std::min(latest_finish_, constraint.range.first);
       } else {
         keep_clear(constraint);
@@ -44,13 +44,23 @@ void ConstraintTable::add(const Constraint& constraint) {
 void ConstraintTable::forbid(int element, Range range) {
   const int vertices = space_.vertex_count();
   const bool is_vertex = element < vertices;
-  std::int32_t& head = head_[is_vertex ? element : space_.instance().roadmap().tail(element - vertices)];
-  if (head < 0) touched_.push_back(static_cast<std::int32_t>(&head - head_.data()));
-  entries_.push_back({is_vertex ? -1 : element - vertices, range, head});
-  head = static_cast<std::int32_t>(entries_.size()) - 1;
+  const int edge = element - vertices;
+  enter(is_vertex ? element : space_.instance().roadmap().tail(edge), {is_vertex ? kVertex : edge, range, -1});
   const std::int32_t forever = is_vertex ? kForeverHalf : kForever;
   const std::int32_t change = range.last >= forever ? range.first : range.last + 1;
   settled_ = std::max(settled_, is_vertex ? (change + 1) / 2 : change);
+}
+
+void ConstraintTable::forbid_finishing(int vertex, Tick until) {
+  enter(vertex, {kFinish, {0, until}, -1});
+  if (until < kForever) settled_ = std::max(settled_, until + 1);
+}
+
+void ConstraintTable::enter(int vertex, const Entry& entry) {
+  std::int32_t& head = head_[vertex];
+  if (head < 0) touched_.push_back(vertex);
+  entries_.push_back({entry.edge, entry.range, head});
+  head = static_cast<std::int32_t>(entries_.size()) - 1;
   limits_.charge_growth(counted_, entries_.capacity() * sizeof(Entry));
 }
 
@@ -75,7 +85,7 @@ void ConstraintTable::keep_clear(const Constraint& parked) {
 bool ConstraintTable::forbids_beginning() const {
   for (const Occupation& it : space_.instance().beginning(robot_).occupied) {
     if (it.element < space_.vertex_count()) {
-      if (blocked(it.element, -1, it.begin, it.end)) return true;
+      if (blocked(it.element, kVertex, it.begin, it.end)) return true;
     } else {
       const int edge = it.element - space_.vertex_count();
       if (forbids_entering(space_.instance().roadmap().tail(edge), edge, enter_tick(it))) return true;
@@ -85,17 +95,24 @@ bool ConstraintTable::forbids_beginning() const {
 }
 
 Tick ConstraintTable::earliest_finish(int vertex) const {
-  Tick earliest = finish_after_ + 1;
-  if (space_.instance().rules().disappear_at_goal) return earliest;
+  if (finish_at_ != TimedPath::kAnyGoal && finish_at_ != vertex) return kForever;
+  const bool stays = !space_.instance().rules().disappear_at_goal;
+  Tick earliest = 0;
   for (std::int32_t k = head_[vertex]; k >= 0; k = entries_[k].next) {
-    if (entries_[k].edge >= 0) continue;
-    if (entries_[k].range.last >= kForeverHalf) return kForever;
-    earliest = std::max(earliest, entries_[k].range.last / 2 + 1);
+    const auto& [edge, range, next] = entries_[k];
+    if (edge == kFinish) {
+      if (range.last >= kForever) return kForever;
+      earliest = std::max(earliest, range.last + 1);
+    } else if (edge == kVertex && stays) {
+      if (range.last >= kForeverHalf) return kForever;
+      earliest = std::max(earliest, range.last / 2 + 1);
+    }
   }
   return earliest;
 }
 
 Tick ConstraintTable::earliest_finish() const {
+  if (goal_ != TimedPath::kAnyGoal) return earliest_finish(goal_);
   Tick earliest = kForever;
   for (const int goal : space_.instance().robots()[robot_].goals) earliest = std::min(earliest, earliest_finish(goal));
   return earliest;

@@ -22,18 +22,6 @@ ConstraintTree::ConstraintTree(Workbench& bench, Dependencies* dependencies)
       later_(bench.space.instance().size()),
       before_(bench.space.instance().size()) {}
 
-std::optional<int> ConstraintTree::start() {
-  clear();
-  Node root{};
-  for (int robot = 0; robot < bench_.space.instance().size(); ++robot) {
-    if (!bench_.plan(situation_, robot, {}, &others_, path_)) return robot;
-    begin_with(robot, paths_.keep(path_));
-    root.cost += path_.cost;
-  }
-  push(complete(root));
-  return std::nullopt;
-}
-
 void ConstraintTree::start(const Situation& situation, int one, int other) {
   clear();
   Node root{};
@@ -53,7 +41,7 @@ void ConstraintTree::start(const Situation& situation, int one, int other) {
 
 TimedPath ConstraintTree::cheapest_path(const Situation& situation, int robot) {
   if (situation.path(robot).cost <= situation.least(robot)) return situation.path(robot);
-  bench_.plan(situation, robot, {}, nullptr, path_);
+  bench_.plan(situation, robot, situation.path(robot).goal, {}, nullptr, path_);
   return paths_.keep(path_);
 }
 
@@ -69,6 +57,8 @@ void ConstraintTree::clear() {
   changed_.clear();
   situation_.clear_constraints();
   lower_bound_ = 0;
+  assignment_ = nullptr;
+  ranked_ = nullptr;
 }
 
 ConstraintTree::Outcome ConstraintTree::run(std::int64_t expansions) {
@@ -77,6 +67,7 @@ ConstraintTree::Outcome ConstraintTree::run(std::int64_t expansions) {
     Node* node = open_.back().node;
     lower_bound_ = std::max(lower_bound_, open_.back().f);
     open_.pop_back();
+    if (node == nullptr) make_ranked_root();
     while (node != nullptr) {
       gather(*node);
       if (present_.empty()) return Outcome::solved;
@@ -113,6 +104,7 @@ void ConstraintTree::gather(const Node& node) {
     }
   }
   others_.refresh();
+  take_up(node);
 }
 
 /// Find out what the node at hand must still cost; is it then no longer the best, or no good at all?
@@ -137,6 +129,7 @@ ConstraintTree::Node* ConstraintTree::expand(Node& node) {
     Node* it = children[side];
     if (it != nullptr && bench_.options.bypass && it->cost == node.cost && it->conflict_count < node.conflict_count) {
       it->constraints = {};
+      it->assignment = node.assignment;
       it->heuristic = node.heuristic;
       it->evaluated = node.evaluated;
       ++counts_.bypasses;
@@ -165,9 +158,13 @@ const Conflict& ConstraintTree::choose() {
 /// The node in which `constraints` are kept as well, or null if there is none.
 ConstraintTree::Node* ConstraintTree::child(const Node& parent, std::span<const Constraint> constraints) {
   changed_.clear();
+  pending_.clear();
+  for (const int robot : robots_) {
+    if (breaks(bench_.space, robot, situation_.path(robot), constraints)) pending_.push_back(robot);
+  }
   Node* node = nullptr;
-  if (replan_all(constraints)) {
-    Node made{&parent, constraints, {}, {}, parent.cost, 0, 0, false};
+  if (replan(constraints)) {
+    Node made{&parent, constraints, {}, {}, parent.cost, 0, 0, false, nullptr};
     for (const auto& [robot, path] : changed_) made.cost += path.cost - before_[robot].cost;
     made.heuristic = std::max<Cost>(0, parent.cost + parent.heuristic - made.cost);
     made.conflict_count = static_cast<std::int32_t>(std::ranges::count_if(
@@ -176,24 +173,67 @@ ConstraintTree::Node* ConstraintTree::child(const Node& parent, std::span<const 
   }
   for (const Replanned& it : changed_) replace(it.robot, before_[it.robot]);
   others_.refresh();
+  take_up(parent);
   return node;
 }
 
-/// New paths for all robots that break `constraints`; false if one has none.
-bool ConstraintTree::replan_all(std::span<const Constraint> constraints) {
-  for (const int robot : robots_) {
-    if (!breaks(bench_.space, robot, situation_.path(robot), constraints)) continue;
+/// New paths for the robots in `pending_`, and for those that get other goals by that; false if one has none.
+bool ConstraintTree::replan(std::span<const Constraint> constraints) {
+  for (std::size_t k = 0; k < pending_.size(); ++k) {
+    const int robot = failed_ = pending_[k];
+    const int goal = goal_of(robot);
+    if (is_settled(robot, goal, constraints)) continue;
+    const TimedPath old = situation_.path(robot);
     others_.remove(robot);
     others_.refresh();
-    const bool found = bench_.plan(situation_, robot, constraints, &others_, path_);
-    others_.add(robot, situation_.path(robot));
-    if (!found) return false;
-    before_[robot] = situation_.path(robot);
-    changed_.push_back({robot, paths_.keep(path_)});
-    replace(robot, changed_.back().path);
+    const bool found = bench_.plan(situation_, robot, goal, constraints, &others_, path_);
+    others_.add(robot, old);
+    if (assignment_ != nullptr) {
+      const Tick cost = found ? path_.cost : kForever;
+      if (!assignment_->raise(robot, cost, [&](int other) { ask_for(other, k + 1); })) return false;
+      if (goal_of(robot) != goal) continue;
+    } else if (!found) {
+      return false;
+    }
+    keep(robot, paths_.keep(path_));
   }
   others_.refresh();
   return true;
+}
+
+int ConstraintTree::goal_of(int robot) const {
+  if (assignment_ != nullptr) return assignment_->goal(robot);
+  return situation_.path(robot).empty() ? root_goals_[robot] : situation_.path(robot).goal;
+}
+
+/// Is there nothing to be done, though its goal may have changed meanwhile?
+bool ConstraintTree::is_settled(int robot, int goal, std::span<const Constraint> constraints) const {
+  const TimedPath& path = situation_.path(robot);
+  return !path.empty() && path.goal == goal && (is_changed(robot) || !breaks(bench_.space, robot, path, constraints));
+}
+
+/// Let `robot` be among the pending ones from number `asked` on.
+void ConstraintTree::ask_for(int robot, std::size_t asked) {
+  const auto ahead = std::span(pending_).subspan(asked);
+  if (std::ranges::find(ahead, robot) == ahead.end()) pending_.push_back(robot);
+}
+
+/// Give `robot` a new path in the node being made.
+void ConstraintTree::keep(int robot, const TimedPath& path) {
+  const auto place = std::ranges::find(changed_, robot, &Replanned::robot);
+  if (place != changed_.end()) {
+    place->path = path;
+  } else {
+    before_[robot] = situation_.path(robot);
+    changed_.push_back({robot, path});
+  }
+  replace(robot, path);
+}
+
+/// Make the assignment that of `node`, whose paths are in `situation_`.
+void ConstraintTree::take_up(const Node& node) {
+  if (assignment_ == nullptr) return;
+  assignment_->restore(*node.assignment, [&](int robot) { return situation_.path(robot).goal; });
 }
 
 void ConstraintTree::replace(int robot, const TimedPath& path) {
@@ -223,6 +263,7 @@ ConstraintTree::Node& ConstraintTree::complete(Node node) {
   node.conflict_count += static_cast<std::int32_t>(found_.size());
   node.conflicts = conflicts_.copy(found_);
   node.replanned = replanned_.copy(changed_);
+  if (assignment_ != nullptr) node.assignment = assignment_->keep();
   ++counts_.generated;
   return nodes_.copy(node);
 }

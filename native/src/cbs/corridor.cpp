@@ -16,8 +16,8 @@ std::optional<std::array<Constraint, 2>> Corridors::resolve(const Situation& sit
   list_stops(situation.path(one), one_stops_);
   list_stops(situation.path(other), other_stops_);
   if (!find_lane(conflict)) return std::nullopt;
-  extend(conflict, true);
-  extend(conflict, false);
+  extend(situation, conflict, true);
+  extend(situation, conflict, false);
   if (chain_.size() == 2 && !pseudo) return std::nullopt;
   const int entrance = chain_.front(), exit = chain_.back();  // of `one`
   if (entrance == exit || !fits(one, entrance) || !fits(other, exit)) return std::nullopt;
@@ -69,11 +69,10 @@ bool Corridors::find_lane(const Conflict& conflict) {
 }
 
 /// Lengthen `chain_` while there is only one way on, at most to where one of the robots starts or ends.
-void Corridors::extend(const Conflict& conflict, bool forwards) {
+void Corridors::extend(const Situation& situation, const Conflict& conflict, bool forwards) {
   if (!forwards) std::ranges::reverse(chain_);
   const auto ends_at = [&](int vertex, int robot) {
-    const Robot& it = bench_.space.instance().robots()[robot];
-    return it.start == vertex || std::ranges::find(it.goals, vertex) != it.goals.end();
+    return bench_.space.instance().robots()[robot].start == vertex || situation.path(robot).end() == vertex;
   };
   while (bench_.space.degree(chain_.back()) == 2 && !ends_at(chain_.back(), conflict.one) &&
          !ends_at(chain_.back(), conflict.other)) {

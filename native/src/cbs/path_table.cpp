@@ -23,6 +23,7 @@ void PathTable::grow() {
 }
 
 void PathTable::add(int robot, const TimedPath& path) {
+  if (path.empty()) return;
   const auto ticks = static_cast<Tick>(path.at.size());
   while (ticks > static_cast<Tick>(row_.size())) grow();
   ticks_ = std::max(ticks_, ticks);

@@ -12,16 +12,24 @@ void Reasoning::examine(const Situation& situation, Conflict& conflict) {
 }
 
 bool Reasoning::examine_target(const Situation& situation, Conflict& conflict) {
-  if (conflict.one_stays == conflict.other_stays) return false;
+  if (conflict.one_stays != conflict.other_stays) return examine_passing(situation, conflict);
+  if (!conflict.one_stays) return false;
+  const auto branches = resolve_at_targets(situation, conflict);
+  use(conflict, Conflict::Kind::target, std::span(&branches[0], 1), std::span(&branches[1], 1));
+  rate(situation, conflict);
+  return true;
+}
+
+bool Reasoning::examine_passing(const Situation& situation, Conflict& conflict) {
   const int parked = conflict.one_stays ? conflict.one : conflict.other;
   const int passing = conflict.one_stays ? conflict.other : conflict.one;
   const auto branches = resolve_at_target(bench_.space, situation, conflict, parked, passing);
   if (!branches) return false;
   use(conflict, Conflict::Kind::target, std::span(&(*branches)[0], 1), std::span(&(*branches)[1], 1));
   if (bench_.options.prioritize) {
-    // Finishing later costs more in any case.
-    const bool both = bench_.costs_more(situation, passing, conflict.branch[1]);
-    conflict.cardinality = both ? Conflict::Cardinality::both : Conflict::Cardinality::semi;
+    const int rising = bench_.costs_more(situation, parked, conflict.branch[0]) +
+                       bench_.costs_more(situation, passing, conflict.branch[1]);
+    conflict.cardinality = static_cast<Conflict::Cardinality>(rising);
   }
   return true;
 }

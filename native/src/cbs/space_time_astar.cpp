@@ -11,6 +11,7 @@ SpaceTimeAstar::SpaceTimeAstar(const Space& space, Limits& limits, Statistics& s
 
 bool SpaceTimeAstar::search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others,
                             FoundPath& path) {
+  path.goal = table.goal();
   const Beginning& beginning = space_.instance().beginning(table.robot());
   const Tick stay = table.earliest_finish();
   if (stay == kForever || !begin(table, distance, others, stay, table.latest_finish())) return false;

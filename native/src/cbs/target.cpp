@@ -6,8 +6,6 @@ namespace mrpbench::mapf {
 
 std::optional<std::array<Constraint, 2>> resolve_at_target(const Space& space, const Situation& situation,
                                                            const Conflict& conflict, int parked, int passing) {
-  const std::vector<int>& goals = space.instance().robots()[parked].goals;
-  if (goals.size() > 1) return std::nullopt;
   Tick tick = conflict.time / 2;
   if (!space.textbook()) {
     // The last tick from which on the one that stands would still be in the way.
@@ -17,8 +15,16 @@ std::optional<std::array<Constraint, 2>> resolve_at_target(const Space& space, c
     tick = now->end / 2;
   }
   using Kind = Constraint::Kind;
-  return std::array{Constraint{parked, goals[0], {tick, tick}, Kind::finish_after},
-                    Constraint{parked, goals[0], {tick, tick}, Kind::finish_by}};
+  const int target = situation.path(parked).end();
+  return std::array{Constraint{parked, target, {tick, tick}, Kind::finish_after},
+                    Constraint{parked, target, {tick, tick}, Kind::finish_by}};
+}
+
+std::array<Constraint, 2> resolve_at_targets(const Situation& situation, const Conflict& conflict) {
+  const auto never = [&](int robot) {
+    return Constraint{robot, situation.path(robot).end(), {kForever, kForever}, Constraint::Kind::finish_after};
+  };
+  return {never(conflict.one), never(conflict.other)};
 }
 
 }  // namespace mrpbench::mapf

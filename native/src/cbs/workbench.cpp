@@ -24,11 +24,11 @@ Workbench::Workbench(const Instance& instance, const CbsOptions& options, Limits
       builder_(space, limits),
       mdds_(limits, static_cast<std::size_t>(std::min(kMddBytes, limits.memory_left() / 4))) {}
 
-bool Workbench::plan(const Situation& situation, int robot, std::span<const Constraint> more,
+bool Workbench::plan(const Situation& situation, int robot, int goal, std::span<const Constraint> more,
                      const AvoidanceTable* others, FoundPath& path) {
-  situation.load(robot, table);
+  situation.load(robot, goal, table);
   table.add(more);
-  return astar.search(table, distances[robot], others, path);
+  return astar.search(table, distance_to_goal(robot, goal), others, path);
 }
 
 Tick Workbench::least_cost(const Situation& situation, int robot) {
@@ -37,7 +37,7 @@ Tick Workbench::least_cost(const Situation& situation, int robot) {
   name += key_of({robot, 0, {0, 0}});
   const auto place = least_cost_.find(name);
   if (place != least_cost_.end()) return place->second;
-  const Tick cost = plan(situation, robot, {}, nullptr, path_) ? path_.cost : kForever;
+  const Tick cost = plan(situation, robot, situation.path(robot).goal, {}, nullptr, path_) ? path_.cost : kForever;
   least_cost_.emplace(name, cost);
   limits.charge_growth(counted_, least_cost_.size() * (sizeof(Key) + 40));
   return cost;
@@ -47,7 +47,7 @@ std::shared_ptr<const Mdd> Workbench::mdd(const Situation& situation, int robot)
   const Tick cost = least_cost(situation, robot);
   return mdds_.get(robot, situation.key(robot), cost, [&] {
     situation.load(robot, table);
-    return builder_.build(table, distances[robot], cost);
+    return builder_.build(table, distance_to_goal(robot, situation.path(robot).goal), cost);
   });
 }
 
@@ -59,12 +59,23 @@ bool Workbench::costs_more(const Situation& situation, int robot, std::span<cons
   return mdd(situation, robot)->blocked_by(constraints, scratch);
 }
 
+DistanceTable& Workbench::distance_to_goal(int robot, int goal) {
+  return goal == TimedPath::kAnyGoal ? distances[robot] : distance_to(robot, goal);
+}
+
 DistanceTable& Workbench::distance_to(int robot, int vertex) {
   const int profile = space.instance().robots()[robot].profile;
   auto& place = distance_to_[static_cast<std::int64_t>(profile) * space.vertex_count() + vertex];
   if (!place)
     place = std::make_unique<DistanceTable>(space.instance().roadmap(), profile, std::span(&vertex, 1), limits);
   return *place;
+}
+
+Candidates find_candidates(Workbench& bench) {
+  const Instance& instance = bench.space.instance();
+  return list_candidates(instance, bench.limits, [&](int robot, int goal) {
+    return bench.distance_to(robot, goal)(instance.beginning(robot).vertex);
+  });
 }
 
 std::optional<int> find_hopeless(Workbench& bench) {

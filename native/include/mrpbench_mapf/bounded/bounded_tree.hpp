@@ -1,4 +1,7 @@
-// The constraint tree of bounded-suboptimal conflict-based search, with the parts of the optimal one (`cbs/`).
+// The constraint tree of bounded-suboptimal conflict-based search, with the parts of the optimal one (`cbs/`). Robots
+// go to any of their goals; or each root of a forest sends them elsewhere (ECBS-TA: Hoenig, Kiesel, Tinka, Durham and
+// Ayanian, "Conflict-based search with optimal task assignment", AAMAS 2018); or each node does (Tang, Koenig and Li,
+// "ITA-ECBS: a bounded-suboptimal algorithm for the combined target-assignment and path-finding problem", SoCS 2024).
 #pragma once
 
 #include "mrpbench_mapf/bounded/focal_search.hpp"
@@ -29,6 +32,7 @@ class BoundedTree {
     Cost cost = 0, least = 0;
     Cost heuristic = 0;      // what pairs of robots add to `least`
     bool evaluated = false;  // `heuristic` is more than what it inherits
+    const NodeAssignment::Record* assignment = nullptr;
 
     std::int32_t conflict_count() const { return static_cast<std::int32_t>(conflicts.size()); }
   };
@@ -39,9 +43,13 @@ class BoundedTree {
     std::span<const Constraint> constraints;
     std::vector<Plan> plans;
     std::vector<Conflict*> conflicts;
+    const NodeAssignment::Record* assignment = nullptr;
   };
 
-  std::optional<int> plan_root();
+  void start();
+  bool make_root(std::span<const int> goals);
+  void make_ranked_root();
+  void announce_root(std::int32_t conflicts);
   void finish();
   void push(const Node* parent, const Child& child);
   void enqueue(std::int32_t id);
@@ -57,7 +65,12 @@ class BoundedTree {
   void tighten(Node& node, int robot);
   void branch_into_children(const Node& node);
   void plan_child(const Node& parent, Child& child);
-  bool replan(Child& child, const Plan& old);
+  bool replan(Child& child);
+  int goal_of(int robot) const;
+  bool is_settled(int robot, int goal, const Child& child) const;
+  void ask_for(int robot, std::size_t asked);
+  void keep(Child& child, const Plan& plan);
+  void take_up(const Node& node);
   void find_conflicts(int robot, const TimedPath& path, std::vector<Conflict*>& conflicts);
   bool bypass(Node& node, const Child& child);
   void add_plan(Node& node, const Plan& plan);
@@ -80,11 +93,17 @@ class BoundedTree {
   PathStore paths_;
   Reasoning reasoning_;
   Dependencies dependencies_;
-  std::vector<Node*> by_id_;
+  std::optional<NodeAssignment> assignment_;
+  std::optional<RankedGoals> ranked_;
+  std::optional<RankedGoals::Ranked> next_root_;
+  std::vector<Node*> by_id_;  // null: the next root, not yet made
   std::size_t counted_ = 0;
-  std::vector<Plan> root_, current_;  // by robot
+  std::vector<Plan> current_;  // by robot
   std::array<Child, 2> children_;
   // scratch
+  std::span<const int> root_goals_;
+  std::vector<int> pending_;  // robots to be planned for
+  int failed_ = -1;           // robot without a path
   std::vector<Plan> wanted_, before_;
   std::vector<char> later_;
   std::vector<Conflict> found_;

@@ -11,7 +11,7 @@ class AvoidanceTable {
  public:
   AvoidanceTable(const Space& space, Limits& limits);
 
-  /// The path must stay where it is until it is removed.
+  /// The path must stay where it is until it is removed. A robot with an empty one is in nobody's way.
   void add(int robot, const TimedPath& path);
   void remove(int robot);
   /// Call after changes, before questions.

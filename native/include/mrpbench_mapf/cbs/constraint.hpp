@@ -11,9 +11,9 @@ namespace mrpbench::mapf {
 struct Constraint {
   enum class Kind : std::int32_t {
     avoid,         // a vertex at the half-ticks `range`, or entering an edge at the ticks `range`
-    finish_after,  // its last move ends later than tick `range.first`
-    finish_by,     // its last move ends at tick `range.first` at the latest, at the vertex `element`, its only goal:
-                   // no other robot may be in the way of one that stands there from that tick on
+    finish_after,  // if its last move ends at the vertex `element`, then later than tick `range.first`
+    finish_by,     // its last move ends at the vertex `element`, at tick `range.first` at the latest: no other robot
+                   // may be in the way of one that stands there from that tick on
   };
   std::int32_t robot;
   std::int32_t element;

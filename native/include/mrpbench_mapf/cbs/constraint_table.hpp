@@ -2,7 +2,7 @@
 // costs one look-up where nothing is constrained.
 #pragma once
 
-#include "mrpbench_mapf/cbs/space.hpp"
+#include "mrpbench_mapf/cbs/timed_path.hpp"
 
 namespace mrpbench::mapf {
 
@@ -10,8 +10,8 @@ class ConstraintTable {
  public:
   ConstraintTable(const Space& space, Limits& limits);
 
-  /// Begin anew for `robot`, bound only by what the others do for certain.
-  void reset(int robot);
+  /// Begin anew for `robot`, which is to end at `goal`, bound only by what the others do for certain.
+  void reset(int robot, int goal = TimedPath::kAnyGoal);
   /// A constraint of this robot, or a `finish_by` of another one; others are ignored.
   void add(const Constraint& constraint);
   void add(std::span<const Constraint> constraints) {
@@ -19,13 +19,14 @@ class ConstraintTable {
   }
 
   int robot() const { return robot_; }
+  int goal() const { return goal_; }
   /// Can any of the next three say yes for `vertex`?
   bool constrains(int vertex) const { return head_[vertex] >= 0; }
   /// Must the robot not be at `vertex` at tick `at`?
-  bool forbids(int vertex, Tick at) const { return head_[vertex] >= 0 && blocked(vertex, -1, 2 * at, 2 * at); }
+  bool forbids(int vertex, Tick at) const { return head_[vertex] >= 0 && blocked(vertex, kVertex, 2 * at, 2 * at); }
   /// Must it not stand at `vertex` from tick `at` to the next (that one included)?
   bool forbids_waiting(int vertex, Tick at) const {
-    return head_[vertex] >= 0 && blocked(vertex, -1, 2 * at + 1, 2 * at + 2);
+    return head_[vertex] >= 0 && blocked(vertex, kVertex, 2 * at + 1, 2 * at + 2);
   }
   /// Must it not enter `edge`, which leads out of `vertex`, at tick `at`?
   bool forbids_entering(int vertex, int edge, Tick at) const {
@@ -38,13 +39,14 @@ class ConstraintTable {
   Tick settled() const { return settled_; }
   /// First tick at which the robot's last move may end at `vertex`, kForever if never.
   Tick earliest_finish(int vertex) const;
-  /// The same for the best of its goals.
+  /// The same for its goal, or for the best of them.
   Tick earliest_finish() const;
   Tick latest_finish() const { return latest_finish_; }
 
  private:
+  static constexpr std::int32_t kVertex = -1, kFinish = -2;
   struct Entry {
-    std::int32_t edge;  // -1 = the vertex itself
+    std::int32_t edge;  // of the roadmap, kVertex, or kFinish: the last move must not end there at the ticks `range`
     Range range;
     std::int32_t next;
   };
@@ -56,13 +58,16 @@ class ConstraintTable {
     return false;
   }
   void forbid(int element, Range range);
+  void forbid_finishing(int vertex, Tick until);
+  void enter(int vertex, const Entry& entry);
   void keep_clear(const Constraint& parked);
 
   const Space& space_;
   Limits& limits_;
   int robot_ = -1;
+  int goal_ = TimedPath::kAnyGoal;
   Tick settled_ = 0;
-  Tick finish_after_ = -1;
+  int finish_at_ = TimedPath::kAnyGoal;  // the only place
   Tick latest_finish_ = kForever;
   std::vector<std::int32_t> head_;  // by vertex, -1 = none
   std::vector<std::int32_t> touched_;

@@ -23,7 +23,7 @@ class Corridors {
   };
   void list_stops(const TimedPath& path, std::vector<Stop>& stops) const;
   bool find_lane(const Conflict& conflict);
-  void extend(const Conflict& conflict, bool forwards);
+  void extend(const Situation& situation, const Conflict& conflict, bool forwards);
   bool fits(int robot, int entrance) const;
   int next(int vertex, int from) const;
   Tick length(int robot, bool forwards) const;

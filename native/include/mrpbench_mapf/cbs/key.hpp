@@ -30,6 +30,11 @@ inline std::uint64_t mix(std::uint64_t x) {
   return x ^ x >> 31;
 }
 
+inline Key key_of_goal(int vertex) {
+  const auto where = static_cast<std::uint64_t>(vertex) + 1;
+  return {mix(where * 0xA24BAED4963EE407ULL), mix(where * 0x9FB21C651E98DF25ULL)};
+}
+
 inline Key key_of(const Constraint& constraint) {
   const auto word = [](std::int32_t high, std::int32_t low) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32 | static_cast<std::uint32_t>(low);

@@ -5,7 +5,19 @@
 
 namespace mrpbench::mapf {
 
+/// Where robots are sent.
+enum class GoalChoice {
+  /// To any of their goals, each on its own.
+  own,
+  /// To different goals, all at once, the cheapest assignment first: Hoenig et al., AAMAS 2018 (CBS-TA).
+  ranked,
+  /// To different goals by the constraints of each node: Tang et al., MRS 2023 (ITA-CBS). Then `heuristic` does not
+  /// count, since what pairs cost together may be avoided by other goals.
+  by_node,
+};
+
 struct CbsOptions {
+  GoalChoice goals = GoalChoice::own;
   /// Cardinal conflicts first: Boyarski et al., "ICBS: Improved conflict-based search algorithm for multi-agent
   /// pathfinding", IJCAI 2015.
   bool prioritize = true;

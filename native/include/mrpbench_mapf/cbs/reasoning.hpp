@@ -18,6 +18,7 @@ class Reasoning {
 
  private:
   bool examine_target(const Situation& situation, Conflict& conflict);
+  bool examine_passing(const Situation& situation, Conflict& conflict);
   bool examine_corridor(const Situation& situation, Conflict& conflict);
   void examine_rectangle(const Situation& situation, Conflict& conflict);
   void rate(const Situation& situation, Conflict& conflict);

@@ -43,11 +43,13 @@ class Situation {
   /// Names all that binds `robot`.
   Key key(int robot) const {
     Key key = keys_[robot];
+    if (paths_[robot].goal != TimedPath::kAnyGoal) key += key_of_goal(paths_[robot].goal);
     return key += parked_key_;
   }
-  /// Reset `table` for `robot` and add all that binds it.
-  void load(int robot, ConstraintTable& table) const {
-    table.reset(robot);
+  /// Reset `table` for `robot` and add all that binds it, on its way to the goal of its path, or to `goal`.
+  void load(int robot, ConstraintTable& table) const { load(robot, paths_[robot].goal, table); }
+  void load(int robot, int goal, ConstraintTable& table) const {
+    table.reset(robot, goal);
     table.add(constraints_[robot]);
     for (const Constraint& constraint : parked_) {
       if (constraint.robot != robot) table.add(constraint);

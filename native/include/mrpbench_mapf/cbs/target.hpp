@@ -9,8 +9,11 @@
 namespace mrpbench::mapf {
 
 /// Branches of a conflict with `parked`, which has arrived for good, and `passing`: `parked` finishes later, or by
-/// then. Nothing if it has several goals.
+/// then. Nothing if the other one stays in the way for good.
 std::optional<std::array<Constraint, 2>> resolve_at_target(const Space& space, const Situation& situation,
                                                            const Conflict& conflict, int parked, int passing);
+
+/// Branches of a conflict of two robots that have both arrived for good: the one or the other never finishes there.
+std::array<Constraint, 2> resolve_at_targets(const Situation& situation, const Conflict& conflict);
 
 }  // namespace mrpbench::mapf

@@ -1,0 +1,47 @@
+#include <numeric>
+
+#include "mrpbench_mapf/bounded/bounded_tree.hpp"
+
+namespace mrpbench::mapf {
+
+void BoundedTree::start() {
+  const GoalChoice goals = options_.techniques.goals;
+  if (goals == GoalChoice::ranked) {
+    ranked_.emplace(find_candidates(bench_), limits_);
+    return announce_root(0);
+  }
+  if (goals == GoalChoice::by_node && !assignment_.emplace(find_candidates(bench_), limits_).solve()) return;
+  const std::vector<int> any(robots_, TimedPath::kAnyGoal);
+  if (!make_root(any)) result_.statistics.failed_robot = failed_;
+}
+
+/// Put into the queue a node without constraints in which robots go to `goals`. False if one cannot.
+bool BoundedTree::make_root(std::span<const int> goals) {
+  Child root;
+  situation_.clear_constraints();
+  for (int robot = 0; robot < robots_; ++robot) replace({robot, 0, {}});
+  before_.clear();
+  pending_.resize(robots_);
+  std::iota(pending_.begin(), pending_.end(), 0);
+  root_goals_ = goals;
+  if (!replan(root)) return false;
+  push(nullptr, root);
+  if (ranked_) ++result_.statistics.assignments;
+  return true;
+}
+
+void BoundedTree::make_ranked_root() {
+  const RankedGoals::Ranked ranked = *std::move(next_root_);
+  announce_root(make_root(ranked.goals) ? by_id_.back()->conflict_count() : 0);
+}
+
+/// Let the next root wait for its turn.
+void BoundedTree::announce_root(std::int32_t conflicts) {
+  next_root_ = ranked_->next();
+  if (!next_root_) return;
+  by_id_.push_back(nullptr);
+  const auto id = static_cast<std::int32_t>(by_id_.size()) - 1;
+  queue_.push({id, next_root_->cost, next_root_->cost, conflicts}, estimate(next_root_->cost, conflicts));
+}
+
+}  // namespace mrpbench::mapf
