@@ -38,6 +38,7 @@ class Planner(Component):
     def assigns(self) -> bool:
         """Whether it also decides which robot does which task: it has the option `assign`, it is on, and it can.
 
+        A planner that always does overrides this.
         Such a planner takes the assigner's place: every robot's goal set holds the goals of all tasks.
         """
         return getattr(self, "assign", False) is True and Feature.GOAL_SETS in self.supports

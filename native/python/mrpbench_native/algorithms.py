@@ -31,16 +31,17 @@ _EXPLICIT_ESTIMATION: dict[str, Any] = {
     "distance_weight": 1.2,
     "conflict_weight": 20.0,
 }
+_ASSIGNING: dict[str, Any] = _EXPLICIT_ESTIMATION | {"selection": "focal", "heuristic": False}
 
 ALGORITHMS: Mapping[str, tuple[Callable[..., mapf.Answer], dict[str, Any]]] = {
     "astar": (mapf.astar, {"heuristic": "exact"}),
     "cbs": (mapf.cbs, {}),
     "cbs_ta": (mapf.cbs, {"goal_choice": "ranked"}),
     "ecbs": (mapf.bounded_cbs, _FOCAL),
-    "ecbs_ta": (mapf.bounded_cbs, _EXPLICIT_ESTIMATION | {"goal_choice": "ranked"}),
+    "ecbs_ta": (mapf.bounded_cbs, _ASSIGNING | {"goal_choice": "ranked"}),
     "eecbs": (mapf.bounded_cbs, _EXPLICIT_ESTIMATION),
     "ita_cbs": (mapf.cbs, {"goal_choice": "by_node"}),
-    "ita_ecbs": (mapf.bounded_cbs, _EXPLICIT_ESTIMATION | {"goal_choice": "by_node"}),
+    "ita_ecbs": (mapf.bounded_cbs, _ASSIGNING | {"goal_choice": "by_node"}),
     "lacam": (
         mapf.lacam,
         {"objective": "flowtime", "swap": True, "star": True, "neighbourhoods": True, "iterations": None, "seed": 0},

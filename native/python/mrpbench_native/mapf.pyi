@@ -102,7 +102,8 @@ def cbs(
     memory_bytes: int,
 ) -> Answer:
     """The least sum of arrival times, by conflict-based search. goal_choice: own (each robot takes any of its), ranked
-    or by_node (all take different ones, by trees for the cheapest assignments or by an assignment in each node)."""
+    or by_node (all take different ones, by trees for the cheapest assignments or by an assignment in each node).
+    """
 
 def bounded_cbs(
     instance: Instance,

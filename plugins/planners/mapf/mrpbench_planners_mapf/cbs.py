@@ -6,14 +6,15 @@ import attrs
 from mrpbench_native import mapf
 
 from mrpbench_core.api.component import option
-from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_planners_mapf.native import SUPPORTED, solve
+from mrpbench_planners_mapf.techniques import Techniques, heuristic_option
 
 
 @attrs.frozen(kw_only=True)
-class Cbs(Planner):
+class Cbs(Techniques):
     """Conflict-based search (Sharon et al., AIJ 2015): the least sum of costs.
 
     Optimal among plans in which every edge is crossed in exactly its duration, so robots wait at vertices only. On
@@ -26,27 +27,7 @@ class Cbs(Planner):
         {Promise.CONFLICT_FREE, Promise.OPTIMAL, Promise.COMPLETE, Promise.DETERMINISTIC}
     )
 
-    prioritize: bool = option(
-        True, help="Resolve conflicts first that raise the cost either way (Boyarski et al., IJCAI 2015)."
-    )
-    bypass: bool = option(
-        True, help="Take over paths as cheap with fewer conflicts instead of branching (Boyarski et al., ICAPS 2015)."
-    )
-    heuristic: bool = option(
-        True, help="Order nodes by what pairs of robots must still cost (WDG; Li, Felner et al., IJCAI 2019)."
-    )
-    target: bool = option(
-        True, help="Resolve conflicts with robots at their goals by when these arrive (Li et al., AIJ 2021)."
-    )
-    corridor: bool = option(
-        True, help="Let one of two robots that meet in a corridor come later by its length (Li et al., AIJ 2021)."
-    )
-    rectangle: bool = option(
-        True,
-        help="Let one of two robots that cross the same region leave it later; needs unit durations and no "
-        "footprints (generalised rectangles; Li et al., AIJ 2021).",
-    )
-
+    heuristic: bool = heuristic_option()
     assign: bool = option(
         False, help="Also decide which robot does which task: the least sum of costs over all assignments."
     )

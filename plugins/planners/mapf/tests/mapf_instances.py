@@ -2,6 +2,7 @@
 
 from pathlib import Path as File
 
+import attrs
 import numpy as np
 
 from mrpbench_core.model.problem import Feature, Problem, Rules, features_of
@@ -95,6 +96,21 @@ def random_graph_problem(random: np.random.Generator, robots: int, longest: int 
     starts = random.choice(vertices, robots, replace=False)
     goals = [tuple(map(int, random.choice(vertices, random.integers(1, 3), replace=False))) for _ in range(robots)]
     return problem(road, starts, goals, profile=random.integers(0, profiles, robots), **fields)
+
+
+def with_candidates(random: np.random.Generator, asked: Problem) -> Problem:
+    """The same problem, but each robot may take some of a few goals that all draw from; its own among them."""
+    robots, vertices = len(asked), len(asked.roadmap.position)
+    own = [int(goal) for goal in random.choice(vertices, robots, replace=False)]
+    others = [vertex for vertex in range(vertices) if vertex not in own][: int(random.integers(0, 3))]
+    pool = own + others
+    sets = [
+        tuple(sorted({own[robot], *(goal for goal in pool if random.random() < random.choice([0.3, 1.0]))}))
+        for robot in range(robots)
+    ]
+    goals = tuple((goals,) for goals in sets)
+    changed = attrs.evolve(asked, goals=goals)
+    return attrs.evolve(changed, features=features_of(changed) | asked.features & {Feature.FOOTPRINTS})
 
 
 def random_rules(random: np.random.Generator) -> dict:

@@ -9,6 +9,8 @@ import itertools
 import math
 from typing import NamedTuple
 
+import attrs
+
 from mrpbench_core.model.geometry import segment_distance
 from mrpbench_core.model.problem import Feature, Problem
 
@@ -29,6 +31,18 @@ class TooLargeError(Exception):
 def least_cost(problem: Problem, limit: int = 6_000) -> float:
     """The optimum, inf if the searched states contain no solution at all; raises TooLargeError."""
     return _Search(problem).run(limit)
+
+
+def least_cost_assigned(problem: Problem, limit: int = 6_000) -> float:
+    """The optimum over all assignments of robots to different goals; raises TooLargeError."""
+    best = math.inf
+    for goals in itertools.product(*(sequence[-1] for sequence in problem.goals)):
+        if len(set(goals)) < len(goals):
+            continue
+        assigned = attrs.evolve(problem, goals=tuple(((goal,),) for goal in goals))
+        if sum(shortest(assigned, robot) for robot in range(len(problem))) < best:
+            best = min(best, least_cost(assigned, limit))
+    return best
 
 
 def shortest(problem: Problem, robot: int) -> float:

@@ -1,0 +1,76 @@
+"""Conflict-based search that also assigns: optimal over all assignments."""
+
+from typing import ClassVar
+
+import attrs
+from mrpbench_native import mapf
+
+from mrpbench_core.api.planner import Promise
+from mrpbench_core.model.plan import Budget, PlanResult
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_planners_mapf.native import SUPPORTED, solve
+from mrpbench_planners_mapf.techniques import Techniques, heuristic_option
+
+OPTIMAL = frozenset({Promise.CONFLICT_FREE, Promise.OPTIMAL, Promise.COMPLETE, Promise.DETERMINISTIC})
+
+
+@attrs.frozen(kw_only=True)
+class CbsTa(Techniques):
+    """CBS-TA (Hönig et al., AAMAS 2018): the least sum of costs over all assignments of robots to different goals.
+
+    A constraint tree for each assignment, the cheapest assignment first, the next one only when nothing cheaper is
+    left. `statistics["assignments"]` counts them. Where very many assignments cost the same, `ita_cbs` is far faster.
+    """
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    promises: ClassVar[frozenset[Promise]] = OPTIMAL
+
+    heuristic: bool = heuristic_option()
+
+    @property
+    def assigns(self) -> bool:
+        """Always: see `Planner.assigns`."""
+        return True
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """See `Planner.plan`."""
+        return solve(
+            problem,
+            budget,
+            lambda instance, wall_s, memory_bytes: mapf.cbs(
+                instance, goal_choice="ranked", **attrs.asdict(self), wall_s=wall_s, memory_bytes=memory_bytes
+            ),
+        )
+
+
+@attrs.frozen(kw_only=True)
+class ItaCbs(Techniques):
+    """ITA-CBS (Tang, Ren, Li and Sycara, MRS 2023): the same as `cbs_ta` from a single constraint tree.
+
+    Every node has the cheapest assignment under its own constraints, repaired from that of its parent by the dynamic
+    Hungarian algorithm. Costs are planned only for goals to which robots are sent; until then lower bounds stand for
+    them. `statistics["assignments"]` counts the repairs, and one.
+    """
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    promises: ClassVar[frozenset[Promise]] = OPTIMAL
+
+    @property
+    def assigns(self) -> bool:
+        """Always: see `Planner.assigns`."""
+        return True
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """See `Planner.plan`."""
+        return solve(
+            problem,
+            budget,
+            lambda instance, wall_s, memory_bytes: mapf.cbs(
+                instance,
+                goal_choice="by_node",
+                heuristic=False,
+                **attrs.asdict(self),
+                wall_s=wall_s,
+                memory_bytes=memory_bytes,
+            ),
+        )

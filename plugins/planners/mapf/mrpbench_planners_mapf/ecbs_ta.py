@@ -1,0 +1,82 @@
+"""Bounded-suboptimal conflict-based search that also assigns: at most `w` times the least over all assignments."""
+
+from typing import Any, ClassVar
+
+import attrs
+from mrpbench_native import mapf
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.planner import Promise
+from mrpbench_core.model.plan import Budget, PlanResult
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_planners_mapf.bounded import PROMISES, W
+from mrpbench_planners_mapf.native import SUPPORTED, solve
+from mrpbench_planners_mapf.techniques import Techniques
+
+FOCAL: dict[str, Any] = {
+    "selection": "focal",
+    "heuristic": False,  # raises lower bounds, which a focal list hardly ever waits for
+    "flex": False,
+    "distance_weight": 1.2,
+    "conflict_weight": 20.0,
+}
+
+
+@attrs.frozen(kw_only=True)
+class EcbsTa(Techniques):
+    """ECBS-TA (Hönig et al., AAMAS 2018): as `cbs_ta`, but a sum of costs of at most `w` times `lower_bound`.
+
+    Focal lists in the trees and in the search for one robot, as `ecbs`; another assignment is tried when all that is
+    known of the others has more conflicts or may cost too much.
+    """
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    promises: ClassVar[frozenset[Promise]] = PROMISES
+
+    w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
+
+    @property
+    def assigns(self) -> bool:
+        """Always: see `Planner.assigns`."""
+        return True
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """See `Planner.plan`."""
+        return _solve(self, problem, budget, "ranked")
+
+
+@attrs.frozen(kw_only=True)
+class ItaEcbs(Techniques):
+    """ITA-ECBS (Tang, Koenig and Li, SoCS 2024): as `ita_cbs`, but a sum of costs of at most `w` times `lower_bound`.
+
+    Every node has the assignment that is cheapest by the lower bounds of its robots' costs.
+    """
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    promises: ClassVar[frozenset[Promise]] = PROMISES
+
+    w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
+
+    @property
+    def assigns(self) -> bool:
+        """Always: see `Planner.assigns`."""
+        return True
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """See `Planner.plan`."""
+        return _solve(self, problem, budget, "by_node")
+
+
+def _solve(planner: EcbsTa | ItaEcbs, problem: Problem, budget: Budget, goal_choice: str) -> PlanResult:
+    return solve(
+        problem,
+        budget,
+        lambda instance, wall_s, memory_bytes: mapf.bounded_cbs(
+            instance,
+            goal_choice=goal_choice,
+            **FOCAL,
+            **attrs.asdict(planner),
+            wall_s=wall_s,
+            memory_bytes=memory_bytes,
+        ),
+    )

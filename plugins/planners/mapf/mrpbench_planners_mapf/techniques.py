@@ -1,0 +1,37 @@
+"""What conflict-based search can be told to leave out."""
+
+import attrs
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.planner import Planner
+
+
+@attrs.frozen(kw_only=True)
+class Techniques(Planner):
+    """Options that switch single techniques off, for ablations."""
+
+    prioritize: bool = option(
+        True, help="Resolve conflicts first that raise the cost either way (Boyarski et al., IJCAI 2015)."
+    )
+    bypass: bool = option(
+        True, help="Take over paths no worse with fewer conflicts instead of branching (Boyarski et al., ICAPS 2015)."
+    )
+    target: bool = option(
+        True, help="Resolve conflicts with robots at their goals by when these arrive (Li et al., AIJ 2021)."
+    )
+    corridor: bool = option(
+        True, help="Let one of two robots that meet in a corridor come later by its length (Li et al., AIJ 2021)."
+    )
+    rectangle: bool = option(
+        True,
+        help="Let one of two robots that cross the same region leave it later; needs unit durations and no "
+        "footprints (generalised rectangles; Li et al., AIJ 2021).",
+    )
+
+
+def heuristic_option() -> bool:
+    """The option that chooses the heuristic of constraint trees in which robots keep their goals."""
+    choice: bool = option(
+        True, help="Order nodes by what pairs of robots must still cost (WDG; Li, Felner et al., IJCAI 2019)."
+    )
+    return choice

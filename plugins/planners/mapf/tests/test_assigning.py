@@ -1,0 +1,198 @@
+"""Planners that assign: against all assignments one by one, against published optima, and against one another."""
+
+import math
+import time
+
+import numpy as np
+import pytest
+from assignment_data import Row, optima
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mapf_instances import grid, problem, random_graph_problem, random_grid_problem, random_rules, with_candidates
+from mapf_oracle import TooLargeError, least_cost_assigned
+from mrpbench_planners_mapf.cbs import Cbs
+from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
+from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
+
+from mrpbench_core.api.planner import Promise
+from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.model.plan import Budget, PlanStatus
+
+BUDGET = Budget(wall_s=0.2, memory_bytes=1 << 30)
+AMPLE = Budget(wall_s=20, memory_bytes=1 << 30)
+SLACK_S = 5.0
+"""Far more than the planners need; other work may share the machine."""
+KINDS = (CbsTa, ItaCbs, EcbsTa, ItaEcbs)
+seeds = st.integers(0, 2**32 - 1)
+switches = st.booleans()
+bounds = st.sampled_from([1.0, 1.02, 1.1, 1.3, 2.0])
+techniques = dict.fromkeys(("prioritize", "bypass", "target", "corridor", "rectangle"), switches)
+planners = st.one_of(
+    st.builds(CbsTa, heuristic=switches, **techniques),
+    st.builds(ItaCbs, **techniques),
+    st.builds(EcbsTa, w=bounds, **techniques),
+    st.builds(ItaEcbs, w=bounds, **techniques),
+)
+
+
+def check(planner, asked, result, optimum=None) -> PlanStatus:
+    """The plan is valid, its goals differ, and its cost is the optimum, or within the bound."""
+    if result.status is PlanStatus.SOLVED:
+        report = check_plan(asked, result.plan)
+        assert report.valid, (report.faults, report.conflicts)
+        ends = [
+            path.vertices(asked.roadmap, start)[-1] for path, start in zip(result.plan.paths, asked.start, strict=True)
+        ]
+        assert len(set(ends)) == len(ends)
+        w = 1.0 if Promise.OPTIMAL in planner.promises else planner.w
+        assert result.plan.sum_of_costs <= w * result.lower_bound + 1e-9
+    if optimum is not None:
+        if result.status is PlanStatus.SOLVED:
+            assert result.lower_bound <= optimum <= result.plan.sum_of_costs
+        elif result.status is PlanStatus.UNSOLVABLE:
+            assert optimum == math.inf
+        else:
+            assert result.status is PlanStatus.TIMEOUT
+            assert not result.lower_bound > optimum
+    return result.status
+
+
+def solve_and_compare(planner, asked) -> PlanStatus:
+    try:
+        optimum = least_cost_assigned(asked)
+    except TooLargeError:
+        optimum = None
+    return check(planner, asked, planner.plan(asked, BUDGET), optimum)
+
+
+@settings(max_examples=40, deadline=None)
+@given(planner=planners, seed=seeds, robots=st.integers(2, 3))
+def test_no_assignment_on_grids_is_better(planner, seed, robots):
+    random = np.random.default_rng(seed)
+    solve_and_compare(planner, with_candidates(random, random_grid_problem(random, robots, size=4)))
+
+
+@settings(max_examples=40, deadline=None)
+@given(planner=planners, seed=seeds, robots=st.integers(2, 3))
+def test_no_assignment_on_graphs_is_better(planner, seed, robots):
+    random = np.random.default_rng(seed)
+    asked = random_graph_problem(random, robots, ready=random.integers(0, 3, robots), **random_rules(random))
+    solve_and_compare(planner, with_candidates(random, asked))
+
+
+@settings(max_examples=40, deadline=None)
+@given(seed=seeds, w=bounds)
+def test_all_agree_on_crowds(seed, w):
+    random = np.random.default_rng(seed)
+    asked = with_candidates(random, random_grid_problem(random, 6, size=5))
+    one, other = CbsTa().plan(asked, BUDGET), ItaCbs().plan(asked, BUDGET)
+    for planner, result in ((CbsTa(), one), (ItaCbs(), other)):
+        check(planner, asked, result)
+    if one.status is other.status is PlanStatus.SOLVED:
+        assert one.plan.sum_of_costs == other.plan.sum_of_costs
+        for planner in (EcbsTa(w=w), ItaEcbs(w=w)):
+            check(planner, asked, planner.plan(asked, BUDGET), one.plan.sum_of_costs)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_most_small_instances_are_solved(kind):
+    statuses = []
+    for seed in range(10):
+        random = np.random.default_rng(seed)
+        statuses.append(solve_and_compare(kind(), with_candidates(random, random_grid_problem(random, 3, size=4))))
+    assert statuses.count(PlanStatus.SOLVED) > 7
+
+
+@settings(max_examples=20, deadline=None)
+@given(seed=seeds)
+def test_with_one_goal_each_they_do_what_cbs_does(seed):
+    asked = random_grid_problem(np.random.default_rng(seed), 5, size=5)
+    wanted = Cbs().plan(asked, BUDGET)
+    for planner in (CbsTa(), ItaCbs()):
+        result = planner.plan(asked, BUDGET)
+        if PlanStatus.TIMEOUT not in (wanted.status, result.status):
+            assert result.status is wanted.status
+            assert wanted.plan is None or result.plan.sum_of_costs == wanted.plan.sum_of_costs
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_robots_that_meet_take_one_anothers_goals(kind):
+    # In a dead end they could never change places.
+    result = kind().plan(problem(grid(["......"]), [0, 5], [(0, 5), (0, 5)]), AMPLE)
+    assert result.status is PlanStatus.SOLVED
+    assert result.plan.sum_of_costs == 0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    ("goals", "rows"),
+    [
+        ([(1,), (1,)], ["...."]),  # one goal for two
+        ([(0, 1), (0, 1), (0, 1)], ["...."]),  # two goals for three
+        ([(2, 3), (2, 3)], ["..#.."]),  # no way
+        ([(0, 3), (0, 3)], ["..#.."]),  # a way to one only
+    ],
+)
+def test_without_goals_for_all_there_is_no_solution(kind, goals, rows):
+    result = kind().plan(problem(grid(rows), list(range(len(goals))), goals), AMPLE)
+    assert result.status is PlanStatus.UNSOLVABLE
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_goals_too_near_one_another_are_not_taken_together(kind):
+    # Robots of half a cell and more exclude one another on neighbouring cells.
+    road = grid(["......."])
+    asked = problem(road, [1, 5], [(2, 3), (3, 4)], radius=0.6)
+    result = kind().plan(asked, AMPLE)
+    assert check(kind(), asked, result, 2) is PlanStatus.SOLVED
+    hopeless = problem(road, [1, 5], [(3,), (4, 3)], radius=0.6)
+    assert kind().plan(hopeless, AMPLE).status is PlanStatus.UNSOLVABLE
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_same_input_gives_the_same_output(kind):
+    random = np.random.default_rng(5)
+    asked = with_candidates(random, random_grid_problem(random, 8, size=7))
+    one, other = kind().plan(asked, AMPLE), kind().plan(asked, AMPLE)
+    assert one.status is PlanStatus.SOLVED
+    assert one.plan == other.plan
+    assert one.statistics == other.statistics
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_limits_hold_where_the_search_never_ends(kind):
+    asked = problem(grid(["......"]), [0, 5], [(5,), (0,)])  # a swap in a dead end
+    late = kind().plan(asked, Budget(wall_s=0.1, memory_bytes=1 << 30))
+    assert late.status is PlanStatus.TIMEOUT
+    assert late.lower_bound >= 10
+    assert kind().plan(asked, Budget(wall_s=20, memory_bytes=1 << 21)).status is PlanStatus.OUT_OF_MEMORY
+
+
+def test_limits_hold_while_there_are_ever_more_assignments(shared_data):
+    asked = Row("32x32_obst204", 50, 1, "anon").load(shared_data)
+    began = time.monotonic()
+    assert CbsTa().plan(asked, Budget(wall_s=0.1, memory_bytes=1 << 30)).status is PlanStatus.TIMEOUT
+    assert time.monotonic() - began < 0.1 + SLACK_S
+    assert CbsTa().plan(asked, Budget(wall_s=20, memory_bytes=8 << 20)).status is PlanStatus.OUT_OF_MEMORY
+
+
+@pytest.mark.parametrize("kind", [ItaCbs, EcbsTa, ItaEcbs])
+def test_published_optima(kind, shared_data):
+    budget = Budget(wall_s=0.3, memory_bytes=1 << 30)
+    solved = 0
+    rows = list(optima(shared_data))
+    for row, optimum in rows:
+        asked = row.load(shared_data)
+        solved += check(kind(), asked, kind().plan(asked, budget), optimum) is PlanStatus.SOLVED
+    assert solved > 0.8 * len(rows)
+
+
+def test_published_optima_by_ranked_assignments(shared_data):
+    rows = [(row, optimum) for row, optimum in optima(shared_data) if row.agents <= 20]
+    for row, optimum in rows:
+        asked = row.load(shared_data)
+        assert check(CbsTa(), asked, CbsTa().plan(asked, AMPLE), optimum) is PlanStatus.SOLVED
+
+
+def test_they_always_assign():
+    assert all(kind().assigns for kind in KINDS)
