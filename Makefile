@@ -55,6 +55,7 @@ python: install ## Python tests
 
 soak: install ## thousands of random instances against brute force (an hour)
 	$(BIN)/python plugins/planners/mapf/tests/soak_cbs.py 20000 1
+	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
 
 worlds: install ## robots driven on every built-in world must touch nothing (ten minutes); CONTROLLER=dwb for another
 	$(BIN)/python benchmarks/worlds.py --controller $(or $(CONTROLLER),pure_pursuit)

@@ -115,6 +115,15 @@ def test_options_are_listed_with_their_defaults():
     assert "wall_s" not in options_of("cbs")
 
 
+@pytest.mark.parametrize("algorithm", ["cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"])
+def test_robots_share_out_more_goals_than_there_are_robots(algorithm):
+    goals = [[0, 1], [3, 2], [2, 0]]
+    solution = solve(OPEN, [[0, 0], [3, 3]], [goals, goals[1:]], algorithm=algorithm)
+    assert [path[-1].tolist() for path in solution.paths] == [[0, 1], [3, 2]]
+    assert solution.cost == solution.lower_bound == 2
+    assert solution.statistics["assignments"] >= 1
+
+
 def test_nothing_else_of_mrpbench_is_imported():
     code = "import sys, mrpbench_native; sys.exit(any(name.startswith('mrpbench_core') for name in sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
