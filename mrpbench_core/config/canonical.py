@@ -28,11 +28,13 @@ def canonical(config: RunConfig, folder: Path) -> dict[str, Any]:
 
 
 def sources(config: RunConfig, folder: Path) -> dict[str, str]:
-    """Texts of the local plugins that `config` uses, by their files' names relative to `folder`."""
-    found = {}
+    """Texts of the local plugins that `config` uses, and of what they import from beside them, by name relative to
+    `folder`.
+    """
+    found: dict[str, str] = {}
     for component in components_in(config):
         if source := source_of(type(component)):
-            found[relative(source.path, folder)] = source.text
+            found |= {relative(file, folder): text for file, text in source.files.items()}
     return found
 
 

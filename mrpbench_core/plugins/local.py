@@ -1,12 +1,13 @@
 """Components without packaging: `./my_planner.py:MyPlanner`, beside the configuration; `package.module:Class`."""
 
+import builtins
 import hashlib
 import importlib
-import importlib.util
 import linecache
 import os
 import sys
 from collections.abc import Mapping
+from itertools import chain
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -15,21 +16,29 @@ import attrs
 
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.files.text import read_text
+from mrpbench_core.plugins.beside import imported_beside, importing
 
 _PREFIX = "mrpbench_local_"
 
 
 @attrs.frozen
 class Source:
-    """The text of a local plugin."""
+    """The text of a local plugin, and those of the modules beside it that it imports, and that these import."""
 
     path: Path
     text: str
+    beside: Mapping[str, str] = attrs.field(factory=dict)
+    """Texts by name of module."""
 
     @property
     def sha256(self) -> str:
-        """Hash of the text."""
-        return hashlib.sha256(self.text.encode()).hexdigest()
+        """Hash of the texts."""
+        return hashlib.sha256("\0".join([self.text, *chain(*sorted(self.beside.items()))]).encode()).hexdigest()
+
+    @property
+    def files(self) -> dict[Path, str]:
+        """All texts by file."""
+        return {self.path: self.text} | {self.path.with_name(f"{name}.py"): it for name, it in self.beside.items()}
 
 
 def is_local(name: str) -> bool:
@@ -53,8 +62,9 @@ def load_local(name: str, folder: Path, sources: Mapping[str, str] | None = None
         raise InputError(f"{name!r} names no class", hint="write ./file.py:Class or package.module:Class")
     if where.endswith(".py"):
         path = Path(os.path.normpath(folder / where))
-        text = (sources or {}).get(where)
-        module = _import_source(Source(path, read_text(path) if text is None else text))
+        known = {Path(os.path.normpath(folder / name)): text for name, text in (sources or {}).items()}
+        text = known[path] if path in known else read_text(path)
+        module = _import_source(Source(path, text, imported_beside(path, text, known)))
     else:
         module = _import_module(where)
     found = getattr(module, attribute, None)
@@ -77,18 +87,26 @@ def _import_module(name: str) -> ModuleType:
 
 
 def _import_source(source: Source) -> ModuleType:
-    # The name holds path and content, so that an edited file is another module and an unedited one the same.
-    digest = hashlib.sha256(f"{source.path}\0{source.text}".encode()).hexdigest()
-    name = _PREFIX + digest[:24]
+    # The name holds path and contents, so that an edited file is another module and an unedited one the same.
+    name = _PREFIX + hashlib.sha256(f"{source.path}\0{source.sha256}".encode()).hexdigest()[:24]
     if name in sys.modules:
         return sys.modules[name]
     module = ModuleType(name)
     module.__file__ = str(source.path)
     module.__mrpbench_source__ = source  # type: ignore[attr-defined]
+
+    def find(beside: str) -> ModuleType:
+        path, text = source.path.with_name(f"{beside}.py"), source.beside[beside]
+        return _import_source(Source(path, text, imported_beside(path, text, source.files)))
+
+    vars(module)["__builtins__"] = vars(builtins) | {"__import__": importing(source.beside, find)}
     sys.modules[name] = module  # attrs and pickle look classes up there
     linecache.cache[module.__file__] = (len(source.text), None, source.text.splitlines(keepends=True), module.__file__)
     try:
         exec(compile(source.text, module.__file__, "exec"), vars(module))  # noqa: S102 - running it is what was asked
+    except InputError:  # of a module beside it
+        del sys.modules[name]
+        raise
     except SyntaxError as error:
         del sys.modules[name]
         raise InputError(error.msg, file=source.path, line=error.lineno, column=error.offset) from error
