@@ -2,6 +2,7 @@
 
 import pytest
 
+from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.store.paths import RunPaths
@@ -46,17 +47,19 @@ levels:
 """
 
 
-def run(tmp_path, starts, goals):
+def run(tmp_path, starts, goals, file=None):
     pytest.importorskip("mrpbench_planners_mapf")
     (tmp_path / "hall.building.yaml").write_text(HALL)
     study = {
-        "world": {"plugin": "rmf", "file": str(tmp_path / "hall.building.yaml")},
+        "world": {"plugin": "rmf", "file": str(file or tmp_path / "hall.building.yaml")},
         "roadmap": "graph",
         "scenario": {"plugin": "named", "starts": starts, "goals": goals},
         "assigner": "identity",
         "planner": "prioritized",
         "dispatcher": "adg",
         "simulator": "kinematic",
+        "limits": {"execution": "15 min"},
+        "metrics": ["execution"],
     }
     (point,) = load_study(study).runs
     paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
@@ -80,3 +83,17 @@ def test_who_starts_in_the_swing_of_a_door_is_told_in_one_line(tmp_path):
     record, _ = run(tmp_path, ["front"], ["room"])
     assert (record["status"], record["error"]["stage"]) == ("scenario_infeasible", "scenario")
     assert record["error"]["message"] == "robot 0 starts at front, where the leaf of door ward opens"
+
+
+def test_robots_change_floors_in_the_hotel(tmp_path, shared_data):
+    """Three levels, two lifts, nineteen doors; one robot goes up, one comes down."""
+    hotel = shared_data / "rmf/rmf_demos/hotel.building.yaml"
+    record, file = run(tmp_path, ["lobby", "L2_room15"], ["L2_master_suite", "restaurant"], hotel)
+    assert record["status"] == "succeeded", record.get("error")
+    assert record["metrics"]["execution.wall_contacts"] == record["metrics"]["execution.robot_contacts"] == 0
+    recording = Recording(file)
+    level, doing = recording.channel("level"), recording.channel("facility")
+    recording.close()
+    names = [world_level.name for world_level in Rmf(file=hotel).load().levels]
+    assert [[names[number] for number in row] for row in level[[0, -1]].tolist()] == [["L1", "L2"], ["L2", "L1"]]
+    assert (doing.max(axis=0) > doing.min(axis=0)).sum() >= 4, "doors and cabins move"

@@ -1,0 +1,134 @@
+"""Occupancy as the original benchmark found it: by vertical rays through the 3D world, one per cell.
+
+Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered Environments", ICRA 2023. It
+knows nothing of outlines, only of what a ray hits, and so checks `mrpbench_core.checking.occupancy`, which does without
+a simulator.
+"""
+
+import math
+from itertools import pairwise
+
+import attrs
+import numpy as np
+
+from mrpbench_core.checking.occupancy import bounds
+from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.geometry import inside
+from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.solids import wall_boxes
+from mrpbench_core.model.world import Level
+from mrpbench_simulators_pybullet.bullet import SEEN, Bullet, Group, quiet
+
+ABOVE = 1.0
+"""metres above the highest roof at which rays begin."""
+FLOOR = 0.01
+"""metres above the floor at which they end."""
+_TRIANGLES = 10_000
+"""Per mesh."""
+_BATCH = 16_000
+"""Rays per call; PyBullet takes no more than 16,383."""
+
+
+def occupancy_from_above(
+    level: Level,
+    cell_size: float,
+    origin: tuple[float, float] | None = None,
+    shape: tuple[int, int] | None = None,
+) -> Occupancy:
+    """Rasterise walls, obstacles and the level's own raster: a cell is blocked if a ray down its middle hits something.
+
+    Doors are open, as in `mrpbench_core.checking.occupancy.rasterise`, whose arguments these are. Holes in the floor
+    are nothing that a ray could hit, and what lies beyond a level's own raster is not there.
+
+    Raises:
+        InputError: PyBullet is not installed.
+    """
+    low, high = bounds(level)
+    origin = (float(low[0]), float(low[1])) if origin is None else origin
+    if shape is None:
+        across, up = ((high - origin) / cell_size - 1e-9).tolist()
+        shape = (max(1, math.ceil(up)), max(1, math.ceil(across)))
+    blank = Occupancy(blocked=np.zeros(shape, bool), cell_size=cell_size, origin=origin)
+    triangles = roofs(level)
+    if not len(triangles):
+        return blank
+    bullet = Bullet()
+    try:
+        with quiet():
+            _build(bullet, triangles)
+        centres = blank.centres(np.argwhere(~blank.blocked))
+        hit = _hit(bullet, centres, float(triangles[..., 2].max()) + ABOVE)
+    finally:
+        bullet.close()
+    return attrs.evolve(blank, blocked=hit.reshape(shape))
+
+
+def roofs(level: Level) -> Float:
+    """Triangles f8[k,3,3] that cover everything solid from above, each at its height in metres."""
+    boxes = wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4)[:, :, :2]
+    covers = [(box, level.wall_height) for box in boxes]
+    covers += [(obstacle.polygon, obstacle.height) for obstacle in level.obstacles]
+    if level.occupancy is not None:
+        covers += [(run, level.wall_height) for run in _runs(level.occupancy)]
+    parts = [np.empty((0, 3, 3))]
+    for polygon, height in covers:
+        flat = triangulate(np.asarray(polygon))
+        parts.append(np.concatenate([flat, np.full((len(flat), 3, 1), height)], axis=2))
+    return np.concatenate(parts)
+
+
+def triangulate(polygon: Float) -> Float:
+    """Triangles f8[c-2,3,2] of a simple polygon f8[c,2], by cutting off one ear after the other."""
+    x, y = polygon.T
+    turn = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
+    left = polygon.tolist() if turn > 0 else polygon[::-1].tolist()
+    ears = []
+    while len(left) > 3:
+        ear = next((index for index in range(len(left)) if _is_ear(left, index)), 0)
+        ears.append([left[ear - 1], left[ear], left[(ear + 1) % len(left)]])
+        del left[ear]
+    return np.array([*ears, left], float)
+
+
+def _is_ear(corners: list[list[float]], index: int) -> bool:
+    """Tell whether the triangle at a corner lies in the polygon: the corner is convex, and no other is in the way."""
+    before, here, after = corners[index - 1], corners[index], corners[(index + 1) % len(corners)]
+    if (here[0] - before[0]) * (after[1] - before[1]) - (here[1] - before[1]) * (after[0] - before[0]) <= 0:
+        return False
+    others = [corner for corner in corners if corner not in (before, here, after)]
+    return not others or not inside(np.array([before, here, after]), np.array(others)).any()
+
+
+def _runs(occupancy: Occupancy) -> list[Float]:
+    """Rectangles f8[4,2] over the blocked cells of each row."""
+    found = []
+    size, origin = occupancy.cell_size, np.asarray(occupancy.origin)
+    for row, blocked in enumerate(occupancy.blocked):
+        ends = np.flatnonzero(np.diff(np.concatenate([[0], blocked.astype(np.int8), [0]])))
+        for first, last in ends.reshape(-1, 2).tolist():
+            corners = np.array([(first, row), (last, row), (last, row + 1), (first, row + 1)], float)
+            found.append(origin + size * corners)
+    return found
+
+
+def _build(bullet: Bullet, triangles: Float) -> None:
+    for first, last in pairwise([*range(0, len(triangles), _TRIANGLES), len(triangles)]):
+        part = triangles[first:last]
+        shape = bullet.createCollisionShape(
+            bullet.module.GEOM_MESH,
+            vertices=part.reshape(-1, 3).tolist(),
+            indices=list(range(3 * len(part))),
+            flags=bullet.module.GEOM_FORCE_CONCAVE_TRIMESH,
+        )
+        bullet.body(Group.WALLS, shape)
+
+
+def _hit(bullet: Bullet, points: Float, top: float) -> Bool:
+    """Tell bool[k] whether rays straight down at `points` f8[k,2] hit anything."""
+    start, end = (np.column_stack([points, np.full(len(points), z)]) for z in (top, FLOOR))
+    hits: list[bool] = []
+    for first in range(0, len(points), _BATCH):
+        part = slice(first, first + _BATCH)
+        found = bullet.rayTestBatch(start[part], end[part], collisionFilterMask=int(SEEN))
+        hits += [ray[0] >= 0 for ray in found]
+    return np.array(hits, bool)
