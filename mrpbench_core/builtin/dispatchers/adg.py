@@ -57,6 +57,8 @@ class AdgSession(DispatcherSession):
         self.seen = np.zeros((2, len(problem)), np.int64)
         self.released: Int32 = np.zeros(len(problem), np.int32)
         self.plan = plan
+        self.looked: FleetView | None = None
+        self.orders = Orders(released=self.released)
         self.adopt(problem, plan)
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
@@ -75,11 +77,19 @@ class AdgSession(DispatcherSession):
         gates.look(self.seen, np.arange(len(problem)))
         gates.commit(committed)
         self.plan, self.gates = plan, gates
+        self.looked = None
         self.released = committed
         self._release()
 
     def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - order is all that counts, not time
         """Release what the robots' progress has opened: work is done only for robots that got further."""
+        before, self.looked = self.looked, view
+        nobody = before is not None and view.reached is before.reached and view.cleared is before.cleared
+        if not nobody or self.gates.requests:
+            self.orders = self._orders(view)
+        return self.orders
+
+    def _orders(self, view: FleetView) -> Orders:
         seen = np.maximum(self.seen, (view.reached, view.cleared))
         changed = (seen != self.seen).any(axis=0).nonzero()[0]
         if len(changed):

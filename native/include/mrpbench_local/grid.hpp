@@ -60,15 +60,16 @@ bool line(Cell a, Cell b, Visit&& visit) {
   const int sx = a.x < b.x ? 1 : -1, sy = a.y < b.y ? 1 : -1;
   const bool steep = dy > dx;
   const int longer = steep ? dy : dx, shorter = steep ? dx : dy;
+  const Cell along = steep ? Cell{0, sy} : Cell{sx, 0}, diagonal{sx, sy};
   int error = longer / 2;
   for (int i = 0;; ++i) {
     if (!visit(a)) return false;
     if (i == longer) return true;
     error += shorter;
     const bool aside = error >= longer;
-    if (aside) error -= longer;
-    if (steep || aside) a.y += sy;
-    if (!steep || aside) a.x += sx;
+    error -= aside ? longer : 0;
+    a.x += aside ? diagonal.x : along.x;
+    a.y += aside ? diagonal.y : along.y;
   }
 }
 

@@ -1,6 +1,7 @@
 #include "mrpbench_local/costmap.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <numbers>
 #include <stdexcept>
 
@@ -51,6 +52,12 @@ void traverse(Point a, Point b, double resolution, Visit&& visit) {
       next_y += ty;
     }
   }
+}
+
+/// The first lethal cell of a row from `x` on, or its width.
+std::size_t next_lethal(const std::uint8_t* row, std::size_t x, std::size_t width) {
+  const void* const found = std::memchr(row + x, kLethal, width - x);
+  return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - row) : width;
 }
 
 /// Raise each of `count` costs to another.
@@ -232,8 +239,7 @@ void Costmap::inflate() {
   margined_.assign(stride * (height + 2 * reach), kFree);
   const auto lethal = [&](std::size_t x, std::size_t y) { return cost_[y * width + x] == kLethal; };
   for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t x = 0; x < width; ++x) {
-      if (!lethal(x, y)) continue;
+    for (std::size_t x = 0; (x = next_lethal(&cost_[y * width], x, width)) < width; ++x) {
       const bool buried = (x == 0 || lethal(x - 1, y)) && (x + 1 == width || lethal(x + 1, y)) &&
                           (y == 0 || lethal(x, y - 1)) && (y + 1 == height || lethal(x, y + 1));
       if (buried) continue;
