@@ -16,6 +16,7 @@ class Contacts:
 
     def __init__(self, bullet: Bullet, robots: Sequence[int], reach: Float) -> None:
         self._bullet, self._robots, self._reach = bullet, robots, reach
+        self._pairs = np.triu_indices(len(robots), 1)
         self._index = {body: robot for robot, body in enumerate(robots)}
         self._close: list[tuple[int, int]] = []
         self._obstacles: Sequence[int] = ()
@@ -23,7 +24,7 @@ class Contacts:
 
     def begin(self, place: Float, obstacles: Sequence[int]) -> None:
         """Forget all. Robots at f8[n,2] can meet those within their `reach`, and `obstacles`."""
-        first, second = np.triu_indices(len(place), 1)
+        first, second = self._pairs
         gap = place[first] - place[second]
         near = (gap * gap).sum(axis=1) < (self._reach[first] + self._reach[second]) ** 2
         self._close = list(zip(first[near].tolist(), second[near].tolist(), strict=True))

@@ -50,6 +50,7 @@ class BulletSimulation(Simulation):
         reach = max((lidar.range + math.hypot(*lidar.mount[:2]) for lidar in self._schedule.lidars), default=0.0)
         self._storeys, self._facilities = Storeys(world, reach), Facilities(world)
         self._doing = self._facilities.initial()
+        self._outlines = self._storeys.leaves(self._facilities, self._doing)
         self._level: Int16 = np.zeros(len(fleet), np.int16) if levels is None else np.array(levels, np.int16)
         self._limit = np.array([(robot.max_speed, robot.max_turn_rate) for robot in fleet.robots]).reshape(-1, 2)
         self._mover_places = np.full((len(movers), 2), np.inf)
@@ -83,7 +84,8 @@ class BulletSimulation(Simulation):
 
     def step(self, inputs: Inputs) -> State:
         """Advance by one control period."""
-        self._operate(inputs.facilities)
+        if inputs.facilities:
+            self._operate(inputs.facilities)
         if inputs.movers is not None:
             self._mover_places = np.ascontiguousarray(inputs.movers[:, :2])
         near = self._leaves.near(self._plane[:, :2], float(self._radius.max(initial=0.0)) + _NEAR)
@@ -108,6 +110,7 @@ class BulletSimulation(Simulation):
             return
         self._doing, self._level = after, self._facilities.carried(before, after, pose, level)
         self._leaves.move(after)
+        self._outlines = self._storeys.leaves(self._facilities, after)
         spread = self._storeys.spread(pose, self._level)
         for robot in np.flatnonzero(self._level != level).tolist():
             self._robots.place(robot, *spread[robot, :2].tolist())
@@ -151,8 +154,7 @@ class BulletSimulation(Simulation):
     def _scan(self, lidar: Lidar, robots: Sequence[int]) -> Float:
         if self._rays is not None:
             return self._rays.scan(lidar, robots, self._plane)
-        leaves = self._storeys.leaves(self._facilities, self._doing)
-        return self._casters.scan(lidar, robots, self._plane, self._mover_places, leaves)
+        return self._casters.scan(lidar, robots, self._plane, self._mover_places, self._outlines)
 
     def close(self) -> None:
         """Give the physics world back."""

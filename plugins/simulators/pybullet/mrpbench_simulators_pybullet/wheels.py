@@ -24,17 +24,22 @@ class Wheels:
         self._per_metre = np.array([1 / robot.wheel_radius for robot in robots])
         self._per_radian = np.array([robot.wheel_separation / 2 / robot.wheel_radius for robot in robots])
         self._command = self._target = np.zeros((len(robots), 2))
+        self._reached = False
         self._drive(np.arange(len(robots)))
 
     def command(self, twist: Float) -> None:
         """What the robots are to do, f8[n,2] within their limits, from now on."""
-        self._command = twist
+        self._command, self._reached = twist, False
 
     def before_step(self) -> None:
         """Hand the motors their speeds for the next physics step."""
+        if self._reached:
+            return
         change = np.clip(self._command - self._target, -self._ramp, self._ramp)
         self._target = self._target + change
-        self._drive(np.flatnonzero(change.any(axis=1)))
+        changed = change.any(axis=1).nonzero()[0]
+        self._reached = not len(changed)
+        self._drive(changed)
 
     def _drive(self, robots: np.ndarray[tuple[int], np.dtype[np.int64]]) -> None:
         control = self._bullet.module.VELOCITY_CONTROL
