@@ -25,6 +25,7 @@ from mrpbench_simulators_pybullet.wheels import Wheels
 if TYPE_CHECKING:
     from mrpbench_simulators_pybullet.simulator import PyBullet
 
+_TIMESTEP = {"wheels": 1 / 240, "body": 1 / 120}
 _MOVER_HEIGHT = 1.7
 _NEAR = 0.2
 """Metres from a robot beyond which no leaf is asked whether it touches one."""
@@ -44,7 +45,7 @@ class BulletSimulation(Simulation):
         levels: Int16 | None = None,
     ) -> None:
         self._radius, self._period, self._periods = fleet.radii, period, 0
-        self._substeps = max(1, round(period / options.timestep))
+        self._substeps = max(1, round(period / (options.timestep or _TIMESTEP[options.model])))
         self._timestep = period / self._substeps
         self._schedule = ScanSchedule(fleet, period)
         reach = max((lidar.range + math.hypot(*lidar.mount[:2]) for lidar in self._schedule.lidars), default=0.0)

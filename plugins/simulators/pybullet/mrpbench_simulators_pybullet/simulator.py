@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Literal
 
 import attrs
-from attrs.validators import ge, gt
+from attrs.validators import ge, gt, optional
 
 from mrpbench_core.api import Simulation, Simulator, option
 from mrpbench_core.model.arrays import Float, Int16
@@ -16,8 +16,12 @@ from mrpbench_core.model.world import World
 class PyBullet(Simulator):
     """Rigid bodies, with driven wheels or without, among walls. Levels lie side by side; doors and lifts move."""
 
-    timestep: float = option(
-        1 / 240, help="physics step; shortened so that a whole number fills a control period", unit="s", validator=gt(0)
+    timestep: float | None = option(
+        None,
+        help="physics step, shortened so that a whole number fills a control period; by default 1/240 s on wheels and "
+        "1/120 s for bodies, which drive exactly with any",
+        unit="s",
+        validator=optional(gt(0)),
     )
     iterations: int = option(
         30, help="iterations of the constraint solver in each step; with fewer, wheels slip", validator=ge(1)

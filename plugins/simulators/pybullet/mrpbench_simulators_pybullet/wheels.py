@@ -37,7 +37,7 @@ class Wheels:
             return
         change = np.clip(self._command - self._target, -self._ramp, self._ramp)
         self._target = self._target + change
-        changed = change.any(axis=1).nonzero()[0]
+        changed = np.flatnonzero(change.any(axis=1))
         self._reached = not len(changed)
         self._drive(changed)
 
