@@ -11,14 +11,14 @@
 
 namespace mrpbench::mapf {
 
-/// Where the first plan comes from: repairing conflicts; LaCAM, where the roadmap allows it; or repairing, and LaCAM
-/// where that takes long.
+/// Where the first plan comes from: repairing conflicts; LaCAM, where the roadmap allows it; or LaCAM, then repairing
+/// for a while, and the cheaper one.
 enum class Initial { repair, lacam, either };
 
 struct LnsOptions {
   Objective objective = Objective::flowtime;
   Initial initial = Initial::either;
-  int neighbourhood = 8;                   // robots that are planned anew at a time
+  std::optional<int> neighbourhood;        // robots that are planned anew at a time; nothing: as many as bring most
   std::optional<std::int64_t> iterations;  // of repairing, and again of improving; nothing: until the clock ends it
   std::uint64_t seed = 0;
 };

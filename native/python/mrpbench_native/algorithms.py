@@ -44,11 +44,19 @@ ALGORITHMS: Mapping[str, tuple[Callable[..., mapf.Answer], dict[str, Any]]] = {
     "ita_ecbs": (mapf.bounded_cbs, _ASSIGNING | {"goal_choice": "by_node"}),
     "lacam": (
         mapf.lacam,
-        {"objective": "flowtime", "swap": True, "star": True, "neighbourhoods": True, "iterations": None, "seed": 0},
+        {
+            "objective": "flowtime",
+            "swap": True,
+            "guides": True,
+            "star": True,
+            "neighbourhoods": True,
+            "iterations": None,
+            "seed": 0,
+        },
     ),
     "lns": (
         mapf.lns,
-        {"objective": "flowtime", "initial": "either", "neighbourhood": 8, "iterations": None, "seed": 0},
+        {"objective": "flowtime", "initial": "either", "neighbourhood": None, "iterations": None, "seed": 0},
     ),
     "pbs": (mapf.pbs, {}),
     "pibt": (mapf.pibt, {"swap": True, "steps": 0, "seed": 0}),

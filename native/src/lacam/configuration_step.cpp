@@ -4,9 +4,9 @@
 
 namespace mrpbench::mapf::lacam {
 
-ConfigurationStep::ConfigurationStep(const Instance& instance, const Moves& moves, DistanceTables& tables, bool swap,
-                                     std::uint64_t seed, Limits& limits)
-    : moves_(moves), robots_(instance.size()), swap_(swap), random_(seed) {
+ConfigurationStep::ConfigurationStep(const Instance& instance, const Moves& moves, DistanceTables& tables,
+                                     const Guides* guides, bool swap, std::uint64_t seed, Limits& limits)
+    : moves_(moves), robots_(instance.size()), guides_(guides), swap_(swap), random_(seed) {
   for (int vertex = 0; vertex < moves.vertex_count(); ++vertex) {
     most_candidates_ = std::max(most_candidates_, static_cast<int>(moves.successors(vertex).size()) + 1);
   }
@@ -76,11 +76,13 @@ int ConfigurationStep::rank(int robot, Candidate* candidates) {
   DistanceTable& distance = *distance_[robot];
   std::uint64_t ties = random_();
   int count = 0;
+  const std::int32_t guided = guides_ == nullptr ? -1 : guides_->next(robot, from_[robot]);
   const auto add = [&](std::int32_t vertex) {
     const auto tie = static_cast<std::uint32_t>(ties & 15);
     ties = ties >> 4 | ties << 60;
-    const Candidate candidate{static_cast<std::uint32_t>(std::min(distance(vertex), kLatestTime - 1)) << 4 | tie,
-                              vertex};
+    const Candidate candidate{
+        vertex == guided ? 0 : (static_cast<std::uint32_t>(std::min(distance(vertex), kLatestTime - 1)) + 1) << 4 | tie,
+        vertex};
     int place = count++;
     for (; place > 0 && candidates[place - 1].key > candidate.key; --place) candidates[place] = candidates[place - 1];
     candidates[place] = candidate;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "lacam/guides.hpp"
 #include "lacam/moves.hpp"
 #include "mrpbench_mapf/distance_table.hpp"
 #include "mrpbench_mapf/random.hpp"
@@ -14,12 +15,15 @@ namespace mrpbench::mapf::lacam {
 
 class ConfigurationStep {
  public:
-  ConfigurationStep(const Instance& instance, const Moves& moves, DistanceTables& tables, bool swap, std::uint64_t seed,
-                    Limits& limits);
+  ConfigurationStep(const Instance& instance, const Moves& moves, DistanceTables& tables, const Guides* guides,
+                    bool swap, std::uint64_t seed, Limits& limits);
 
   /// Where all robots go from `from`: robot r to `to[r]` if that is no -1, the others where PIBT sends them, those
   /// first in `order` before the others. False if it finds no way for all; then `to` means nothing.
   bool operator()(const std::int32_t* from, const std::int32_t* order, std::int32_t* to);
+
+  /// From now on all robots go straight to their goals.
+  void drop_guides() { guides_ = nullptr; }
 
  private:
   static constexpr int kDeepest = 10'000;  // robots in one chain of inheritance, for the stack's sake
@@ -44,6 +48,7 @@ class ConfigurationStep {
 
   const Moves& moves_;
   int robots_;
+  const Guides* guides_;
   bool swap_;
   Random random_;
   std::vector<DistanceTable*> distance_;

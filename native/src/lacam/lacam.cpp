@@ -23,7 +23,7 @@ class Lacam {
         result_(result),
         tables_(instance, limits),
         cut_off_(prove_unsolvable(instance, tables_, limits, result)),
-        search_(instance, moves, tables_, options, limits, result.statistics) {}
+        search_(instance, moves, tables_, nullptr, options, limits, result.statistics) {}
 
   void solve() {
     if (cut_off_) return;
@@ -36,7 +36,7 @@ class Lacam {
     least_ = least();
     result_.status = Status::solved;
     keep(paths_of(moves_, search_.way(), instance_.size()));
-    if (options_.iterations != 0 && best_.first > least_ && (options_.star || options_.neighbourhoods)) improve();
+    if (options_.iterations != 0 && best_.first > least_) improve();
   }
 
  private:
@@ -52,8 +52,12 @@ class Lacam {
   }
 
   void keep(std::vector<Path> paths) {
-    best_ = value(options_.objective, paths);
     result_.paths = std::move(paths);
+    note();
+  }
+
+  void note() {
+    best_ = value(options_.objective, result_.paths);
     search_.bound(best_.first);
     result_.note(limits_.seconds(), static_cast<double>(best_.first), static_cast<double>(least_));
   }
@@ -61,10 +65,15 @@ class Lacam {
   void improve() {
     const Relations relations(instance_, limits_);
     Schedule schedule(instance_, tables_, relations, options_.seed, limits_, result_.statistics);
+    if (options_.guides) follow_guides(schedule);
+    if (best_.first == least_ || !(options_.star || options_.neighbourhoods)) return;
     schedule.replace(result_.paths);
-    Improvement improvement(schedule, options_.objective, kNeighbourhood, options_.seed);
+    Improvement improvement(schedule, options_.objective, {}, options_.seed);
     for (std::int64_t k = 0; !options_.iterations || k < *options_.iterations; ++k) {
-      if (options_.neighbourhoods && improvement.advance()) keep(schedule.paths());
+      if (options_.neighbourhoods && improvement.advance()) {
+        improvement.copy_changed(result_.paths);
+        note();
+      }
       if (options_.star && !search_.exhausted() && search_.advance()) {
         std::vector<Path> paths = paths_of(moves_, search_.way(), instance_.size());
         if (value(options_.objective, paths) < best_) {
@@ -75,6 +84,19 @@ class Lacam {
       if (best_.first == least_ || (search_.exhausted() && rule_out_better())) return;
       if (search_.exhausted() && !options_.neighbourhoods) return;
     }
+  }
+
+  /// A second plan, with ways that keep clear of one another as guides: slower to find, mostly much cheaper.
+  void follow_guides(Schedule& schedule) {
+    const Guides guides(schedule);
+    LacamSearch search(instance_, moves_, tables_, &guides, options_, limits_, result_.statistics);
+    // Guides know nothing of changing places: robots that insist on them for too long block one another.
+    for (Tick left = guides.longest(); !search.found(); --left) {
+      if (left == 0) search.drop_guides();
+      search.advance();
+    }
+    std::vector<Path> paths = paths_of(moves_, search.way(), instance_.size());
+    if (value(options_.objective, paths) < best_) keep(std::move(paths));
   }
 
   /// When all configurations were seen that a better plan could contain: take the best of all, and true.
@@ -96,7 +118,6 @@ class Lacam {
     return true;
   }
 
-  static constexpr int kNeighbourhood = 8;
   const Instance& instance_;
   const Moves& moves_;
   const LacamOptions& options_;

@@ -4,12 +4,12 @@
 
 namespace mrpbench::mapf::lacam {
 
-LacamSearch::LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables,
+LacamSearch::LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables, const Guides* guides,
                          const LacamOptions& options, Limits& limits, Statistics& statistics)
     : moves_(moves),
       limits_(limits),
       statistics_(statistics),
-      step_(instance, moves, tables, options.swap, options.seed, limits),
+      step_(instance, moves, tables, guides, options.swap, options.seed, limits),
       graph_(instance, tables, options.objective, limits),
       goals_(goals_of(instance)),
       to_(instance.size()) {

@@ -11,8 +11,8 @@ namespace mrpbench::mapf::lacam {
 
 class LacamSearch {
  public:
-  LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables, const LacamOptions& options,
-              Limits& limits, Statistics& statistics);
+  LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables, const Guides* guides,
+              const LacamOptions& options, Limits& limits, Statistics& statistics);
 
   /// Look at one more configuration. True if there is a new way to the goal: `way()`.
   bool advance();
@@ -22,6 +22,7 @@ class LacamSearch {
   bool exhausted() const { return open_.empty(); }
   /// Ways that cost as much as this are of no interest.
   void bound(Cost cost) { bound_ = std::min(bound_, cost); }
+  void drop_guides() { step_.drop_guides(); }
   const ConfigurationGraph& graph() const { return graph_; }
   const Node* goal() const { return goal_; }
 

@@ -15,7 +15,7 @@ using namespace lacam;
 void solve(const Instance& instance, const Moves& moves, const PibtOptions& options, Limits& limits, Result& result) {
   DistanceTables tables(instance, limits);
   if (prove_unsolvable(instance, tables, limits, result)) return;
-  ConfigurationStep step(instance, moves, tables, options.swap, options.seed, limits);
+  ConfigurationStep step(instance, moves, tables, nullptr, options.swap, options.seed, limits);
   const std::vector<std::int32_t> goals = goals_of(instance), first = first_order(instance, tables);
   std::vector<std::int32_t> order = first, reordered = first, next(instance.size());
   Arena<std::int32_t> arena(limits);

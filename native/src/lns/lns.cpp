@@ -24,12 +24,12 @@ class Lns {
     if (const auto robot = find_clash(instance_, relations, limits_)) return unsolvable(*robot);
     Schedule schedule(instance_, tables_, relations, options_.seed, limits_, result_.statistics);
     if (!begin(schedule)) return;
-    result_.status = Status::solved;
-    keep(schedule);
     Improvement improvement(schedule, options_.objective, options_.neighbourhood, options_.seed);
     for (std::int64_t k = 0; (!options_.iterations || k < *options_.iterations) && !improvement.is_done(); ++k) {
       ++result_.statistics.expansions;
-      if (improvement.advance()) keep(schedule);
+      if (!improvement.advance()) continue;
+      improvement.copy_changed(result_.paths);
+      note();
     }
   }
 
@@ -39,8 +39,12 @@ class Lns {
     result_.status = Status::unsolvable;
   }
 
-  void keep(const Schedule& schedule) {
-    result_.paths = schedule.paths();
+  void keep(std::vector<Path> paths) {
+    result_.paths = std::move(paths);
+    note();
+  }
+
+  void note() {
     result_.note(limits_.seconds(), static_cast<double>(value(options_.objective, result_.paths).first), least());
   }
 
@@ -48,34 +52,43 @@ class Lns {
     return options_.objective == Objective::makespan ? std::numeric_limits<double>::quiet_NaN() : result_.lower_bound;
   }
 
-  /// Put a plan without conflicts into `schedule`, or set the status.
+  /// Put a plan without conflicts into `schedule` and the result, or set the status.
   bool begin(Schedule& schedule) {
     const bool unit = options_.initial != Initial::repair && lacam::unit_moves(instance_).has_value();
-    if (options_.initial == Initial::lacam && unit) return begin_by_lacam(schedule);
-    Repair repair(schedule, options_.neighbourhood, options_.seed);
-    if (!repair.begin()) return false;  // stays `gave_up`
-    const std::int64_t patience = unit ? kPatience : std::numeric_limits<std::int64_t>::max();
-    const std::int64_t most = std::min(patience, options_.iterations.value_or(patience));
-    for (std::int64_t k = 0; k < most && !repair.is_done(); ++k) {
-      ++result_.statistics.expansions;
-      repair.advance();
-    }
-    if (repair.is_done()) return true;
-    return unit && begin_by_lacam(schedule);
+    if (unit && !begin_by_lacam()) return false;
+    if (!unit || options_.initial == Initial::either) repair(schedule, unit);
+    if (result_.status != Status::solved) return false;
+    schedule.replace(result_.paths);
+    return true;
   }
 
-  bool begin_by_lacam(Schedule& schedule) {
+  bool begin_by_lacam() {
     LacamOptions options;
     options.iterations = 0;
     options.seed = options_.seed;
     Result first = solve_lacam(instance_, options, limits_);
     result_.status = first.status;
-    if (first.status != Status::solved) return false;
-    schedule.replace(std::move(first.paths));
-    return true;
+    if (first.status == Status::solved) keep(std::move(first.paths));
+    return first.status == Status::solved;
   }
 
-  static constexpr std::int64_t kPatience = 100;  // groups to repair before LaCAM takes over
+  /// Take the repaired plan if it is cheaper than the one there is; with one, only try for a while.
+  void repair(Schedule& schedule, bool unit) {
+    Repair repair(schedule, options_.neighbourhood.value_or(kNeighbourhood), options_.seed);
+    if (!repair.begin()) return;  // stays `gave_up`
+    const std::int64_t patience = unit ? 2 * schedule.expansions() : std::numeric_limits<std::int64_t>::max();
+    const std::int64_t most = options_.iterations.value_or(std::numeric_limits<std::int64_t>::max());
+    for (std::int64_t k = 0; k < most && schedule.expansions() < patience && !repair.is_done(); ++k) {
+      ++result_.statistics.expansions;
+      repair.advance();
+    }
+    if (!repair.is_done()) return;
+    const bool better = value(options_.objective, schedule.paths()) < value(options_.objective, result_.paths);
+    if (result_.status != Status::solved || better) keep(schedule.paths());
+    result_.status = Status::solved;
+  }
+
+  static constexpr int kNeighbourhood = 8;  // robots to repair at a time
   const Instance& instance_;
   const LnsOptions& options_;
   Limits& limits_;

@@ -4,16 +4,16 @@
 
 namespace mrpbench::mapf::lns {
 
-Neighbourhood::Neighbourhood(const Schedule& schedule, DistanceTables& tables, int size, std::uint64_t seed)
+Neighbourhood::Neighbourhood(const Schedule& schedule, DistanceTables& tables, std::uint64_t seed)
     : schedule_(schedule),
       roadmap_(schedule.instance().roadmap()),
       tables_(tables),
-      size_(std::min(size, schedule.instance().size())),
       random_(seed),
       is_chosen_(schedule.instance().size()),
       seen_(roadmap_.vertex_count()) {}
 
-void Neighbourhood::clear() {
+void Neighbourhood::clear(int size) {
+  size_ = std::min(size, schedule_.instance().size());
   for (const int robot : chosen_) is_chosen_[robot] = false;
   chosen_.clear();
 }
@@ -24,8 +24,8 @@ void Neighbourhood::add(int robot) {
   chosen_.push_back(robot);
 }
 
-const std::vector<int>& Neighbourhood::around_late(int late) {
-  clear();
+const std::vector<int>& Neighbourhood::around_late(int late, int size) {
+  clear(size);
   add(late);
   int robot = late;
   for (int tries = 0; tries < 10 && !full(); ++tries) {
@@ -73,8 +73,8 @@ void Neighbourhood::meet(int vertex, Tick from, Tick to) {
   schedule_.traffic().conflicts_of(-1, at_vertex(vertex, from, to), [&](int other) { add(other); });
 }
 
-const std::vector<int>& Neighbourhood::at_crossing() {
-  clear();
+const std::vector<int>& Neighbourhood::at_crossing(int size) {
+  clear(size);
   ++search_;
   queue_.assign(1, random_.below(roadmap_.vertex_count()));
   seen_[queue_.front()] = search_;
@@ -97,8 +97,8 @@ const std::vector<int>& Neighbourhood::at_crossing() {
   return chosen_;
 }
 
-const std::vector<int>& Neighbourhood::any() {
-  clear();
+const std::vector<int>& Neighbourhood::any(int size) {
+  clear(size);
   fill();
   return chosen_;
 }
@@ -107,8 +107,8 @@ void Neighbourhood::fill() {
   while (!full()) add(random_.below(schedule_.instance().size()));
 }
 
-const std::vector<int>& Neighbourhood::in_conflict(int robot, const std::vector<std::vector<int>>& partners) {
-  clear();
+const std::vector<int>& Neighbourhood::in_conflict(int robot, const std::vector<std::vector<int>>& partners, int size) {
+  clear(size);
   add(robot);
   // A random walk gathers those that are closely knit; it may go in circles.
   int at = robot;
@@ -121,8 +121,8 @@ const std::vector<int>& Neighbourhood::in_conflict(int robot, const std::vector<
   return chosen_;
 }
 
-const std::vector<int>& Neighbourhood::at_goal(int robot) {
-  clear();
+const std::vector<int>& Neighbourhood::at_goal(int robot, int size) {
+  clear(size);
   add(robot);
   const Path& path = schedule_.paths()[robot];
   meet(path.back().element, arrival(path), kForever);

@@ -10,20 +10,22 @@ namespace mrpbench::mapf::lns {
 
 class Neighbourhood {
  public:
-  Neighbourhood(const Schedule& schedule, DistanceTables& tables, int size, std::uint64_t seed);
+  Neighbourhood(const Schedule& schedule, DistanceTables& tables, std::uint64_t seed);
+
+  // All choose at most `size` robots.
 
   /// Robot `late`, and robots that keep it from getting to its goal earlier.
-  const std::vector<int>& around_late(int late);
+  const std::vector<int>& around_late(int late, int size);
   /// Robots that pass the crossings around a place.
-  const std::vector<int>& at_crossing();
-  const std::vector<int>& any();
+  const std::vector<int>& at_crossing(int size);
+  const std::vector<int>& any(int size);
   /// Robots that conflict with `robot`, directly or through others; `partners` is by robot.
-  const std::vector<int>& in_conflict(int robot, const std::vector<std::vector<int>>& partners);
+  const std::vector<int>& in_conflict(int robot, const std::vector<std::vector<int>>& partners, int size);
   /// `robot`, those that pass its goal, and those whose goals it passes.
-  const std::vector<int>& at_goal(int robot);
+  const std::vector<int>& at_goal(int robot, int size);
 
  private:
-  void clear();
+  void clear(int size);
   bool full() const { return static_cast<int>(chosen_.size()) >= size_; }
   void add(int robot);
   void walk(int robot);
@@ -33,7 +35,7 @@ class Neighbourhood {
   const Schedule& schedule_;
   const Roadmap& roadmap_;
   DistanceTables& tables_;
-  int size_;
+  int size_ = 0;
   Random random_;
   std::vector<int> chosen_;
   std::vector<bool> is_chosen_;

@@ -14,7 +14,8 @@ Tick whenever(int) {
 
 Repair::Repair(Schedule& schedule, int neighbourhood, std::uint64_t seed)
     : schedule_(schedule),
-      neighbourhood_(schedule, schedule.tables(), neighbourhood, seed + 1),
+      neighbourhood_(schedule, schedule.tables(), seed + 1),
+      size_(neighbourhood),
       random_(seed),
       partners_(schedule.instance().size()),
       seen_(schedule.instance().size()) {}
@@ -113,8 +114,8 @@ const std::vector<int>& Repair::choose(int heuristic) {
     if (!partners_[robot].empty()) in_conflict.push_back(robot);
   }
   const int robot = in_conflict[random_.below(in_conflict.size())];
-  if (heuristic == 0) return neighbourhood_.in_conflict(robot, partners_);
-  return heuristic == 1 ? neighbourhood_.at_goal(robot) : neighbourhood_.any();
+  if (heuristic == 0) return neighbourhood_.in_conflict(robot, partners_, size_);
+  return heuristic == 1 ? neighbourhood_.at_goal(robot, size_) : neighbourhood_.any(size_);
 }
 
 }  // namespace mrpbench::mapf::lns

@@ -25,6 +25,7 @@ class Repair {
 
   Schedule& schedule_;
   Neighbourhood neighbourhood_;
+  int size_;
   Random random_;
   Roulette<3> roulette_;
   int pairs_ = 0;

@@ -13,6 +13,8 @@ class Schedule {
   const Instance& instance() const { return instance_; }
   const Traffic& traffic() const { return traffic_; }
   DistanceTables& tables() { return tables_; }
+  /// Of all searches so far.
+  std::int64_t expansions() const { return sipps_.expansions(); }
   Limits& limits() { return limits_; }
   const std::vector<Path>& paths() const { return paths_; }
   /// Ticks that the robot takes longer than if it were alone.

@@ -20,6 +20,9 @@ class Sipps {
   /// none.
   bool search(int robot, DistanceTable& distance, Others others, Tick latest, Path& path);
 
+  /// Of all searches so far.
+  std::int64_t expansions() const { return statistics_.low_level_expansions; }
+
  private:
   /// Who else is at a vertex at some time.
   struct Company {

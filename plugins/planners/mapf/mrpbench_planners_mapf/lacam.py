@@ -19,15 +19,17 @@ class Lacam(Planner):
     """Depth first over configurations of all robots (Okumura, AAAI 2023, IJCAI 2023), then improvement.
 
     For roadmaps on which every move takes one tick. Complete: `unsolvable` means that it has seen every configuration.
-    The plan is improved by going on with the search (`star`) and by planning groups anew (`neighbourhoods`),
-    until nothing can become better, `limits.iterations` are done, or the time is over. The result is optimal, and
-    `lower_bound` says so, once all better configurations are ruled out, which happens with a handful of robots only.
+    The plan is improved by a second one along ways that keep clear of one another (`guides`; Okumura, AAMAS 2024),
+    by going on with the search (`star`) and by planning groups anew (`neighbourhoods`), until nothing can become
+    better, `limits.iterations` are done, or the time is over. The result is optimal, and `lower_bound` says so, once
+    all better configurations are ruled out, which happens with a handful of robots only.
     """
 
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.COMPLETE, Promise.DETERMINISTIC})
 
     objective: Objective = objective_option()
     swap: bool = option(True, help="Let robots change places in narrow passages (else the first plan may take long).")
+    guides: bool = option(True, help="After the first plan look for one along ways that keep clear of one another.")
     star: bool = option(True, help="After the first plan go on searching configurations.")
     neighbourhoods: bool = option(True, help="After the first plan improve it by large neighbourhood search.")
     seed: int = option(0, help="Seed of all random choices.", validator=attrs.validators.ge(0))
@@ -41,6 +43,7 @@ class Lacam(Planner):
                 instance,
                 objective=self.objective,
                 swap=self.swap,
+                guides=self.guides,
                 star=self.star,
                 neighbourhoods=self.neighbourhoods,
                 iterations=budget.iterations,

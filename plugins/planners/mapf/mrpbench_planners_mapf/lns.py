@@ -30,10 +30,14 @@ class Lns(Planner):
     initial: Initial = option(
         "either",
         help="Where the first plan comes from: repair, lacam (where every move takes one tick; elsewhere repair), or "
-        "either: lacam where repairing takes long.",
+        "either: lacam, then repair for a while, and the cheaper of the two.",
         validator=attrs.validators.in_(get_args(Initial)),
     )
-    neighbourhood: int = option(8, help="Robots that are planned anew at a time.", validator=attrs.validators.ge(1))
+    neighbourhood: int | None = option(
+        None,
+        help="Robots that are planned anew at a time; without it 8 while repairing, then 2 to 32, as brings most.",
+        validator=attrs.validators.optional(attrs.validators.ge(1)),
+    )
     seed: int = option(0, help="Seed of all random choices.", validator=attrs.validators.ge(0))
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:

@@ -1,0 +1,143 @@
+"""How soon anytime solvers have a plan and what it costs after a while, beside what others were measured to reach.
+
+    python benchmarks/anytime.py --data ../shared/data/movingai --anchors ../shared/data/anchors_anytime.csv
+    python benchmarks/anytime.py --data … --anchors … --maps maze-32-32-2 --solvers lacam "lns initial=lacam"
+
+Runs every map, scenario and number of robots that the table has a measurement for with the longest limit; `--subset n`
+takes every n-th. All costs are sums of arrival times, whatever a solver minimised itself. Of the others the best of the
+settings of LaCAM3 and LNS2 counts, in each column by itself: the one with the earliest first plan need not be the one
+with the cheapest in the end. `ours/theirs` compares the best of our solvers with the best of theirs at the end: 1 or
+less is no costlier; first plans that take less than 5 ms are alike. The others were measured on another day on a
+machine of the same kind.
+"""
+
+import argparse
+import csv
+import math
+import statistics
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from movingai import Instance, run
+
+EARLY_S = 1.0
+LEAST_S = 0.005
+OTHERS = ("lacam3", "LNS2")
+
+
+class Curve(NamedTuple):
+    """What is left of a cost over time."""
+
+    first: float
+    """Seconds to the first plan; infinite: none."""
+    early: float
+    """Cost after `EARLY_S`."""
+    last: float
+    """Cost at the end."""
+
+
+NOTHING = Curve(math.inf, math.inf, math.inf)
+
+
+def measured(file: Path, limit: float) -> dict[Instance, Curve]:
+    """The best of the table in each column, for instances that were measured with this limit."""
+    best: dict[Instance, Curve] = {}
+    long = set()
+    with file.open() as stream:
+        for row in csv.DictReader(stream):
+            instance = Instance(row["map"], row["scen"], int(row["k"]))
+            if not row["solver"].startswith(OTHERS):
+                continue
+            if float(row["time_limit"]) == limit and row["solver"] in OTHERS:
+                long.add(instance)
+            best[instance] = cheapest([best.get(instance, NOTHING), curve_of(row, limit)])
+    return {instance: curve for instance, curve in best.items() if instance in long}
+
+
+def curve_of(row: Mapping[str, str], limit: float) -> Curve:
+    """One line of the table; a cost that is not known for some time does not count then."""
+    if row["solved"] != "1":
+        return NOTHING
+    ended, cost = float(row["time_limit"]), float(row["soc_final"])
+    return Curve(
+        float(row["seconds_to_first"]), cost if ended <= EARLY_S else math.inf, cost if ended <= limit else math.inf
+    )
+
+
+def cheapest(curves: Sequence[Curve]) -> Curve:
+    """The least in each column."""
+    return Curve(*map(min, zip(*curves, strict=True)))
+
+
+def solved(data: Path, instance: Instance, solver: str, limit: float) -> Curve:
+    """Ours."""
+    solution = run(data, instance, solver, limit, repeat=1)
+    if solution is None or solution.cost is None:
+        return NOTHING
+    history = solution.history[:, :2].tolist()
+    early = min((cost for seconds, cost in history if seconds <= EARLY_S), default=math.inf)
+    return Curve(history[0][0], early, solution.cost)
+
+
+def line(instance: Instance, found: Sequence[Curve], theirs: Curve) -> str:
+    """The curves of our solvers, then of the best of theirs, by column."""
+    ratio = cheapest(found).last / theirs.last if math.isfinite(theirs.last) else math.nan
+    cells = [
+        *(f"{curve.first:9.3f}" for curve in (*found, theirs)),
+        *(f"{curve.early:9.0f}" for curve in (*found, theirs)),
+        *(f"{curve.last:9.0f}" for curve in (*found, theirs)),
+    ]
+    return f"{instance.map:<24}{instance.scen:<10}{instance.agents:>6}{''.join(cells)}{ratio:10.4f}"
+
+
+def table(
+    instances: Sequence[Instance], anchors: Mapping[Instance, Curve], arguments: argparse.Namespace
+) -> Iterator[str]:
+    """A line for each instance, and what they come to."""
+    solvers = [*arguments.solvers, "theirs"]
+    names = [f"{solver[:8]:>9}" for solver in solvers]
+    groups = [f"{name:>{9 * len(solvers)}}" for name in ("first plan, s", f"cost at {EARLY_S:g} s", "cost at the end")]
+    yield f"{'':<40}{''.join(groups)}"
+    yield f"{'map':<24}{'scen':<10}{'robots':>6}{''.join(names * 3)}{'ours/theirs':>12}"
+    ratios, sooner = [], 0
+    for instance in instances:
+        found = [solved(arguments.data, instance, solver, arguments.time_limit) for solver in arguments.solvers]
+        theirs = anchors[instance]
+        sooner += cheapest(found).first <= max(theirs.first, LEAST_S)
+        if math.isfinite(theirs.last):
+            ratios.append(cheapest(found).last / theirs.last)
+        yield line(instance, found, theirs)
+    if ratios:
+        yield (
+            f"first plan no later: {sooner} of {len(instances)}; no costlier: {sum(r <= 1 for r in ratios)} of "
+            f"{len(ratios)} that both solved; geometric mean {statistics.geometric_mean(ratios):.4f}"
+        )
+
+
+def main() -> None:
+    """Measure and print."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=Path, required=True, help="folder with maps/ and scens/")
+    parser.add_argument("--anchors", type=Path, required=True, help="table of what others reach")
+    parser.add_argument("--solvers", nargs="+", default=["lacam", "lns"], help="each with options, as 'lns seed=1'")
+    parser.add_argument("--maps", nargs="*", default=[])
+    parser.add_argument("--agents", nargs="*", type=int, default=[])
+    parser.add_argument("--scens", nargs="*", default=[])
+    parser.add_argument("--subset", type=int, default=1, metavar="N", help="every N-th instance only")
+    parser.add_argument("--time-limit", type=float, default=10.0)
+    arguments = parser.parse_args()
+    anchors = measured(arguments.anchors, arguments.time_limit)
+    chosen = [
+        one
+        for one in sorted(anchors)
+        if (not arguments.maps or one.map in arguments.maps)
+        and (not arguments.agents or one.agents in arguments.agents)
+        and (not arguments.scens or one.scen in arguments.scens)
+    ]
+    for text in table(chosen[:: arguments.subset], anchors, arguments):
+        print(text, flush=True)
+
+
+if __name__ == "__main__":
+    main()
