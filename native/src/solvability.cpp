@@ -1,6 +1,7 @@
 #include "mrpbench_mapf/solvability.hpp"
 
 #include "mrpbench_mapf/conflict.hpp"
+#include "mrpbench_mapf/rearrangement.hpp"
 
 namespace mrpbench::mapf {
 
@@ -59,6 +60,12 @@ std::optional<int> find_missing_goal(const Instance& instance, Limits& limits) {
   return std::nullopt;
 }
 
+/// Of robots with distinct starts.
+std::optional<int> find_disagreement(const Instance& instance, Limits& limits) {
+  if (const auto robot = find_missing_goal(instance, limits)) return robot;
+  return find_misplaced_robot(instance, limits);
+}
+
 }  // namespace
 
 std::optional<int> find_cut_off_robot(const Instance& instance, DistanceTables& tables, Limits& limits) {
@@ -79,7 +86,7 @@ std::optional<int> find_clash(const Instance& instance, const Relations& relatio
       if (stay && goals_clash(instance, relations, one, other)) return one;
     }
   }
-  return find_missing_goal(instance, limits);
+  return find_disagreement(instance, limits);
 }
 
 std::optional<int> find_shared_place(const Instance& instance, Limits& limits) {
@@ -89,7 +96,7 @@ std::optional<int> find_shared_place(const Instance& instance, Limits& limits) {
     if (place) return robot;
     place = true;
   }
-  return find_missing_goal(instance, limits);
+  return find_disagreement(instance, limits);
 }
 
 }  // namespace mrpbench::mapf

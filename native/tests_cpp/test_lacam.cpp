@@ -88,6 +88,21 @@ TEST("one-way lanes that lead in circles end as well") {
   CHECK(lacam(instance(ring(), {robot(1, 2), robot(2, 1), robot(3, 3)})).status == Status::unsolvable);
 }
 
+TEST("a plan along ways that keep clear of one another is no worse, and mostly better") {
+  Random random(5);
+  int better = 0;
+  for (int k = 0; k < 20; ++k) {
+    const Instance it = random_instance(random, 20, 5, 40);
+    const Result first = lacam(it, {.iterations = 0});
+    if (first.status != Status::solved) continue;
+    const Result second = lacam(it, {.star = false, .neighbourhoods = false, .iterations = 1});
+    CHECK(faults(it, second) == 0);
+    CHECK(sum_of_costs(second) <= sum_of_costs(first));
+    better += sum_of_costs(second) < sum_of_costs(first);
+  }
+  CHECK(better > 10);
+}
+
 TEST("priority inheritance plans crowds in the open, or gives up") {
   Random random(4);
   int solved = 0;
@@ -100,7 +115,7 @@ TEST("priority inheritance plans crowds in the open, or gives up") {
     CHECK(faults(it, result) == 0);
   }
   CHECK(solved > 10);
-  CHECK(pibt(instance(grid(4, 1), {robot(0, 3), robot(3, 0)})).status == Status::gave_up);
+  CHECK(pibt(instance(grid(4, 1), {robot(0, 3)}), {.steps = 2}).status == Status::gave_up);
 }
 
 TEST("limits hold, and a plan that was found is kept") {

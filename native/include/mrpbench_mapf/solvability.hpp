@@ -12,7 +12,7 @@ namespace mrpbench::mapf {
 std::optional<int> find_cut_off_robot(const Instance& instance, DistanceTables& tables, Limits& limits);
 
 /// A robot whose start (or committed beginning) or goals exclude those of another, or nothing. Robots that stay at
-/// their goals also need distinct ones.
+/// their goals also need distinct ones, and ways to them all at once (`find_misplaced_robot`).
 std::optional<int> find_clash(const Instance& instance, const Relations& relations, Limits& limits);
 
 /// The same where robots exclude one another only at one vertex and nothing is committed.

@@ -16,11 +16,7 @@ std::vector<std::int32_t> goals_of(const Instance& instance) {
 
 bool prove_unsolvable(const Instance& instance, DistanceTables& tables, Limits& limits, Result& result) {
   std::optional<int> culprit = find_cut_off_robot(instance, tables, limits);
-  std::vector<char> starts(instance.roadmap().vertex_count()), goals(starts);
-  for (int robot = 0; !culprit && robot < instance.size(); ++robot) {
-    const Robot& it = instance.robots()[robot];
-    if (starts[it.start]++ > 0 || goals[it.goals.front()]++ > 0) culprit = robot;
-  }
+  if (!culprit) culprit = find_shared_place(instance, limits);
   if (culprit) {
     result.statistics.failed_robot = *culprit;
     result.status = Status::unsolvable;

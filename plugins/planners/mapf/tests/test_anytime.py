@@ -82,13 +82,6 @@ def test_the_curve_falls_to_the_cost_of_the_plan(planner):
     assert all(point.lower_bound <= cost[-1] for point in result.history)
 
 
-def test_a_swap_in_a_dead_end_is_proved_unsolvable():
-    asked = problem(grid(["...."]), [0, 3], [3, 0])
-    assert Lacam().plan(asked, attrs.evolve(BUDGET, iterations=None)).status is PlanStatus.UNSOLVABLE
-    assert Lns().plan(asked, attrs.evolve(BUDGET, iterations=None)).status is PlanStatus.UNSOLVABLE
-    assert Pbs().plan(asked, BUDGET).status is PlanStatus.GAVE_UP
-
-
 @pytest.mark.parametrize("planner", [Lacam(), Pibt()])
 def test_more_than_unit_moves_is_skipped_with_the_reason(planner):
     road = grid(["..."])

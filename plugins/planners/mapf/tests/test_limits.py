@@ -2,11 +2,17 @@
 
 import time
 
+import attrs
 import numpy as np
 import pytest
 from mapf_instances import grid, movingai, problem, random_grid_problem, roadmap
 from mrpbench_planners_mapf.astar import Astar
+from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
+from mrpbench_planners_mapf.lacam import Lacam
+from mrpbench_planners_mapf.lns import Lns
+from mrpbench_planners_mapf.pbs import Pbs
+from mrpbench_planners_mapf.pibt import Pibt
 from mrpbench_planners_mapf.prioritized import Prioritized
 
 from mrpbench_core.model.plan import Budget, PlanStatus
@@ -18,19 +24,37 @@ SLACK_S = 5.0
 """Far more than the planners need; other work may share the machine."""
 
 
+SLOW_SWAP = problem(attrs.evolve(grid(["...."]), duration=[[2] * 6]), [0, 3], [3, 0])
+"""No plan, but nothing that is quick can tell, since moves take two ticks."""
+
+
 def timed(planner, asked, budget):
     start = time.monotonic()
     result = planner.plan(asked, budget)
     return result, time.monotonic() - start
 
 
-def test_a_swap_in_a_dead_end_ends_at_the_deadline_with_a_bound():
-    asked = problem(grid(["...."]), [0, 3], [3, 0])
-    result, seconds = timed(Cbs(), asked, Budget(wall_s=0.3, memory_bytes=1 << 30))
+def test_a_swap_that_nothing_rules_out_ends_at_the_deadline_with_a_bound():
+    result, seconds = timed(Cbs(), SLOW_SWAP, Budget(wall_s=0.3, memory_bytes=1 << 30))
     assert result.status is PlanStatus.TIMEOUT
     assert 0.25 < seconds < 0.3 + SLACK_S
-    assert result.lower_bound > 6
+    assert result.lower_bound > 12
     assert result.plan is None
+
+
+@pytest.mark.parametrize("planner", [*COOPERATIVE, Ecbs(), Eecbs(), Lacam(), Lns(), Pbs(), Pibt()])
+@pytest.mark.parametrize(
+    ("rows", "starts", "goals"),
+    [
+        (["." * 200], [0, 199], [199, 0]),  # no room to pass
+        (["..", ".."], [0, 1, 2], [1, 0, 2]),  # round and round, always in the same order
+        (["..#", "...", "#.#"], [0, 1, 2, 3, 4, 5], [0, 1, 2, 3, 5, 4]),  # no room to move apart from turning
+    ],
+)
+def test_robots_that_can_never_pass_one_another_are_unsolvable(planner, rows, starts, goals):
+    asked = problem(grid(rows), starts, goals)
+    result = planner.plan(asked, Budget(wall_s=60, memory_bytes=1 << 30))
+    assert result.status is PlanStatus.UNSOLVABLE
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
@@ -49,9 +73,8 @@ def test_a_large_crowd_stops_in_time(shared_data):
 
 
 def test_memory_is_counted():
-    asked = problem(grid(["...."]), [0, 3], [3, 0])
     plain = Cbs(heuristic=False, target=False, corridor=False)
-    assert plain.plan(asked, Budget(wall_s=60, memory_bytes=4 << 20)).status is PlanStatus.OUT_OF_MEMORY
+    assert plain.plan(SLOW_SWAP, Budget(wall_s=60, memory_bytes=4 << 20)).status is PlanStatus.OUT_OF_MEMORY
 
 
 @pytest.mark.parametrize("planner", PLANNERS)

@@ -1,0 +1,229 @@
+#include "mrpbench_mapf/rearrangement.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace mrpbench::mapf {
+
+namespace {
+
+bool applies(const Instance& instance) {
+  if (instance.rules().disappear_at_goal) return false;
+  const auto plain = [](const Robot& robot) { return robot.goals.size() == 1 && robot.committed.empty(); };
+  if (!std::ranges::all_of(instance.robots(), plain)) return false;
+  for (int profile = 0; profile < instance.roadmap().profile_count(); ++profile) {
+    if (std::ranges::any_of(instance.roadmap().duration(profile), [](Tick ticks) { return ticks > 1; })) return false;
+  }
+  return true;
+}
+
+/// A connected part of the roadmap, disregarding the direction of edges, and the robots that start in it.
+struct Part {
+  std::vector<int> vertices;  // a path and a cycle: in their order
+  std::vector<int> robots;
+};
+
+class Parts {
+ public:
+  explicit Parts(const Roadmap& roadmap) : roadmap_(roadmap), seen_(roadmap.vertex_count()) {}
+
+  /// The part that `vertex` belongs to, if it was not asked for before.
+  std::vector<int> around(int vertex) {
+    std::vector<int> part;
+    if (!seen_[vertex]) part.push_back(vertex);
+    seen_[vertex] = true;
+    for (std::size_t next = 0; next < part.size(); ++next) {
+      for_neighbours(part[next], [&](int neighbour) {
+        if (!seen_[neighbour]) part.push_back(neighbour);
+        seen_[neighbour] = true;
+      });
+    }
+    return part;
+  }
+
+  std::vector<int> neighbours(int vertex) const {
+    std::vector<int> found;
+    for_neighbours(vertex, [&](int neighbour) { found.push_back(neighbour); });
+    std::ranges::sort(found);
+    found.erase(std::ranges::unique(found).begin(), found.end());
+    return found;
+  }
+
+ private:
+  template <class Visit>
+  void for_neighbours(int vertex, Visit visit) const {
+    for (const int edge : roadmap_.out(vertex)) visit(roadmap_.head(edge));
+    for (const int edge : roadmap_.in(vertex)) visit(roadmap_.tail(edge));
+  }
+
+  const Roadmap& roadmap_;
+  std::vector<char> seen_;
+};
+
+/// The vertices of a part that is a path or a cycle, one after another; empty if it is neither.
+std::vector<int> line_up(const Parts& parts, const std::vector<int>& part) {
+  int begin = part.front();
+  for (const int vertex : part) {
+    const std::size_t degree = parts.neighbours(vertex).size();
+    if (degree > 2) return {};
+    if (degree < 2) begin = vertex;
+  }
+  std::vector<int> line{begin};
+  while (line.size() < part.size()) {
+    const int before = line.size() > 1 ? line[line.size() - 2] : -1;
+    for (const int next : parts.neighbours(line.back())) {
+      if (next == before) continue;
+      line.push_back(next);
+      break;
+    }
+  }
+  return line;
+}
+
+/// The robot at which the order of the goals along `line` first differs from that of the starts, -1 = nowhere. Where
+/// the line is closed, any turn of it is the same order.
+int find_disorder(const Instance& instance, const std::vector<int>& line, bool closed) {
+  std::vector<int> robot_at(instance.roadmap().vertex_count(), -1), place(instance.roadmap().vertex_count());
+  for (std::size_t k = 0; k < line.size(); ++k) place[line[k]] = static_cast<int>(k);
+  for (int robot = 0; robot < instance.size(); ++robot) robot_at[instance.robots()[robot].start] = robot;
+  int previous = -1, first = -1, turns = 0;
+  for (const int vertex : line) {
+    if (robot_at[vertex] < 0) continue;
+    const int goal = place[instance.robots()[robot_at[vertex]].goals.front()];
+    if (previous >= 0 && goal < previous && ++turns > (closed ? 1 : 0)) return robot_at[vertex];
+    previous = goal;
+    if (first < 0) first = goal;
+  }
+  if (!closed || turns == 0 || previous < first) return -1;
+  return robot_at[*std::ranges::find_if(line, [&](int vertex) { return robot_at[vertex] >= 0; })];
+}
+
+/// All arrangements of robots on a few vertices that can be reached.
+class Arrangements {
+ public:
+  static constexpr std::int64_t kMost = 20'000;
+
+  Arrangements(const Instance& instance, const Part& part, Limits& limits)
+      : instance_(instance), part_(part), limits_(limits), place_(instance.roadmap().vertex_count(), -1) {
+    for (std::size_t k = 0; k < part.vertices.size(); ++k) place_[part.vertices[k]] = static_cast<int>(k);
+  }
+
+  static bool are_few(const Part& part) {
+    auto left = static_cast<std::int64_t>(part.vertices.size());
+    std::int64_t number = 1;
+    for (std::size_t k = 0; k < part.robots.size() && number <= kMost; ++k) number *= left--;
+    return number <= kMost;
+  }
+
+  bool can_reach_goals() {
+    const std::size_t robots = part_.robots.size();
+    std::vector<int> at(robots), goal(robots);
+    for (std::size_t k = 0; k < robots; ++k) {
+      at[k] = place_[instance_.robots()[part_.robots[k]].start];
+      goal[k] = place_[instance_.robots()[part_.robots[k]].goals.front()];
+    }
+    std::int64_t all = 1;
+    for (std::size_t k = 0; k < robots; ++k) all *= static_cast<std::int64_t>(part_.vertices.size());
+    limits_.charge(static_cast<std::size_t>(all / 8 + kMost * static_cast<std::int64_t>(sizeof(std::int64_t))));
+    seen_.assign(all, false);
+    see(at);
+    for (std::size_t next = 0; next < queue_.size(); ++next) {
+      limits_.check();
+      read(queue_[next], at);
+      if (at == goal) return true;
+      robot_at_.assign(part_.vertices.size(), -1);
+      for (std::size_t k = 0; k < robots; ++k) robot_at_[at[k]] = static_cast<int>(k);
+      for (std::size_t k = 0; k < robots; ++k) {
+        chain_.assign(1, static_cast<int>(k));
+        extend(at);
+      }
+    }
+    return false;
+  }
+
+ private:
+  /// The last robot of the chain goes to an empty place, or the chain is closed and turns, or it becomes longer.
+  void extend(std::vector<int>& at) {
+    const int robot = chain_.back();
+    const int vertex = part_.vertices[at[robot]];
+    const std::span<const Tick> duration =
+        instance_.roadmap().duration(instance_.robots()[part_.robots[robot]].profile);
+    for (const int edge : instance_.roadmap().out(vertex)) {
+      if (duration[edge] < 0) continue;
+      const int to = place_[instance_.roadmap().head(edge)];
+      const int there = robot_at_[to];
+      if (there < 0 && chain_.size() == 1) {
+        const int from = std::exchange(at[robot], to);
+        see(at);
+        at[robot] = from;
+      } else if (there == chain_.front() && chain_.size() > 2) {
+        turn(at);
+      } else if (there > chain_.front() && std::ranges::find(chain_, there) == chain_.end()) {
+        chain_.push_back(there);  // a cycle is begun at its least robot only
+        extend(at);
+        chain_.pop_back();
+      }
+    }
+  }
+
+  void turn(const std::vector<int>& at) {
+    std::vector<int> turned = at;
+    for (std::size_t k = 0; k < chain_.size(); ++k) turned[chain_[k]] = at[chain_[(k + 1) % chain_.size()]];
+    see(turned);
+  }
+
+  void see(const std::vector<int>& at) {
+    std::int64_t key = 0;
+    for (const int place : at) key = key * static_cast<std::int64_t>(part_.vertices.size()) + place;
+    if (seen_[key]) return;
+    seen_[key] = true;
+    queue_.push_back(key);
+  }
+  void read(std::int64_t key, std::vector<int>& at) const {
+    for (std::size_t k = at.size(); k-- > 0; key /= static_cast<std::int64_t>(part_.vertices.size())) {
+      at[k] = static_cast<int>(key % static_cast<std::int64_t>(part_.vertices.size()));
+    }
+  }
+
+  const Instance& instance_;
+  const Part& part_;
+  Limits& limits_;
+  std::vector<int> place_;  // by vertex of the roadmap: its number in the part
+  std::vector<bool> seen_;  // by key: the places of all robots as digits
+  std::vector<std::int64_t> queue_;
+  std::vector<int> robot_at_, chain_;
+};
+
+}  // namespace
+
+std::optional<int> find_misplaced_robot(const Instance& instance, Limits& limits) {
+  if (instance.size() < 2 || !applies(instance)) return std::nullopt;
+  Parts parts(instance.roadmap());
+  std::vector<int> part_of(instance.roadmap().vertex_count(), -1);
+  std::vector<Part> all;
+  for (int robot = 0; robot < instance.size(); ++robot) {
+    const int start = instance.robots()[robot].start;
+    limits.check();
+    if (part_of[start] < 0) {
+      all.push_back({parts.around(start), {}});
+      for (const int vertex : all.back().vertices) part_of[vertex] = static_cast<int>(all.size()) - 1;
+    }
+    if (part_of[instance.robots()[robot].goals.front()] != part_of[start]) return robot;
+    all[part_of[start]].robots.push_back(robot);
+  }
+  for (Part& part : all) {
+    if (part.robots.size() < 2) continue;
+    const std::vector<int> line = line_up(parts, part.vertices);
+    if (!line.empty()) {
+      const bool closed = parts.neighbours(line.front()).size() == 2;
+      const int robot = find_disorder(instance, line, closed);
+      if (robot >= 0) return robot;
+    }
+    if (Arrangements::are_few(part) && !Arrangements(instance, part, limits).can_reach_goals()) {
+      return part.robots.front();
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace mrpbench::mapf
