@@ -73,7 +73,7 @@ def test_unknown_choices_are_refused():
 
 
 def test_python_runs_on_while_a_solver_works():
-    instance = mapf.Instance(**swap())
+    instance = mapf.Instance(**swap(duration=np.full((1, 2), 2, "i4")))  # with moves of one tick it is soon proved
     worker = threading.Thread(target=mapf.cbs, args=(instance,), kwargs={"wall_s": 0.5, "memory_bytes": 1 << 31})
     worker.start()
     turns = 0

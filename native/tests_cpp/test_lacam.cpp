@@ -90,17 +90,18 @@ TEST("one-way lanes that lead in circles end as well") {
 
 TEST("a plan along ways that keep clear of one another is no worse, and mostly better") {
   Random random(5);
-  int better = 0;
+  int better = 0, all = 0;
   for (int k = 0; k < 20; ++k) {
-    const Instance it = random_instance(random, 20, 5, 40);
+    const Instance it = random_instance(random, 12, 8, 30);
     const Result first = lacam(it, {.iterations = 0});
     if (first.status != Status::solved) continue;
     const Result second = lacam(it, {.star = false, .neighbourhoods = false, .iterations = 1});
     CHECK(faults(it, second) == 0);
     CHECK(sum_of_costs(second) <= sum_of_costs(first));
+    ++all;
     better += sum_of_costs(second) < sum_of_costs(first);
   }
-  CHECK(better > 10);
+  CHECK(all > 5 && 2 * better > all);
 }
 
 TEST("priority inheritance plans crowds in the open, or gives up") {

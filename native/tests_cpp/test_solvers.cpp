@@ -77,7 +77,7 @@ TEST("an endless search stops at its limits and keeps its lower bound") {
 
 TEST("a priority order that fails is followed by others, or given up") {
   // Robot 0 would park in the corridor through which robot 1 has to pass.
-  const Instance it = instance(grid(4, 1), {robot(1, 2), robot(0, 3)});
+  const Instance it = instance(grid(4, 1, 2), {robot(1, 2), robot(0, 3)});
   const Result one = prioritized(it, {.order = Order::index, .restarts = 0, .seed = 0});
   CHECK(one.status == Status::gave_up);
   CHECK(one.statistics.failed_robot == 1);

@@ -54,6 +54,13 @@ def problem(road: Roadmap, starts, goals, *, radius=None, **fields) -> Problem:
     return Problem(**given, features=features_of(Problem(**given)) | footprints)
 
 
+def endless_swap(vertices: int) -> Problem:
+    """Two robots at the ends of a path. It has no plan, but no quick test rules one out, since moves take two ticks."""
+    road = grid(["." * vertices])
+    slow = roadmap(road.position, road.edges, np.full(len(road.edges), 2))
+    return problem(slow, [0, vertices - 1], [vertices - 1, 0])
+
+
 def random_grid_problem(random: np.random.Generator, robots: int, size: int = 4, **fields) -> Problem:
     rows = ["".join("#" if random.random() < 0.2 else "." for _ in range(size)) for _ in range(size)]
     road = grid(rows)

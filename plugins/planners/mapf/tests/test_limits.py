@@ -2,10 +2,9 @@
 
 import time
 
-import attrs
 import numpy as np
 import pytest
-from mapf_instances import grid, movingai, problem, random_grid_problem, roadmap
+from mapf_instances import endless_swap, grid, movingai, problem, random_grid_problem, roadmap
 from mrpbench_planners_mapf.astar import Astar
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
@@ -24,10 +23,6 @@ SLACK_S = 5.0
 """Far more than the planners need; other work may share the machine."""
 
 
-SLOW_SWAP = problem(attrs.evolve(grid(["...."]), duration=[[2] * 6]), [0, 3], [3, 0])
-"""No plan, but nothing that is quick can tell, since moves take two ticks."""
-
-
 def timed(planner, asked, budget):
     start = time.monotonic()
     result = planner.plan(asked, budget)
@@ -35,7 +30,7 @@ def timed(planner, asked, budget):
 
 
 def test_a_swap_that_nothing_rules_out_ends_at_the_deadline_with_a_bound():
-    result, seconds = timed(Cbs(), SLOW_SWAP, Budget(wall_s=0.3, memory_bytes=1 << 30))
+    result, seconds = timed(Cbs(), endless_swap(4), Budget(wall_s=0.3, memory_bytes=1 << 30))
     assert result.status is PlanStatus.TIMEOUT
     assert 0.25 < seconds < 0.3 + SLACK_S
     assert result.lower_bound > 12
@@ -74,7 +69,7 @@ def test_a_large_crowd_stops_in_time(shared_data):
 
 def test_memory_is_counted():
     plain = Cbs(heuristic=False, target=False, corridor=False)
-    assert plain.plan(SLOW_SWAP, Budget(wall_s=60, memory_bytes=4 << 20)).status is PlanStatus.OUT_OF_MEMORY
+    assert plain.plan(endless_swap(4), Budget(wall_s=60, memory_bytes=4 << 20)).status is PlanStatus.OUT_OF_MEMORY
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
