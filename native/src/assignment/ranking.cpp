@@ -6,76 +6,99 @@
 
 namespace mrpbench::mapf {
 
+namespace {
+
+constexpr Cost kNever = std::numeric_limits<Cost>::max();
+
+}  // namespace
+
 Ranking::Ranking(std::vector<std::vector<Tick>> cost, Limits& limits)
-    : cost_(std::move(cost)), limits_(limits), hungarian_(limits) {
+    : cost_(std::move(cost)),
+      limits_(limits),
+      hungarian_(limits),
+      indices_(limits),
+      prices_(limits),
+      kept_(limits),
+      forbidden_(limits) {
   for (const std::vector<Tick>& row : cost_) rows_.push_back(row.data());
   const int columns = cost_.empty() ? 0 : static_cast<int>(cost_[0].size());
-  limits.charge(cost_.size() * columns * sizeof(Tick));
-  auto cheapest = std::make_shared<Assignment>();
-  if (!hungarian_.solve(rows_, columns, *cheapest)) return;
-  push({sum(*cheapest), 0, true, 0, cost_.empty() ? std::vector<Tick>() : cost_[0], cheapest});
+  if (!hungarian_.solve(rows_, columns, scratch_)) return;
+  push({sum(scratch_), 0, true, 0, nullptr, keep(scratch_)});
 }
 
 std::optional<Ranking::Ranked> Ranking::next() {
   while (!parts_.empty()) {
     std::ranges::pop_heap(parts_, std::greater{});
-    Part part = std::move(parts_.back());
+    const Part part = parts_.back();
     parts_.pop_back();
     if (!part.solved) {
-      solve(std::move(part));
+      solve(part);
       continue;
     }
     split(part);
-    return Ranked{part.bound, part.cheapest->column_of};
+    const auto columns = part.cheapest->column_of;
+    return Ranked{part.bound, {columns.begin(), columns.end()}};
   }
   return std::nullopt;
 }
 
 void Ranking::push(Part part) {
-  const std::size_t size = part.cheapest->column_of.size() * (sizeof(std::int32_t) + sizeof(Cost)) +
-                           part.cheapest->row_of.size() * (sizeof(std::int32_t) + sizeof(Cost));
-  limits_.charge(sizeof(Part) + part.row.size() * sizeof(Tick) + (part.solved ? sizeof(Assignment) + size : 0));
   part.number = number_++;
-  parts_.push_back(std::move(part));
+  parts_.push_back(part);
   std::ranges::push_heap(parts_, std::greater{});
+  limits_.charge_growth(counted_, parts_.capacity() * sizeof(Part));
 }
 
-void Ranking::solve(Part part) {
-  auto cheapest = std::make_shared<Assignment>(*part.cheapest);
-  rows_[part.first] = part.row.data();
-  const bool found = hungarian_.repair(rows_, part.first, *cheapest, part.first);
+const Ranking::Kept* Ranking::keep(const Assignment& it) {
+  return &kept_.copy({indices_.copy(it.column_of), indices_.copy(it.row_of), prices_.copy(it.row_price),
+                      prices_.copy(it.column_price), it.idle_price});
+}
+
+void Ranking::solve(const Part& part) {
+  const Kept& from = *part.cheapest;
+  scratch_.column_of.assign(from.column_of.begin(), from.column_of.end());
+  scratch_.row_of.assign(from.row_of.begin(), from.row_of.end());
+  scratch_.row_price.assign(from.row_price.begin(), from.row_price.end());
+  scratch_.column_price.assign(from.column_price.begin(), from.column_price.end());
+  scratch_.idle_price = from.idle_price;
+  rows_[part.first] = row_of(part).data();
+  const bool found = hungarian_.repair(rows_, part.first, scratch_, part.first);
   rows_[part.first] = cost_[part.first].data();
-  if (!found) return;
-  part.bound = sum(*cheapest);
-  part.solved = true;
-  part.cheapest = std::move(cheapest);
-  push(std::move(part));
+  if (found) push({sum(scratch_), 0, true, part.first, part.forbidden, keep(scratch_)});
 }
 
 /// What is left of `part` without its cheapest assignment.
 void Ranking::split(const Part& part) {
-  const Assignment& it = *part.cheapest;
-  for (int row = part.first; row < static_cast<int>(rows_.size()); ++row) {
-    Part rest{0, 0, false, row, row == part.first ? part.row : cost_[row], part.cheapest};
-    rest.row[it.column_of[row]] = kForever;
-    const Cost more = extra(rest, it);
-    if (more == std::numeric_limits<Cost>::max()) continue;
+  for (std::int32_t row = part.first; row < static_cast<std::int32_t>(rows_.size()); ++row) {
+    const Forbidden* before = row == part.first ? part.forbidden : nullptr;
+    const Forbidden& forbidden = forbidden_.copy({part.cheapest->column_of[row], before});
+    Part rest{0, 0, false, row, &forbidden, part.cheapest};
+    const Cost more = extra(rest);
+    if (more == kNever) continue;
     rest.bound = part.bound + more;
-    push(std::move(rest));
+    push(rest);
   }
 }
 
-/// By how much `part` costs at least more than its parent `it`: its row needs another column, and the column it leaves
-/// goes to a later row, or to none. No less than the least reduced costs of these two.
-Cost Ranking::extra(const Part& part, const Assignment& it) const {
-  constexpr Cost kNever = std::numeric_limits<Cost>::max();
+/// The costs of row `part.first`.
+const std::vector<Tick>& Ranking::row_of(const Part& part) {
+  row_ = cost_[part.first];
+  for (const Forbidden* it = part.forbidden; it != nullptr; it = it->next) row_[it->column] = kForever;
+  return row_;
+}
+
+/// By how much a part costs at least more than what it was split from: its row needs another column, and the column it
+/// leaves goes to a later row, or to none. No less than the least reduced costs of these two.
+Cost Ranking::extra(const Part& part) {
   limits_.check();
+  const Kept& it = *part.cheapest;
+  const std::vector<Tick>& own = row_of(part);
   const std::int32_t left = it.column_of[part.first];
   Cost entry = kNever;
-  for (std::size_t column = 0; column < part.row.size(); ++column) {
+  for (std::size_t column = 0; column < own.size(); ++column) {
     const std::int32_t owner = it.row_of[column];
-    if (part.row[column] == kForever || (owner >= 0 && owner < part.first)) continue;
-    entry = std::min(entry, part.row[column] - it.row_price[part.first] - it.column_price[column]);
+    if (own[column] == kForever || (owner >= 0 && owner < part.first)) continue;
+    entry = std::min(entry, own[column] - it.row_price[part.first] - it.column_price[column]);
   }
   if (entry == kNever) return kNever;
   const bool idle = it.row_of.size() > rows_.size();

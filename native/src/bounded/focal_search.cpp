@@ -8,7 +8,7 @@ namespace mrpbench::mapf {
 
 namespace {
 constexpr std::size_t kFewSlots = 1024;
-constexpr std::size_t kLongSearch = 4096;
+constexpr std::size_t kLongSearch = 4096;  // or as many states as there are vertices
 }  // namespace
 
 FocalSearch::FocalSearch(const Space& space, const BoundedOptions& options, Limits& limits, Statistics& statistics)
@@ -36,7 +36,7 @@ Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, 
   bool found = false;
   while (!queue_.empty() && !found) {
     limits_.check();
-    if (nodes_.size() > kLongSearch && !detours_) find_detours();
+    if (!detours_ && nodes_.size() > std::min<std::size_t>(kLongSearch, vertices_)) find_detours();
     if (queue_.least_f() > least) {
       least = queue_.least_f();
       queue_.raise(bound(least));

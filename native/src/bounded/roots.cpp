@@ -8,7 +8,7 @@ void BoundedTree::start() {
   const GoalChoice goals = options_.techniques.goals;
   if (goals == GoalChoice::ranked) {
     ranked_.emplace(find_candidates(bench_), limits_);
-    return announce_root(0);
+    return announce_root();
   }
   if (goals == GoalChoice::by_node && !assignment_.emplace(find_candidates(bench_), limits_).solve()) return;
   const std::vector<int> any(robots_, TimedPath::kAnyGoal);
@@ -32,16 +32,18 @@ bool BoundedTree::make_root(std::span<const int> goals) {
 
 void BoundedTree::make_ranked_root() {
   const RankedGoals::Ranked ranked = *std::move(next_root_);
-  announce_root(make_root(ranked.goals) ? by_id_.back()->conflict_count() : 0);
+  make_root(ranked.goals);
+  announce_root();
 }
 
-/// Let the next root wait for its turn.
-void BoundedTree::announce_root(std::int32_t conflicts) {
+/// Let the next root wait until nothing else is within the bound: any assignment that is cheap enough will do.
+void BoundedTree::announce_root() {
+  constexpr std::int32_t kLast = 1 << 30;  // conflicts
   next_root_ = ranked_->next();
   if (!next_root_) return;
   by_id_.push_back(nullptr);
   const auto id = static_cast<std::int32_t>(by_id_.size()) - 1;
-  queue_.push({id, next_root_->cost, next_root_->cost, conflicts}, estimate(next_root_->cost, conflicts));
+  queue_.push({id, next_root_->cost, next_root_->cost, kLast}, static_cast<double>(next_root_->cost));
 }
 
 }  // namespace mrpbench::mapf

@@ -11,6 +11,7 @@ namespace mrpbench::mapf {
 ConstraintTree::ConstraintTree(Workbench& bench, Dependencies* dependencies)
     : bench_(bench),
       dependencies_(dependencies),
+      root_paths_(bench.space.instance().size()),
       situation_(bench.space.instance().size()),
       others_(bench.space, bench.limits),
       nodes_(bench.limits),
@@ -59,6 +60,7 @@ void ConstraintTree::clear() {
   lower_bound_ = 0;
   assignment_ = nullptr;
   ranked_ = nullptr;
+  std::ranges::fill(root_paths_, TimedPath{});
 }
 
 ConstraintTree::Outcome ConstraintTree::run(std::int64_t expansions) {

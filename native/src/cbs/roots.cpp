@@ -28,20 +28,32 @@ bool ConstraintTree::start(NodeAssignment& assignment) {
   return root != nullptr;
 }
 
-/// A node without constraints in which robots go to `goals`, null if one cannot.
+/// A node without constraints in which robots go to `goals`, null if one cannot. Robots that go where they did in the
+/// last ranked root do so by the same paths.
 ConstraintTree::Node* ConstraintTree::make_root(std::span<const int> goals) {
   situation_.clear_constraints();
   for (const int robot : robots_) others_.remove(robot);
   robots_.resize(bench_.space.instance().size());
   std::iota(robots_.begin(), robots_.end(), 0);
-  for (const int robot : robots_) situation_.set_path(robot, {});
   changed_.clear();
-  pending_ = robots_;
+  pending_.clear();
+  for (const int robot : robots_) {
+    situation_.set_path(robot, {});
+    const TimedPath& known = root_paths_[robot];
+    if (ranked_ != nullptr && !known.empty() && known.goal == goals[robot]) {
+      keep(robot, known);
+    } else {
+      pending_.push_back(robot);
+    }
+  }
   root_goals_ = goals;
   if (!replan({})) return nullptr;
   ++counts_.roots;
   Node root{};
-  for (const auto& [robot, path] : changed_) root.cost += path.cost;
+  for (const auto& [robot, path] : changed_) {
+    root.cost += path.cost;
+    if (ranked_ != nullptr) root_paths_[robot] = path;
+  }
   return &complete(root);
 }
 

@@ -7,9 +7,9 @@
 // Murty's ranked assignment method", IEEE Transactions on Aerospace and Electronic Systems 1997.
 #pragma once
 
-#include <memory>
 #include <optional>
 
+#include "mrpbench_mapf/arena.hpp"
 #include "mrpbench_mapf/assignment/hungarian.hpp"
 
 namespace mrpbench::mapf {
@@ -27,15 +27,26 @@ class Ranking {
   std::optional<Ranked> next();
 
  private:
-  /// The assignments that agree with `parent` in the rows below `first`, and give row `first` another column than any
-  /// assignment before.
+  /// Columns that the row of a part must not take.
+  struct Forbidden {
+    std::int32_t column;
+    const Forbidden* next;
+  };
+  /// An `Assignment` in arenas, for there may be hundreds of thousands.
+  struct Kept {
+    std::span<const std::int32_t> column_of, row_of;
+    std::span<const Cost> row_price, column_price;
+    Cost idle_price;
+  };
+  /// The assignments that agree with `cheapest` in the rows below `first`, and give row `first` none of the forbidden
+  /// columns. `cheapest` is one of them if the part is solved, else it belongs to the part from which this was split.
   struct Part {
     Cost bound;
     std::int64_t number;  // order of making
     bool solved;
-    int first;
-    std::vector<Tick> row;                       // costs of row `first`
-    std::shared_ptr<const Assignment> cheapest;  // if solved, else the parent's
+    std::int32_t first;
+    const Forbidden* forbidden;
+    const Kept* cheapest;
     bool operator>(const Part& other) const {
       if (bound != other.bound) return bound > other.bound;
       if (solved != other.solved) return other.solved;
@@ -44,9 +55,11 @@ class Ranking {
   };
 
   void push(Part part);
-  void solve(Part part);
+  const Kept* keep(const Assignment& it);
+  void solve(const Part& part);
   void split(const Part& part);
-  Cost extra(const Part& part, const Assignment& it) const;
+  const std::vector<Tick>& row_of(const Part& part);
+  Cost extra(const Part& part);
   Cost sum(const Assignment& it) const;
 
   const std::vector<std::vector<Tick>> cost_;
@@ -54,7 +67,14 @@ class Ranking {
   Hungarian hungarian_;
   std::vector<const Tick*> rows_;
   std::vector<Part> parts_;  // a heap
+  Arena<std::int32_t> indices_;
+  Arena<Cost> prices_;
+  Arena<Kept> kept_;
+  Arena<Forbidden> forbidden_;
   std::int64_t number_ = 0;
+  std::size_t counted_ = 0;
+  std::vector<Tick> row_;
+  Assignment scratch_;
 };
 
 }  // namespace mrpbench::mapf

@@ -49,7 +49,7 @@ class BoundedTree {
   void start();
   bool make_root(std::span<const int> goals);
   void make_ranked_root();
-  void announce_root(std::int32_t conflicts);
+  void announce_root();
   void finish();
   void push(const Node* parent, const Child& child);
   void enqueue(std::int32_t id);

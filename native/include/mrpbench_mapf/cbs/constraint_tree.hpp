@@ -103,6 +103,7 @@ class ConstraintTree {
   NodeAssignment* assignment_ = nullptr;
   RankedGoals* ranked_ = nullptr;
   std::optional<RankedGoals::Ranked> next_root_;
+  std::vector<TimedPath> root_paths_;  // by robot: in the last ranked root
   std::vector<int> robots_;
   Situation situation_;
   AvoidanceTable others_;
