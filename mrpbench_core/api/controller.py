@@ -36,6 +36,12 @@ class ControllerSession(ABC):
         """
         return None
 
+    def approach(self, observation: Observation, tolerance: float) -> Float | None:  # noqa: ARG002 - as `reroute`
+        """Return waypoints f8[k,2] to the free place nearest to the end of the path, at most `tolerance` metres from
+        it, or None when the end itself is free or there is no way.
+        """
+        return None
+
 
 class FleetControllerSession:
     """Controls all robots at once. The default loops over one session per robot.
@@ -85,6 +91,10 @@ class FleetControllerSession:
         """Return waypoints f8[k,2] around what blocks the path of one row, or None; see `ControllerSession.reroute`."""
         return self.sessions[int(observations.robot[row])].reroute(observations.of(row))
 
+    def approach(self, observations: Observations, row: int, tolerance: float) -> Float | None:
+        """Return waypoints f8[k,2] to beside the end of the path of one row; see `ControllerSession.approach`."""
+        return self.sessions[int(observations.robot[row])].approach(observations.of(row), tolerance)
+
     def excuse(self, robot: int) -> str:  # noqa: ARG002 - for those that override it
         """Return in a few words why there was no admissible command for a robot, for events and logs."""
         return ""
@@ -112,6 +122,10 @@ class FleetOfOne(ControllerSession):
     def reroute(self, observation: Observation) -> Float | None:
         """Waypoints around what blocks the path."""
         return self._fleet.reroute(Observations.alone(observation), 0)
+
+    def approach(self, observation: Observation, tolerance: float) -> Float | None:
+        """Waypoints to beside the end of the path."""
+        return self._fleet.approach(Observations.alone(observation), 0, tolerance)
 
 
 class Controller(Component):

@@ -41,8 +41,19 @@ Output points_array(const std::vector<Point>& points) {
   return own(std::move(values), {points.size(), 2});
 }
 
+std::optional<Output> way_array(const std::optional<std::vector<Point>>& way) {
+  if (!way) return std::nullopt;
+  return points_array(*way);
+}
+
 void require(bool holds, const char* what) {
   if (!holds) throw std::invalid_argument(what);
+}
+
+Path whole(const Matrix<2>& path) {
+  require(path.shape(0) > 0, "a path has a beginning");
+  const auto all = rows<Point>(path);
+  return {all[0], all.subspan(1)};
 }
 
 RobotOptions robot_options(const Settings& settings, const Matrix<2>& footprint) {
@@ -219,15 +230,10 @@ NB_MODULE(local, module) {
              for (const Pose& pose : rows<Pose>(poses)) free.push_back(self.is_free(robot, pose) ? 1 : 0);
              return own(free, {free.size()});
            })
-      .def(
-          "reroute",
-          [](const Fleet& self, std::size_t robot, double x, double y, const Matrix<2>& path) -> std::optional<Output> {
-            require(path.shape(0) > 0, "a path has a beginning");
-            const auto all = rows<Point>(path);
-            const auto found = self.reroute(robot, {x, y}, Path{all[0], all.subspan(1)});
-            if (!found) return std::nullopt;
-            return points_array(*found);
-          })
+      .def("reroute", [](const Fleet& self, std::size_t robot, double x, double y,
+                         const Matrix<2>& path) { return way_array(self.reroute(robot, {x, y}, whole(path))); })
+      .def("approach", [](const Fleet& self, std::size_t robot, double x, double y, const Matrix<2>& path,
+                          double tolerance) { return way_array(self.approach(robot, {x, y}, whole(path), tolerance)); })
       .def("explain", &explain, "robot"_a)
       .def("costmap", &costmap, "robot"_a);
 

@@ -1,6 +1,7 @@
 """Ways around what blocks the released path, which controllers find on what their sensors show.
 
-A detour begins where the robot is and ends on the released path, so it never leads beyond what is released.
+A detour begins where the robot is and ends on the released path, so it never leads beyond what is released. Where the end
+of the path itself is occupied, it may lead beside it instead, if the navigator's `planner_tolerance` allows that.
 """
 
 import attrs
@@ -24,36 +25,61 @@ class Detours:
         followers: the routes that are detoured from.
         controllers: find the ways.
         every: control periods between two looks at the same robot; 0 = never.
+        beside: metres from an occupied end of the path that count as reached if the robot gets no nearer. Above zero,
+            robots look ahead while they drive too.
+        near: metres from there at which it is there.
     """
 
-    def __init__(self, followers: Followers, controllers: FleetControllerSession, every: int) -> None:
+    def __init__(
+        self, followers: Followers, controllers: FleetControllerSession, every: int, beside: float, near: float
+    ) -> None:
         self._followers, self._controllers, self._every = followers, controllers, every
+        self._beside, self._near = beside, near
         self._ways: dict[int, Float] = {}
+        self._instead: set[int] = set()
+        """Robots whose way leads beside the end of the path."""
         count = len(followers.all)
-        self._turn = np.arange(count) % max(every, 1)
+        self._due = np.arange(count) % max(every, 1)
+        """Period from which on each robot is looked at again."""
         self._place: Float = np.full((count, 2), np.inf)
-        self._asked = np.full(count, -(10**9))
         self._step = 0
 
     def cancel(self, robot: int) -> None:
-        """Forget the detour of a robot."""
+        """Forget the detour of a robot; it may need another at once."""
+        self._drop(robot)
+        self._due[robot] = 0
+
+    def _drop(self, robot: int) -> None:
         self._ways.pop(robot, None)
+        self._instead.discard(robot)
 
     def cancel_all(self) -> None:
         """Forget all: there are new routes."""
         self._ways.clear()
+        self._instead.clear()
 
     def shorten(self, pose: Float) -> None:
         """Drop what robots have passed; at the end of a detour they follow their route again."""
         for robot, way in list(self._ways.items()):
             left = way
-            while len(left) and np.hypot(*(left[0] - pose[robot, :2])) <= _REACHED:
+            while len(left) and np.hypot(*(left[0] - pose[robot, :2])) <= self._reach(robot, left):
                 left = left[1:]
             if len(left):
                 self._ways[robot] = left
+            elif robot in self._instead:
+                self._skip(robot)
             else:
                 del self._ways[robot]
                 self._followers.rejoin(robot, *way[-1].tolist())
+
+    def _reach(self, robot: int, way: Float) -> float:
+        """Metres from the first point of a way at which the next one counts."""
+        return self._near if len(way) == 1 and robot in self._instead else _REACHED
+
+    def _skip(self, robot: int) -> None:
+        """The robot is as near to the end of its path as it gets: it looks for a way from here at once."""
+        self.cancel(robot)
+        self._followers.skip(robot)
 
     def look(self, observations: Observations, stopped: Bool) -> list[Event]:
         """Ask for a way around, for rows whose turn it is and that do not get on or are `stopped` bool[k].
@@ -64,23 +90,25 @@ class Detours:
         if not self._every:
             return []
         events = []
-        turn = self._turn[observations.robot] == self._step % self._every
-        if stopped.any():
-            turn |= stopped & (self._step - self._asked[observations.robot] >= self._every)
-        for row in turn.nonzero()[0].tolist():
+        for row in (self._step >= self._due[observations.robot]).nonzero()[0].tolist():
             robot, place = int(observations.robot[row]), observations.pose[row, :2]
+            self._due[robot] = self._step + self._every
             moved = np.abs(place - self._place[robot]).max() > _MOVING
             self._place[robot] = place
-            if moved and robot not in self._ways and not stopped[row]:
+            if moved and robot not in self._ways and not stopped[row] and not self._beside:
                 continue
-            self._asked[robot] = self._step
             way = self._controllers.reroute(observations, row)
-            if way is None or not len(way) or np.hypot(*(way[-1] - place)) <= _REACHED:  # there already
-                self._ways.pop(robot, None)
+            if instead := way is None and self._beside > 0:
+                way = self._controllers.approach(observations, row, self._beside)
+            if way is None or not len(way) or np.hypot(*(way[-1] - place)) <= (self._near if instead else _REACHED):
+                self._drop(robot)
+                if instead and way is not None:  # it is there already
+                    self._skip(robot)
                 continue
             if robot not in self._ways:
                 events.append(Event(stamp=observations.now, kind="detour", robot=robot))
             self._ways[robot] = np.asarray(way, float)
+            (self._instead.add if instead else self._instead.discard)(robot)
         return events
 
     def lay(self, observations: Observations) -> Observations:

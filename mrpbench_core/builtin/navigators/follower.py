@@ -50,7 +50,6 @@ class Follower:
     def adopt(self, route: Route, first: int = 0) -> None:
         """Continue with a route that begins with what was released of the old one."""
         self._level: list[int] = route.level.tolist()
-        self._yaw: list[float] = route.waypoint[:, 2].tolist()
         self._speed: list[float] = [*route.speed.tolist(), math.inf]
         # Waits are segments without length, and in a lift it is the lift that drives. The robot drives along the
         # vertices that differ from the one before.
@@ -60,16 +59,28 @@ class Follower:
         self._corner: list[int] = np.concatenate([[0], np.cumsum(moves)]).tolist()
         self._bends: list[bool] = _bends(self.corners)
         self._points: list[tuple[float, float]] = [(x, y) for x, y in self.corners.tolist()]
+        self._yaw = self._yaws(route)
         self._first = first
         self._end = self._corner[self.reached]
         self._released = self.reached
         self._halting = self._at_goal = False
+
+    def _yaws(self, route: Route) -> list[float]:
+        """What is prescribed at each waypoint. Who stops at each turns there to where the next one lies."""
+        yaws: list[float] = route.waypoint[:, 2].tolist()
+        if self._stops:
+            for index, corner in enumerate(self._corner):
+                if math.isnan(yaws[index]) and corner + 1 < len(self._points):
+                    ahead = _direction(self._points[corner], self._points[corner + 1])
+                    yaws[index] = math.atan2(ahead[1], ahead[0])
+        return yaws
 
     def update(self, x: float, y: float, yaw: float, speed: float, released: int, level: int = 0) -> None:
         """Take note of an estimated pose, of how many leading segments are released, and of the robot's level."""
         self._halting = self._halting and abs(speed) > _STANDING
         while self.reached < released and not self._halting and self._has_arrived(x, y, yaw, level):
             self.reached += 1
+            self._at_goal = False
             self._halting = self._stops and abs(speed) > _STANDING
         self._released = min(self.reached + 1, released) if self._stops else released
         self._end = self._corner[self._released]
@@ -84,6 +95,14 @@ class Follower:
         self._leg = min(legs, key=lambda leg: math.dist((x, y), _nearest(x, y, *self._leg_ends(leg))))
         while self.reached < self._released and self._corner[self.reached + 1] <= self._leg:
             self.reached += 1
+
+    def skip(self) -> None:
+        """Count the end of the path as reached, from wherever the robot is: it is occupied."""
+        _, end = self._span()
+        while self.reached < self._released and self._corner[self.reached + 1] <= end:
+            self.reached += 1
+        self._leg = max(self._leg, min(end, len(self._points) - 2))
+        self._at_goal = False
 
     def left_behind(self, x: float, y: float) -> tuple[tuple[float, float] | None, float]:
         """The vertex that this robot has left to others last, and how far from it a robot at (x, y) must stay."""
@@ -177,14 +196,17 @@ class Follower:
         distance = math.hypot(x - px, y - py)
         if goal == len(self._corner) - 1:
             near = distance <= self._options.xy_goal_tolerance
-            self._at_goal = near or (self._at_goal and self._options.stateful)
-            return self._at_goal and self._faces(yaw, goal)
-        if corner == self._corner[self.reached] or distance <= self._options.waypoint_tolerance:
-            return True
-        ux, uy = _direction(self._points[corner - 1], self._points[corner])
-        past = (x - px) * ux + (y - py) * uy
-        beside = ux * (y - py) - uy * (x - px)
-        return past >= 0 and abs(beside) <= self._options.waypoint_tolerance
+        else:
+            near = corner == self._corner[self.reached] or distance <= self._options.waypoint_tolerance
+            if not near:
+                ux, uy = _direction(self._points[corner - 1], self._points[corner])
+                past = (x - px) * ux + (y - py) * uy
+                beside = ux * (y - py) - uy * (x - px)
+                near = past >= 0 and abs(beside) <= self._options.waypoint_tolerance
+            if not self._stops:
+                return near
+        self._at_goal = near or (self._at_goal and self._options.stateful)
+        return self._at_goal and self._faces(yaw, goal)
 
     def _faces(self, yaw: float, waypoint: int) -> bool:
         """Tell whether `yaw` is the one that a waypoint prescribes, if it prescribes any."""

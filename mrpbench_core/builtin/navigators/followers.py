@@ -84,6 +84,12 @@ class Followers:
         self.all[robot].rejoin(x, y)
         self._watch([robot])
 
+    def skip(self, robot: int) -> None:
+        """Count the end of a robot's path as reached."""
+        self.all[robot].skip()
+        self._watch(robot)
+        self._busy[robot] = True  # it is looked at in the next period
+
     def foot(self, pose: Float) -> Float:
         """The nearest point f8[n,2] of each robot's leg of its route."""
         of = self._of

@@ -37,7 +37,8 @@ class Waypoints(Navigator):
     """Follows the released part of each path and stops at its end."""
 
     waypoints: Literal["pass", "stop"] = option(
-        "pass", help="drive through released waypoints on the way, or stop at each as the original benchmark did"
+        "pass",
+        help="drive through released waypoints on the way, or stop at each and turn to the next as MRP-Bench did",
     )
     waypoint_tolerance: float = option(
         0.10,
@@ -65,6 +66,12 @@ class Waypoints(Navigator):
     )
     replan_period: float = option(
         1.0, help="how often a robot that does not get on asks for a way around; 0 = never", unit="s", validator=ge(0)
+    )
+    planner_tolerance: float = option(
+        0.0,
+        help="an occupied waypoint counts as reached beside it, within this distance (Nav2: 0.5); 0 = it does not",
+        unit="m",
+        validator=ge(0),
     )
     recoveries: tuple[Recovery, ...] = option(
         (Clear(), Spin(), Wait(), BackUp()), help="what a robot tries that does not get on, in turn"
@@ -94,7 +101,13 @@ class _Session(NavigatorSession):
         self._followers, self._controllers, self._controller = followers, controllers, controller
         self._tolerance, self._failure_tolerance = options.xy_goal_tolerance, options.failure_tolerance
         self._progress = Progress(len(fleet), options.required_movement_radius, options.movement_time_allowance)
-        self._detours = Detours(followers, controllers, round(options.replan_period / period))
+        self._detours = Detours(
+            followers,
+            controllers,
+            round(options.replan_period / period),
+            options.planner_tolerance,
+            options.waypoint_tolerance,
+        )
         named = [(_word(type(recovery)), recovery) for recovery in options.recoveries]
         self._rescue = Rescue(fleet.robots, named, options.max_recoveries, period, controllers, followers)
         self._commanded: Float = np.zeros(len(fleet))  # when each robot last had an admissible command

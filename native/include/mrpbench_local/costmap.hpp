@@ -54,18 +54,20 @@ class Costmap {
   double inscribed() const { return inscribed_; }
   std::uint8_t at(Cell c) const { return cost_[frame_.index(c)]; }
   const std::vector<std::uint8_t>& costs() const { return cost_; }
+  /// Mark the cells (of this frame) through which outlines of the static map pass.
+  void draw_walls(std::vector<std::uint8_t>& cells) const;
 
  private:
   void roll(Pose pose);
   void trace();
   void clear_footprint(Pose pose);
-  void draw_static(Pose pose);
   void inflate();
 
   CostmapOptions options_;
   std::shared_ptr<const StaticMap> walls_;
   double inscribed_;
   Frame frame_;
+  Point centre_;
   bool known_ = false;
   std::vector<std::uint8_t> marks_, spare_, cost_;
   struct {

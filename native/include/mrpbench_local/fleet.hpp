@@ -48,6 +48,7 @@ class Fleet {
   void clear(std::size_t robot) { robots_.at(robot)->costmap.clear(); }
   bool is_free(std::size_t robot, Pose pose) const;
   std::optional<std::vector<Point>> reroute(std::size_t robot, Point place, const Path& path) const;
+  std::optional<std::vector<Point>> approach(std::size_t robot, Point place, const Path& path, double tolerance) const;
   const Costmap& costmap(std::size_t robot) const { return robots_.at(robot)->costmap; }
   const Dwb& dwb(std::size_t robot) const { return robots_.at(robot)->dwb; }
 

@@ -53,6 +53,11 @@ class Fleet:
         """1.0 for each of `poses` f8[k,3] where the robot fits, else 0.0."""
     def reroute(self, robot: int, x: float, y: float, path: NDArray[np.float64]) -> NDArray[np.float64] | None:
         """Points f8[k,2] from (x, y) around what blocks a path f8[p,2] to a point of it; None = free, or no way."""
+    def approach(
+        self, robot: int, x: float, y: float, path: NDArray[np.float64], tolerance: float
+    ) -> NDArray[np.float64] | None:
+        """Points f8[k,2] from (x, y) to the free place nearest to where a path f8[p,2] ends, at most `tolerance` metres
+        from there; None = the end is free, or there is no such way."""
     def explain(self, robot: int) -> dict[str, Any]:
         """What the last command was chosen from."""
     def costmap(self, robot: int) -> tuple[NDArray[np.float64], float, float, float]:

@@ -109,12 +109,13 @@ void Costmap::clear() {
 
 void Costmap::update(Pose pose) {
   roll(pose);
+  centre_ = {pose.x, pose.y};
   if (options_.obstacle_layer) {
     trace();
     if (options_.footprint_clearing) clear_footprint(pose);
   }
   cost_ = marks_;
-  if (options_.static_layer) draw_static(pose);
+  if (options_.static_layer) draw_walls(cost_);
   if (options_.inflation_layer && reach_ > 0) inflate();
   known_ = true;
 }
@@ -207,11 +208,11 @@ void Costmap::clear_footprint(Pose pose) {
   }
 }
 
-void Costmap::draw_static(Pose pose) {
+void Costmap::draw_walls(std::vector<std::uint8_t>& cells) const {
   if (!walls_) return;
   const double left = frame_.origin.x * frame_.resolution, bottom = frame_.origin.y * frame_.resolution;
   const double right = left + frame_.width * frame_.resolution, top = bottom + frame_.height * frame_.resolution;
-  for (const std::int32_t index : walls_->buckets.near({pose.x, pose.y})) {
+  for (const std::int32_t index : walls_->buckets.near(centre_)) {
     const Segment& wall = walls_->segments[static_cast<std::size_t>(index)];
     // Only the part inside the frame (Y.-D. Liang and B. A. Barsky, ACM Transactions on Graphics 3, 1984).
     double from = 0, to = 1;
@@ -226,7 +227,7 @@ void Costmap::draw_static(Pose pose) {
     if (!clip(wall.start.x, along.x, left, right) || !clip(wall.start.y, along.y, bottom, top)) continue;
     traverse(wall.start + along * from, wall.start + along * to, frame_.resolution, [&](Cell plane) {
       const Cell c{plane.x - frame_.origin.x, plane.y - frame_.origin.y};
-      if (frame_.holds(c)) cost_[frame_.index(c)] = kLethal;
+      if (frame_.holds(c)) cells[frame_.index(c)] = kLethal;
     });
   }
 }

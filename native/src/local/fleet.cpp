@@ -86,4 +86,10 @@ std::optional<std::vector<Point>> Fleet::reroute(std::size_t robot, Point place,
   return local::reroute(it.costmap, place, path.first, path.rest, it.options.max_detour);
 }
 
+std::optional<std::vector<Point>> Fleet::approach(std::size_t robot, Point place, const Path& path,
+                                                  double tolerance) const {
+  const Robot& it = *robots_.at(robot);
+  return local::approach(it.costmap, place, path.first, path.rest, it.options.max_detour, tolerance);
+}
+
 }  // namespace mrpbench::local

@@ -89,6 +89,11 @@ class DwbSession(FleetControllerSession):
         x, y, _ = observations.pose[row].tolist()
         return self._fleet.reroute(int(observations.robot[row]), x, y, observations.path(row))
 
+    def approach(self, observations: Observations, row: int, tolerance: float) -> Float | None:
+        """A way to the free place nearest to where the path of one row ends."""
+        x, y, _ = observations.pose[row].tolist()
+        return self._fleet.approach(int(observations.robot[row]), x, y, observations.path(row), tolerance)
+
     def excuse(self, robot: int) -> str:
         """Why the last trajectories of a robot were dropped, the most frequent reasons first."""
         reasons = Counter(self.explain(robot)["reason"])
