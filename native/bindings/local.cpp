@@ -85,6 +85,7 @@ RobotOptions robot_options(const Settings& settings, const Matrix<2>& footprint)
   take("prune_distance", all.dwb.pruning.prune_distance);
   flag("shorten_transformed_plan", all.dwb.pruning.shorten);
   take("beyond_end", all.dwb.pruning.beyond_end);
+  take("rotate_to_path", all.dwb.rotate_to_path);
   take("min_x_velocity_threshold", all.dwb.min_x_velocity_threshold);
   take("min_theta_velocity_threshold", all.dwb.min_theta_velocity_threshold);
   flag("short_circuit_trajectory_evaluation", all.dwb.short_circuit);

@@ -1,7 +1,7 @@
 """Ways around what blocks the released path, which controllers find on what their sensors show.
 
-A detour begins where the robot is and ends on the released path, so it never leads beyond what is released. Where the end
-of the path itself is occupied, it may lead beside it instead, if the navigator's `planner_tolerance` allows that.
+A detour begins where the robot is and ends on the released path, so it never leads beyond what is released. Where the
+end of the path itself is occupied, it may lead beside it instead, if the navigator's `planner_tolerance` allows that.
 """
 
 import attrs

@@ -15,6 +15,8 @@ struct DwbOptions {
   double min_x_velocity_threshold = 0.001, min_theta_velocity_threshold = 0.001;
   /// Only trajectories that can win are looked at closely; else all, so that every reason is known.
   bool short_circuit = true;
+  /// A robot turns on the spot to a new path from which it heads off by more radians than this; 0 = never.
+  double rotate_to_path = 0;
 };
 
 /// A path in the plane, with what is wanted at its end.
@@ -52,6 +54,7 @@ class Dwb {
   const std::vector<double>& scores() const { return raw_; }
 
  private:
+  std::optional<Twist> turn_first(Pose pose, const Path& path, const Costmap& costmap);
   void score(const Scene& scene, const Extra& extra);
   bool passes(const Scene& scene, std::size_t i);
   std::optional<std::size_t> best(const Scene& scene);
@@ -61,6 +64,7 @@ class Dwb {
   Trajectories all_;
   PathGrid path_;
   std::optional<Pose> goal_;
+  bool turning_ = false;
   std::vector<double> raw_, total_;
   std::vector<Reason> why_, fault_;
   std::vector<int> dropped_;

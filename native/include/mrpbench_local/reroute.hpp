@@ -18,8 +18,8 @@ bool is_free(const Costmap& costmap, Pose pose, bool by_radius);
 std::optional<std::vector<Point>> reroute(const Costmap& costmap, Point robot, Point first, std::span<const Point> rest,
                                           double farthest);
 
-/// Points to the place nearest to the end of a path, at most `tolerance` metres from it, when the end itself is occupied;
-/// nothing when it is free, or there is no such way. As Nav2's global planner with its parameter `tolerance`.
+/// Points to the place nearest to the end of a path, at most `tolerance` metres from it, when the end itself is
+/// occupied; nothing when it is free, or there is no such way. As Nav2's global planner with its parameter `tolerance`.
 std::optional<std::vector<Point>> approach(const Costmap& costmap, Point robot, Point first,
                                            std::span<const Point> rest, double farthest, double tolerance);
 

@@ -57,7 +57,8 @@ class Fleet:
         self, robot: int, x: float, y: float, path: NDArray[np.float64], tolerance: float
     ) -> NDArray[np.float64] | None:
         """Points f8[k,2] from (x, y) to the free place nearest to where a path f8[p,2] ends, at most `tolerance` metres
-        from there; None = the end is free, or there is no such way."""
+        from there; None = the end is free, or there is no such way.
+        """
     def explain(self, robot: int) -> dict[str, Any]:
         """What the last command was chosen from."""
     def costmap(self, robot: int) -> tuple[NDArray[np.float64], float, float, float]:

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
+
+#include "mrpbench_local/reroute.hpp"
 
 namespace mrpbench::local {
 
@@ -15,6 +18,27 @@ bool is_new(const std::optional<Pose>& before, const Pose& goal) {
 
 double thresholded(double speed, double threshold) {
   return std::abs(speed) < threshold ? 0 : speed;
+}
+
+/// Metres along a path at which a robot looks where it leads.
+constexpr double kAhead = 0.3;
+
+/// Radians by which a robot heads off a path.
+double off(Pose pose, const Path& path) {
+  Point at = path.first;
+  double left = kAhead;
+  for (const Point& next : path.rest) {
+    const double length = sim::length(next - at);
+    if (length >= left) {
+      at = at + (next - at) * (left / length);
+      break;
+    }
+    left -= length;
+    at = next;
+  }
+  const Point away = at - Point{pose.x, pose.y};
+  if (sim::length(away) < kAhead / 3) return 0;  // who is nearly there need not turn
+  return std::remainder(std::atan2(away.y, away.x) - pose.yaw, 2 * std::numbers::pi);
 }
 
 }  // namespace
@@ -44,8 +68,10 @@ std::optional<Twist> Dwb::command(double now, Pose pose, Twist twist, const Path
   if (is_new(goal_, goal)) {
     goal_ = goal;
     for (const Weighted& it : critics_) it.critic->reset();
+    turning_ = options_.rotate_to_path > 0 && std::abs(off(pose, path)) > options_.rotate_to_path;
   }
   if (std::isnan(path.yaw) && sim::length({pose.x - end.x, pose.y - end.y}) <= frame.resolution) return Twist{};
+  if (const auto turn = turn_first(pose, path, costmap)) return turn;
   path_.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
   if (!path_.empty()) path_.spread(frame);
   const Twist measured{thresholded(twist.ahead, options_.min_x_velocity_threshold),
@@ -59,6 +85,17 @@ std::optional<Twist> Dwb::command(double now, Pose pose, Twist twist, const Path
   for (const Weighted& it : critics_) it.critic->debrief(scene, command);
   if (!chosen) return std::nullopt;
   return command;
+}
+
+/// As Nav2's rotation shim: a controller that drives while it turns would swing out.
+std::optional<Twist> Dwb::turn_first(Pose pose, const Path& path, const Costmap& costmap) {
+  if (!turning_) return std::nullopt;
+  const double left = off(pose, path);
+  turning_ = std::abs(left) > options_.rotate_to_path / 4 && is_free(costmap, {pose.x, pose.y, pose.yaw + left}, false);
+  if (!turning_) return std::nullopt;
+  const double rate =
+      std::min(options_.motion.max_vel_theta, std::sqrt(options_.motion.acc_lim_theta * std::abs(left)));
+  return Twist{0, std::copysign(rate, left)};
 }
 
 /// Totals of all trajectories, as far as their ends tell.

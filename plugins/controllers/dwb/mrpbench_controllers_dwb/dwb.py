@@ -91,6 +91,12 @@ class Dwb(Controller):
         unit="m",
         validator=ge(0),
     )
+    rotate_to_path: float = option(
+        0.4,
+        help="radians by which the robot may head off a new path before it turns on the spot first, as with Nav2's "
+        "rotation shim; 0 = never, as DWB alone",
+        validator=ge(0),
+    )
     max_detour: float = option(0.5, help="how far from a blocked path a way around may lead", unit="m", validator=ge(0))
     threads: int = option(1, help="threads that share the robots; results do not depend on it", validator=ge(1))
 
@@ -133,7 +139,7 @@ class Dwb(Controller):
         lidar = robot.lidar
         numbers = {name: float(value) for name, value in values.items()} | costmap
         numbers |= {"limited": float(limited), "period": period, "max_detour": self.max_detour}
-        numbers["beyond_end"] = self.beyond_end
+        numbers |= {"beyond_end": self.beyond_end, "rotate_to_path": self.rotate_to_path}
         if lidar is not None:
             forward, leftward, _ = lidar.mount
             numbers |= {"lidar_forward": forward, "lidar_leftward": leftward, "lidar_range": lidar.range}
