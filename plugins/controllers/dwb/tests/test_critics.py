@@ -143,7 +143,12 @@ def test_rotate_to_goal_begins_no_farther_away_than_the_navigator_accepts():
 
 def test_a_robot_that_turned_back_must_go_on_that_way_for_a_while():
     critics = [Oscillation(), GoalDist(), GoalAlign(forward_point_distance=0.1)]
-    options = {"short_circuit_trajectory_evaluation": False, "beyond_end": 0.0, "max_vel_x": 0.04}
+    options = {
+        "short_circuit_trajectory_evaluation": False,
+        "beyond_end": 0.0,
+        "rotate_to_path": 0.0,
+        "max_vel_x": 0.04,
+    }
     session = Dwb(critics=tuple(critics), **options).start_fleet((BURGER,), NOWHERE, 0.05)
 
     def look(now, yaw):
