@@ -87,7 +87,7 @@ class Followers:
     def skip(self, robot: int) -> None:
         """Count the end of a robot's path as reached."""
         self.all[robot].skip()
-        self._watch(robot)
+        self._watch([robot])
         self._busy[robot] = True  # it is looked at in the next period
 
     def foot(self, pose: Float) -> Float:

@@ -259,3 +259,29 @@ def test_robots_in_a_fleet_do_not_disturb_one_another(seed):
         for robot, single in enumerate(alone):
             single.update(pose[robot : robot + 1], np.full(1, 0.2), released[:1], np.zeros(1, np.int16))
             assert (single.reached[0], single.cleared[0]) == (together.reached[robot], together.cleared[robot])
+
+
+def test_who_stops_at_waypoints_turns_there_to_the_next():
+    stops = Waypoints(waypoints="stop")
+    there = (0.4, 0.0, 0.0)
+    follower = follow(CORNER, [there, there], navigator=stops)
+    assert follower.reached == 0
+    assert follower.yaw == math.pi / 2
+    turned = follow(CORNER, [there, (0.4, 0.0, math.pi / 2 - 0.2)], navigator=stops)
+    assert turned.reached == 1
+
+
+def test_an_occupied_waypoint_can_be_skipped_and_the_route_goes_on_from_beside_it():
+    follower = follow(LINE, [(0.2, 0.0, 0.0)], navigator=Waypoints(waypoints="stop"))
+    follower.fleet.skip(0)
+    follower.update(0.3, 0.2, 0.0, 0.0, 3)
+    assert follower.reached == 1
+    assert follower.path[-1].tolist() == [0.8, 0.0]
+
+
+def test_the_last_waypoint_can_be_skipped_too():
+    follower = follow(LINE, [(0.4, 0.0, 0.0), (0.8, 0.0, 0.0), (1.0, 0.0, 0.0)])
+    follower.fleet.skip(0)
+    follower.update(1.0, 0.1, 0.0, 0.0, 3)
+    assert follower.reached == 3
+    assert not follower.under_way

@@ -142,3 +142,38 @@ def test_a_way_around_that_ends_where_the_robot_is_is_none(fleet):
     for period in range(90):
         motion = session.step(period * 0.05, observe([[0.2, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
         assert not motion.events
+
+
+def beside(tolerance):
+    """One robot on the first route, and another; and what the first robot's controller knows."""
+    controller = _Recording()
+    robots = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
+    navigator = Waypoints(planner_tolerance=tolerance, xy_goal_tolerance=0.25, waypoint_tolerance=0.25)
+    session = navigator.start(robots, World(name="w", levels=()), ROUTES, controller, 0.05, 0)
+    asked = []
+
+    def approach(observation, within):
+        asked.append(within)
+        return np.array([(0.6, 0.3), (0.8, 0.3)])
+
+    controller.sessions[0].approach = approach
+    return session, controller.sessions[0], asked
+
+
+def test_an_occupied_waypoint_is_reached_as_near_as_the_robot_gets():
+    session, seen, asked = beside(0.5)
+    for period in range(3):
+        motion = session.step(period * 0.05, observe([[0.2, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+    assert asked == [0.5]
+    assert seen.seen[-1].path.tolist() == [[0.2, 0], [0.6, 0.3], [0.8, 0.3]]
+    assert motion.reached[0] == 0
+    session.step(0.2, observe([[0.6, 0.3, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+    motion = session.step(0.25, observe([[0.7, 0.3, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+    assert motion.reached[0] == 1
+
+
+def test_without_a_tolerance_an_occupied_waypoint_is_waited_for():
+    session, _, asked = beside(0.0)
+    for period in range(100):
+        session.step(period * 0.05, observe([[0.2, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+    assert not asked

@@ -12,7 +12,7 @@ from mrpbench_controllers_dwb import Dwb, LocalCostmap
 
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.execution import Observation, Observations, ScanBatch
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.world import Level, Obstacle, World
 
 BURGER = load_robot("turtlebot3_burger")
 NOWHERE = World(name="w", levels=())
@@ -177,3 +177,38 @@ def test_a_way_around_keeps_within_its_distance_of_the_path():
     controller = Dwb(max_detour=0.2, local_costmap=LocalCostmap(robot_radius=0.1)).start_fleet((BURGER,), NOWHERE, 0.05)
     see(controller, (0.0, 0.0, 0.0), scan_of_box(0.3, -0.3, 0.6))
     assert on_a_path(controller, [(0, 0), (1.2, 0)]) is None
+
+
+def beside(controller, path, tolerance=0.5):
+    seen = Observation(now=0.2, pose=np.zeros(3), twist=np.zeros(2), path=np.array(path, float))
+    return controller.approach(Observations.alone(seen), 0, tolerance)
+
+
+def test_the_way_to_an_occupied_end_leads_to_the_nearest_place_with_room():
+    controller = session(robot_radius=0.1)
+    see(controller, (0.0, 0.0, 0.0), scan_of_box(9.0, -9.0, 0.8))
+    way = beside(controller, [(0, 0), (0.8, 0)])
+    assert way is not None
+    away = 0.8 - way[-1, 0]
+    assert 0.108 < away < 0.25
+    assert abs(way[-1, 1]) < 0.05
+    assert beside(controller, [(0, 0), (0.8, 0)], tolerance=0.1) is None
+
+
+def test_a_free_end_needs_no_way():
+    controller = session(robot_radius=0.1)
+    see(controller, (0.0, 0.0, 0.0), [math.inf] * 360)
+    assert beside(controller, [(0, 0), (0.8, 0)]) is None
+
+
+FACE = Obstacle(name="shelf", polygon=[(0.5, -0.4), (1.3, -0.4), (1.3, 0.4), (0.5, 0.4)])
+SHELF = World(name="w", levels=(Level(name="L1", obstacles=(FACE,)),))
+
+
+def test_no_way_leads_into_what_the_static_map_encloses():
+    controller = session(SHELF, robot_radius=0.1)  # the lidar saw its near face only
+    see(controller, (0.0, 0.0, 0.0), scan_of_box(0.4, -0.4, 0.5))
+    assert on_a_path(controller, [(0, 0), (0.9, 0)]) is None
+    way = beside(controller, [(0, 0), (0.9, 0)], tolerance=0.7)
+    assert way is not None
+    assert not ((way[:, 0] > 0.5) & (way[:, 0] < 1.3) & (abs(way[:, 1]) < 0.4)).any()

@@ -164,3 +164,22 @@ def test_a_robot_at_the_end_of_its_path_stands():
     session = Dwb().start_fleet((BURGER,), NOWHERE, PERIOD)
     path = np.array([[(0.0, 0.0), (0.03, 0.0)]])
     assert session.command(look(0.0, np.zeros((1, 3)), np.zeros((1, 2)), path)).tolist() == [[0.0, 0.0]]
+
+
+def bent(yaw, **options):
+    """The first command of a robot at the origin that heads for `yaw`, on a path along x."""
+    session = Dwb(**options).start_fleet((BURGER,), NOWHERE, PERIOD)
+    path = np.array([[(0.0, 0.0), (2.0, 0.0)]])
+    return session.command(look(0.0, np.array([[0.0, 0.0, yaw]]), np.zeros((1, 2)), path))[0]
+
+
+@pytest.mark.parametrize("yaw", [-3.0, -0.5, 0.5, 2.0])
+def test_a_robot_turns_to_a_new_path_before_it_drives_along_it(yaw):
+    ahead, turn = bent(yaw)
+    assert ahead == 0
+    assert np.sign(turn) == -np.sign(yaw)
+
+
+def test_a_robot_that_heads_along_its_path_drives():
+    assert bent(0.3)[0] > 0
+    assert bent(0.5, rotate_to_path=0.0)[0] > 0
