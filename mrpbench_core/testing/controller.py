@@ -127,9 +127,9 @@ class ControllerConformance(ComponentConformance):
         poses = np.array([START, (2.0, 1.0, 1.0), (2.5, 1.5, -1.0)])
         free = np.asarray(session.is_free(poses))
         require(free.shape == (3,) and free.dtype == bool, f"is_free answers {free!r} to three poses")
-        around = session.reroute(seen)
-        right = around is None or (np.asarray(around).ndim == 2 and np.asarray(around).shape[1] == 2)
-        require(right, f"reroute returns {around!r} instead of f8[k,2] or None")
+        for question, way in (("reroute", session.reroute(seen)), ("approach", session.approach(seen, 0.5))):
+            right = way is None or (np.asarray(way).ndim == 2 and np.asarray(way).shape[1] == 2)
+            require(right, f"{question} returns {way!r} instead of f8[k,2] or None")
 
 
 def comes_to_the_end(driving: Drive, path: Sequence[Point]) -> None:

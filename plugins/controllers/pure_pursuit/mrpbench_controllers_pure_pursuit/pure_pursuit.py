@@ -85,6 +85,9 @@ class _Fleet(FleetControllerSession):
     def reroute(self, observations: Observations, row: int) -> None:
         """Know no way around."""
 
+    def approach(self, observations: Observations, row: int, tolerance: float) -> None:
+        """Know no way beside."""
+
     def command(self, observations: Observations) -> Float:
         """Commands f8[k,2] of all robots with a row."""
         seen, robot = observations, observations.robot
