@@ -11,6 +11,7 @@ from mrpbench_controllers_dwb.critic import CriticSession, Trajectories
 from mrpbench_controllers_dwb.critics import NativeCritic, RotateToGoal
 from mrpbench_core.api import FleetControllerSession
 from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Bool, Float
 from mrpbench_core.model.execution import Observations
 from mrpbench_core.model.fleet import RobotModel
@@ -26,8 +27,14 @@ class DwbSession(FleetControllerSession):
 
     def __init__(self, options: "Dwb", robots: Sequence[RobotModel], world: World, period: float) -> None:
         super().__init__(())
-        walls = segments(world) if world.levels else np.empty((0, 4))
+        # No robot tells its controller its level, so that of several levels no walls are known.
+        walls = segments(world) if len(world.levels) == 1 else np.empty((0, 4))
         told = [options.settings(robot, period) for robot in robots]
+        if len(world.levels) > 1 and any(numbers["static_layer"] for numbers, _, _ in told):
+            raise InputError(
+                f"controller: static_layer is the map of one level, and {world.name} has {len(world.levels)}",
+                hint="leave it out of the costmap's plugins",
+            )
         reach = max((np.hypot(numbers["width"], numbers["height"]) for numbers, _, _ in told), default=1.0)
         self._fleet = Fleet(walls=np.ascontiguousarray(walls, float), reach=float(reach), threads=options.threads)
         self._others: list[list[tuple[str, float, CriticSession]]] = []

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_controllers_dwb import Dwb, LocalCostmap
 
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.execution import Observation, Observations, ScanBatch
 from mrpbench_core.model.world import Level, Obstacle, World
@@ -212,3 +213,10 @@ def test_no_way_leads_into_what_the_static_map_encloses():
     way = beside(controller, [(0, 0), (0.9, 0)], tolerance=0.7)
     assert way is not None
     assert not ((way[:, 0] > 0.5) & (way[:, 0] < 1.3) & (abs(way[:, 1]) < 0.4)).any()
+
+
+def test_a_static_layer_of_several_levels_is_refused():
+    house = World(name="house", levels=(Level(name="L1"), Level(name="L2", elevation=3.0)))
+    with pytest.raises(InputError, match="one level, and house has 2"):
+        session(house, plugins=("static_layer",))
+    assert session(house) is not None

@@ -30,7 +30,7 @@ _DIFFERENTIAL = ("nav2_amcl::DifferentialMotionModel", "differential")
 
 @attrs.frozen(kw_only=True)
 class Amcl(Localizer):
-    """Particle filters on a likelihood field that take as many particles as their spread asks for; level 0."""
+    """Particle filters on a likelihood field that take as many particles as their spread asks for; on one level."""
 
     nav2: Path | None = option(None, help="Nav2 parameter file whose block `amcl` is read; options given here win")
     resolution: float = option(0.05, help="side of the squares of the likelihood field", unit="m", validator=gt(0))
@@ -76,8 +76,14 @@ class Amcl(Localizer):
         """Begin with particles around the placements. A robot's draws are functions of `seed` and its index alone.
 
         Raises:
-            InputError: the Nav2 file is wrong, fewer particles at most than at least, or a map of too many cells.
+            InputError: the Nav2 file is wrong, fewer particles at most than at least, a map of too many cells, or a
+                world of several levels.
         """
+        if len(world.levels) > 1:
+            raise InputError(
+                f"localizer: amcl has a map of one level, and {world.name} has {len(world.levels)}",
+                hint="use ground_truth or odometry",
+            )
         block = None
         if self.nav2 is not None:
             block = nav2_block(self.nav2, "amcl")

@@ -2,9 +2,11 @@
 
 import attrs
 import numpy as np
+import pytest
 from mrpbench_localizers_amcl import Amcl
 from mrpbench_simulators_planar import Planar
 
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.execution import Inputs, Odometry
 from mrpbench_core.model.fleet import Fleet
@@ -99,3 +101,9 @@ def test_a_robot_without_a_lidar_follows_its_odometry():
         moved = Odometry(pose=np.array([[0.1 * step, 0.0, 0.0]]), twist=np.zeros((1, 2)))
         estimate = session.update(step * PERIOD, moved, (), None)
     assert np.allclose(estimate.pose, composed(start, np.array([[0.2, 0.0, 0.0]])))
+
+
+def test_a_world_of_several_levels_is_refused():
+    house = attrs.evolve(ROOM, name="house", levels=(*ROOM.levels, Level(name="L2", elevation=3.0)))
+    with pytest.raises(InputError, match="one level, and house has 2"):
+        Amcl().start(Fleet(robots=(BURGER,)), house, np.zeros((1, 3)), 0)
