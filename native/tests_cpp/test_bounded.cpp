@@ -1,0 +1,77 @@
+// Bounded-suboptimal conflict-based search against the optimal one, with every mixture of techniques.
+#include <cmath>
+
+#include "check.hpp"
+#include "mrpbench_mapf/bounded/bounded_cbs.hpp"
+#include "mrpbench_mapf/cbs.hpp"
+#include "plans.hpp"
+
+using namespace mrpbench::mapf;
+
+namespace {
+
+BoundedOptions draw(Random& random) {
+  BoundedOptions options;
+  const auto toss = [&] { return random.below(2) == 0; };
+  options.w = std::array{1.0, 1.02, 1.1, 1.5, 4.0}[random.below(5)];
+  options.selection = toss() ? Selection::focal : Selection::explicit_estimation;
+  options.techniques.prioritize = toss();
+  options.techniques.bypass = toss();
+  options.techniques.heuristic = toss();
+  options.techniques.target = toss();
+  options.techniques.corridor = toss();
+  options.techniques.rectangle = toss();
+  options.flex = toss();
+  options.distance_weight = toss() ? 1.0 : 1.5;
+  options.conflict_weight = toss() ? 0.0 : 5.0;
+  return options;
+}
+
+std::int64_t expansions(const Instance& it, double w, CbsOptions techniques) {
+  BoundedOptions options;
+  options.w = w;
+  options.techniques = techniques;
+  Limits limits = unlimited();
+  return solve_bounded(it, options, limits).statistics.expansions;
+}
+
+}  // namespace
+
+TEST("plans are sound, their cost is within the bound, and the bound below the optimum") {
+  Random random(11);
+  int solved = 0;
+  for (int k = 0; k < 300; ++k) {
+    const Instance it = random_instance(random, 3, 3, 2 + random.below(2));
+    if (least_makespan(it) < 0) continue;
+    Limits all = unlimited(), little(kForever, 2 << 20);  // plain searches may take for ever
+    const Result best = solve_cbs(it, {}, all);
+    const BoundedOptions options = draw(random);
+    const Result result = solve_bounded(it, options, little);
+    CHECK(result.lower_bound <= static_cast<double>(sum_of_costs(best)));
+    CHECK(result.status == Status::solved || result.status == Status::out_of_memory);
+    if (result.status != Status::solved) continue;
+    CHECK(faults(it, result) == 0);
+    CHECK(static_cast<double>(sum_of_costs(result)) <= options.w * result.lower_bound);
+    CHECK(sum_of_costs(result) >= sum_of_costs(best));
+    ++solved;
+  }
+  CHECK(solved > 100);
+}
+
+TEST("priorities and pairs spare expansions") {
+  Random random(3);
+  std::int64_t all = 0, without_priorities = 0, without_pairs = 0;
+  for (int k = 0; k < 10; ++k) {
+    const Instance it = random_instance(random, 8, 8, 10);
+    all += expansions(it, 1.03, {});
+    without_priorities += expansions(it, 1.03, {.prioritize = false});
+    without_pairs += expansions(it, 1.03, {.heuristic = false});
+  }
+  CHECK(all < without_priorities && all < without_pairs);
+}
+
+TEST("two robots that cross an open field are told apart at once by its corners") {
+  const Instance it = instance(grid(5, 5), {robot(5, 19), robot(1, 23)});  // rightwards and down, downwards and right
+  CHECK(expansions(it, 1.0, {.heuristic = false}) < 5);
+  CHECK(expansions(it, 1.0, {.heuristic = false, .rectangle = false}) > 5);
+}
