@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install anchors demo test lint types layers cpp python format lock speed clean ros soak worlds
+.PHONY: help install anchors demo test lint types layers cpp python format lock speed clean ros soak sanitize worlds
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -53,9 +53,23 @@ cpp: install ## C++ tests, without Python
 python: install ## Python tests
 	$(BIN)/pytest
 
-soak: install ## thousands of random instances against brute force (an hour)
+soak: install ## thousands of random instances against brute force, and studies disturbed at random (an hour)
 	$(BIN)/python plugins/planners/mapf/tests/soak_cbs.py 20000 1
 	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
+	$(BIN)/python tests/engine/soak_disturbances.py 20 1
+	$(BIN)/python tests/engine/soak_disturbances.py 20 2
+
+SANITIZED := build/sanitized
+CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python
+sanitize: install ## the native code's tests and soak under AddressSanitizer and UndefinedBehaviorSanitizer
+	$(BIN)/cmake -S native -B $(SANITIZED)/cpp -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DSANITIZE=ON
+	$(BIN)/cmake --build $(SANITIZED)/cpp
+	$(BIN)/ctest --test-dir $(SANITIZED)/cpp --output-on-failure
+	test -x $(SANITIZED)/bin/python || $(PYTHON) -m venv $(SANITIZED)
+	SKBUILD_BUILD_DIR=$(CURDIR)/$(SANITIZED)/native SKBUILD_CMAKE_DEFINE=SANITIZE=ON $(SANITIZED)/bin/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
+	$(CHECKED) -m pytest -p no:cacheprovider native plugins/planners/mapf plugins/simulators/planar plugins/controllers/dwb plugins/localizers/amcl
+	$(CHECKED) plugins/planners/mapf/tests/soak_cbs.py 2000 2
+	$(CHECKED) plugins/planners/mapf/tests/soak_assigning.py 1000 2
 
 worlds: install ## robots driven on every built-in world must touch nothing (ten minutes); CONTROLLER=dwb for another
 	$(BIN)/python benchmarks/worlds.py --controller $(or $(CONTROLLER),pure_pursuit)

@@ -11,6 +11,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import psutil
@@ -63,7 +64,8 @@ def disturb(study: psutil.Popen, chance: random.Random) -> str:
     workers = study.children()
     victim = chance.choice(workers) if workers and chance.random() < 0.5 else study
     act = chance.choice(DISTURBANCES)
-    act(victim)
+    with suppress(psutil.NoSuchProcess):  # it has just ended of its own
+        act(victim)
     return f"{act.__name__} {'the invoker' if victim is study else 'a worker'}"
 
 
@@ -106,7 +108,8 @@ def main(count: int, seed: int) -> int:
                     done += 1
                     print(f"{done:3}: {disturb(study, chance)}", end="", flush=True)
                     time.sleep(chance.uniform(0.0, 8.0))
-                study.send_signal(signal.SIGINT)
+                with suppress(psutil.NoSuchProcess):
+                    study.send_signal(signal.SIGINT)
                 errors = study.communicate()[1]
                 print(f"; exit {study.returncode}, {recorded(out)} of {RUNS} runs recorded; {errors.strip()}")
             assert invoke(out).wait() == 0
