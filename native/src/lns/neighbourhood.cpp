@@ -64,13 +64,13 @@ void Neighbourhood::walk(int robot) {
                                        [&](int other) { add(other); });
       vertex = roadmap_.head(way);
     }
-    meet(vertex, then, then);
+    meet(robot, vertex, then, then);
     now = then;
   }
 }
 
-void Neighbourhood::meet(int vertex, Tick from, Tick to) {
-  schedule_.traffic().conflicts_of(-1, at_vertex(vertex, from, to), [&](int other) { add(other); });
+void Neighbourhood::meet(int robot, int vertex, Tick from, Tick to) {
+  schedule_.traffic().conflicts_of(robot, at_vertex(vertex, from, to), [&](int other) { add(other); });
 }
 
 const std::vector<int>& Neighbourhood::at_crossing(int size) {
@@ -125,7 +125,7 @@ const std::vector<int>& Neighbourhood::at_goal(int robot, int size) {
   clear(size);
   add(robot);
   const Path& path = schedule_.paths()[robot];
-  meet(path.back().element, arrival(path), kForever);
+  meet(robot, path.back().element, arrival(path), kForever);
   for (std::size_t step = 0; step < path.size() && !full(); step += 2) {
     for (const Visit& visit : schedule_.traffic().at(path[step].element)) {
       if (visit.end == kForeverHalf) add(visit.robot);

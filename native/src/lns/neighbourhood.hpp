@@ -29,7 +29,7 @@ class Neighbourhood {
   bool full() const { return static_cast<int>(chosen_.size()) >= size_; }
   void add(int robot);
   void walk(int robot);
-  void meet(int vertex, Tick from, Tick to);
+  void meet(int robot, int vertex, Tick from, Tick to);
   void fill();
 
   const Schedule& schedule_;
