@@ -127,7 +127,7 @@ def test_who_meets_in_a_corridor_lets_the_other_out(corridor):
     # Two robots meet head-on in a corridor of eight cells with a bay at each end.
     road = grid(["#.########.#", "............"])
     asked = problem(road, [2, 13], [13, 2])
-    result = Eecbs(w=1.0, corridor=corridor).plan(asked, Budget(wall_s=10, memory_bytes=1 << 30))
+    result = Eecbs(w=1.0, corridor=corridor).plan(asked, Budget(wall_s=60, memory_bytes=1 << 30))
     assert check_result(Eecbs(w=1.0), asked, result) is PlanStatus.SOLVED
     assert result.plan.sum_of_costs == result.lower_bound
     if corridor:
