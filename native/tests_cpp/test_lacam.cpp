@@ -92,7 +92,7 @@ TEST("a plan along ways that keep clear of one another is no worse, and mostly b
   Random random(5);
   int better = 0, all = 0;
   for (int k = 0; k < 20; ++k) {
-    const Instance it = random_instance(random, 12, 8, 30);
+    const Instance it = random_instance(random, 14, 10, 30);
     const Result first = lacam(it, {.iterations = 0});
     if (first.status != Status::solved) continue;
     const Result second = lacam(it, {.star = false, .neighbourhoods = false, .iterations = 1});

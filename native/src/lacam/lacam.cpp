@@ -65,7 +65,7 @@ class Lacam {
   void improve() {
     const Relations relations(instance_, limits_);
     Schedule schedule(instance_, tables_, relations, options_.seed, limits_, result_.statistics);
-    if (options_.guides) follow_guides(schedule);
+    if (options_.guides && best_.first < kCrowded * least_) follow_guides(schedule);
     if (best_.first == least_ || !(options_.star || options_.neighbourhoods)) return;
     schedule.replace(result_.paths);
     Improvement improvement(schedule, options_.objective, {}, options_.seed);
@@ -118,6 +118,8 @@ class Lacam {
     return true;
   }
 
+  // Where a plan costs so many times what robots alone do, the crowd and not their ways is what delays them.
+  static constexpr Cost kCrowded = 4;
   const Instance& instance_;
   const Moves& moves_;
   const LacamOptions& options_;

@@ -25,7 +25,7 @@ class Improvement {
   bool is_done() const;
 
  private:
-  static constexpr std::array kSizes{2, 4, 8, 16, 32};
+  static constexpr std::array kSizes{1, 2, 4, 8, 16, 32};
   static constexpr std::size_t kOverhead = 100;  // what planning a robot takes besides expansions, in expansions
 
   const std::vector<int>& choose(int heuristic, int size);

@@ -56,10 +56,15 @@ class Lns {
   bool begin(Schedule& schedule) {
     const bool unit = options_.initial != Initial::repair && lacam::unit_moves(instance_).has_value();
     if (unit && !begin_by_lacam()) return false;
-    if (!unit || options_.initial == Initial::either) repair(schedule, unit);
+    if (!unit || (options_.initial == Initial::either && !is_crowded())) repair(schedule, unit);
     if (result_.status != Status::solved) return false;
     schedule.replace(result_.paths);
     return true;
+  }
+
+  /// So many robots are in one another's way that repairing would take too long.
+  bool is_crowded() const {
+    return static_cast<double>(value(Objective::flowtime, result_.paths).first) > kCrowded * result_.lower_bound;
   }
 
   bool begin_by_lacam() {
@@ -88,6 +93,7 @@ class Lns {
     result_.status = Status::solved;
   }
 
+  static constexpr double kCrowded = 2;     // times the cost of robots alone
   static constexpr int kNeighbourhood = 8;  // robots to repair at a time
   const Instance& instance_;
   const LnsOptions& options_;

@@ -17,6 +17,21 @@ Sipps::Sipps(const Traffic& traffic, std::uint64_t seed, Limits& limits, Statist
   limits.charge(static_cast<std::size_t>(roadmap_.element_count()) * sizeof(Slot));
   vertex_slot_.resize(roadmap_.vertex_count());
   edge_slot_.resize(roadmap_.edge_count());
+  for (int profile = 0; profile < roadmap_.profile_count(); ++profile) gather_ways(profile);
+}
+
+void Sipps::gather_ways(int profile) {
+  limits_.charge(static_cast<std::size_t>(roadmap_.vertex_count() + 1) * sizeof(std::int32_t) +
+                 static_cast<std::size_t>(roadmap_.edge_count()) * sizeof(Way));
+  const std::span<const Tick> duration = roadmap_.duration(profile);
+  Ways& ways = ways_.emplace_back();
+  ways.first.push_back(0);
+  for (int vertex = 0; vertex < roadmap_.vertex_count(); ++vertex) {
+    for (const int edge : roadmap_.out(vertex)) {
+      if (duration[edge] > 0) ways.way.push_back({edge, roadmap_.head(edge), duration[edge]});
+    }
+    ways.first.push_back(static_cast<std::int32_t>(ways.way.size()));
+  }
 }
 
 bool Sipps::search(int robot, DistanceTable& distance, Others others, Tick latest, Path& path) {
@@ -56,6 +71,7 @@ bool Sipps::search(int robot, DistanceTable& distance, Others others, Tick lates
 void Sipps::begin(int robot) {
   robot_ = robot;
   duration_ = roadmap_.duration(instance_.robots()[robot].profile);
+  out_ = &ways_[instance_.robots()[robot].profile];
   if (++epoch_ == 0) {  // wrapped round: old stamps would look new
     std::ranges::fill(vertex_slot_, Slot{});
     std::ranges::fill(edge_slot_, Slot{});
@@ -173,10 +189,8 @@ void Sipps::expand(int label) {
   const Label from = labels_[label];
   const State here = states_[from.state];
   if ((*distance_)(here.vertex) == 0) finish(label);
-  for (const int edge : roadmap_.out(here.vertex)) {
-    const Tick duration = duration_[edge];
-    if (duration < 0) continue;
-    const int head = roadmap_.head(edge);
+  const std::int32_t first = out_->first[here.vertex], last = out_->first[here.vertex + 1];
+  for (const auto& [edge, head, duration] : std::span(out_->way).subspan(first, last - first)) {
     const Tick h = (*distance_)(head);
     if (h == kForever || from.arrival + duration + h > latest_) continue;
     const Slot slot = states_of(head);

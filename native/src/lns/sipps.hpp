@@ -53,12 +53,22 @@ class Sipps {
     std::int32_t label;
     bool operator>(const Open& other) const { return key != other.key ? key > other.key : second > other.second; }
   };
+  /// An edge that the robot may use, at hand for the vertex that it leaves.
+  struct Way {
+    std::int32_t edge, head;
+    Tick duration;
+  };
+  struct Ways {
+    std::vector<std::int32_t> first;  // by vertex, and the end
+    std::vector<Way> way;
+  };
   struct Slot {
     std::uint32_t epoch = 0;  // valid for the current search if equal to `epoch_`
     std::int32_t first = 0;
     std::int32_t count = 0;
   };
 
+  void gather_ways(int profile);
   void begin(int robot);
   Slot states_of(int vertex);
   std::span<const Visit> visits_at(int vertex);
@@ -81,6 +91,7 @@ class Sipps {
   Limits& limits_;
   Statistics& statistics_;
   Random random_;
+  std::vector<Ways> ways_;  // by profile
   // the current search
   int robot_ = -1;
   Others others_ = Others::hard;
@@ -88,6 +99,7 @@ class Sipps {
   Tick least_ = 0;
   DistanceTable* distance_ = nullptr;
   std::span<const Tick> duration_;
+  const Ways* out_ = nullptr;
   std::uint32_t epoch_ = 0;
   std::vector<Slot> vertex_slot_, edge_slot_;
   std::vector<State> states_;

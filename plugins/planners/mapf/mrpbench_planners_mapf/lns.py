@@ -35,7 +35,7 @@ class Lns(Planner):
     )
     neighbourhood: int | None = option(
         None,
-        help="Robots that are planned anew at a time; without it 8 while repairing, then 2 to 32, as brings most.",
+        help="Robots that are planned anew at a time; without it 8 while repairing, then 1 to 32, as brings most.",
         validator=attrs.validators.optional(attrs.validators.ge(1)),
     )
     seed: int = option(0, help="Seed of all random choices.", validator=attrs.validators.ge(0))
