@@ -1,5 +1,7 @@
 """Worlds drawn in the RMF traffic editor (`building.yaml`)."""
 
+from typing import Any, Literal
+
 import attrs
 import numpy as np
 
@@ -18,6 +20,18 @@ from mrpbench_core.builtin.worlds.building.notes import Notes
 from mrpbench_core.builtin.worlds.building.walls import read_walls
 from mrpbench_core.files import yaml
 from mrpbench_core.model.world import Area, Lane, Level, Lift, Vertex, World
+
+DoorState = Literal["operated", "open"]
+
+
+def doors_option() -> Any:
+    """The option of worlds with doors."""
+    return option(
+        "operated",
+        help="`operated`: doors are shut until a robot is granted one, which takes planners that support resources; "
+        "`open`: every doorway is free, for comparing all planners.",
+        validator=attrs.validators.in_(("operated", "open")),
+    )
 
 
 @attrs.frozen(kw_only=True)
@@ -40,6 +54,8 @@ class Rmf(WorldSource):
         validator=attrs.validators.ge(0),
     )
 
+    doors: DoorState = doors_option()
+
     def load(self) -> World:
         """Read walls, doors, furniture, lifts and lanes."""
         document = yaml.load(self.file)
@@ -48,6 +64,8 @@ class Rmf(WorldSource):
         notes = Notes()
         frames = read_frames(building, nodes, notes)
         storeys = {name: _storey(node, frames[name], notes) for name, node in nodes.items()}
+        if self.doors == "open":
+            storeys = {name: attrs.evolve(storey, doors=()) for name, storey in storeys.items()}
         lifts = read_lifts(building, frames, notes)
         vertices, lanes = read_graph(tuple(storeys.values()), lifts, notes)
         footprints = Footprints(self.footprints)

@@ -7,7 +7,7 @@ import attrs
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.world import WorldSource
-from mrpbench_core.builtin.worlds.rmf import Rmf
+from mrpbench_core.builtin.worlds.rmf import DoorState, Rmf, doors_option
 from mrpbench_core.model.world import World
 
 FOLDER = Path(__file__).parent / "data"
@@ -45,9 +45,11 @@ class Airport(WorldSource):
 class Household(WorldSource):
     """A furnished flat of five rooms on a hall, 12.4 × 9.2 m, 28 places; doors and passages are 0.7 m wide."""
 
+    doors: DoorState = doors_option()
+
     def load(self) -> World:
         """Read the packaged file."""
-        return Rmf(file=FOLDER / "household.building.yaml", clearance=0.3).load()
+        return Rmf(file=FOLDER / "household.building.yaml", clearance=0.3, doors=self.doors).load()
 
 
 @attrs.frozen(kw_only=True)

@@ -105,6 +105,14 @@ def test_a_lane_names_the_door_it_passes(tmp_path):
     assert [lane.door for lane in world.lanes] == ["", "gate", ""]
 
 
+def test_open_doors_leave_free_doorways(tmp_path):
+    text = BUILDING.replace("[3, 1, {", "[3, 5, {")
+    operated, free = load(tmp_path, text), load(tmp_path, text, doors="open")
+    assert free.levels[0].doors == ()
+    assert [lane.door for lane in free.lanes] == ["", "", ""]
+    assert (free.vertices, free.levels[0].walls.tolist()) == (operated.vertices, operated.levels[0].walls.tolist())
+
+
 def test_what_is_not_understood_is_noted(tmp_path):
     text = BUILDING.replace("alpha: [3, 1]", "alpha: [3, 1], colour: [1, red], odd: [9, 1]") + (
         "    models: [{model_name: Throne, x: 1, y: 1}, {model_name: Throne, x: 2, y: 2}]\n"
