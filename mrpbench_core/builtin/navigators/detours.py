@@ -89,14 +89,19 @@ class Detours:
         self._step += 1
         if not self._every:
             return []
+        due = (self._step >= self._due[observations.robot]).nonzero()[0]
+        if not len(due):
+            return []
+        robots, places = observations.robot[due], observations.pose[due, :2]
+        blocked = np.abs(places - self._place[robots]).max(axis=1) <= _MOVING
+        blocked |= stopped[due] | (self._beside > 0)
+        if self._ways:
+            blocked |= np.isin(robots, list(self._ways))
+        self._due[robots] = self._step + self._every
+        self._place[robots] = places
         events = []
-        for row in (self._step >= self._due[observations.robot]).nonzero()[0].tolist():
+        for row in due[blocked].tolist():
             robot, place = int(observations.robot[row]), observations.pose[row, :2]
-            self._due[robot] = self._step + self._every
-            moved = np.abs(place - self._place[robot]).max() > _MOVING
-            self._place[robot] = place
-            if moved and robot not in self._ways and not stopped[row] and not self._beside:
-                continue
             way = self._controllers.reroute(observations, row)
             if instead := way is None and self._beside > 0:
                 way = self._controllers.approach(observations, row, self._beside)

@@ -25,7 +25,7 @@ from mrpbench_simulators_pybullet.wheels import Wheels
 if TYPE_CHECKING:
     from mrpbench_simulators_pybullet.simulator import PyBullet
 
-_TIMESTEP = {"wheels": 1 / 240, "body": 1 / 120}
+_TIMESTEP = {"wheels": 1 / 240, "body": 1 / 60}
 _MOVER_HEIGHT = 1.7
 _NEAR = 0.2
 """Metres from a robot beyond which no leaf is asked whether it touches one."""

@@ -19,7 +19,7 @@ class PyBullet(Simulator):
     timestep: float | None = option(
         None,
         help="physics step, shortened so that a whole number fills a control period; by default 1/240 s on wheels and "
-        "1/120 s for bodies, which drive exactly with any",
+        "1/60 s for bodies, which drive exactly with any",
         unit="s",
         validator=optional(gt(0)),
     )
