@@ -10,6 +10,7 @@ from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_planners_mapf.native import SUPPORTED, solve
+from mrpbench_planners_mapf.techniques import Techniques, heuristic_option
 
 PROMISES = frozenset({Promise.CONFLICT_FREE, Promise.BOUNDED, Promise.COMPLETE, Promise.DETERMINISTIC})
 W = attrs.validators.and_(attrs.validators.ge(1.0), attrs.validators.lt(float("inf")))
@@ -54,7 +55,7 @@ class Ecbs(Planner):
 
 
 @attrs.frozen(kw_only=True)
-class Eecbs(Planner):
+class Eecbs(Techniques):
     """EECBS (Li, Ruml and Koenig, AAAI 2021): as `ecbs`, but the constraint tree is searched by explicit estimation.
 
     What a solution below a node will cost is estimated from the errors of the steps before; of the nodes that promise a
@@ -66,29 +67,7 @@ class Eecbs(Planner):
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
     w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
-    prioritize: bool = option(
-        True, help="Resolve conflicts first that raise the lower bound either way (Boyarski et al., IJCAI 2015)."
-    )
-    bypass: bool = option(
-        True,
-        help="Take over paths within the bound with fewer conflicts, not branching (Boyarski et al., ICAPS 2015).",
-    )
-    heuristic: bool = option(
-        True,
-        help="Raise the lower bound of nodes by what pairs of robots must still cost (WDG; Li, Felner et al., IJCAI "
-        "2019).",
-    )
-    target: bool = option(
-        True, help="Resolve conflicts with robots at their goals by the time of arrival (Li et al., AIJ 2021)."
-    )
-    corridor: bool = option(
-        True, help="Resolve head-on conflicts in corridors by the time of leaving them (Li et al., AIJ 2021)."
-    )
-    rectangle: bool = option(
-        True,
-        help="Let one of two robots that cross the same region leave it later; needs unit durations and no "
-        "footprints (generalised rectangles; Li et al., AIJ 2021).",
-    )
+    heuristic: bool = heuristic_option()
     flex: bool = option(
         False, help="Let a robot's path use what the others leave of the common bound (Chan et al., AAAI 2022)."
     )

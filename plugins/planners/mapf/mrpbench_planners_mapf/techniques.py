@@ -11,10 +11,12 @@ class Techniques(Planner):
     """Options that switch single techniques off, for ablations."""
 
     prioritize: bool = option(
-        True, help="Resolve conflicts first that raise the cost either way (Boyarski et al., IJCAI 2015)."
+        True, help="Resolve conflicts first that raise the lower bound either way (Boyarski et al., IJCAI 2015)."
     )
     bypass: bool = option(
-        True, help="Take over paths no worse with fewer conflicts instead of branching (Boyarski et al., ICAPS 2015)."
+        True,
+        help="Take over paths with fewer conflicts, where the bound allows it, instead of branching (Boyarski et al., "
+        "ICAPS 2015).",
     )
     target: bool = option(
         True, help="Resolve conflicts with robots at their goals by when these arrive (Li et al., AIJ 2021)."
@@ -32,6 +34,8 @@ class Techniques(Planner):
 def heuristic_option() -> bool:
     """The option that chooses the heuristic of constraint trees in which robots keep their goals."""
     choice: bool = option(
-        True, help="Order nodes by what pairs of robots must still cost (WDG; Li, Felner et al., IJCAI 2019)."
+        True,
+        help="Raise the lower bound of nodes by what pairs of robots must still cost (WDG; Li, Felner et al., IJCAI "
+        "2019).",
     )
     return choice
