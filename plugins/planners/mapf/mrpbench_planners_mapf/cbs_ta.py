@@ -9,13 +9,13 @@ from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_planners_mapf.native import SUPPORTED, solve
-from mrpbench_planners_mapf.techniques import Techniques, heuristic_option
+from mrpbench_planners_mapf.techniques import AssigningTechniques, heuristic_option
 
 OPTIMAL = frozenset({Promise.CONFLICT_FREE, Promise.OPTIMAL, Promise.COMPLETE, Promise.DETERMINISTIC})
 
 
 @attrs.frozen(kw_only=True)
-class CbsTa(Techniques):
+class CbsTa(AssigningTechniques):
     """CBS-TA (Hönig et al., AAMAS 2018): the least sum of costs over all assignments of robots to different goals.
 
     A constraint tree for each assignment, the cheapest assignment first, the next one only when nothing cheaper is
@@ -26,11 +26,6 @@ class CbsTa(Techniques):
     promises: ClassVar[frozenset[Promise]] = OPTIMAL
 
     heuristic: bool = heuristic_option()
-
-    @property
-    def assigns(self) -> bool:
-        """Always: see `Planner.assigns`."""
-        return True
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
@@ -44,7 +39,7 @@ class CbsTa(Techniques):
 
 
 @attrs.frozen(kw_only=True)
-class ItaCbs(Techniques):
+class ItaCbs(AssigningTechniques):
     """ITA-CBS (Tang, Ren, Li and Sycara, MRS 2023): the same as `cbs_ta` from a single constraint tree.
 
     Every node has the cheapest assignment under its own constraints, repaired from that of its parent by the dynamic
@@ -54,11 +49,6 @@ class ItaCbs(Techniques):
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = OPTIMAL
-
-    @property
-    def assigns(self) -> bool:
-        """Always: see `Planner.assigns`."""
-        return True
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""

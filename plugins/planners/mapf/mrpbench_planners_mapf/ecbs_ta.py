@@ -11,7 +11,7 @@ from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_planners_mapf.bounded import PROMISES, W
 from mrpbench_planners_mapf.native import SUPPORTED, solve
-from mrpbench_planners_mapf.techniques import Techniques
+from mrpbench_planners_mapf.techniques import AssigningTechniques
 
 FOCAL: dict[str, Any] = {
     "selection": "focal",
@@ -23,7 +23,7 @@ FOCAL: dict[str, Any] = {
 
 
 @attrs.frozen(kw_only=True)
-class EcbsTa(Techniques):
+class EcbsTa(AssigningTechniques):
     """ECBS-TA (Hönig et al., AAMAS 2018): as `cbs_ta`, but a sum of costs of at most `w` times `lower_bound`.
 
     Focal lists in the trees and in the search for one robot, as `ecbs`; another assignment is tried when all that is
@@ -35,18 +35,13 @@ class EcbsTa(Techniques):
 
     w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
 
-    @property
-    def assigns(self) -> bool:
-        """Always: see `Planner.assigns`."""
-        return True
-
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
         return _solve(self, problem, budget, "ranked")
 
 
 @attrs.frozen(kw_only=True)
-class ItaEcbs(Techniques):
+class ItaEcbs(AssigningTechniques):
     """ITA-ECBS (Tang, Koenig and Li, SoCS 2024): as `ita_cbs`, but a sum of costs of at most `w` times `lower_bound`.
 
     Every node has the assignment that is cheapest by the lower bounds of its robots' costs.
@@ -56,11 +51,6 @@ class ItaEcbs(Techniques):
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
     w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
-
-    @property
-    def assigns(self) -> bool:
-        """Always: see `Planner.assigns`."""
-        return True
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""

@@ -31,6 +31,16 @@ class Techniques(Planner):
     )
 
 
+@attrs.frozen(kw_only=True)
+class AssigningTechniques(Techniques):
+    """The same for planners that also assign."""
+
+    @property
+    def assigns(self) -> bool:
+        """Always: see `Planner.assigns`."""
+        return True
+
+
 def heuristic_option() -> bool:
     """The option that chooses the heuristic of constraint trees in which robots keep their goals."""
     choice: bool = option(
