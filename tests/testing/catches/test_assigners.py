@@ -1,0 +1,46 @@
+"""The suites catch faults of assigners: each plugin here has one and fails its check."""
+
+import numpy as np
+from faults import changed, failures, frozen
+
+from mrpbench_core.api import (
+    Assigner,
+    AssignmentError,
+)
+from mrpbench_core.model.assignment import Assignment
+
+
+@frozen
+class Greedy(Assigner):
+    """Takes the cheapest pair that is left: feasible but not optimal."""
+
+    def assign(self, problem):
+        costs, task = problem.costs.copy(), np.full(len(problem.costs), -1)
+        for _ in range(min(costs.shape)):
+            robot, chosen = np.unravel_index(costs.argmin(), costs.shape)
+            if not np.isfinite(costs[robot, chosen]):
+                raise AssignmentError("stuck")
+            task[robot] = chosen
+            costs[robot], costs[:, chosen] = np.inf, np.inf
+        rows = np.flatnonzero(task >= 0)
+        return Assignment(task=task, cost=problem.costs[rows, task[rows]].sum())
+
+
+def test_an_assigner_that_is_greedy():
+    found = failures(Greedy())
+    assert "is optimal" in found
+    assert "gives each task to one robot" not in found
+    assert "raises an assignment error when nothing is feasible" not in found
+
+
+def test_an_assigner_that_gives_all_the_first_task():
+    def assign(self, problem):
+        return Assignment(task=np.zeros(len(problem.costs), int), cost=0.0)
+
+    found = failures(changed(Greedy, assign=assign)())
+    assert {
+        "gives each task to one robot",
+        "is optimal",
+        "avoids what is forbidden",
+        "raises an assignment error when nothing is feasible",
+    } <= found.keys()

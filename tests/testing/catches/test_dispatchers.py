@@ -1,0 +1,64 @@
+"""The suites catch faults of dispatchers: each plugin here has one and fails its check."""
+
+import numpy as np
+from faults import changed, failures
+
+from mrpbench_core import testing
+from mrpbench_core.api import (
+    Dispatcher,
+    DispatcherSession,
+)
+from mrpbench_core.builtin.dispatchers.adg import Adg
+from mrpbench_core.model.execution import Orders
+
+
+class Session(DispatcherSession):
+    """Releases everything."""
+
+    def __init__(self, problem, plan):
+        self.adopt(problem, plan)
+
+    def adopt(self, problem, plan):
+        self.length = np.array([len(path) for path in plan.paths])
+
+    def update(self, now, view):
+        return Orders(released=self.length)
+
+
+def session(**methods):
+    made = type("Changed", (Session,), methods)
+    return changed(Dispatcher, start=lambda self, problem, plan: made(problem, plan))()
+
+
+def test_a_dispatcher_that_takes_back():
+    found = failures(
+        session(update=lambda self, now, view: Orders(released=self.length if now < 1 else 0 * self.length))
+    )
+    assert "takes back" in found["releases ever more of each path"]
+
+
+def test_a_dispatcher_that_releases_nothing():
+    found = failures(session(update=lambda self, now, view: Orders(released=0 * self.length)))
+    assert "wait for ever" in found["plans drain under delays"]
+    assert "goes on with a new plan" in found
+
+
+def test_a_dispatcher_that_claims_to_keep_robots_apart():
+    def start(self, problem, plan):
+        Adg().start(problem, plan)  # refuses conflicts
+        return Session(problem, plan)
+
+    found = failures(changed(Dispatcher, start=start)())
+    assert set(found) == {"delays do not make robots meet"}
+
+
+def test_a_dispatcher_that_says_it_keeps_robots_apart():
+    class Suite(testing.DispatcherConformance):
+        keeps_apart = True
+
+        def make(self):
+            return made
+
+    made = session()
+    found = {check.name for check in testing.run_checks(Suite()) if check.outcome == "failed"}
+    assert found == {"delays do not make robots meet", "refuses or survives plans with conflicts"}

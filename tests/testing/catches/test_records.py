@@ -1,0 +1,86 @@
+"""The suites catch faults of metrics and exporters: each plugin here has one and fails its check."""
+
+import numpy as np
+import pytest
+from faults import changed, failures, frozen
+
+from mrpbench_core.api import (
+    Column,
+    Exporter,
+    ExporterSession,
+    Metric,
+    option,
+)
+
+
+@frozen
+class First(Metric):
+    """Where the first robot ended."""
+
+    columns = (Column("x", "m", "neither", "of the first robot"),)
+    requires = frozenset({"truth"})
+
+    def measure(self, run):
+        return {"x": float(run.channel("truth")[-1, 0, 1])}
+
+
+def one(value, *names):
+    return lambda self, run: dict.fromkeys(names or ("x",), value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "check"),
+    [
+        ({}, "does not depend on the order of robots"),
+        ({"measure": one(float("nan"))}, "gives exactly its columns"),
+        ({"measure": one("far")}, "gives exactly its columns"),
+        ({"measure": one(1.0, "x", "y")}, "gives exactly its columns"),
+        ({"measure": one(1.0, "y")}, "gives exactly its columns"),
+        ({"requires": frozenset({"truths"})}, "requires channels that exist"),
+        ({"requires": frozenset()}, "needs no channel that it does not require"),
+        ({"columns": ()}, "describes its columns"),
+        ({"columns": First.columns * 2}, "describes its columns"),
+        ({"measure": lambda self, run: {"x": np.random.default_rng().random()}}, "measures the same again"),
+        ({"measure": lambda self, run: {"x": run.channel("truth").sort() or 1.0}}, "gives exactly its columns"),
+    ],
+)
+def test_a_metric(changes, check):
+    assert check in failures(changed(First, **changes)())
+
+
+@frozen
+class Text(Exporter):
+    """Counts samples in a text file."""
+
+    mode: str = option("w", help="how to open the file")
+    scratch: bool = option(False, help="leave a scratch file behind")
+    careless: bool = option(False, help="forget to remove the file of a failed run")
+
+    def open(self, context, destination):
+        return TextSession(self, destination)
+
+
+class TextSession(ExporterSession):
+    def __init__(self, options, destination):
+        self.options, self.file = options, destination.with_suffix(".txt")
+        self.stream = self.file.open(options.mode)
+
+    def write(self, chunk):
+        self.stream.write(f"{len(chunk.get('time', ()))} samples, written one after another\n")
+
+    def close(self):
+        self.stream.close()
+        if self.options.scratch:
+            self.file.with_name("scratch").write_text("forgotten")
+
+    def abandon(self):
+        self.stream.close()
+        if not self.options.careless:
+            self.file.unlink()
+
+
+def test_an_exporter():
+    assert not failures(Text())
+    assert set(failures(Text(mode="a"))) == {"replaces what is there"}
+    assert set(failures(Text(scratch=True))) == {"writes a run", "replaces what is there"}
+    assert set(failures(Text(careless=True))) == {"leaves nothing of a run that failed"}
