@@ -8,8 +8,10 @@ from itertools import pairwise
 import attrs
 import numpy as np
 from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.model.assignment import AssignmentProblem
 from mrpbench_core.model.fleet import Fleet, Lidar, RobotModel
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Feature, Problem, Rules
@@ -35,6 +37,14 @@ def roadmaps(draw: st.DrawFn, most_rows: int = 4, most_columns: int = 5, most_ti
     count = len(drawn.edges)
     row = draw(st.lists(ticks, min_size=count, max_size=count))
     return attrs.evolve(drawn, duration=np.array(row, "i4").reshape(1, count))
+
+
+@st.composite
+def assignment_problems(draw: st.DrawFn, most: int = 5) -> AssignmentProblem:
+    """Costs of up to `most` robots and tasks, from 0 to 100, with ties and forbidden pairs; not all are feasible."""
+    cost = st.floats(0, 100) | st.integers(0, 5).map(float) | st.just(float("inf"))
+    shape = draw(st.tuples(st.integers(0, most), st.integers(0, most)))
+    return AssignmentProblem(costs=draw(arrays("f8", shape, elements=cost)))
 
 
 @st.composite
