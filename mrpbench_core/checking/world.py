@@ -1,5 +1,7 @@
 """Facts of a world and of a roadmap built on it, and what is wrong with them."""
 
+from collections.abc import Iterator
+
 import attrs
 import numpy as np
 
@@ -72,7 +74,12 @@ def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
         roadmap_vertices=len(roadmap.position),
         roadmap_edges=len(roadmap.edges),
         roadmap_components=len(np.unique(components(len(roadmap.position), roadmap.edges))),
-        faults=(*_graph_faults(world), *_clearance_faults(world, radius), *_roadmap_faults(world, roadmap)),
+        faults=(
+            *_graph_faults(world),
+            *_clearance_faults(world, radius),
+            *_roadmap_faults(world, roadmap),
+            *_duplicates(world),  # last, as maps of several graphs have many
+        ),
         narrow=tuple(_narrow(world, 2 * radius)),
         notes=(*world.notes, *roadmap.notes),
     )
@@ -94,11 +101,14 @@ def size(world: World) -> tuple[float, float]:
     return float(width), float(height)
 
 
-def _graph_faults(world: World) -> list[str]:
-    faults = []
+def _duplicates(world: World) -> Iterator[str]:
     for group in duplicates(world):
         graphs = sorted({lane.graph for lane in world.lanes if {lane.start, lane.end} & set(group)})
-        faults.append(f"{called(world, group[0])} is {len(group)} vertices in one position (graphs {graphs})")
+        yield f"{called(world, group[0])} is {len(group)} vertices in one position (graphs {graphs})"
+
+
+def _graph_faults(world: World) -> list[str]:
+    faults = []
     for vertex, (a, b) in vertices_on_lanes(world):
         faults.append(
             f"{called(world, vertex)} lies on lane {called(world, a)} – {called(world, b)} without joining it"

@@ -5,18 +5,13 @@ import contextlib
 import sys
 from pathlib import Path
 
-from mrpbench_core.api import KINDS
 from mrpbench_core.api.component import Component
 from mrpbench_core.cli.arguments import read_options
+from mrpbench_core.cli.resolve import resolve
 from mrpbench_core.cli.table import print_json
 from mrpbench_core.config.items import Where, from_data
-from mrpbench_core.config.mistakes import did_you_mean
 from mrpbench_core.config.structure import structure_component
-from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.installed import installed, load
-from mrpbench_core.plugins.kinds import HOOKS, kind_of
-from mrpbench_core.plugins.local import is_local, load_local
-from mrpbench_core.plugins.provenance import kind_class
+from mrpbench_core.plugins.kinds import kind_of
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -66,38 +61,3 @@ def make(name: str, words: list[str]) -> Component:
     base, plugin = resolve(name)
     written = {"plugin": plugin, **read_options(words, "check")}
     return structure_component(base, from_data(written, Where()), name, Path.cwd())
-
-
-def resolve(name: str) -> tuple[type[Component], str]:
-    """The class of a plugin's kind, and the name by which a configuration would choose it."""
-    kind, _, rest = name.partition(":")
-    if kind in KINDS and rest:
-        return KINDS[kind], rest
-    offers = [provider for provider in installed() if provider.group != HOOKS]
-    if kind in {provider.kind for provider in offers} and rest:  # a kind that some plugin defines
-        return _own_kind(kind, rest), rest
-    if is_local(name):
-        cls = load_local(name, Path.cwd())
-        if not isinstance(cls, type) or not issubclass(cls, Component) or not hasattr(cls, "group"):
-            raise InputError(f"{name} is no component", hint="derive it from a class of mrpbench_core.api")
-        return kind_class(cls), name
-    kinds = dict.fromkeys(provider.kind for provider in offers if provider.name == name.partition("@")[0])
-    if len(kinds) > 1:
-        raise InputError(
-            f"{name!r} is a plugin of several kinds", hint="write " + " or ".join(f"{each}:{name}" for each in kinds)
-        )
-    if not kinds:
-        hint = did_you_mean(name, {provider.name for provider in offers}, "`mrpbench plugins` lists what is installed:")
-        raise InputError(f"no plugin is called {name!r}", hint=hint)
-    (found,) = kinds
-    return KINDS.get(found) or _own_kind(found, name), name
-
-
-def _own_kind(kind: str, name: str) -> type[Component]:
-    """The class of a kind that a plugin defines."""
-    for provider in installed():
-        if provider.kind == kind and provider.name == name.partition("@")[0]:
-            cls = load(provider)
-            if isinstance(cls, type) and issubclass(cls, Component):
-                return kind_class(cls)
-    raise InputError(f"no {kind} is called {name!r}", hint="`mrpbench plugins` lists what is installed")

@@ -12,7 +12,7 @@ import attrs
 from mrpbench_core import __version__
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import installed
-from mrpbench_core.plugins.kinds import group_of
+from mrpbench_core.plugins.kinds import group_of, singular
 
 SHARED = {"pyproject.toml.txt", "README.md.txt", "gitignore.txt", "init.py.txt", "test.py.txt"}
 EXAMPLES = {"scenario": {"robots": 3}}
@@ -102,7 +102,7 @@ def named(kind: str, name: str) -> Plugin:
     Raises:
         InputError: there is no template for the kind, or the name is no name, or taken.
     """
-    kind = kind.removesuffix("s")
+    kind = singular(kind)
     if kind not in kinds():
         raise InputError(f"there is no template for a {kind!r}", hint=f"there are {', '.join(kinds())}")
     plugin = Plugin(kind, name.replace("-", "_"))

@@ -1,26 +1,29 @@
 """`mrpbench plugins show NAME`: what a plugin is, where it is from, and its options."""
 
 import inspect
+import re
 from pathlib import Path
 from typing import Any
 
 import attrs
 
-from mrpbench_core.api import KINDS, Metric
+from mrpbench_core.api import Metric
 from mrpbench_core.api.component import Component
+from mrpbench_core.cli.resolve import resolve
 from mrpbench_core.cli.table import print_json, print_table
-from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.installed import installed
-from mrpbench_core.plugins.provenance import origin
+from mrpbench_core.plugins.provenance import kind_class, origin
 from mrpbench_core.plugins.registry import Registry
 
 COLUMN = ("name", "unit", "better", "description", "source")
 """What is told of a metric's column."""
+MODULES = re.compile(r"\b(?:\w+\.)+(?=[A-Z])")
+"""What stands before a class's name."""
 
 
 def show(name: str, as_json: bool) -> None:
     """Print a plugin, named `NAME` or, where several kinds have one of that name, `KIND:NAME`."""
-    cls = _find(name)
+    base, plugin = resolve(name)
+    cls = Registry(base).get(plugin, Path.cwd())
     facts: dict[str, Any] = origin(cls) | {"description": inspect.getdoc(cls) or ""} | _traits(cls)
     if issubclass(cls, Metric):
         facts["columns"] = [{key: getattr(column, key) for key in COLUMN} for column in cls.columns]
@@ -47,24 +50,6 @@ def _print_rows(first: str, keys: tuple[str, ...], rows: list[dict[str, Any]]) -
     print_table([first, *keys[1:]], [[row[key] for key in keys] for row in rows])
 
 
-def _find(name: str) -> type[Component]:
-    kind, _, rest = name.rpartition(":")
-    kinds = dict.fromkeys(entry.kind for entry in installed() if entry.name == rest.partition("@")[0])
-    if kind:
-        kinds = dict.fromkeys(found for found in kinds if found == kind.removesuffix("s"))
-    known = [found for found in kinds if found in KINDS]
-    if len(known) > 1:
-        choice = " or ".join(f"{found}:{rest}" for found in known)
-        raise InputError(f"{name!r} is a plugin of several kinds", hint=f"write {choice}")
-    if not known:
-        import difflib
-
-        close = difflib.get_close_matches(rest, {entry.name for entry in installed()}, n=1)
-        hint = f"did you mean {close[0]!r}?" if close else "`mrpbench plugins` lists what is installed"
-        raise InputError(f"no plugin is called {name!r}", hint=hint)
-    return Registry(KINDS[known[0]]).get(rest, Path.cwd())
-
-
 def _fields(cls: Any) -> list[Any]:
     return [field for field in attrs.fields(attrs.resolve_types(cls)) if field.init]
 
@@ -77,12 +62,16 @@ def _option(field: Any) -> dict[str, Any]:
         "name": field.alias,
         "default": "required" if default is attrs.NOTHING else _text(default),
         "unit": field.metadata.get("unit") or "",
-        "type": inspect.formatannotation(field.type).replace("pathlib.", "").replace("typing.", ""),
+        "type": MODULES.sub("", inspect.formatannotation(field.type)),
         "help": field.metadata.get("help", ""),
     }
 
 
 def _text(default: Any) -> str:
+    if isinstance(default, Component):
+        return Registry(kind_class(type(default))).name_of(type(default))
+    if isinstance(default, tuple):
+        return "[" + ", ".join(map(_text, default)) + "]"
     return "none" if default is None else str(getattr(default, "value", default))
 
 

@@ -6,6 +6,7 @@ from typing import Any
 from mrpbench_core.cli.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import Provider, installed
+from mrpbench_core.plugins.kinds import singular
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -29,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f"plugins {' '.join(words)}: expected one kind, or `show NAME`")
     found = list(installed())
     if words:
-        found = [provider for provider in found if provider.kind == words[0].removesuffix("s")]
+        found = [provider for provider in found if provider.kind == singular(words[0])]
         if not found:
             kinds = dict.fromkeys(provider.kind for provider in installed())
             raise InputError(f"no plugin is a {words[0]!r}", hint="there are " + ", ".join(kinds))

@@ -30,9 +30,15 @@ HOOKS = "mrpbench.hooks"
 
 def kind_of(group: str) -> str:
     """The one word for a group: `planner` for `mrpbench.planners`, `critic` for a plugin's own `mrpbench.critics`."""
-    return group.removeprefix(PREFIX).removesuffix("s")
+    return singular(group.removeprefix(PREFIX))
 
 
 def group_of(kind: str) -> str:
     """The inverse of `kind_of`; also accepts the plural."""
-    return GROUPS.get(kind, PREFIX + kind.removesuffix("s") + "s")
+    word = singular(kind)
+    return PREFIX + (f"{word[:-1]}ies" if word.endswith("y") else f"{word}s")
+
+
+def singular(word: str) -> str:
+    """`planner` for both `planner` and `planners`, `recovery` for `recoveries`."""
+    return f"{word[:-3]}y" if word.endswith("ies") else word.removesuffix("s")

@@ -61,7 +61,6 @@ def test_every_kind_of_fault_is_named():
     )  # fmt: skip
     roadmap = roadmap_of([[0, 0], [4, 0], [9, 9]], [[0, 1], [1, 0]], [-1, 2, 0, 1, 0, 0, 0, 0])
     assert check_world(world, roadmap, 0.2).faults == (
-        "a is 2 vertices in one position (graphs [0])",
         "(2.00, 0.00) lies on lane b – a without joining it",
         "lanes b – a and c – d cross without a vertex",
         "in_wall lies inside something solid",
@@ -69,6 +68,7 @@ def test_every_kind_of_fault_is_named():
         "lane in_wall – b passes something solid nearer than 0.200 m",
         "in_wall cannot be reached on the roadmap",
         "tight cannot be reached on the roadmap",
+        "a is 2 vertices in one position (graphs [0])",
     )
 
 

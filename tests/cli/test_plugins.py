@@ -37,3 +37,11 @@ def test_the_columns_of_a_metric_are_defined(mrpbench):
     assert (duration["unit"], duration["better"]) == ("s", "lower")
     assert all(column["description"] for column in facts["columns"])
     assert "mrp_bench.duration_s" in mrpbench("plugins", "show", "metric:execution")[1]
+
+
+def test_components_in_an_option_are_named_as_in_a_configuration(mrpbench):
+    facts = json.loads(mrpbench("plugins", "show", "waypoints", "--json")[1])
+    recoveries = next(entry for entry in facts["options"] if entry["name"] == "recoveries")
+    assert (recoveries["default"], recoveries["type"]) == ("[clear, spin, wait, back_up]", "tuple[Recovery, ...]")
+    assert mrpbench("plugins", "show", "recovery:spin")[1].startswith("recovery spin")
+    assert mrpbench("plugins", "recoveries") == mrpbench("plugins", "recovery")
