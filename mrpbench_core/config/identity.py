@@ -15,7 +15,7 @@ import attrs
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.canonical import plugin_name, scalar
 from mrpbench_core.config.content import content_hash
-from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING, ONLY_EXECUTION, RunConfig
+from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING, ONLY_EXECUTION, FleetEntry, RunConfig
 from mrpbench_core.config.validation import default_of
 
 LENGTH = 16
@@ -51,23 +51,27 @@ def _is_default_plugin(name: str, value: Any) -> bool:
     return isinstance(default, str) and value == (None if default == "none" else {"plugin": default})
 
 
-def _named(component: Component, folder: Path) -> dict[str, Any]:
-    """A component's name, and what it reads besides its options' files."""
-    named: dict[str, Any] = {"plugin": plugin_name(component, folder)}
-    read = [content_hash(file) for file in component.reads() if file.is_file()]
-    return named | ({"reads": read} if read else {})
+def _read(value: Any) -> dict[str, Any]:
+    """What a component or a robot reads besides its options' files."""
+    files = value.reads() if isinstance(value, Component | FleetEntry) else ()
+    read = [content_hash(file) for file in files if file.is_file()]
+    return {"reads": read} if read else {}
 
 
 def _chosen(value: Any, folder: Path, key: str, ignored: Set[str]) -> Any:
     if isinstance(value, Path):
         return content_hash(value)
     if attrs.has(type(value)):
-        named = _named(value, folder) if isinstance(value, Component) else {}
-        return named | {
-            field.alias: _chosen(getattr(value, field.name), folder, f"{key}.{field.alias}", ignored)
-            for field in attrs.fields(type(value))
-            if field.init and f"{key}.{field.alias}" not in ignored and _differs(value, field)
-        }
+        named = {"plugin": plugin_name(value, folder)} if isinstance(value, Component) else {}
+        return (
+            named
+            | _read(value)
+            | {
+                field.alias: _chosen(getattr(value, field.name), folder, f"{key}.{field.alias}", ignored)
+                for field in attrs.fields(type(value))
+                if field.init and f"{key}.{field.alias}" not in ignored and _differs(value, field)
+            }
+        )
     if isinstance(value, Mapping):
         return {name: _chosen(inner, folder, key, ignored) for name, inner in value.items()}
     if isinstance(value, frozenset):

@@ -23,7 +23,7 @@ from mrpbench_core.api import (
     WorldSource,
     option,
 )
-from mrpbench_core.files.robot import robot_file
+from mrpbench_core.files.robot import robot_file, robot_reads
 
 ROBOT = "turtlebot3_burger"
 
@@ -64,6 +64,10 @@ class FleetEntry:
         help="how many; entries without a count share the scenario's remaining robots",
         validator=validators.optional(validators.ge(1)),
     )
+
+    def reads(self) -> tuple[Path, ...]:
+        """Files that the robot's own file names."""
+        return robot_reads(self.robot) if isinstance(self.robot, Path) else ()
 
 
 @attrs.frozen(kw_only=True)

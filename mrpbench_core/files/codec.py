@@ -13,7 +13,10 @@ Kept = TypeVar("Kept")
 
 
 def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
-    """JSON-able form of an attrs object; `keep` stores an array and returns its name."""
+    """JSON-able form of an attrs object; `keep` stores an array and returns its name.
+
+    Fields with the metadata `recorded: False` are left out; they need a default.
+    """
     if isinstance(value, np.ndarray):
         return {"array": keep(value)}
     if isinstance(value, Enum):
@@ -21,7 +24,8 @@ def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
     if isinstance(value, np.generic):
         return value.item()
     if attrs.has(type(value)):
-        return {field.name: encode(getattr(value, field.name), keep) for field in attrs.fields(type(value))}
+        recorded = (field for field in attrs.fields(type(value)) if field.metadata.get("recorded", True))
+        return {field.name: encode(getattr(value, field.name), keep) for field in recorded}
     if isinstance(value, dict):
         return {str(key): encode(item, keep) for key, item in value.items()}
     if isinstance(value, frozenset):

@@ -10,8 +10,9 @@ import attrs
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.urdf import drive_of, mesh_files, read_urdf
 from mrpbench_core.files.yaml import Document, Steps, load
-from mrpbench_core.model.fleet import Lidar, RobotModel
+from mrpbench_core.model.fleet import Lidar, RobotModel, Urdf
 
 _ROBOTS = Path(str(resources.files("mrpbench_core"))) / "robots"
 _MAY_BE_ZERO = {"min_range"}
@@ -40,7 +41,8 @@ def robot_file(name_or_path: str, folder: Path | None = None) -> Path:
 def load_robot(name_or_path: str, folder: Path | None = None) -> RobotModel:
     """Read a robot by name, or from a file relative to `folder`.
 
-    The keys are the fields of `RobotModel` and, under `lidar`, of `Lidar`; all lengths in metres, SI units throughout.
+    The keys are the fields of `RobotModel` and, under `lidar` and `urdf`, of `Lidar` and `Urdf`; all lengths in metres,
+    SI units throughout. What a URDF tells of mass and wheels is taken from there.
 
     Raises:
         InputError: unknown name, unreadable file, or a key that is unknown, missing or wrong; names file and line.
@@ -53,7 +55,45 @@ def load_robot(name_or_path: str, folder: Path | None = None) -> RobotModel:
         values["lidar"] = _lidar(document)
     elif values.get("lidar") is not None:
         raise document.error("must be a mapping of the lidar's properties", ("lidar",))
+    if "urdf" in values:
+        values |= _described(document)
     return RobotModel(**values)
+
+
+def robot_reads(file: Path) -> tuple[Path, ...]:
+    """The files that a robot's file names: its URDF and the meshes that collide; none of a file with mistakes."""
+    try:
+        model = load_robot(str(file))
+    except InputError:
+        return ()
+    if model.urdf is None:
+        return ()
+    urdf = Path(model.urdf.file)
+    return urdf, *mesh_files(read_urdf(urdf), urdf).values()
+
+
+def _described(document: Document) -> dict[str, Any]:
+    """The URDF, and what it tells, which must not be told twice."""
+    steps: Steps = ("urdf",)
+    values = _fields(document, Urdf, steps)
+    if not (isinstance(values["file"], str) and values["file"]):
+        raise document.error("must be a file's name", ("urdf", "file"))
+    wheels = values["wheels"]
+    if not (isinstance(wheels, list) and len(wheels) == 2 and all(isinstance(name, str) for name in wheels)):
+        raise document.error("must be the joints of two wheels: [left, right]", ("urdf", "wheels"))
+    assert document.file is not None
+    file = (document.file.parent / values["file"]).absolute()
+    urdf = Urdf(file=str(file), wheels=(wheels[0], wheels[1]))
+    robot = read_urdf(file)
+    drive = drive_of(robot, urdf)
+    mesh_files(robot, file)
+    told = {"mass": drive.mass, "wheel_separation": drive.separation, "wheel_radius": drive.radius}
+    for key, value in told.items():
+        if value is not None and key in document.data:
+            raise document.error(f"{key} is {value:g} by the URDF", (key,), hint="leave it out here")
+    if drive.radius is None and "wheel_radius" not in document.data:
+        raise document.error("wheel_radius is missing: the URDF's wheels are no spheres or cylinders", steps)
+    return {"urdf": urdf} | {key: value for key, value in told.items() if value is not None}
 
 
 def _lidar(document: Document) -> Lidar:

@@ -21,6 +21,16 @@ class Lidar:
 
 
 @attrs.frozen(kw_only=True)
+class Urdf:
+    """Where a robot is described as its maker does, for simulators that load such descriptions."""
+
+    file: str
+    """Absolute path."""
+    wheels: tuple[str, str]
+    """The joints of the left and the right driven wheel."""
+
+
+@attrs.frozen(kw_only=True)
 class RobotModel:
     """A kind of robot. The base frame sits on the floor, at the point the robot turns about, x forward."""
 
@@ -41,6 +51,8 @@ class RobotModel:
     wheel_radius: float = 0.033
     wheel_separation: float = 0.16
     lidar: Lidar | None = None
+    urdf: Urdf | None = attrs.field(default=None, metadata={"recorded": False})
+    """Not part of recordings: it is a file of this machine."""
 
     @property
     def radius(self) -> float:

@@ -22,15 +22,18 @@ class Group(IntFlag):
     SILHOUETTES = 32
     """What lidars see of a robot; nothing can touch it."""
     MOVERS = 64
+    GUARDS = 128
+    """What wheels are to all but the floor."""
 
 
 TOUCHES = {
     Group.GROUND: Group.BODIES | Group.WHEELS,
-    Group.WALLS: Group.BODIES | Group.RAYS,
-    Group.BODIES: Group.GROUND | Group.WALLS | Group.BODIES | Group.MOVERS,
+    Group.WALLS: Group.BODIES | Group.GUARDS | Group.RAYS,
+    Group.BODIES: Group.GROUND | Group.WALLS | Group.BODIES | Group.GUARDS | Group.MOVERS,
+    Group.GUARDS: Group.WALLS | Group.BODIES | Group.GUARDS | Group.MOVERS,
     Group.WHEELS: Group.GROUND,
     Group.SILHOUETTES: Group.RAYS,
-    Group.MOVERS: Group.BODIES | Group.RAYS,
+    Group.MOVERS: Group.BODIES | Group.GUARDS | Group.RAYS,
 }
 SEEN = Group.WALLS | Group.SILHOUETTES | Group.MOVERS
 

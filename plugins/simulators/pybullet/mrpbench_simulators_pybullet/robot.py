@@ -10,6 +10,7 @@ import math
 
 from mrpbench_core.model.fleet import RobotModel
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
+from mrpbench_simulators_pybullet.driven import Driven
 
 _CLEARANCE = 0.01
 """metres between body and floor."""
@@ -22,7 +23,7 @@ _WHEEL_SHARE = 0.1
 _GRAVITY = 9.81
 
 
-def build_robot(bullet: Bullet, robot: RobotModel, x: float, y: float, yaw: float) -> int:
+def build_robot(bullet: Bullet, robot: RobotModel, x: float, y: float, yaw: float) -> Driven:
     """Put a robot on the floor. Link 0 is its left wheel, link 1 its right; its frame is in the middle of the axle."""
     module, radius = bullet.module, robot.wheel_radius
     body = bullet.createCollisionShape(module.GEOM_MESH, vertices=_hull(robot))
@@ -52,7 +53,7 @@ def build_robot(bullet: Bullet, robot: RobotModel, x: float, y: float, yaw: floa
     for link in (0, 1):
         bullet.assign(index, link, Group.WHEELS)
         bullet.changeDynamics(index, link, lateralFriction=1, jointDamping=0, **common)
-    return index
+    return Driven(body=index)
 
 
 def body_shape(bullet: Bullet, robot: RobotModel) -> int:

@@ -3,9 +3,11 @@
 import numpy as np
 
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.fleet import Fleet, RobotModel
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
+from mrpbench_simulators_pybullet.driven import Driven
 from mrpbench_simulators_pybullet.robot import build_robot, motor_torque
+from mrpbench_simulators_pybullet.urdf import load_described
 
 
 class Wheels:
@@ -17,7 +19,8 @@ class Wheels:
         ground = bullet.body(Group.GROUND, bullet.createCollisionShape(bullet.module.GEOM_PLANE))
         bullet.changeDynamics(ground, -1, lateralFriction=1, restitution=0)
         robots = fleet.robots
-        self.bodies = [build_robot(bullet, robot, *pose) for robot, pose in zip(robots, poses.tolist(), strict=True)]
+        self._driven = [self._build(robot, *pose) for robot, pose in zip(robots, poses.tolist(), strict=True)]
+        self.bodies = [robot.body for robot in self._driven]
         self._torque = [[motor_torque(robot)] * 2 for robot in robots]
         self._ramp = timestep * np.array([(robot.acceleration, robot.turn_acceleration) for robot in robots])
         # Turns of the left and the right wheel per metre driven and per radian turned.
@@ -26,6 +29,11 @@ class Wheels:
         self._command = self._target = np.zeros((len(robots), 2))
         self._reached = False
         self._drive(np.arange(len(robots)))
+
+    def _build(self, robot: RobotModel, x: float, y: float, yaw: float) -> Driven:
+        if robot.urdf is None:
+            return build_robot(self._bullet, robot, x, y, yaw)
+        return load_described(self._bullet, robot, robot.urdf, x, y, yaw)
 
     def command(self, twist: Float) -> None:
         """What the robots are to do, f8[n,2] within their limits, from now on."""
@@ -46,20 +54,26 @@ class Wheels:
         forward = self._target[:, 0] * self._per_metre
         turn = self._target[:, 1] * self._per_radian
         for robot in robots.tolist():
+            driven = self._driven[robot]
+            left, right = driven.signs
             self._bullet.setJointMotorControlArray(
-                self.bodies[robot],
-                (0, 1),
+                driven.body,
+                driven.joints,
                 control,
-                targetVelocities=(forward[robot] - turn[robot], forward[robot] + turn[robot]),
+                targetVelocities=(left * (forward[robot] - turn[robot]), right * (forward[robot] + turn[robot])),
                 forces=self._torque[robot],
             )
 
     def observe(self) -> tuple[Float, Float]:
         """Poses f8[n,3] and twists f8[n,2]."""
         pose, twist = np.empty((len(self.bodies), 3)), np.empty((len(self.bodies), 2))
-        for robot, body in enumerate(self.bodies):
-            (x, y, _), (qx, qy, qz, qw) = self._bullet.getBasePositionAndOrientation(body)
-            (vx, vy, _), (_, _, turn) = self._bullet.getBaseVelocity(body)
+        for robot, driven in enumerate(self._driven):
+            (x, y, z), (qx, qy, qz, qw) = self._bullet.getBasePositionAndOrientation(driven.body)
+            (vx, vy, _), (_, _, turn) = self._bullet.getBaseVelocity(driven.body)
+            if driven.base is not None:
+                before = x, y
+                (x, y, _), (qx, qy, qz, qw) = self._bullet.multiplyTransforms((x, y, z), (qx, qy, qz, qw), *driven.base)
+                vx, vy = vx - turn * (y - before[1]), vy + turn * (x - before[0])
             yaw = np.arctan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz))
             pose[robot] = x, y, yaw
             twist[robot] = vx * np.cos(yaw) + vy * np.sin(yaw), turn
@@ -67,5 +81,7 @@ class Wheels:
 
     def place(self, robot: int, x: float, y: float) -> None:
         """Put a robot elsewhere as it is."""
-        (_, _, z), orientation = self._bullet.getBasePositionAndOrientation(self.bodies[robot])
-        self._bullet.resetBasePositionAndOrientation(self.bodies[robot], (x, y, z), orientation)
+        pose, _ = self.observe()
+        (at_x, at_y, z), orientation = self._bullet.getBasePositionAndOrientation(self.bodies[robot])
+        there = (at_x + x - pose[robot, 0], at_y + y - pose[robot, 1], z)
+        self._bullet.resetBasePositionAndOrientation(self.bodies[robot], there, orientation)

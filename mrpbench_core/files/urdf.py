@@ -1,0 +1,190 @@
+"""What a URDF, ROS's description of robots, says of a robot on two driven wheels, with its mistakes in one line each.
+
+Of the format (wiki.ros.org/urdf/XML) this reads what drives and what collides; sensors and looks do not matter here.
+"""
+
+import difflib
+import math
+import re
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import attrs
+import numpy as np
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.text import position, read_text
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.fleet import Urdf
+
+_ALIGNED = 0.999
+"""Cosine of the angle by which a wheel's axis may be off the robot's y axis."""
+_SAME = 1e-3
+"""metres by which the wheels may be off one axle."""
+
+
+@attrs.frozen(kw_only=True)
+class Drive:
+    """The driven wheels, in the frame of the root link: x forward, y left, z up."""
+
+    axle: tuple[float, float, float]
+    """The middle of the axle, metres."""
+    separation: float
+    radius: float | None
+    """None where the wheels' collision shapes do not tell: they have none, or meshes."""
+    signs: tuple[int, int]
+    """1 where a positive speed of the joint drives forward, -1 where it drives back; left, then right."""
+    mass: float
+    """Of all links, kilogram."""
+
+
+def read_urdf(file: Path) -> ET.Element:
+    """Read the element `robot` of a URDF.
+
+    Raises:
+        InputError: it cannot be read, or is no URDF.
+    """
+    text = read_text(file)
+    if re.search(r"<!(DOCTYPE|ENTITY)", text):
+        raise InputError("has a DOCTYPE, which no URDF needs", file=file)
+    try:
+        robot = ET.fromstring(text)  # noqa: S314 - without a DOCTYPE nothing in it expands
+    except ET.ParseError as error:
+        line, column = error.position
+        raise InputError(f"is no XML: {error}", file=file, line=line, column=column + 1) from None
+    if robot.tag != "robot":
+        raise InputError(f"is no URDF: it holds a {robot.tag!r} instead of a 'robot'", file=file)
+    if "xacro" in text and any("xacro" in element.tag for element in robot.iter()):
+        where = position(text, text.index("<xacro"))[0] if "<xacro" in text else None
+        raise InputError("is xacro", file=file, line=where, hint="expand it first: xacro FILE > robot.urdf")
+    return robot
+
+
+def mesh_files(robot: ET.Element, file: Path) -> dict[str, Path]:
+    """The file of each mesh that collides, by what the URDF calls it.
+
+    Names are relative to the URDF. `package://NAME/...` is looked for in a folder NAME above the URDF, or beside one.
+
+    Raises:
+        InputError: a file is missing.
+    """
+    found = {}
+    for mesh in robot.iterfind("link/collision/geometry/mesh"):
+        name = mesh.get("filename", "")
+        places = _places(name, file)
+        existing = [place for place in places if place.is_file()]
+        if not existing:
+            raise InputError(f"the mesh {name!r} is missing", file=file, hint=f"looked for {places[-1]}")
+        found[name] = existing[0]
+    return found
+
+
+def _places(name: str, file: Path) -> list[Path]:
+    if not name.startswith("package://"):
+        return [file.parent / name.removeprefix("file://")]
+    package, _, rest = name.removeprefix("package://").partition("/")
+    above = file.resolve().parents
+    return [folder / package / rest for folder in above] + [folder / rest for folder in above if folder.name == package]
+
+
+def drive_of(robot: ET.Element, urdf: Urdf) -> Drive:
+    """The driven wheels that `urdf` names.
+
+    Raises:
+        InputError: there are no such joints, or they do not make a differential drive.
+    """
+    file = Path(urdf.file)
+    joints = {joint.get("name", ""): joint for joint in robot.iterfind("joint")}
+    above = {_link(joint, "child"): joint for joint in joints.values()}
+    places, signs, radii = [], [], []
+    for name in urdf.wheels:
+        if name not in joints:
+            close = difflib.get_close_matches(name, joints, n=1)
+            turning = [other for other, joint in joints.items() if joint.get("type") == "continuous"]
+            hint = f"did you mean {close[0]!r}?" if close else f"continuous joints: {', '.join(turning) or 'none'}"
+            raise InputError(f"has no joint {name!r}", file=file, hint=hint)
+        joint = joints[name]
+        if joint.get("type") != "continuous":
+            raise InputError(f"the wheel joint {name!r} is {joint.get('type')!r} instead of 'continuous'", file=file)
+        frame = _frame(joint, above, file)
+        axis = frame[:3, :3] @ _numbers(joint.find("axis"), "xyz", (1.0, 0.0, 0.0), file)
+        if abs(axis[1]) < _ALIGNED * np.linalg.norm(axis) or not axis.any():
+            turn = ", ".join(f"{value:.2g}" for value in axis)
+            raise InputError(
+                f"the wheel joint {name!r} turns about ({turn}) of the root link, not about its y axis", file=file
+            )
+        places.append(frame[:3, 3])
+        signs.append(1 if axis[1] > 0 else -1)
+        radii.append(_radius(robot, _link(joint, "child"), file))
+    left, right = places
+    if left[1] - right[1] < _SAME:
+        raise InputError(f"{urdf.wheels[0]!r} is not to the left of {urdf.wheels[1]!r}", file=file)
+    if abs(left[0] - right[0]) > _SAME or abs(left[2] - right[2]) > _SAME:
+        raise InputError(f"the wheels {' and '.join(urdf.wheels)} are not on one axle", file=file)
+    if len(set(radii)) > 1:
+        raise InputError(f"the wheels {' and '.join(urdf.wheels)} are of different size", file=file)
+    mass = sum(float(_numbers(link, "value", (0.0,), file)[0]) for link in robot.iterfind("link/inertial/mass"))
+    if mass <= 0:
+        raise InputError("its links have no mass", file=file)
+    middle = ((left + right) / 2).tolist()
+    return Drive(
+        axle=(middle[0], middle[1], middle[2]),
+        separation=float(left[1] - right[1]),
+        radius=radii[0],
+        signs=(signs[0], signs[1]),
+        mass=mass,
+    )
+
+
+def _frame(joint: ET.Element, above: dict[str, ET.Element], file: Path) -> Float:
+    """The pose f8[4,4] of a joint in the frame of the root link."""
+    frame, seen = _origin(joint, file), {joint}
+    while (upper := above.get(_link(joint, "parent"))) is not None:
+        joint = upper
+        if joint in seen:
+            raise InputError(f"the joint {joint.get('name')!r} hangs on itself", file=file)
+        if joint.get("type") != "fixed":
+            raise InputError(f"a driven wheel hangs on the joint {joint.get('name')!r}, which moves", file=file)
+        seen.add(joint)
+        frame = _origin(joint, file) @ frame
+    return frame
+
+
+def _origin(joint: ET.Element, file: Path) -> Float:
+    """Fixed-axis roll, pitch and yaw, then the offset."""
+    origin = joint.find("origin")
+    roll, pitch, yaw = _numbers(origin, "rpy", (0.0, 0.0, 0.0), file).tolist()
+    frame = np.eye(4)
+    about_x = np.array([[1, 0, 0], [0, math.cos(roll), -math.sin(roll)], [0, math.sin(roll), math.cos(roll)]])
+    about_y = np.array([[math.cos(pitch), 0, math.sin(pitch)], [0, 1, 0], [-math.sin(pitch), 0, math.cos(pitch)]])
+    about_z = np.array([[math.cos(yaw), -math.sin(yaw), 0], [math.sin(yaw), math.cos(yaw), 0], [0, 0, 1]])
+    frame[:3, :3] = about_z @ about_y @ about_x
+    frame[:3, 3] = _numbers(origin, "xyz", (0.0, 0.0, 0.0), file)
+    return frame
+
+
+def _radius(robot: ET.Element, link: str, file: Path) -> float | None:
+    for shape in robot.iterfind(f"link[@name='{link}']/collision/geometry/*"):
+        if shape.tag in ("sphere", "cylinder"):
+            return float(_numbers(shape, "radius", (0.0,), file)[0])
+    return None
+
+
+def _link(joint: ET.Element, role: str) -> str:
+    element = joint.find(role)
+    return "" if element is None else element.get("link", "")
+
+
+def _numbers(element: ET.Element | None, name: str, default: tuple[float, ...], file: Path) -> Float:
+    """An attribute that holds as many finite numbers as `default`."""
+    text = None if element is None else element.get(name)
+    if text is None or element is None:
+        return np.array(default)
+    try:
+        values = np.array(text.split(), float)
+    except ValueError:
+        values = np.empty(0)
+    if len(values) != len(default) or not np.isfinite(values).all():
+        wanted = "a number" if len(default) == 1 else f"{len(default)} numbers"
+        raise InputError(f"{name}={text!r} of a {element.tag!r} should be {wanted}", file=file)
+    return values

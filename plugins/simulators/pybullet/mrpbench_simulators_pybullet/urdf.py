@@ -1,0 +1,142 @@
+"""A robot as its URDF describes it, on wheels that are driven as exactly as those of the robots without one.
+
+PyBullet loads a copy of the URDF in which each driven wheel touches the floor as a sphere of its radius: a cylinder's
+contact wanders over its width, and turns err by a percent. The wheel's own shape meets everything but the floor.
+Whatever else touches the floor, casters above all, glides. Looks are left out, and links without mass get next to none:
+PyBullet would give them a kilogram.
+"""
+
+import tempfile
+import xml.etree.ElementTree as ET
+from copy import deepcopy
+from pathlib import Path
+
+import numpy as np
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.urdf import Drive, drive_of, mesh_files, read_urdf
+from mrpbench_core.model.fleet import RobotModel, Urdf
+from mrpbench_simulators_pybullet.bullet import Bullet, Group
+from mrpbench_simulators_pybullet.driven import Driven, Place
+
+_GUARD = "guard of "
+"""Before the name of a wheel: the link that has its shape."""
+_BEYOND = 0.01
+"""metres by which a body may stand out beyond the footprint that planners keep free."""
+_UPRIGHT = (0.0, 0.0, 0.0, 1.0)
+_NO_MASS = {"mass": {"value": "1e-6"}, "inertia": {"ixx": "1e-9", "iyy": "1e-9", "izz": "1e-9"}}
+
+
+def load_described(bullet: Bullet, robot: RobotModel, urdf: Urdf, x: float, y: float, yaw: float) -> Driven:
+    """Put a robot on the floor.
+
+    Raises:
+        InputError: PyBullet cannot load the URDF, or the body is larger than the footprint.
+    """
+    file = Path(urdf.file)
+    description = read_urdf(file)
+    drive = drive_of(description, urdf)
+    _prepare(description, file, urdf, robot.wheel_radius)
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / file.name
+        ET.ElementTree(description).write(copy, encoding="utf-8")
+        try:
+            body: int = bullet.loadURDF(str(copy))
+        except bullet.module.error:
+            raise InputError("PyBullet cannot load it", file=file, hint="meshes must be .obj, .stl or .dae") from None
+    about = [bullet.getJointInfo(body, index) for index in range(bullet.getNumJoints(body))]
+    joints = {entry[1].decode(): entry[0] for entry in about}
+    wheels = (joints[urdf.wheels[0]], joints[urdf.wheels[1]])
+    root = bullet.getBodyInfo(body)[0].decode()
+    links = {root: -1} | {entry[12].decode(): entry[0] for entry in about if entry[0] not in wheels}
+    _set_contacts(bullet, body, links, wheels)
+    driven = Driven(body=body, joints=wheels, signs=drive.signs, base=_base(bullet, body, robot, drive))
+    _put(bullet, driven, 0.0, 0.0, 0.0)
+    _check_size(bullet, body, links, robot, file)
+    _put(bullet, driven, x, y, yaw)
+    return driven
+
+
+def _prepare(description: ET.Element, file: Path, urdf: Urdf, radius: float) -> None:
+    """Make of the URDF what PyBullet is to load."""
+    meshes = mesh_files(description, file)
+    for mesh in description.iterfind("link/collision/geometry/mesh"):
+        mesh.set("filename", str(meshes[mesh.get("filename", "")].resolve()))
+    for link in description.findall("link"):
+        for look in link.findall("visual"):
+            link.remove(look)
+        if link.find("inertial") is None:
+            _add_mass(link)
+    for name in urdf.wheels:
+        child = description.find(f"joint[@name='{name}']/child")
+        assert child is not None
+        wheel = description.find(f"link[@name='{child.get('link')}']")
+        assert wheel is not None
+        _guard(description, wheel, name)
+        shape = ET.SubElement(ET.SubElement(wheel, "collision"), "geometry")
+        ET.SubElement(shape, "sphere", radius=repr(radius))
+
+
+def _guard(description: ET.Element, wheel: ET.Element, name: str) -> None:
+    """Move the shapes of a wheel to a link of their own that does not turn with it."""
+    shapes = wheel.findall("collision")
+    guard = ET.SubElement(description, "link", name=_GUARD + name)
+    for shape in shapes:
+        wheel.remove(shape)
+        guard.append(shape)
+    _add_mass(guard)
+    joint = deepcopy(description.find(f"joint[@name='{name}']"))
+    assert joint is not None
+    child = joint.find("child")
+    assert child is not None
+    joint.set("name", _GUARD + name)
+    joint.set("type", "fixed")
+    child.set("link", _GUARD + name)
+    description.append(joint)
+
+
+def _add_mass(link: ET.Element) -> None:
+    inertial = ET.SubElement(link, "inertial")
+    for name, values in _NO_MASS.items():
+        ET.SubElement(inertial, name, {"ixy": "0", "ixz": "0", "iyz": "0", **values} if name == "inertia" else values)
+
+
+def _set_contacts(bullet: Bullet, body: int, links: dict[str, int], wheels: tuple[int, int]) -> None:
+    common = {"restitution": 0, "linearDamping": 0, "angularDamping": 0, "jointDamping": 0}
+    for wheel in wheels:
+        bullet.assign(body, wheel, Group.WHEELS)
+        bullet.changeDynamics(body, wheel, lateralFriction=1, **common)
+    for name, link in links.items():
+        bullet.assign(body, link, Group.GUARDS if name.startswith(_GUARD) else Group.BODIES)
+        bullet.changeDynamics(body, link, lateralFriction=0, contactProcessingThreshold=0, **common)
+
+
+def _base(bullet: Bullet, body: int, robot: RobotModel, drive: Drive) -> Place:
+    """The robot's base frame, on the floor below the middle of the axle, seen from the root link's centre of mass."""
+    x, y, z = drive.axle
+    centre = bullet.getDynamicsInfo(body, -1)[3:5]
+    base: Place = bullet.multiplyTransforms(*bullet.invertTransform(*centre), (x, y, z - robot.wheel_radius), _UPRIGHT)
+    return base
+
+
+def _put(bullet: Bullet, driven: Driven, x: float, y: float, yaw: float) -> None:
+    assert driven.base is not None
+    upright = bullet.getQuaternionFromEuler((0.0, 0.0, yaw))
+    there = bullet.multiplyTransforms((x, y, 0.0), upright, *bullet.invertTransform(*driven.base))
+    bullet.resetBasePositionAndOrientation(driven.body, *there)
+
+
+def _check_size(bullet: Bullet, body: int, links: dict[str, int], robot: RobotModel, file: Path) -> None:
+    """Refuse a body, with its base frame at the origin, that stands out beyond an edge of the footprint."""
+    names = {link: name for name, link in links.items()}
+    along = np.roll(robot.footprint, -1, axis=0) - robot.footprint
+    for x, y in (np.column_stack([along[:, 1], -along[:, 0]]) / np.hypot(*along.T)[:, None]).tolist():
+        limit = float((robot.footprint @ (x, y)).max()) + _BEYOND
+        shape = bullet.createCollisionShape(bullet.module.GEOM_PLANE, planeNormal=(-x, -y, 0.0))
+        plane = bullet.createMultiBody(baseCollisionShapeIndex=shape, basePosition=(limit * x, limit * y, 0.0))
+        for point in bullet.getClosestPoints(body, plane, 0.0):
+            if point[3] in names:
+                part = names[point[3]].removeprefix(_GUARD)
+                out = f"{part!r} stands out {_BEYOND - point[8]:.3f} m beyond the footprint"
+                raise InputError(f"{out} of {robot.name}", file=file, hint="planners rely on the footprint")
+        bullet.removeBody(plane)
