@@ -40,8 +40,11 @@ bool Sipps::search(int robot, DistanceTable& distance, Others others, Tick lates
   latest_ = latest;
   begin(robot);
   const Beginning& beginning = instance_.beginning(robot);
+  const Tick to_go = distance(beginning.vertex);
+  if (to_go == kForever) return false;
+  alone_ = beginning.free_at + to_go;
   least_ = is_soft() ? 0 : earliest_stay();
-  if (least_ > latest || distance(beginning.vertex) == kForever) return false;
+  if (least_ > latest) return false;
   const Slot slot = states_of(beginning.vertex);
   for (int state = slot.first; state < slot.first + slot.count; ++state) {
     if (states_[state].first > beginning.free_at || states_[state].last < beginning.free_at) continue;
@@ -123,18 +126,29 @@ std::span<const Visit> Sipps::visits_at(int vertex) {
   return visits_;
 }
 
+/// When the robot can be at `vertex`: not before it could get there, and not too late to arrive in time.
+Sipps::Window Sipps::window_of(int vertex) {
+  const Tick h = (*distance_)(vertex);
+  const bool stays = is_soft() && h == 0 && !instance_.rules().disappear_at_goal;  // meets all who come later
+  return {2 * (alone_ - h), stays ? kForeverHalf : 2 * (latest_ - h)};
+}
+
 void Sipps::add_free(int vertex) {
+  const Window window = window_of(vertex);
   Half free = 0;
   std::int32_t before = -1;
   for (const Visit& visit : visits_at(vertex)) {
-    if (visit.begin > free) add_state(vertex, free, visit.begin - 1, {.before = before, .after = visit.robot});
+    if (free > window.last) return;
+    if (visit.begin > free && visit.begin > window.first)
+      add_state(vertex, free, visit.begin - 1, {.before = before, .after = visit.robot});
     free = std::max(free, visit.end + 1);
     before = visit.robot;
   }
-  if (free <= kForeverHalf) add_state(vertex, free, kForeverHalf, {.before = before});
+  if (free <= window.last) add_state(vertex, free, kForeverHalf, {.before = before});
 }
 
 void Sipps::add_shared(int vertex) {
+  const Window window = window_of(vertex);
   const std::span<const Visit> visits = visits_at(vertex);
   ends_.clear();
   for (const Visit& visit : visits) ends_.push_back(visit.end);
@@ -142,14 +156,14 @@ void Sipps::add_shared(int vertex) {
   Half from = 0;
   int present = 0, begun = 0;
   std::size_t next = 0, ended = 0;
-  while (from <= kForeverHalf) {
+  while (from <= window.last) {
     for (; next < visits.size() && visits[next].begin <= from; ++next) ++present, ++begun;
     for (; ended < ends_.size() && ends_[ended] < from; ++ended) --present;
     Half until = kForeverHalf;
     if (next < visits.size()) until = std::min(until, visits[next].begin - 1);
     if (ended < ends_.size()) until = std::min(until, ends_[ended]);
     const std::size_t before = states_.size();
-    add_state(vertex, from, until, {.present = present, .begun = begun});
+    if (until >= window.first) add_state(vertex, from, until, {.present = present, .begun = begun});
     if (states_.size() > before) begun = 0;  // else it lies between two ticks: whoever waits on meets them as well
     from = until + 1;
   }

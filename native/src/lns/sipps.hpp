@@ -62,6 +62,9 @@ class Sipps {
     std::vector<std::int32_t> first;  // by vertex, and the end
     std::vector<Way> way;
   };
+  struct Window {
+    Half first, last;
+  };
   struct Slot {
     std::uint32_t epoch = 0;  // valid for the current search if equal to `epoch_`
     std::int32_t first = 0;
@@ -72,6 +75,7 @@ class Sipps {
   void begin(int robot);
   Slot states_of(int vertex);
   std::span<const Visit> visits_at(int vertex);
+  Window window_of(int vertex);
   void add_free(int vertex);
   void add_shared(int vertex);
   void add_state(int vertex, Half first, Half last, Company company);
@@ -97,6 +101,7 @@ class Sipps {
   Others others_ = Others::hard;
   Tick latest_ = 0;
   Tick least_ = 0;
+  Tick alone_ = 0;  // when it would arrive without any others
   DistanceTable* distance_ = nullptr;
   std::span<const Tick> duration_;
   const Ways* out_ = nullptr;
