@@ -270,10 +270,11 @@ Objective objective_of(const std::string& name) {
   return choose(choices, name);
 }
 
-Answer lacam(const Instance& instance, const std::string& objective, bool swap, bool guides, bool star,
-             bool neighbourhoods, std::optional<std::int64_t> iterations, std::uint64_t seed, double wall_s,
+Answer lacam(const Instance& instance, const std::string& objective, bool swap, bool prioritized, bool guides,
+             bool star, bool neighbourhoods, std::optional<std::int64_t> iterations, std::uint64_t seed, double wall_s,
              std::int64_t memory_bytes) {
-  const LacamOptions options{objective_of(objective), swap, guides, star, neighbourhoods, iterations, seed};
+  const LacamOptions options{objective_of(objective), swap,       prioritized, guides, star,
+                             neighbourhoods,          iterations, seed};
   nb::gil_scoped_release without_python;
   Limits limits(wall_s, memory_bytes);
   return {instance, solve_lacam(instance, options, limits)};
@@ -344,8 +345,8 @@ NB_MODULE(mapf, module) {
              "One robot after another, by a search over who comes before whom.");
   module.def("pibt", &pibt, "instance"_a, nb::kw_only(), "swap"_a, "steps"_a, "seed"_a, "wall_s"_a, "memory_bytes"_a,
              "Tick by tick, by priority inheritance. Unit moves only.");
-  module.def("lacam", &lacam, "instance"_a, nb::kw_only(), "objective"_a, "swap"_a, "guides"_a, "star"_a,
-             "neighbourhoods"_a, "iterations"_a.none(), "seed"_a, "wall_s"_a, "memory_bytes"_a,
+  module.def("lacam", &lacam, "instance"_a, nb::kw_only(), "objective"_a, "swap"_a, "prioritized"_a, "guides"_a,
+             "star"_a, "neighbourhoods"_a, "iterations"_a.none(), "seed"_a, "wall_s"_a, "memory_bytes"_a,
              "A plan soon, by a search over configurations, and better ones later. Unit moves only.");
   module.def("lns", &lns, "instance"_a, nb::kw_only(), "objective"_a, "initial"_a, "neighbourhood"_a.none(),
              "iterations"_a.none(), "seed"_a, "wall_s"_a, "memory_bytes"_a,

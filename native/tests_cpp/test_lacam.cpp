@@ -1,6 +1,7 @@
 #include "check.hpp"
 #include "mrpbench_mapf/cbs.hpp"
 #include "mrpbench_mapf/lacam.hpp"
+#include "mrpbench_mapf/lns.hpp"
 #include "mrpbench_mapf/pibt.hpp"
 #include "plans.hpp"
 
@@ -95,13 +96,33 @@ TEST("a plan along ways that keep clear of one another is no worse, and mostly b
     const Instance it = random_instance(random, 14, 10, 30);
     const Result first = lacam(it, {.iterations = 0});
     if (first.status != Status::solved) continue;
-    const Result second = lacam(it, {.star = false, .neighbourhoods = false, .iterations = 1});
+    const Result second = lacam(it, {.prioritized = false, .star = false, .neighbourhoods = false, .iterations = 1});
     CHECK(faults(it, second) == 0);
     CHECK(sum_of_costs(second) <= sum_of_costs(first));
     ++all;
     better += sum_of_costs(second) < sum_of_costs(first);
   }
   CHECK(all > 5 && 2 * better > all);
+}
+
+TEST("where there is room, robots planned in turn are hardly later than alone") {
+  Random random(6);
+  int close = 0, all = 0;
+  for (int k = 0; k < 10; ++k) {
+    const Instance it = random_instance(random, 30, 30, 40);
+    const Result first = lacam(it, {.iterations = 0});
+    if (first.status != Status::solved) continue;  // a robot in a closed corner
+    const Result second = lacam(it, {.guides = false, .star = false, .neighbourhoods = false, .iterations = 1});
+    CHECK(faults(it, second) == 0);
+    close += static_cast<double>(sum_of_costs(second)) < 1.05 * second.lower_bound;
+    ++all;
+    const Result repaired = [&] {
+      Limits limits = unlimited();
+      return solve_lns(it, {.initial = Initial::repair, .iterations = 1000}, limits);
+    }();
+    CHECK(repaired.status == Status::solved && faults(it, repaired) == 0);
+  }
+  CHECK(all > 5 && 4 * close > 3 * all);
 }
 
 TEST("priority inheritance plans crowds in the open, or gives up") {

@@ -47,6 +47,7 @@ ALGORITHMS: Mapping[str, tuple[Callable[..., mapf.Answer], dict[str, Any]]] = {
         {
             "objective": "flowtime",
             "swap": True,
+            "prioritized": True,
             "guides": True,
             "star": True,
             "neighbourhoods": True,

@@ -144,6 +144,7 @@ def lacam(
     *,
     objective: str,
     swap: bool,
+    prioritized: bool,
     guides: bool,
     star: bool,
     neighbourhoods: bool,

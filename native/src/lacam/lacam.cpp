@@ -5,6 +5,7 @@
 #include "lacam/arrivals.hpp"
 #include "lacam/lacam_search.hpp"
 #include "lns/improvement.hpp"
+#include "lns/repair.hpp"
 
 namespace mrpbench::mapf {
 
@@ -65,7 +66,10 @@ class Lacam {
   void improve() {
     const Relations relations(instance_, limits_);
     Schedule schedule(instance_, tables_, relations, options_.seed, limits_, result_.statistics);
-    if (options_.guides && best_.first < kCrowded * least_) follow_guides(schedule);
+    const bool in_turn = options_.prioritized && best_.first < kRoom * least_ && plan_in_turn(schedule);
+    // What is good for the sum need not be for the last robot.
+    const bool enough = in_turn && options_.objective == Objective::flowtime;
+    if (options_.guides && !enough && best_.first < kCrowded * least_) follow_guides(schedule);
     if (best_.first == least_ || !(options_.star || options_.neighbourhoods)) return;
     schedule.replace(result_.paths);
     Improvement improvement(schedule, options_.objective, {}, options_.seed);
@@ -84,6 +88,14 @@ class Lacam {
       if (best_.first == least_ || (search_.exhausted() && rule_out_better())) return;
       if (search_.exhausted() && !options_.neighbourhoods) return;
     }
+  }
+
+  /// A second plan, one robot after another: where there is room, much cheaper and soon found. False if there is not.
+  bool plan_in_turn(Schedule& schedule) {
+    Repair repair(schedule, kRepaired, options_.seed);
+    if (!repair.run(Patience::brief(instance_.size()), result_.statistics.expansions)) return false;
+    if (value(options_.objective, schedule.paths()) < best_) keep(schedule.paths());
+    return true;
   }
 
   /// A second plan, with ways that keep clear of one another as guides: slower to find, mostly much cheaper.
@@ -120,6 +132,8 @@ class Lacam {
 
   // Where a plan costs so many times what robots alone do, the crowd and not their ways is what delays them.
   static constexpr Cost kCrowded = 4;
+  static constexpr Cost kRoom = 2;     // and up to so many times, robots can be planned in turn
+  static constexpr int kRepaired = 8;  // robots at a time
   const Instance& instance_;
   const Moves& moves_;
   const LacamOptions& options_;

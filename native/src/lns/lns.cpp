@@ -80,14 +80,9 @@ class Lns {
   /// Take the repaired plan if it is cheaper than the one there is; with one, only try for a while.
   void repair(Schedule& schedule, bool unit) {
     Repair repair(schedule, options_.neighbourhood.value_or(kNeighbourhood), options_.seed);
-    if (!repair.begin()) return;  // stays `gave_up`
-    const std::int64_t patience = unit ? 2 * schedule.expansions() : std::numeric_limits<std::int64_t>::max();
-    const std::int64_t most = options_.iterations.value_or(std::numeric_limits<std::int64_t>::max());
-    for (std::int64_t k = 0; k < most && schedule.expansions() < patience && !repair.is_done(); ++k) {
-      ++result_.statistics.expansions;
-      repair.advance();
-    }
-    if (!repair.is_done()) return;
+    Patience patience = unit ? Patience::brief(instance_.size()) : Patience{};
+    if (options_.iterations) patience.iterations = *options_.iterations;
+    if (!repair.run(patience, result_.statistics.expansions)) return;  // stays `gave_up`, or the plan there is
     const bool better = value(options_.objective, schedule.paths()) < value(options_.objective, result_.paths);
     if (result_.status != Status::solved || better) keep(schedule.paths());
     result_.status = Status::solved;

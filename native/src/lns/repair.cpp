@@ -1,6 +1,7 @@
 #include "lns/repair.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace mrpbench::mapf::lns {
 
@@ -20,16 +21,31 @@ Repair::Repair(Schedule& schedule, int neighbourhood, std::uint64_t seed)
       partners_(schedule.instance().size()),
       seen_(schedule.instance().size()) {}
 
-bool Repair::begin() {
-  std::vector<int> order(schedule_.instance().size());
-  for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<int>(k);
-  random_.shuffle(order);
-  const bool found = schedule_.plan(order, Others::soft, whenever);
-  if (!found) {
-    schedule_.reject(order);
-    return false;
+bool Repair::run(const Patience& patience, std::int64_t& iterations) {
+  const std::int64_t before = schedule_.expansions();
+  if (!begin(patience.in_the_way)) return false;
+  const std::int64_t begun = schedule_.expansions();
+  const double most = patience.effort * static_cast<double>(begun - before);
+  for (std::int64_t k = 0; pairs_ > 0; ++k, ++iterations) {
+    if (k >= patience.iterations || static_cast<double>(schedule_.expansions() - begun) >= most) return false;
+    advance();
   }
-  schedule_.accept(order);
+  return true;
+}
+
+/// A first path for every robot.
+bool Repair::begin(int most_in_the_way) {
+  std::vector<int> order(schedule_.instance().size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](int robot) { return schedule_.least(robot); });
+  Cost sum = 0;
+  for (const int robot : order) sum += schedule_.least(robot);
+  const auto detour = static_cast<Tick>(1 + sum / std::max<Cost>(1, schedule_.instance().size()));
+  int in_the_way = 0;
+  for (const int robot : order) {
+    const Tick latest = std::min(kLatestTime, schedule_.least(robot) + detour);
+    if (!plan_first(robot, latest, in_the_way, most_in_the_way)) return false;
+  }
   std::vector<int> partners;
   for (const int robot : order) {
     conflicts_of(robot, schedule_.paths()[robot], partners);
@@ -38,6 +54,19 @@ bool Repair::begin() {
   }
   pairs_ /= 2;
   return true;
+}
+
+/// Between the robots that have a path, or else across as few of them as possible.
+bool Repair::plan_first(int robot, Tick latest, int& in_the_way, int most_in_the_way) {
+  const auto in_time = [&](int) { return latest; };
+  bool found = schedule_.plan({robot}, Others::hard, in_time);
+  if (!found) {
+    schedule_.reject({robot});
+    found = ++in_the_way <= most_in_the_way && schedule_.plan({robot}, Others::soft, in_time);
+    if (!found) schedule_.reject({robot});
+  }
+  if (found) schedule_.accept({robot});
+  return found;
 }
 
 /// The robots with which this path conflicts, each once.

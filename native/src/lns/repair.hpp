@@ -1,23 +1,38 @@
-// Makes a plan without conflicts out of one with conflicts, a group of robots at a time (Li et al., AAAI 2022).
+// Makes a plan without conflicts out of one with conflicts, a group of robots at a time (Li et al., AAAI 2022). Where
+// there is room, the first paths have few conflicts or none: the robots are planned in turn, each around those before
+// it, and those with short ways, whose goals the others can go around, are first.
 #pragma once
+
+#include <limits>
 
 #include "lns/neighbourhood.hpp"
 #include "lns/roulette.hpp"
 
 namespace mrpbench::mapf::lns {
 
+/// When to give up.
+struct Patience {
+  /// Where more robots find no way between those before them, there is too little room for planning in turn.
+  int in_the_way = std::numeric_limits<int>::max();
+  std::int64_t iterations = std::numeric_limits<std::int64_t>::max();
+  /// Times the expansions of the first paths.
+  double effort = std::numeric_limits<double>::infinity();
+
+  /// For trying whether there is a cheaper plan than a known one.
+  static Patience brief(int robots) { return {.in_the_way = robots / 8, .effort = 2}; }
+};
+
 class Repair {
  public:
   Repair(Schedule& schedule, int neighbourhood, std::uint64_t seed);
 
-  /// A first path for every robot, with few conflicts; false if some robot has no path at all.
-  bool begin();
-  /// Plan one group anew; keeps what has no more conflicts.
-  void advance();
-  bool is_done() const { return pairs_ == 0; }
-  int pairs() const { return pairs_; }
+  /// Begin, then plan groups anew until no conflict is left; false if patience ran out before.
+  bool run(const Patience& patience, std::int64_t& iterations);
 
  private:
+  bool begin(int most_in_the_way);
+  void advance();
+  bool plan_first(int robot, Tick latest, int& in_the_way, int most_in_the_way);
   int conflicts_of(int robot, const Path& path, std::vector<int>& partners);
   void link(int robot, const std::vector<int>& partners);
   void unlink(int robot);
@@ -30,7 +45,6 @@ class Repair {
   Roulette<3> roulette_;
   int pairs_ = 0;
   std::vector<std::vector<int>> partners_;  // by robot: those it is in conflict with
-  std::vector<std::vector<int>> fresh_;
   std::vector<int> robots_;
   std::vector<std::uint32_t> seen_;
   std::uint32_t count_ = 0;

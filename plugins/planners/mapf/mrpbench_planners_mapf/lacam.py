@@ -19,7 +19,8 @@ class Lacam(Planner):
     """Depth first over configurations of all robots (Okumura, AAAI 2023, IJCAI 2023), then improvement.
 
     For roadmaps on which every move takes one tick. Complete: `unsolvable` means that it has seen every configuration.
-    The plan is improved by a second one along ways that keep clear of one another (`guides`; Okumura, AAMAS 2024),
+    The plan is improved by a second one, made by planning the robots in turn, nearest first (`prioritized`), or where
+    there is no room for that, along ways that keep clear of one another (`guides`; Okumura, AAMAS 2024),
     by going on with the search (`star`) and by planning groups anew (`neighbourhoods`), until nothing can become
     better, `limits.iterations` are done, or the time is over. The result is optimal, and `lower_bound` says so, once
     all better configurations are ruled out, which happens with a handful of robots only.
@@ -29,7 +30,10 @@ class Lacam(Planner):
 
     objective: Objective = objective_option()
     swap: bool = option(True, help="Let robots change places in narrow passages (else the first plan may take long).")
-    guides: bool = option(True, help="After the first plan look for one along ways that keep clear of one another.")
+    prioritized: bool = option(
+        True, help="After the first plan look for one by planning robots in turn, nearest first."
+    )
+    guides: bool = option(True, help="If that fails, look for one along ways that keep clear of one another.")
     star: bool = option(True, help="After the first plan go on searching configurations.")
     neighbourhoods: bool = option(True, help="After the first plan improve it by large neighbourhood search.")
     seed: int = option(0, help="Seed of all random choices.", validator=attrs.validators.ge(0))
@@ -43,6 +47,7 @@ class Lacam(Planner):
                 instance,
                 objective=self.objective,
                 swap=self.swap,
+                prioritized=self.prioritized,
                 guides=self.guides,
                 star=self.star,
                 neighbourhoods=self.neighbourhoods,
