@@ -54,7 +54,7 @@ python: install ## Python tests
 	$(BIN)/pytest
 
 soak: install ## thousands of random instances against brute force, and studies disturbed at random (an hour)
-	$(BIN)/python plugins/planners/mapf/tests/soak_cbs.py 20000 1
+	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1
 	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
 	$(BIN)/python tests/engine/soak_disturbances.py 20 1
 	$(BIN)/python tests/engine/soak_disturbances.py 20 2
@@ -68,7 +68,7 @@ sanitize: install ## the native code's tests and soak under AddressSanitizer and
 	test -x $(SANITIZED)/bin/python || $(PYTHON) -m venv $(SANITIZED)
 	SKBUILD_BUILD_DIR=$(CURDIR)/$(SANITIZED)/native SKBUILD_CMAKE_DEFINE=SANITIZE=ON $(SANITIZED)/bin/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
 	$(CHECKED) -m pytest -p no:cacheprovider native plugins/planners/mapf plugins/simulators/planar plugins/controllers/dwb plugins/localizers/amcl
-	$(CHECKED) plugins/planners/mapf/tests/soak_cbs.py 2000 2
+	$(CHECKED) plugins/planners/mapf/tests/soak_planners.py 2000 2
 	$(CHECKED) plugins/planners/mapf/tests/soak_assigning.py 1000 2
 
 worlds: install ## robots driven on every built-in world must touch nothing (ten minutes); CONTROLLER=dwb for another

@@ -5,6 +5,7 @@ from pathlib import Path as File
 import attrs
 import numpy as np
 
+from mrpbench_core.model.plan import Path
 from mrpbench_core.model.problem import Feature, Problem, Rules, features_of
 from mrpbench_core.model.roadmap import Roadmap
 
@@ -103,6 +104,46 @@ def random_graph_problem(random: np.random.Generator, robots: int, longest: int 
     starts = random.choice(vertices, robots, replace=False)
     goals = [tuple(map(int, random.choice(vertices, random.integers(1, 3), replace=False))) for _ in range(robots)]
     return problem(road, starts, goals, profile=random.integers(0, profiles, robots), **fields)
+
+
+def random_full_problem(random: np.random.Generator) -> Problem:
+    """Little room: as many robots as cells, or one or two less; sometimes two share a start or a goal."""
+    width, height = ((2, 2), (3, 2), (4, 1), (3, 1))[int(random.integers(4))]
+    vertices = width * height
+    robots = max(1, vertices - int(random.integers(3)))
+    starts = random.choice(vertices, robots, replace=bool(random.random() < 0.05))
+    goals = random.choice(vertices, robots, replace=bool(random.random() < 0.1))
+    return problem(grid(["." * width] * height), starts, goals.tolist())
+
+
+def random_narrow_problem(random: np.random.Generator, robots: int) -> Problem:
+    """Robots on a path, a cycle, or a tree, with edges of one tick or, all of them, two."""
+    vertices = int(random.integers(robots, 8))
+    shape = random.choice(["path", "cycle", "tree"])
+    pairs = {(v, int(random.integers(v)) if shape == "tree" else v - 1) for v in range(1, vertices)}
+    pairs |= {(0, vertices - 1)} if shape == "cycle" and vertices > 2 else set()
+    edges = sorted(pairs | {(b, a) for a, b in pairs})
+    road = roadmap(random.random((vertices, 2)), edges, np.full(len(edges), random.integers(1, 3)))
+    starts = random.choice(vertices, robots, replace=False)
+    return problem(road, starts, random.choice(vertices, robots, replace=False).tolist())
+
+
+def with_releases(random: np.random.Generator, asked: Problem) -> Problem:
+    """The same problem, but robots have set out already, for no or a few segments, in whatever directions."""
+    changed = attrs.evolve(asked, commitments=tuple(_wandering(random, asked, robot) for robot in range(len(asked))))
+    return attrs.evolve(changed, features=features_of(changed) | asked.features)
+
+
+def _wandering(random: np.random.Generator, asked: Problem, robot: int) -> Path:
+    edge, times, at = [], [0], int(asked.start[robot])
+    for _ in range(int(random.integers(3))):
+        ways = np.flatnonzero((asked.roadmap.edges[:, 0] == at) & (asked.duration(robot) > 0))
+        chosen = int(random.choice([-1, *ways]))
+        least = 1 if chosen < 0 else int(asked.duration(robot)[chosen])
+        edge.append(chosen)
+        times.append(times[-1] + least + int(random.random() < 0.2))
+        at = at if chosen < 0 else int(asked.roadmap.edges[chosen, 1])
+    return Path(edge=edge, enter=times[:-1], leave=times[1:])
 
 
 def with_candidates(random: np.random.Generator, asked: Problem) -> Problem:

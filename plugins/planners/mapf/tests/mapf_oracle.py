@@ -1,12 +1,15 @@
 """Least sum of costs by A* over joint states, tick by tick: slow, plain, and independent of the solvers.
 
 A robot is at a vertex, on an edge, or done (at its goal for good). Between two ticks each occupies one element, and at
-each tick too; the rules of `mrpbench_core.model.conflicts` are checked for every pair at each of these moments.
+each tick too; the rules of `mrpbench_core.model.conflicts` are checked for every pair at each of these moments. Once no
+robot is held back any more, what can follow depends on the joint state alone, so that all of them can be seen, and an
+instance without solution has none for sure.
 """
 
 import heapq
 import itertools
 import math
+from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
 import attrs
@@ -24,13 +27,29 @@ class State(NamedTuple):
     total: int = 0
 
 
+class Step(NamedTuple):
+    """What one robot does from one tick to the next."""
+
+    during: int | None
+    """The element that it occupies meanwhile: a vertex, or an edge after all vertices; None is nowhere."""
+    place: int | None
+    """The element that it occupies at the next tick."""
+    then: State
+    arrives: bool = False
+
+
 class TooLargeError(Exception):
     """The oracle ran out of its node limit."""
 
 
 def least_cost(problem: Problem, limit: int = 6_000) -> float:
-    """The optimum, inf if the searched states contain no solution at all; raises TooLargeError."""
-    return _Search(problem).run(limit)
+    """The optimum, inf if there is no solution; raises TooLargeError."""
+    return _Search(problem, sum).run(limit)
+
+
+def least_makespan(problem: Problem, limit: int = 6_000) -> float:
+    """The least last arrival, inf if there is no solution; raises TooLargeError."""
+    return _Search(problem, max).run(limit)
 
 
 def least_cost_assigned(problem: Problem, limit: int = 6_000) -> float:
@@ -47,21 +66,28 @@ def least_cost_assigned(problem: Problem, limit: int = 6_000) -> float:
 
 def shortest(problem: Problem, robot: int) -> float:
     """Arrival of a robot that is alone."""
-    to_go = _Search(problem).to_go[robot][problem.start[robot]]
-    return to_go + problem.ready[robot] if to_go else 0
+    search = _Search(problem, sum)
+    return search._rest(robot, 0, search.first[robot])
 
 
 class _Search:
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, total: Callable[[Iterable[float]], float]) -> None:
         self.problem = problem
+        self.total = total
         self.edges = [(int(a), int(b)) for a, b in problem.roadmap.edges]
         self.vertices = len(problem.roadmap.position)
         self.robots = range(len(problem))
         self.duration = [problem.duration(robot).tolist() for robot in self.robots]
         self.goals = [set(sequence[-1]) for sequence in problem.goals]
         self.to_go = [self._distances(robot) for robot in self.robots]
-        self.known: dict[tuple[int, int, float], bool] = {}
+        self.steps: dict[tuple[int, int, State], list[Step]] = {}
+        self.clashes: dict[tuple[int, int], dict[tuple, bool]] = {
+            pair: {} for pair in itertools.combinations(self.robots, 2)
+        }
+        self.overtakable = any(ticks > 1 for duration in self.duration for ticks in duration)
         self._read_commitments()
+        self.settled = max(self.free_at, default=0) + 1
+        self.first = tuple(self._standing(robot, 0, int(problem.start[robot])) for robot in self.robots)
 
     def _read_commitments(self) -> None:
         self.forced: list[dict[int, tuple[int, int]]] = [{} for _ in self.robots]
@@ -85,30 +111,29 @@ class _Search:
         return distance
 
     def run(self, limit: int) -> float:
-        first = tuple(State(FRESH if self.free_at[r] == 0 else AT, int(self.problem.start[r])) for r in self.robots)
-        if self._clash([state.place for state in first]):
+        if self._clash([state.place for state in self.first]):
             return math.inf
         counter = itertools.count()
-        queue = [(self._bound(0, 0, first), next(counter), 0, 0, first)]
+        queue = [(self._bound(0, 0, self.first), next(counter), 0, 0, self.first)]
         seen = set()
         while queue:
-            bound, _, tick, cost, state = heapq.heappop(queue)
-            if bound == math.inf:
-                break
+            _, _, tick, cost, state = heapq.heappop(queue)
             if all(it.kind == DONE for it in state):
                 return cost
-            if (tick, state) in seen:
+            if (min(tick, self.settled), state) in seen:
                 continue
-            seen.add((tick, state))
+            seen.add((min(tick, self.settled), state))
             if len(seen) > limit:
                 raise TooLargeError
             for after, paid in self._successors(tick, state):
-                estimate = self._bound(tick + 1, cost + paid, after)
-                heapq.heappush(queue, (estimate, next(counter), tick + 1, cost + paid, after))
+                arrived = self.total([cost, *paid])
+                estimate = self._bound(tick + 1, arrived, after)
+                if estimate < math.inf:
+                    heapq.heappush(queue, (estimate, next(counter), tick + 1, arrived, after))
         return math.inf
 
     def _bound(self, tick, cost, state):
-        return cost + sum(self._rest(robot, tick, it) for robot, it in enumerate(state) if it.kind != DONE)
+        return self.total([cost, *(self._rest(robot, tick, it) for robot, it in enumerate(state) if it.kind != DONE)])
 
     def _rest(self, robot, tick, it):
         """Least arrival of a robot that is not done."""
@@ -120,42 +145,79 @@ class _Search:
         return tick + self.to_go[robot][it.place]
 
     def _successors(self, tick, state):
-        for choice in itertools.product(*(list(self._choices(robot, tick, state[robot])) for robot in self.robots)):
-            during = [element for element, _, _ in choice]
-            after = tuple(then for _, then, _ in choice)
-            if self._clash(during) or self._clash([self._element(r, tick + 1, after[r]) for r in self.robots]):
-                continue
-            if not self._overtaking(state, choice):
-                yield after, sum(paid for _, _, paid in choice)
+        """Joint states at the next tick, and what is paid by whom for being done."""
+        for joint in self._joint((), [self._steps(robot, tick, it) for robot, it in enumerate(state)]):
+            if not (self.overtakable and self._overtaking(state, joint)):
+                yield (
+                    tuple(step.then for step in joint),
+                    [
+                        self.since[robot] if tick == self.free_at[robot] else tick
+                        for robot, step in enumerate(joint)
+                        if step.arrives
+                    ],
+                )
+
+    def _joint(self, chosen, options) -> Iterator[tuple[Step, ...]]:
+        """All ways to add a step of each other robot to the steps of the first ones, without conflict."""
+        robot = len(chosen)
+        if robot == len(options):
+            yield chosen
+            return
+        for step in options[robot]:
+            for other, before in enumerate(chosen):
+                if self._clashing(other, robot, before, step):
+                    break
+            else:
+                yield from self._joint((*chosen, step), options)
+
+    def _clashing(self, one, other, first, second):
+        known = self.clashes[one, other]
+        key = (first.during, first.place, second.during, second.place)
+        if key not in known:
+            during = self._exclusive(first.during, second.during, one, other)
+            known[key] = during or self._exclusive(first.place, second.place, one, other)
+        return known[key]
+
+    def _steps(self, robot, tick, it):
+        """What a robot may do until the next tick; from some tick on, always the same."""
+        key = (robot, min(tick, self.settled), it)
+        if key not in self.steps:
+            self.steps[key] = [
+                Step(during, self._element(robot, tick + 1, then), then, it.kind != DONE and then.kind == DONE)
+                for during, then in self._choices(robot, tick, it)
+            ]
+        return self.steps[key]
 
     def _choices(self, robot, tick, it):
-        """What a robot may do until the next tick: (element occupied meanwhile, state then, cost paid)."""
+        """The same as pairs: the element that it occupies until then, and its state then."""
         if it.kind == ON:
-            yield self.vertices + it.place, self._move(robot, tick, it), 0
+            yield self.vertices + it.place, self._move(robot, tick, it)
         elif it.kind == DONE:
-            yield self._element(robot, tick + 1, it), it, 0
+            yield self._element(robot, tick + 1, it), it
         elif tick < self.free_at[robot]:
             if tick in self.forced[robot]:
                 edge, total = self.forced[robot][tick]
-                yield self.vertices + edge, self._move(robot, tick, State(ON, edge, 0, total)), 0
+                yield self.vertices + edge, self._move(robot, tick, State(ON, edge, 0, total))
             else:
-                yield it.place, State(FRESH if tick + 1 == self.free_at[robot] else AT, it.place), 0
+                yield it.place, self._standing(robot, tick + 1, it.place)
         else:
-            if it.kind == FRESH and it.place in self.goals[robot]:
+            if it.kind == FRESH:
                 done = State(DONE, it.place)
-                paid = self.since[robot] if tick == self.free_at[robot] else tick
-                yield self._element(robot, tick + 1, done), done, paid
-            yield it.place, State(AT, it.place), 0
+                yield self._element(robot, tick + 1, done), done
+            yield it.place, State(AT, it.place)
             for edge, (tail, _) in enumerate(self.edges):
                 ticks = self.duration[robot][edge]
                 if tail == it.place and ticks > 0:
-                    yield self.vertices + edge, self._move(robot, tick, State(ON, edge, 0, ticks)), 0
+                    yield self.vertices + edge, self._move(robot, tick, State(ON, edge, 0, ticks))
 
     def _move(self, robot, tick, it):
         if it.elapsed + 1 < it.total:
             return State(ON, it.place, it.elapsed + 1, it.total)
-        fresh = tick + 1 >= self.free_at[robot]
-        return State(FRESH if fresh else AT, self.edges[it.place][1])
+        return self._standing(robot, tick + 1, self.edges[it.place][1])
+
+    def _standing(self, robot, tick, vertex):
+        """A robot that comes to a vertex, or is held there no longer: it may be done if this is a goal of it."""
+        return State(FRESH if tick >= self.free_at[robot] and vertex in self.goals[robot] else AT, vertex)
 
     def _element(self, robot, tick, it):
         if it.kind == ON:
@@ -164,15 +226,14 @@ class _Search:
         return None if gone else it.place
 
     def _clash(self, elements):
-        pairs = itertools.combinations([(r, x) for r, x in enumerate(elements) if x is not None], 2)
+        pairs = itertools.combinations(enumerate(elements), 2)
         return any(self._exclusive(x, y, r, s) for (r, x), (s, y) in pairs)
 
     def _exclusive(self, x, y, one, other):
-        reach = float(self.problem.radius[one] + self.problem.radius[other])
-        key = (x, y, reach)
-        if key not in self.known:
-            self.known[key] = self._rules(x, y) or self._near(x, y, reach)
-        return self.known[key]
+        """Whether two robots must not be on these elements at a time; None is nowhere."""
+        if x is None or y is None:
+            return False
+        return self._rules(x, y) or self._near(x, y, float(self.problem.radius[one] + self.problem.radius[other]))
 
     def _rules(self, x, y):
         if x < self.vertices or y < self.vertices:
@@ -189,11 +250,11 @@ class _Search:
         (a, b), (c, d) = (self.problem.roadmap.position[list(pair)] for pair in ends)
         return float(segment_distance(a, b, c, d)) < reach - 1e-9
 
-    def _overtaking(self, state, choice):
+    def _overtaking(self, state, joint):
         """Does a robot leave a lane before one that entered it earlier?"""
         moving = [
             (self.edges[element - self.vertices], before.elapsed if before.kind == ON else 0, then.kind != ON)
-            for before, (element, then, _) in zip(state, choice, strict=True)
+            for before, (element, _, then, _) in zip(state, joint, strict=True)
             if element is not None and element >= self.vertices
         ]
         return any(

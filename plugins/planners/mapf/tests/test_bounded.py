@@ -1,6 +1,6 @@
 """Bounded-suboptimal conflict-based search: valid plans within their bounds, against oracles and published optima.
 
-`soak_cbs.py` does the same on thousands of instances.
+`soak_planners.py` does the same on thousands of instances.
 """
 
 import csv

@@ -1,0 +1,129 @@
+"""Thousands of random small instances, solvable and not, for every planner that leaves goals as they are: against an
+oracle that searches the joint space, and against one another.
+
+`make soak` runs it; `python soak_planners.py COUNT SEED [FIRST]` prints every instance on which something is wrong, and
+what became of all of them.
+"""
+
+from typing import get_args
+
+import attrs
+from mapf_instances import (
+    random_full_problem,
+    random_graph_problem,
+    random_grid_problem,
+    random_narrow_problem,
+    random_rules,
+    with_releases,
+)
+from mapf_oracle import TooLargeError, least_cost, least_makespan, shortest
+from mrpbench_planners_mapf.astar import Astar, Heuristic
+from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
+from mrpbench_planners_mapf.cbs import Cbs
+from mrpbench_planners_mapf.lacam import Lacam
+from mrpbench_planners_mapf.lns import Initial, Lns
+from mrpbench_planners_mapf.objective import Objective
+from mrpbench_planners_mapf.pbs import Pbs
+from mrpbench_planners_mapf.pibt import Pibt
+from mrpbench_planners_mapf.prioritized import Order, Prioritized
+from soaking import BUDGET, Draw, Random, Soak, main
+
+from mrpbench_core.api.planner import Planner
+from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.problem import Problem
+
+BOUNDS = (1.0, 1.01, 1.05, 1.1, 1.2, 1.5, 2.0, 5.0)
+ORACLE_NODES = 3000
+
+KINDS: dict[str, Draw] = {
+    "grid": lambda random: random_grid_problem(random, int(random.integers(2, 5)), size=int(random.integers(3, 5))),
+    "grid with rules": lambda random: random_grid_problem(
+        random, int(random.integers(2, 4)), size=int(random.integers(3, 5)), **random_rules(random)
+    ),
+    "full grid": random_full_problem,
+    "path, cycle or tree": lambda random: random_narrow_problem(random, int(random.integers(2, 5))),
+    "unit graph": lambda random: random_graph_problem(
+        random, int(random.integers(2, 4)), longest=1, at_goal=str(random.choice(["stay", "disappear"]))
+    ),
+    "graph": lambda random: random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random)),
+    "graph, late start": lambda random: random_graph_problem(
+        random, 2, ready=random.integers(0, 5, 2), **random_rules(random)
+    ),
+    "graph, released": lambda random: with_releases(
+        random, random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random))
+    ),
+}
+
+
+def drawn_switches(random: Random, planner: type[Planner]) -> dict[str, bool]:
+    """Techniques of a planner, each on or off by chance."""
+    return {
+        field.name: bool(random.integers(2))
+        for field in attrs.fields(planner)
+        if field.type in (bool, "bool") and field.name != "assign"
+    }
+
+
+def drawn_planners(random: Random) -> list[Planner]:
+    """All planners; those with options as they come, and with drawn ones."""
+    one, two, three = random.choice(BOUNDS, 3).tolist()
+    weights = {"distance_weight": [1.0, 1.2, 3.0], "conflict_weight": [0.0, 2.0, 20.0]}
+    seed = int(random.integers(100))
+    return [
+        Cbs(),
+        Cbs(**dict.fromkeys(drawn_switches(random, Cbs), False)),
+        Cbs(**drawn_switches(random, Cbs)),
+        Cbs(**drawn_switches(random, Cbs)),
+        Ecbs(w=one),
+        Eecbs(w=two),
+        Eecbs(
+            w=three,
+            **drawn_switches(random, Eecbs),
+            **{name: float(random.choice(values)) for name, values in weights.items()},
+        ),
+        Astar(heuristic=_one(random, Heuristic)),
+        Prioritized(order=_one(random, Order), restarts=int(random.choice([0, 10, 200])), seed=seed),
+        Pbs(),
+        Pibt(swap=bool(random.integers(2)), seed=seed),
+        Lacam(objective=_one(random, Objective), seed=seed, **drawn_switches(random, Lacam)),
+        Lns(
+            objective=_one(random, Objective),
+            initial=_one(random, Initial),
+            neighbourhood=random.choice([None, 1, 2, 8]),
+            seed=seed,
+        ),
+    ]
+
+
+def _one(random: Random, choices: object) -> str:
+    return str(random.choice(get_args(choices)))
+
+
+def more_faults(asked: Problem, planner: Planner, result: PlanResult) -> list[str]:
+    """What only some planners claim: shortest paths of robots that are alone; the optimum when the search has ended."""
+    if isinstance(planner, Astar) and result.plan is not None:
+        alone = sum(shortest(asked, robot) for robot in range(len(asked)))
+        return [f"cost {result.plan.sum_of_costs}, alone {alone}"] * (result.plan.sum_of_costs != alone)
+    if isinstance(planner, Lacam) and planner.star and result.status is PlanStatus.SOLVED:
+        return unfinished(asked, planner)
+    return []
+
+
+def unfinished(asked: Problem, planner: Lacam) -> list[str]:
+    """Without a limit of iterations, LaCAM* ends at the optimum."""
+    result = planner.plan(asked, BUDGET)
+    if result.clock_bound or result.plan is None:
+        return []
+    makespan = planner.objective == "makespan"
+    cost = result.plan.makespan if makespan else result.plan.sum_of_costs
+    try:
+        optimum = (least_makespan if makespan else least_cost)(asked, ORACLE_NODES)
+    except TooLargeError:
+        return []
+    return [f"ended with {planner.objective} {cost}, optimum {optimum}"] * (cost != optimum)
+
+
+SOAK = Soak(KINDS, lambda asked: least_cost(asked, ORACLE_NODES), drawn_planners, more_faults)
+
+if __name__ == "__main__":
+    main(SOAK)
