@@ -12,8 +12,6 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
-import attrs
-
 from mrpbench_core.model.geometry import segment_distance
 from mrpbench_core.model.problem import Feature, Problem
 
@@ -54,14 +52,7 @@ def least_makespan(problem: Problem, limit: int = 6_000) -> float:
 
 def least_cost_assigned(problem: Problem, limit: int = 6_000) -> float:
     """The optimum over all assignments of robots to different goals; raises TooLargeError."""
-    best = math.inf
-    for goals in itertools.product(*(sequence[-1] for sequence in problem.goals)):
-        if len(set(goals)) < len(goals):
-            continue
-        assigned = attrs.evolve(problem, goals=tuple(((goal,),) for goal in goals))
-        if sum(shortest(assigned, robot) for robot in range(len(problem))) < best:
-            best = min(best, least_cost(assigned, limit))
-    return best
+    return _Search(problem, sum, different=True).run(limit)
 
 
 def shortest(problem: Problem, robot: int) -> float:
@@ -71,9 +62,11 @@ def shortest(problem: Problem, robot: int) -> float:
 
 
 class _Search:
-    def __init__(self, problem: Problem, total: Callable[[Iterable[float]], float]) -> None:
+    def __init__(self, problem: Problem, total: Callable[[Iterable[float]], float], different: bool = False) -> None:
+        """`total` of the arrivals is minimised; `different` goals, also if robots disappear there."""
         self.problem = problem
         self.total = total
+        self.different = different
         self.edges = [(int(a), int(b)) for a, b in problem.roadmap.edges]
         self.vertices = len(problem.roadmap.position)
         self.robots = range(len(problem))
@@ -147,15 +140,17 @@ class _Search:
     def _successors(self, tick, state):
         """Joint states at the next tick, and what is paid by whom for being done."""
         for joint in self._joint((), [self._steps(robot, tick, it) for robot, it in enumerate(state)]):
-            if not (self.overtakable and self._overtaking(state, joint)):
-                yield (
-                    tuple(step.then for step in joint),
-                    [
-                        self.since[robot] if tick == self.free_at[robot] else tick
-                        for robot, step in enumerate(joint)
-                        if step.arrives
-                    ],
-                )
+            after = tuple(step.then for step in joint)
+            if self.different and self._share_a_goal(after):
+                continue
+            if self.overtakable and self._overtaking(state, joint):
+                continue
+            arriving = [robot for robot, step in enumerate(joint) if step.arrives]
+            yield after, [self.since[robot] if tick == self.free_at[robot] else tick for robot in arriving]
+
+    def _share_a_goal(self, state):
+        done = [it.place for it in state if it.kind == DONE]
+        return len(set(done)) < len(done)
 
     def _joint(self, chosen, options) -> Iterator[tuple[Step, ...]]:
         """All ways to add a step of each other robot to the steps of the first ones, without conflict."""
