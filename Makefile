@@ -7,7 +7,7 @@ STAMP := $(VENV)/.installed
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install anchors demo test lint types layers cpp python format lock speed clean ros soak sanitize worlds
+.PHONY: help install anchors demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -28,6 +28,10 @@ speed: install ## how fast executions are, and where the time goes
 
 anchors: install ## cbs, ecbs and eecbs beside the reference solvers; ARGS="--maps maze-32-32-2" for less
 	$(BIN)/python benchmarks/anchors.py --shared ../shared/data $(ARGS)
+
+OPTIMA := "cbs" "ita_cbs" "cbs_ta" "ecbs w=1.0" "ecbs w=1.2" "eecbs w=1.0" "eecbs w=1.05" "eecbs w=1.2" "ita_ecbs w=1.2" "lacam" "lns"
+optima: install ## all 636 published optima for every planner that promises one (hours); OPTIMA='"cbs"' ARGS="--limit 1"
+	for planner in $(OPTIMA); do $(BIN)/python plugins/planners/mapf/tests/soak_optima.py --shared ../shared/data --planner "$$planner" $(ARGS) || exit 1; done
 
 demo: install ## one small run, end to end: table, picture, bag
 	$(BIN)/mrpbench demo

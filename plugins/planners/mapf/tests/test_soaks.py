@@ -1,0 +1,41 @@
+"""The first instances of the soaks, and what the soaks would say of a planner that is wrong."""
+
+import attrs
+import pytest
+import soak_assigning
+import soak_planners
+from mapf_oracle import TooLargeError
+from mrpbench_planners_mapf.cbs import Cbs
+from soaking import run
+
+from mrpbench_core.model.plan import PlanStatus
+
+
+@pytest.mark.parametrize(("soak", "count"), [(soak_planners.SOAK, 80), (soak_assigning.SOAK, 48)])
+def test_nothing_is_wrong_with_the_first_instances(soak, count, capsys):
+    assert run(soak, count, seed=1) == 0
+    printed = capsys.readouterr().out
+    assert f"{count} instances from number 0 of seed 1: 0 faults" in printed
+    assert "unsolvable" in printed
+
+
+def test_one_cost_too_many_is_noticed(capsys):
+    def too_low(asked):
+        return soak_planners.SOAK.optimum(asked) - 1
+
+    assert run(soak_planners.SOAK._replace(optimum=too_low), 8, seed=1) > 0
+    assert "lower bound" in capsys.readouterr().out
+
+
+def test_without_the_oracle_planners_are_compared_with_one_another(capsys):
+    @attrs.frozen(kw_only=True)
+    class Denying(Cbs):
+        def plan(self, problem, budget):
+            return attrs.evolve(super().plan(problem, budget), status=PlanStatus.UNSOLVABLE, plan=None)
+
+    def too_large(asked):
+        raise TooLargeError
+
+    soak = soak_planners.SOAK._replace(optimum=too_large, planners=lambda random: [Cbs(), Denying()])
+    assert run(soak, 8, seed=1) > 0
+    assert "unsolvable, but Cbs" in capsys.readouterr().out
