@@ -61,6 +61,9 @@ class Detours:
     def shorten(self, pose: Float) -> None:
         """Drop what robots have passed; at the end of a detour they follow their route again."""
         for robot, way in list(self._ways.items()):
+            if self._followers.all[robot].only_turns:
+                self.cancel(robot)
+                continue
             left = way
             while len(left) and np.hypot(*(left[0] - pose[robot, :2])) <= self._reach(robot, left):
                 left = left[1:]
@@ -102,6 +105,8 @@ class Detours:
         events = []
         for row in due[blocked].tolist():
             robot, place = int(observations.robot[row]), observations.pose[row, :2]
+            if self._followers.all[robot].only_turns:  # no way turns it
+                continue
             way = self._controllers.reroute(observations, row)
             if instead := way is None and self._beside > 0:
                 way = self._controllers.approach(observations, row, self._beside)

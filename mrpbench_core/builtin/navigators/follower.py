@@ -114,7 +114,12 @@ class Follower:
     @property
     def is_busy(self) -> bool:
         """Tell whether `update` is needed in every period."""
-        return self._halting or self.rides or (self._at_goal and self.reached < self._released)
+        return self._halting or self.rides or self.only_turns
+
+    @property
+    def only_turns(self) -> bool:
+        """Tell whether the robot is where it is to go next, and only its yaw is wrong."""
+        return self._at_goal and self.reached < self._released
 
     @property
     def rides(self) -> bool:

@@ -136,6 +136,18 @@ def test_a_robot_goes_round_what_blocks_its_path_and_comes_back_to_it(fleet):
     assert controllers[0].seen[-1].path.tolist() == [[0.8, 0], [1, 0]]
 
 
+def test_a_robot_that_only_has_to_turn_goes_round_nothing():
+    controller = _Recording()
+    routes = [Route(waypoint=[[0, y, np.nan], [1, y, 1.5]], level=np.zeros(2), speed=[np.inf]) for y in (0, 5)]
+    robots = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
+    session = Waypoints().start(robots, World(name="w", levels=()), routes, controller, 0.05, 0)
+    controller.sessions[0].reroute = lambda observation: np.array([(0.9, 0.5), (0.5, 0.5)])
+    for period in range(60):
+        motion = session.step(period * 0.05, observe([[0.98, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+        assert not motion.events
+    assert controller.sessions[0].seen[-1].path[-1].tolist() == [1, 0]
+
+
 def test_a_way_around_that_ends_where_the_robot_is_is_none(fleet):
     session, controllers = fleet
     controllers[0].reroute = lambda observation: np.array([(0.22, 0.0)])
