@@ -139,7 +139,8 @@ class Lane:
     speed_limit: float = 0.0
     """m/s; 0 means none."""
     orientation: str = ""
-    """'' | forward | backward: how a robot must face along the lane."""
+    """'' | forward | backward: how a robot should face along the lane, the other way on the way back. Robots here
+    always face where they drive."""
     mutex: str = ""
     door: str = ""
 

@@ -22,6 +22,12 @@ Instance::Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Excl
       exclusions_(std::move(exclusions)),
       resources_(std::move(resources)) {
   validate();
+  if (!resources_.empty()) resources_of_.resize(roadmap_.element_count());
+  for (std::size_t resource = 0; resource < resources_.size(); ++resource) {
+    for (const int element : resources_[resource].elements) {
+      resources_of_[element].push_back(static_cast<std::int32_t>(resource));
+    }
+  }
   beginnings_.reserve(robots_.size());
   for (int robot = 0; robot < size(); ++robot) beginnings_.push_back(begin(robot));
 }

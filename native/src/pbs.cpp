@@ -7,6 +7,7 @@
 #include "mrpbench_mapf/conflict.hpp"
 #include "mrpbench_mapf/sipp.hpp"
 #include "mrpbench_mapf/solvability.hpp"
+#include "mrpbench_mapf/uses.hpp"
 
 namespace mrpbench::mapf {
 
@@ -18,7 +19,10 @@ struct Node {
   std::int32_t before = -1, after = -1;  // robots
   std::vector<std::span<const Occupation>> paths;
   std::vector<PairConflict> conflicts;  // one entry for each pair of robots in one another's way
+  std::vector<Crowding> crowding;       // pairs among too many users of a resource
   Cost cost = 0;
+
+  std::size_t conflict_count() const { return conflicts.size() + crowding.size(); }
 };
 
 class Pbs {
@@ -75,18 +79,36 @@ class Pbs {
       }
       expanded.back() = true;
       Node& node = *open.back();
-      if (node.conflicts.empty()) return finish(node);
+      if (node.conflict_count() == 0) return finish(node);
       ++result_.statistics.expansions;
-      const PairConflict conflict = *std::ranges::min_element(node.conflicts, {}, &PairConflict::time);
-      auto one = child(node, conflict.one, conflict.other), other = child(node, conflict.other, conflict.one);
+      const auto [first, second] = next_pair(node);
+      auto one = child(node, first, second), other = child(node, second, first);
       // The better one is expanded next: it comes last.
       if (one && other &&
-          std::pair(one->cost, one->conflicts.size()) < std::pair(other->cost, other->conflicts.size())) {
+          std::pair(one->cost, one->conflict_count()) < std::pair(other->cost, other->conflict_count())) {
         std::swap(one, other);
       }
       if (one) push(std::move(one));
       if (other) push(std::move(other));
     }
+  }
+
+  /// The pair to decide on: the first to conflict. Of too many users of a resource not all have an order yet, since the
+  /// last in a full order has planned around the others.
+  std::pair<int, int> next_pair(const Node& node) {
+    gather(node);
+    std::pair<int, int> pair{-1, -1};
+    Half earliest = kForeverHalf;
+    const auto consider = [&](const auto& it, bool open) {
+      if (!open || (pair.first >= 0 && it.time >= earliest)) return;
+      pair = {it.one, it.other};
+      earliest = it.time;
+    };
+    for (const PairConflict& it : node.conflicts) consider(it, true);
+    for (const Crowding& it : node.crowding) {
+      consider(it, !comes_before(it.one, it.other) && !comes_before(it.other, it.one));
+    }
+    return pair;
   }
 
   void finish(const Node& node) {
@@ -106,10 +128,11 @@ class Pbs {
     made->after = after;
     // Whoever comes after `after` may be in its new way, and so on: in an order in which none is planned twice.
     for (const int robot : from_on(after)) {
-      const bool hit = std::ranges::any_of(made->conflicts, [&](const PairConflict& conflict) {
+      const auto hits = [&](const auto& conflict) {
         const int other = conflict.one == robot ? conflict.other : conflict.other == robot ? conflict.one : -1;
         return other >= 0 && comes_before(other, robot);
-      });
+      };
+      const bool hit = std::ranges::any_of(made->conflicts, hits) || std::ranges::any_of(made->crowding, hits);
       if (hit && !plan(*made, robot)) return nullptr;
     }
     return made;
@@ -173,6 +196,7 @@ class Pbs {
           find_conflict(instance_, relations_, robot, node.paths[robot], other, node.paths[other]);
       if (found.count > 0) node.conflicts.push_back(found);
     }
+    node.crowding = find_crowding(instance_, node.paths);
     return true;
   }
 

@@ -10,15 +10,7 @@ Reservations::Reservations(const Instance& instance, const Relations& relations,
     : instance_(instance), relations_(relations), limits_(limits) {
   limits.charge(static_cast<std::size_t>(instance.roadmap().element_count()) * sizeof(std::int32_t));
   head_.assign(instance.roadmap().element_count(), -1);
-  if (instance.resources().empty()) return;
-  limits.charge(static_cast<std::size_t>(instance.roadmap().element_count()) * sizeof(resources_of_[0]));
-  resources_of_.resize(instance.roadmap().element_count());
-  uses_.resize(instance.resources().size());
-  for (std::size_t r = 0; r < uses_.size(); ++r) {
-    for (const int element : instance.resources()[r].elements) {
-      resources_of_[element].push_back(static_cast<std::int32_t>(r));
-    }
-  }
+  users_.resize(instance.resources().size());
 }
 
 void Reservations::add(int robot, std::span<const Occupation> occupations) {
@@ -28,13 +20,8 @@ void Reservations::add(int robot, std::span<const Occupation> occupations) {
     if (head < 0) touched_.push_back(occupation.element);
     entries_.push_back({robot, step++, occupation.begin, occupation.end, head});
     head = static_cast<std::int32_t>(entries_.size()) - 1;
-    if (resources_of_.empty()) continue;
-    for (const std::int32_t resource : resources_of_[occupation.element]) {
-      const std::int64_t until = occupation.end + std::int64_t{2} * instance_.resources()[resource].setup;
-      const auto end = static_cast<Half>(std::min<std::int64_t>(until, kForeverHalf));
-      uses_[resource].push_back({robot, {occupation.begin, end}});
-    }
   }
+  for (const auto& [resource, halves] : uses(instance_, occupations)) users_[resource].push_back({robot, halves});
   limits_.charge_growth(counted_, entries_.capacity() * sizeof(Entry));
 }
 
@@ -42,7 +29,7 @@ void Reservations::clear() {
   for (const std::int32_t element : touched_) head_[element] = -1;
   touched_.clear();
   entries_.clear();
-  for (std::vector<Use>& it : uses_) it.clear();
+  for (std::vector<User>& it : users_) it.clear();
 }
 
 void Reservations::full(int robot, int resource, std::vector<Range>& halves) const {
@@ -52,14 +39,14 @@ void Reservations::full(int robot, int resource, std::vector<Range>& halves) con
     halves.push_back({static_cast<Half>(std::max<std::int64_t>(since, 0)), last});
   };
   if (it.capacity == 1) {
-    for (const Use& use : uses_[resource]) {
+    for (const User& use : users_[resource]) {
       if (use.robot != robot) add(use.halves.first, use.halves.last);
     }
     return;
   }
-  std::vector<Use> others;
-  std::ranges::copy_if(uses_[resource], std::back_inserter(others), [&](const Use& use) { return use.robot != robot; });
-  std::ranges::sort(others, [](const Use& a, const Use& b) {
+  std::vector<User> others;
+  std::ranges::copy_if(users_[resource], std::back_inserter(others), [&](const User& it) { return it.robot != robot; });
+  std::ranges::sort(others, [](const User& a, const User& b) {
     return a.robot != b.robot ? a.robot < b.robot : a.halves.first < b.halves.first;
   });
   std::vector<std::pair<Half, int>> changes;  // of the number of robots, at half-ticks
@@ -89,8 +76,7 @@ void Reservations::at_vertex(int robot, int vertex, std::vector<Range>& halves) 
       halves.push_back({entry.begin, entry.end});
     }
   }
-  if (resources_of_.empty()) return;
-  for (const std::int32_t resource : resources_of_[vertex]) full(robot, resource, halves);
+  for (const std::int32_t resource : instance_.resources_of(vertex)) full(robot, resource, halves);
 }
 
 void Reservations::on_edge(int robot, int edge, Tick duration, std::vector<Range>& departures) const {
@@ -113,9 +99,8 @@ void Reservations::on_edge(int robot, int edge, Tick duration, std::vector<Range
       if (!departures.empty() && departures.back().first > departures.back().last) departures.pop_back();
     }
   }
-  if (resources_of_.empty()) return;
   std::vector<Range> halves;
-  for (const std::int32_t resource : resources_of_[instance_.roadmap().vertex_count() + edge]) {
+  for (const std::int32_t resource : instance_.resources_of(instance_.roadmap().vertex_count() + edge)) {
     full(robot, resource, halves);
   }
   for (const Range& it : halves) {

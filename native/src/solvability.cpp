@@ -1,5 +1,7 @@
 #include "mrpbench_mapf/solvability.hpp"
 
+#include <algorithm>
+
 #include "mrpbench_mapf/conflict.hpp"
 #include "mrpbench_mapf/rearrangement.hpp"
 
@@ -60,6 +62,23 @@ std::optional<int> find_missing_goal(const Instance& instance, Limits& limits) {
   return std::nullopt;
 }
 
+/// A robot too many at the start in a resource, or for good at the end.
+std::optional<int> find_crowded(const Instance& instance) {
+  for (std::size_t resource = 0; resource < instance.resources().size(); ++resource) {
+    const auto inside = [&](int vertex) {
+      return std::ranges::count(instance.resources_of(vertex), static_cast<std::int32_t>(resource)) > 0;
+    };
+    int starting = 0, staying = 0;
+    for (int robot = 0; robot < instance.size(); ++robot) {
+      const Robot& it = instance.robots()[robot];
+      starting += inside(it.start);
+      staying += !instance.rules().disappear_at_goal && std::ranges::all_of(it.goals, inside);
+      if (std::max(starting, staying) > instance.resources()[resource].capacity) return robot;
+    }
+  }
+  return std::nullopt;
+}
+
 /// Of robots with distinct starts.
 std::optional<int> find_disagreement(const Instance& instance, Limits& limits) {
   if (const auto robot = find_missing_goal(instance, limits)) return robot;
@@ -86,6 +105,7 @@ std::optional<int> find_clash(const Instance& instance, const Relations& relatio
       if (stay && goals_clash(instance, relations, one, other)) return one;
     }
   }
+  if (const auto robot = find_crowded(instance)) return robot;
   return find_disagreement(instance, limits);
 }
 

@@ -47,7 +47,7 @@ levels:
 """
 
 
-def run(tmp_path, starts, goals, file=None):
+def run(tmp_path, starts, goals, file=None, **fields):
     pytest.importorskip("mrpbench_planners_mapf")
     (tmp_path / "hall.building.yaml").write_text(HALL)
     study = {
@@ -60,6 +60,7 @@ def run(tmp_path, starts, goals, file=None):
         "simulator": "kinematic",
         "limits": {"execution": "15 min"},
         "metrics": ["execution"],
+        **fields,
     }
     (point,) = load_study(study).runs
     paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
@@ -97,3 +98,12 @@ def test_robots_change_floors_in_the_hotel(tmp_path, shared_data):
     names = [world_level.name for world_level in Rmf(file=hotel).load().levels]
     assert [[names[number] for number in row] for row in level[[0, -1]].tolist()] == [["L1", "L2"], ["L2", "L1"]]
     assert (doing.max(axis=0) > doing.min(axis=0)).sum() >= 4, "doors and cabins move"
+
+
+@pytest.mark.parametrize("planner", ["pbs", "cbs", "ecbs", "eecbs"])
+def test_planners_send_robots_through_doors_and_lifts_one_at_a_time(tmp_path, shared_data, planner):
+    """Both robots take the same lift; the pipeline checks the plan."""
+    hotel = shared_data / "rmf/rmf_demos/hotel.building.yaml"
+    places = ["lobby", "L2_room15"], ["L2_master_suite", "restaurant"]
+    record, _ = run(tmp_path, *places, hotel, planner=planner, simulator="none", metrics=["planning"])
+    assert record["status"] == "succeeded", record.get("error")

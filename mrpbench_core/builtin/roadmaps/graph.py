@@ -131,9 +131,6 @@ def _notes(world: World, pieces: Pieces, drivable: Bool) -> list[str]:
         lane = world.lanes[index]
         ends = " – ".join(called(world, vertex) for vertex in (lane.start, lane.end))
         notes.append(f"Lane {ends} is left out where a robot on it would touch something.")
-    oriented = sum(bool(lane.orientation) for lane in world.lanes)
-    if oriented:
-        notes.append(f"{oriented} lanes prescribe an orientation, which has no effect.")
     return notes
 
 

@@ -1,6 +1,7 @@
 // What a solver is asked: robots on a roadmap, with goals, released prefixes and rules.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "mrpbench_mapf/roadmap.hpp"
@@ -61,6 +62,11 @@ class Instance {
   const Rules& rules() const { return rules_; }
   const Exclusions& exclusions() const { return exclusions_; }
   const std::vector<Resource>& resources() const { return resources_; }
+  /// Which of them a robot on `element` uses.
+  std::span<const std::int32_t> resources_of(int element) const {
+    if (resources_.empty()) return {};
+    return resources_of_[element];
+  }
   const Beginning& beginning(int robot) const { return beginnings_[robot]; }
   int size() const { return static_cast<int>(robots_.size()); }
   bool footprints() const { return !exclusions_.first.empty(); }
@@ -79,6 +85,7 @@ class Instance {
   Rules rules_;
   Exclusions exclusions_;
   std::vector<Resource> resources_;
+  std::vector<std::vector<std::int32_t>> resources_of_;  // by element; empty if there are none at all
   std::vector<Beginning> beginnings_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "mrpbench_mapf/conflict.hpp"
 #include "mrpbench_mapf/obstacles.hpp"
+#include "mrpbench_mapf/uses.hpp"
 
 namespace mrpbench::mapf {
 
@@ -39,10 +40,22 @@ class Reservations {
       }
     }
   }
-  /// Number of conflicts of `occupation`.
+  /// Call `found(other, halves)` for every use of a resource by another robot that meets `use`.
+  template <class Found>
+  void users_beside(int robot, const Use& use, Found found) const {
+    for (const User& it : users_[use.resource]) {
+      if (it.robot == robot || it.halves.first > use.halves.last || it.halves.last < use.halves.first) continue;
+      found(it.robot, it.halves);
+    }
+  }
+  /// Number of conflicts of `occupation`; for a resource that holds several robots, each of its users counts.
   int count(int robot, const Occupation& occupation) const {
     int number = 0;
     conflicts_of(robot, occupation, [&](const auto&, Relation) { ++number; });
+    if (users_.empty()) return number;
+    for (const Use& use : uses(instance_, {&occupation, 1})) {
+      users_beside(robot, use, [&](int, Range) { ++number; });
+    }
     return number;
   }
 
@@ -54,7 +67,7 @@ class Reservations {
     std::int32_t next;
   };
 
-  struct Use {
+  struct User {
     std::int32_t robot;
     Range halves;  // setup included
   };
@@ -65,8 +78,7 @@ class Reservations {
   std::vector<std::int32_t> head_;  // by element, -1 = none
   std::vector<Entry> entries_;
   std::vector<std::int32_t> touched_;
-  std::vector<std::vector<std::int32_t>> resources_of_;  // by element; empty where there are none at all
-  std::vector<std::vector<Use>> uses_;                   // by resource
+  std::vector<std::vector<User>> users_;  // by resource
   std::size_t counted_ = 0;
 };
 

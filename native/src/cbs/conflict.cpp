@@ -77,6 +77,33 @@ void find_between_occupations(const Space& space, const AvoidanceTable& present,
   }
 }
 
+/// When is the one of two robots that leave a resource first done with it? While they use it for good: when both do.
+Half instant_of(const Range& one, const Range& other) {
+  const Half end = std::min(one.last, other.last);
+  return end < kForeverHalf ? end : std::max(one.first, other.first);
+}
+
+/// Two robots use a resource, which holds one, at one time. They do not both use it at any instant of that time, so one
+/// of them must not at the last: whoever comes later comes after the other has left, as far as it is known.
+void find_in_resources(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,
+                       Arena<Constraint>& constraints, std::vector<Conflict>& found) {
+  for (const Use& use : uses(space.instance(), path.occupied)) {
+    present.reservations().users_beside(robot, use, [&](int other, const Range& theirs) {
+      const auto stays = [](const TimedPath& it, const Range& own, const Range& beside) {
+        return own.last == kForeverHalf && 2 * it.cost <= beside.last;
+      };
+      const Half instant = instant_of(use.halves, theirs);
+      const auto keep_off = [&](int who) {
+        return Constraint{who, use.resource, {instant, instant}, Constraint::Kind::keep_off};
+      };
+      const std::span<const Constraint> kept = constraints.copy(Pair{keep_off(robot), keep_off(other)});
+      found.push_back({robot, other, -1, -1, std::max(use.halves.first, theirs.first), stays(path, use.halves, theirs),
+                       stays(present.path(other), theirs, use.halves), use.resource});
+      found.back().branch = {kept.first(1), kept.last(1)};
+    });
+  }
+}
+
 }  // namespace
 
 void find_conflicts(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,
@@ -85,6 +112,7 @@ void find_conflicts(const Space& space, const AvoidanceTable& present, int robot
     Ticks(space, present.ticks(), robot, path, constraints, found).sweep();
   } else {
     find_between_occupations(space, present, robot, path, constraints, found);
+    find_in_resources(space, present, robot, path, constraints, found);
   }
 }
 
@@ -102,10 +130,15 @@ bool stands_in_way(const Space& space, int robot, const TimedPath& path, const C
     return std::find(path.at.begin() + begin, path.at.end(), parked.element) != path.at.end() &&
            (path.stays || path.last_tick() >= from);
   }
-  const double reach = space.instance().reach(robot, parked.robot);
-  return std::ranges::any_of(path.occupied, [&](const Occupation& it) {
-    return it.end >= 2 * from && space.relations().between(it.element, parked.element, reach) == Relation::exclusive;
+  const auto resources = space.instance().resources_of(parked.element);
+  const bool shared = std::ranges::any_of(uses(space.instance(), path.occupied), [&](const Use& it) {
+    return it.halves.last >= 2 * from && std::ranges::find(resources, it.resource) != resources.end();
   });
+  const double reach = space.instance().reach(robot, parked.robot);
+  return shared || std::ranges::any_of(path.occupied, [&](const Occupation& it) {
+           return it.end >= 2 * from &&
+                  space.relations().between(it.element, parked.element, reach) == Relation::exclusive;
+         });
 }
 
 }  // namespace mrpbench::mapf

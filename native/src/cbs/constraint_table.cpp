@@ -15,6 +15,7 @@ void ConstraintTable::reset(int robot, int goal) {
   settled_ = 0;
   finish_at_ = TimedPath::kAnyGoal;
   latest_finish_ = kForever;
+  forbids_beginning_ = false;
   for (const std::int32_t vertex : touched_) head_[vertex] = -1;
   touched_.clear();
   entries_.clear();
@@ -37,6 +38,9 @@ void ConstraintTable::add(const Constraint& constraint) {
       } else {
         keep_clear(constraint);
       }
+      break;
+    case Constraint::Kind::keep_off:
+      if (mine) keep_off(constraint.element, constraint.range);
       break;
   }
 }
@@ -69,20 +73,38 @@ void ConstraintTable::keep_clear(const Constraint& parked) {
   const Tick from = parked.range.first;
   if (space_.textbook()) return forbid(parked.element, {2 * from, kForeverHalf});
   const Instance& instance = space_.instance();
-  const int vertices = space_.vertex_count();
   const double reach = instance.reach(robot_, parked.robot);
-  const std::span<const Tick> duration = instance.roadmap().duration(instance.robots()[robot_].profile);
   for (const Near& near : space_.relations().row(parked.element)) {
-    if (near.relation(reach) != Relation::exclusive) continue;
-    if (near.element < vertices) {
-      forbid(near.element, {2 * from, kForeverHalf});
-    } else if (const Tick ticks = duration[near.element - vertices]; ticks > 0) {
-      forbid(near.element, {from - ticks + 1, kForever});
-    }
+    if (near.relation(reach) == Relation::exclusive) keep_away(near.element, {2 * from, kForeverHalf});
+  }
+  for (const std::int32_t resource : instance.resources_of(parked.element)) {
+    keep_off(resource, {2 * from, kForeverHalf});
   }
 }
 
+/// Who leaves a resource uses it for the setup after that.
+void ConstraintTable::keep_off(int resource, Range halves) {
+  const Resource& it = space_.instance().resources()[resource];
+  halves.first = static_cast<Half>(std::max<std::int64_t>(0, halves.first - std::int64_t{2} * it.setup));
+  for (const int element : it.elements) keep_away(element, halves);
+}
+
+/// Nothing that is done at `halves` may be done there.
+void ConstraintTable::keep_away(int element, Range halves) {
+  const Instance& instance = space_.instance();
+  for (const Occupation& it : instance.beginning(robot_).occupied) {  // may take longer than it would have to
+    forbids_beginning_ |= it.element == element && it.begin <= halves.last && it.end >= halves.first;
+  }
+  const int edge = element - space_.vertex_count();
+  if (edge < 0) return forbid(element, halves);
+  const Tick ticks = instance.roadmap().duration(instance.robots()[robot_].profile)[edge];
+  const Tick last = halves.last >= kForeverHalf ? kForever : (halves.last - 1) >> 1;
+  const Tick first = halves.first / 2 + 1 - ticks;  // [2d + 1, 2(d + ticks) - 1] must not meet `halves`
+  if (ticks > 0 && first <= last) forbid(element, {first, last});
+}
+
 bool ConstraintTable::forbids_beginning() const {
+  if (forbids_beginning_) return true;
   for (const Occupation& it : space_.instance().beginning(robot_).occupied) {
     if (it.element < space_.vertex_count()) {
       if (blocked(it.element, kVertex, it.begin, it.end)) return true;

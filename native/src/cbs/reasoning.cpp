@@ -7,6 +7,7 @@ void Reasoning::examine(const Situation& situation, Conflict& conflict) {
   conflict.examined = true;
   if (bench_.options.target && examine_target(situation, conflict)) return;
   rate(situation, conflict);
+  if (conflict.resource >= 0) return;
   if (bench_.options.corridor && examine_corridor(situation, conflict)) return;
   if (bench_.options.rectangle && bench_.space.textbook()) examine_rectangle(situation, conflict);
 }

@@ -27,7 +27,7 @@ Space::Space(const Instance& instance, Limits& limits) : instance_(instance), te
 
 bool Space::is_textbook() const {
   const Roadmap& roadmap = instance_.roadmap();
-  if (instance_.footprints() || instance_.rules().following_forbidden) return false;
+  if (instance_.footprints() || instance_.rules().following_forbidden || !instance_.resources().empty()) return false;
   if (instance_.size() > kMostRobots) return false;
   for (int profile = 0; profile < roadmap.profile_count(); ++profile) {
     if (std::ranges::any_of(roadmap.duration(profile), [](Tick ticks) { return ticks != 1 && ticks != -1; })) {
@@ -89,6 +89,10 @@ void Space::list_certain() {
       if (other == robot) continue;
       for (const Occupation& occupation : instance_.beginning(other).occupied) {
         for (const Near& near : relations_->row(occupation.element)) elements.push_back(near.element);
+        for (const std::int32_t resource : instance_.resources_of(occupation.element)) {
+          const std::vector<int>& shared = instance_.resources()[resource].elements;
+          elements.insert(elements.end(), shared.begin(), shared.end());
+        }
       }
     }
     std::ranges::sort(elements);

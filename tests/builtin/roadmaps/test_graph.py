@@ -27,10 +27,9 @@ def test_a_lane_takes_its_length_over_its_speed_rounded_up(make_fleet):
 
 
 def test_one_way_lanes_are_one_edge(make_fleet):
-    lanes = [Lane(start=1, end=0, bidirectional=False, orientation="backward")]
+    lanes = [Lane(start=1, end=0, bidirectional=False)]
     roadmap = Graph().build(world_of([(0, 0), (2, 0)], lanes), make_fleet(0.1))
     assert roadmap.edges.tolist() == [[1, 0]]
-    assert any("orientation" in note for note in roadmap.notes)
 
 
 def test_each_profile_has_its_own_durations_and_passages(make_fleet):

@@ -107,6 +107,10 @@ def _lane(node: Node, storey: Storey, notes: Notes) -> Lane | None:
     if orientation not in ("", "forward", "backward"):
         notes.add(f"lane orientation {orientation!r} is not known and has no effect")
         orientation = ""
+    if orientation == "backward" or (
+        orientation and parameters.get("bidirectional")
+    ):  # on the way back it is the other
+        notes.add("lane to be driven backward is driven forward, as all lanes are")
     if parameters.get("demo_mock_floor_name") or parameters.get("demo_mock_lift_name"):
         notes.add("lane through a mock lift is taken for an ordinary lane")
     return Lane(

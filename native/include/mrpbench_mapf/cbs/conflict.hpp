@@ -19,6 +19,7 @@ struct Conflict {
   std::int32_t one_element, other_element;  // where they are: a vertex, or vertex_count + edge
   Half time;                                // first half-tick of the conflict
   bool one_stays, other_stays;              // at its goal for good
+  std::int32_t resource = -1;               // that both use, if that is the conflict
   bool examined = false;                    // are the following known?
   Kind kind = Kind::standard;
   Cardinality cardinality = Cardinality::none;

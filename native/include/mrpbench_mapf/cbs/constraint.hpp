@@ -14,6 +14,7 @@ struct Constraint {
     finish_after,  // if its last move ends at the vertex `element`, then later than tick `range.first`
     finish_by,     // its last move ends at the vertex `element`, at tick `range.first` at the latest: no other robot
                    // may be in the way of one that stands there from that tick on
+    keep_off,      // the resource `element`: must not use it at the half-ticks `range`
   };
   std::int32_t robot;
   std::int32_t element;

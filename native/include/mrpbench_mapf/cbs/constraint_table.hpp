@@ -61,6 +61,8 @@ class ConstraintTable {
   void forbid_finishing(int vertex, Tick until);
   void enter(int vertex, const Entry& entry);
   void keep_clear(const Constraint& parked);
+  void keep_off(int resource, Range halves);
+  void keep_away(int element, Range halves);
 
   const Space& space_;
   Limits& limits_;
@@ -69,6 +71,7 @@ class ConstraintTable {
   Tick settled_ = 0;
   int finish_at_ = TimedPath::kAnyGoal;  // the only place
   Tick latest_finish_ = kForever;
+  bool forbids_beginning_ = false;
   std::vector<std::int32_t> head_;  // by vertex, -1 = none
   std::vector<std::int32_t> touched_;
   std::vector<Entry> entries_;

@@ -24,8 +24,9 @@ class Space {
   /// Of textbook instances, since path tables hold robots in 16 bits.
   static constexpr int kMostRobots = 65'000;
   int vertex_count() const { return instance_.roadmap().vertex_count(); }
-  /// Every edge takes one tick, robots have no footprint and may follow one another closely: then only vertices and
-  /// swaps conflict, and a path is one vertex for each tick. Of parallel edges only the first is a move.
+  /// Every edge takes one tick, robots have no footprint and may follow one another closely, nothing is a resource:
+  /// then only vertices and swaps conflict, and a path is one vertex for each tick. Of parallel edges only the first is
+  /// a move.
   bool textbook() const { return textbook_; }
   /// Some robot does something for certain beyond standing at its start at tick 0.
   bool committed() const { return certain_.has_value(); }

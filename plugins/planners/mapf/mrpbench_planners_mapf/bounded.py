@@ -6,18 +6,18 @@ import attrs
 from mrpbench_native import mapf
 
 from mrpbench_core.api.component import option
-from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.plan import Budget, PlanResult
-from mrpbench_core.model.problem import Feature, Problem
-from mrpbench_planners_mapf.native import SUPPORTED, solve
-from mrpbench_planners_mapf.techniques import Techniques, heuristic_option
+from mrpbench_core.model.problem import Problem
+from mrpbench_planners_mapf.native import solve
+from mrpbench_planners_mapf.techniques import ConflictBased, Techniques, heuristic_option
 
 PROMISES = frozenset({Promise.CONFLICT_FREE, Promise.BOUNDED, Promise.COMPLETE, Promise.DETERMINISTIC})
 W = attrs.validators.and_(attrs.validators.ge(1.0), attrs.validators.lt(float("inf")))
 
 
 @attrs.frozen(kw_only=True)
-class Ecbs(Planner):
+class Ecbs(ConflictBased):
     """ECBS (Barer et al., SoCS 2014): a plan whose sum of costs is at most `w` times `lower_bound`.
 
     Both levels search in a focal list: for one robot the path with the fewest conflicts with the others among those
@@ -25,7 +25,6 @@ class Ecbs(Planner):
     cost at most `w` times the lower bound.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
     w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
@@ -63,7 +62,6 @@ class Eecbs(Techniques):
     options switch single techniques on or off, for ablations.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
     w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)

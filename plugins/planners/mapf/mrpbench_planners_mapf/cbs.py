@@ -8,8 +8,8 @@ from mrpbench_native import mapf
 from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.plan import Budget, PlanResult
-from mrpbench_core.model.problem import Feature, Problem
-from mrpbench_planners_mapf.native import SUPPORTED, solve
+from mrpbench_core.model.problem import Problem
+from mrpbench_planners_mapf.native import solve
 from mrpbench_planners_mapf.techniques import Techniques, heuristic_option
 
 
@@ -22,7 +22,6 @@ class Cbs(Techniques):
     swap in a dead end) runs until the budget is spent. The options switch single techniques off, for ablations.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = frozenset(
         {Promise.CONFLICT_FREE, Promise.OPTIMAL, Promise.COMPLETE, Promise.DETERMINISTIC}
     )

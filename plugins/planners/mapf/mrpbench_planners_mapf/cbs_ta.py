@@ -7,8 +7,8 @@ from mrpbench_native import mapf
 
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.plan import Budget, PlanResult
-from mrpbench_core.model.problem import Feature, Problem
-from mrpbench_planners_mapf.native import SUPPORTED, solve
+from mrpbench_core.model.problem import Problem
+from mrpbench_planners_mapf.native import solve
 from mrpbench_planners_mapf.techniques import AssigningTechniques, heuristic_option
 
 OPTIMAL = frozenset({Promise.CONFLICT_FREE, Promise.OPTIMAL, Promise.COMPLETE, Promise.DETERMINISTIC})
@@ -22,7 +22,6 @@ class CbsTa(AssigningTechniques):
     left. `statistics["assignments"]` counts them. Where very many assignments cost the same, `ita_cbs` is far faster.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = OPTIMAL
 
     heuristic: bool = heuristic_option()
@@ -47,7 +46,6 @@ class ItaCbs(AssigningTechniques):
     them. `statistics["assignments"]` counts the repairs, and one.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = OPTIMAL
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:

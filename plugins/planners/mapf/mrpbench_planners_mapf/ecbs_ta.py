@@ -8,9 +8,9 @@ from mrpbench_native import mapf
 from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.plan import Budget, PlanResult
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.problem import Problem
 from mrpbench_planners_mapf.bounded import PROMISES, W
-from mrpbench_planners_mapf.native import SUPPORTED, solve
+from mrpbench_planners_mapf.native import solve
 from mrpbench_planners_mapf.techniques import AssigningTechniques
 
 FOCAL: dict[str, Any] = {
@@ -30,7 +30,6 @@ class EcbsTa(AssigningTechniques):
     known of the others has more conflicts or may cost too much.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
     w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
@@ -47,7 +46,6 @@ class ItaEcbs(AssigningTechniques):
     Every node has the assignment that is cheapest by the lower bounds of its robots' costs.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
     w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)

@@ -19,7 +19,7 @@ class Pbs(Planner):
     gives up. `lower_bound` is what the robots would cost if each were alone.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:

@@ -1,13 +1,29 @@
 """What conflict-based search can be told to leave out."""
 
+from typing import ClassVar
+
 import attrs
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Planner
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_planners_mapf.native import SUPPORTED
 
 
 @attrs.frozen(kw_only=True)
-class Techniques(Planner):
+class ConflictBased(Planner):
+    """What all of them support: every conflict has to be one of two robots."""
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
+
+    def skip(self, problem: Problem) -> str | None:
+        """See `Planner.skip`."""
+        roomy = [resource.name for resource in problem.roadmap.resources if resource.capacity > 1]
+        return super().skip(problem) or (f"resource {roomy[0]!r} holds more than one robot" if roomy else None)
+
+
+@attrs.frozen(kw_only=True)
+class Techniques(ConflictBased):
     """Options that switch single techniques off, for ablations."""
 
     prioritize: bool = option(

@@ -7,7 +7,7 @@ import numpy as np
 
 from mrpbench_core.model.plan import Path
 from mrpbench_core.model.problem import Feature, Problem, Rules, features_of
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.roadmap import Resource, Roadmap
 
 STEPS = ((0, 1), (1, 0), (0, -1), (-1, 0))
 
@@ -144,6 +144,23 @@ def _wandering(random: np.random.Generator, asked: Problem, robot: int) -> Path:
         times.append(times[-1] + least + int(random.random() < 0.2))
         at = at if chosen < 0 else int(asked.roadmap.edges[chosen, 1])
     return Path(edge=edge, enter=times[:-1], leave=times[1:])
+
+
+def with_resources(random: np.random.Generator, asked: Problem, capacity: int = 1) -> Problem:
+    """The same problem with one or two resources, each a few vertices and the edges between or at them."""
+    road = asked.roadmap
+    found = []
+    for name in "ab"[: int(random.integers(1, 3))]:
+        vertices = random.choice(len(road.position), int(random.integers(0, 4)), replace=False)
+        ends = np.isin(road.edges, vertices)
+        edges = np.flatnonzero(ends.any(axis=1) if random.random() < 0.5 else ends.all(axis=1))
+        if not len(vertices):
+            edges = random.choice(len(road.edges), min(2, len(road.edges)), replace=False)
+        setup = int(random.integers(0, 4))
+        elements = {"vertices": tuple(vertices.tolist()), "edges": tuple(edges.tolist())}
+        found.append(Resource(name=name, kind="mutex", capacity=capacity, setup_ticks=setup, **elements))
+    changed = attrs.evolve(asked, roadmap=attrs.evolve(road, resources=tuple(found)))
+    return attrs.evolve(changed, features=features_of(changed) | asked.features & {Feature.FOOTPRINTS})
 
 
 def with_candidates(random: np.random.Generator, asked: Problem) -> Problem:

@@ -3,7 +3,8 @@
 A robot is at a vertex, on an edge, or done (at its goal for good). Between two ticks each occupies one element, and at
 each tick too; the rules of `mrpbench_core.model.conflicts` are checked for every pair at each of these moments. Once no
 robot is held back any more, what can follow depends on the joint state alone, so that all of them can be seen, and an
-instance without solution has none for sure.
+instance without solution has none for sure. With the state goes for how many of these moments each robot will still use
+each resource.
 """
 
 import heapq
@@ -77,6 +78,14 @@ class _Search:
         self.clashes: dict[tuple[int, int], dict[tuple, bool]] = {
             pair: {} for pair in itertools.combinations(self.robots, 2)
         }
+        self.resources = [
+            (
+                {*resource.vertices, *(self.vertices + edge for edge in resource.edges)},
+                resource.capacity,
+                2 * resource.setup_ticks + 1,
+            )
+            for resource in problem.roadmap.resources
+        ]
         self.overtakable = any(ticks > 1 for duration in self.duration for ticks in duration)
         self._read_commitments()
         self.settled = max(self.free_at, default=0) + 1
@@ -104,25 +113,27 @@ class _Search:
         return distance
 
     def run(self, limit: int) -> float:
-        if self._clash([state.place for state in self.first]):
+        places = [state.place for state in self.first]
+        uses = self._uses([(0,) * len(self.resources)] * len(places), places)
+        if self._clash(places) or self._crowded(uses):
             return math.inf
         counter = itertools.count()
-        queue = [(self._bound(0, 0, self.first), next(counter), 0, 0, self.first)]
+        queue = [(self._bound(0, 0, self.first), next(counter), 0, 0, self.first, uses)]
         seen = set()
         while queue:
-            _, _, tick, cost, state = heapq.heappop(queue)
+            _, _, tick, cost, state, uses = heapq.heappop(queue)
             if all(it.kind == DONE for it in state):
                 return cost
-            if (min(tick, self.settled), state) in seen:
+            if (min(tick, self.settled), state, uses) in seen:
                 continue
-            seen.add((min(tick, self.settled), state))
+            seen.add((min(tick, self.settled), state, uses))
             if len(seen) > limit:
                 raise TooLargeError
-            for after, paid in self._successors(tick, state):
+            for after, paid, kept in self._successors(tick, state, uses):
                 arrived = self.total([cost, *paid])
                 estimate = self._bound(tick + 1, arrived, after)
                 if estimate < math.inf:
-                    heapq.heappush(queue, (estimate, next(counter), tick + 1, arrived, after))
+                    heapq.heappush(queue, (estimate, next(counter), tick + 1, arrived, after, kept))
         return math.inf
 
     def _bound(self, tick, cost, state):
@@ -137,7 +148,7 @@ class _Search:
             return tick + it.total - it.elapsed + self.to_go[robot][self.edges[it.place][1]]
         return tick + self.to_go[robot][it.place]
 
-    def _successors(self, tick, state):
+    def _successors(self, tick, state, uses):
         """Joint states at the next tick, and what is paid by whom for being done."""
         for joint in self._joint((), [self._steps(robot, tick, it) for robot, it in enumerate(state)]):
             after = tuple(step.then for step in joint)
@@ -145,8 +156,27 @@ class _Search:
                 continue
             if self.overtakable and self._overtaking(state, joint):
                 continue
+            between = self._uses(uses, [step.during for step in joint])
+            kept = self._uses(between, [step.place for step in joint])
+            if self._crowded(between) or self._crowded(kept):
+                continue
             arriving = [robot for robot, step in enumerate(joint) if step.arrives]
-            yield after, [self.since[robot] if tick == self.free_at[robot] else tick for robot in arriving]
+            yield after, [self.since[robot] if tick == self.free_at[robot] else tick for robot in arriving], kept
+
+    def _uses(self, before, elements):
+        """For how many moments, this one included, each robot still uses each resource (rule 6)."""
+        return tuple(
+            tuple(
+                lasting if element in places else max(0, left - 1)
+                for (places, _, lasting), left in zip(self.resources, row, strict=True)
+            )
+            for row, element in zip(before, elements, strict=True)
+        )
+
+    def _crowded(self, uses):
+        return any(
+            sum(row[number] > 0 for row in uses) > capacity for number, (_, capacity, _) in enumerate(self.resources)
+        )
 
     def _share_a_goal(self, state):
         done = [it.place for it in state if it.kind == DONE]

@@ -15,6 +15,7 @@ from mapf_instances import (
     random_narrow_problem,
     random_rules,
     with_releases,
+    with_resources,
 )
 from mapf_oracle import TooLargeError, least_cost, least_makespan, shortest
 from mrpbench_planners_mapf.astar import Astar, Heuristic
@@ -50,6 +51,9 @@ KINDS: dict[str, Draw] = {
         random, 2, ready=random.integers(0, 5, 2), **random_rules(random)
     ),
     "graph, released": lambda random: with_releases(
+        random, random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random))
+    ),
+    "graph, resources": lambda random: with_resources(
         random, random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random))
     ),
 }

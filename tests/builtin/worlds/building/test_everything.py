@@ -51,6 +51,7 @@ def test_every_part_is_read(fleet):
         "crowd_sim is not understood yet: no people.",
         "human lanes are not understood yet: 1 left out.",
         "lane of a graph above 8 is left out, as RMF does.",
+        "lane to be driven backward is driven forward, as all lanes are.",
         "model 'Nobody/KnowsThis' has no known footprint and is no obstacle (option footprints).",
     ]
     roadmap = Graph().build(world, fleet)

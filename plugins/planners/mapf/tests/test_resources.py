@@ -1,0 +1,152 @@
+"""Doors, lifts and mutexes: plans keep to them, and the least costs are those of the joint-space oracle."""
+
+import math
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mapf_instances import grid, problem, random_graph_problem, random_grid_problem, random_rules, with_resources
+from mapf_oracle import TooLargeError, least_cost
+from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
+from mrpbench_planners_mapf.cbs import Cbs
+from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
+from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
+from mrpbench_planners_mapf.pbs import Pbs
+from mrpbench_planners_mapf.prioritized import Prioritized
+from test_cbs import ABLATIONS, cut
+
+from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.model.plan import Budget, Path, PlanStatus
+from mrpbench_core.model.problem import features_of
+from mrpbench_core.model.roadmap import Resource
+
+BUDGET = Budget(wall_s=0.2, memory_bytes=1 << 30)
+AMPLE = Budget(wall_s=20, memory_bytes=1 << 30)
+BOUNDED = (Ecbs(w=1.0), Ecbs(w=1.5), Eecbs(w=1.0), Eecbs(w=1.05, flex=True), Eecbs(w=1.5, target=False))
+EVERYBODY = (*ABLATIONS, *BOUNDED, Pbs(), Prioritized(restarts=20))
+seeds = st.integers(0, 2**32 - 1)
+
+
+def solve_and_compare(planner, asked) -> PlanStatus:
+    """The plan is valid, keeps its bound, and costs no less than the optimum; no plan is missed."""
+    result = planner.plan(asked, BUDGET)
+    if result.status is PlanStatus.SOLVED:
+        report = check_plan(asked, result.plan)
+        assert report.valid, (report.faults, report.conflicts)
+        if not isinstance(planner, Pbs | Prioritized):
+            assert result.plan.sum_of_costs <= getattr(planner, "w", 1.0) * result.lower_bound
+    try:
+        optimum = least_cost(asked, limit=3000)
+    except TooLargeError:
+        return result.status
+    if result.status is PlanStatus.SOLVED:
+        assert result.lower_bound <= optimum <= result.plan.sum_of_costs
+    elif result.status is PlanStatus.UNSOLVABLE:
+        assert optimum == math.inf
+    else:
+        assert not result.lower_bound > optimum
+    return result.status
+
+
+def hall(setup: int = 0, **fields):
+    """Two rooms of four cells with a passage of three between them, which belongs to a door."""
+    road = grid(["..###..", "......."])  # 0 1 . . . 2 3 above 4 5 [6 7 8] 9 10
+    inside = {6, 7, 8}
+    edges = tuple(edge for edge, ends in enumerate(road.edges.tolist()) if inside.issuperset(ends))
+    door = Resource(name="door", kind="door", vertices=tuple(inside), edges=edges, setup_ticks=setup, **fields)
+    return attrs.evolve(road, resources=(door,))
+
+
+@settings(max_examples=60, deadline=None)
+@given(seed=seeds, planner=st.sampled_from(EVERYBODY))
+def test_plans_on_graphs_keep_to_resources_and_none_is_missed(seed, planner):
+    random = np.random.default_rng(seed)
+    asked = random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random))
+    solve_and_compare(planner, with_resources(random, asked))
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=seeds, planner=st.sampled_from(EVERYBODY))
+def test_plans_on_grids_keep_to_resources_and_none_is_missed(seed, planner):
+    random = np.random.default_rng(seed)
+    asked = random_grid_problem(
+        random, int(random.integers(2, 4)), size=3, at_goal=str(random.choice(["stay", "disappear"]))
+    )
+    solve_and_compare(planner, with_resources(random, asked))
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=seeds, capacity=st.integers(1, 3))
+def test_priorities_respect_resources_that_hold_several(seed, capacity):
+    random = np.random.default_rng(seed)
+    asked = with_resources(random, random_grid_problem(random, 4, size=4), capacity)
+    for planner in (Pbs(), Prioritized(restarts=20)):
+        result = planner.plan(asked, BUDGET)
+        if result.status is PlanStatus.SOLVED:
+            assert check_plan(asked, result.plan).valid
+
+
+@pytest.mark.parametrize("planner", [Cbs(), Eecbs(), Ecbs(), Pbs()])
+def test_what_has_a_simple_plan_is_solved(planner):
+    random = np.random.default_rng(1)
+    asked = [with_resources(random, random_graph_problem(random, 3)) for _ in range(40)]
+    solvable = [it for it in asked if Prioritized(restarts=50).plan(it, BUDGET).status is PlanStatus.SOLVED]
+    assert len(solvable) > 10
+    solved = [planner.plan(it, AMPLE).status is PlanStatus.SOLVED for it in solvable]
+    assert all(solved)
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=seeds, planner=st.sampled_from((Cbs(), Eecbs(), Pbs())))
+def test_late_and_slow_releases_are_planned_around(seed, planner):
+    random = np.random.default_rng(seed)
+    before = with_resources(random, random_graph_problem(random, 2, **random_rules(random)))
+    edges = np.flatnonzero((before.roadmap.edges[:, 0] == before.start[0]) & (before.duration(0) > 0))
+    if not len(edges):
+        return
+    edge, enter = int(random.choice(edges)), int(random.integers(0, 3))
+    leave = enter + int(before.duration(0)[edge]) + int(random.integers(0, 3))
+    late = Path(edge=[-1, edge, -1], enter=[0, enter, leave], leave=[enter, leave, leave + int(random.integers(0, 2))])
+    after = attrs.evolve(before, commitments=(late, cut(late, 0)))
+    solve_and_compare(planner, attrs.evolve(after, features=features_of(after) | before.features))
+
+
+@pytest.mark.parametrize("planner", [Cbs(), Ecbs(w=1.0), Eecbs(w=1.0)])
+@pytest.mark.parametrize("setup", [0, 5, 12])
+def test_two_robots_pass_a_door_one_after_the_other(planner, setup):
+    asked = problem(hall(setup), [4, 10], [3, 0])
+    result = planner.plan(asked, AMPLE)
+    assert check_plan(asked, result.plan).valid
+    assert result.plan.sum_of_costs == least_cost(asked, limit=100_000)
+
+
+@pytest.mark.parametrize("planner", [Cbs(), Eecbs(w=1.0), Ecbs(w=1.0), Pbs(), Prioritized()])
+def test_who_parks_in_a_doorway_lets_the_others_through_first(planner):
+    asked = problem(hall(setup=3), [5, 0, 2], [7, 3, 1])
+    result = planner.plan(asked, AMPLE)
+    assert result.status is PlanStatus.SOLVED
+    assert check_plan(asked, result.plan).valid
+
+
+@pytest.mark.parametrize("planner", [Cbs(), Cbs(target=False), Eecbs(), Ecbs(), Pbs(), Prioritized()])
+@pytest.mark.parametrize(("starts", "goals"), [([6, 8], [4, 10]), ([4, 10], [6, 8])])
+def test_more_robots_than_a_resource_holds_at_the_start_or_for_good_are_seen_at_once(planner, starts, goals):
+    assert planner.plan(problem(hall(), starts, goals), AMPLE).status is PlanStatus.UNSOLVABLE
+
+
+@pytest.mark.parametrize("planner", [CbsTa(), ItaCbs(), EcbsTa(), ItaEcbs()])
+def test_planners_that_assign_send_only_one_robot_into_a_resource(planner):
+    asked = problem(hall(setup=2), [4, 10], [(5, 6, 8), (5, 6, 8)])
+    result = planner.plan(asked, AMPLE)
+    assert result.status is PlanStatus.SOLVED
+    assert check_plan(asked, result.plan).valid
+    assert result.plan.sum_of_costs == 3
+
+
+def test_conflict_based_search_says_that_it_knows_no_roomy_resources():
+    asked = problem(hall(capacity=2), [0, 3], [3, 0])
+    assert Cbs().skip(asked) == Eecbs().skip(asked) == Ecbs().skip(asked) == "resource 'door' holds more than one robot"
+    assert Pbs().skip(asked) is None
+    assert Pbs().plan(asked, AMPLE).status is PlanStatus.SOLVED
