@@ -23,17 +23,22 @@ def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None
         ValueError: there are not so many columns, or integers are wanted and some value is none, or too large.
     """
     given, wanted = np.asarray(values), np.dtype(dtype)
-    if given.dtype == wanted:
-        flags = given.flags
-        array = given if flags.c_contiguous and flags.owndata and not flags.writeable else np.array(given, order="C")
-    else:
-        array = _converted(given, wanted)
+    array = _frozen(given) if given.dtype == wanted else _converted(given, wanted)
     if columns is not None and array.size == 0:
         array = array.reshape(0, columns)
     elif columns is not None and array.shape[1:] != (columns,):  # reshaping would hide rows and columns mixed up
         raise ValueError(f"expected an array of {columns} columns, got the shape {array.shape}")
-    array.flags.writeable = False
+    array.setflags(write=False)
     return array
+
+
+def _frozen(given: NDArray[Any]) -> NDArray[Any]:
+    """A read-only copy, or what is one already."""
+    flags = given.flags
+    if flags.writeable or not (flags.c_contiguous and flags.owndata):
+        given = given.copy()
+        given.setflags(write=False)
+    return given
 
 
 def _converted(given: NDArray[Any], wanted: np.dtype[Any]) -> NDArray[Any]:
@@ -48,8 +53,18 @@ def _converted(given: NDArray[Any], wanted: np.dtype[Any]) -> NDArray[Any]:
 def array(dtype: DTypeLike, columns: int | None = None, **arguments: Any) -> Any:
     """Declare an attrs field that holds a read-only array of `dtype` (with `columns` columns if two-dimensional)."""
     wanted = np.dtype(dtype)
+
+    def convert(values: ArrayLike) -> NDArray[Any]:
+        if (
+            type(values) is np.ndarray
+            and values.dtype is wanted
+            and (columns is None or values.shape[1:] == (columns,))
+        ):
+            return _frozen(values)  # what comes every control period is nearly always of this kind
+        return frozen_array(values, wanted, columns)
+
     return attrs.field(
-        converter=lambda values: frozen_array(values, wanted, columns),
+        converter=convert,
         eq=attrs.cmp_using(eq=equal_arrays),
         **arguments,
     )

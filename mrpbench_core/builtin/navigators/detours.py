@@ -38,7 +38,7 @@ class Detours:
         self._ways: dict[int, Float] = {}
         self._instead: set[int] = set()
         """Robots whose way leads beside the end of the path."""
-        count = len(followers.all)
+        count = len(followers)
         self._due = np.arange(count) % max(every, 1)
         """Period from which on each robot is looked at again."""
         self._place: Float = np.full((count, 2), np.inf)
@@ -61,7 +61,7 @@ class Detours:
     def shorten(self, pose: Float) -> None:
         """Drop what robots have passed; at the end of a detour they follow their route again."""
         for robot, way in list(self._ways.items()):
-            if self._followers.all[robot].only_turns:
+            if self._followers.only_turns(robot):
                 self.cancel(robot)
                 continue
             left = way
@@ -105,7 +105,7 @@ class Detours:
         events = []
         for row in due[blocked].tolist():
             robot, place = int(observations.robot[row]), observations.pose[row, :2]
-            if self._followers.all[robot].only_turns:  # no way turns it
+            if self._followers.only_turns(robot):  # no way turns it
                 continue
             way = self._controllers.reroute(observations, row)
             if instead := way is None and self._beside > 0:

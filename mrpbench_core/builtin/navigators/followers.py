@@ -1,11 +1,11 @@
-"""All robots on their routes: what changes rarely is left to each `Follower`, what moves is computed at once."""
+"""All robots on their routes: what moves is looked at in every period, what changes rarely when it does."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mrpbench_core.builtin.navigators.follower import WATCHED, Follower
+from mrpbench_core.builtin.navigators.advance import AHEAD, BEHIND, Advance
 from mrpbench_core.model.arrays import Bool, Float, Int, Int16, Int32, frozen_array
 from mrpbench_core.model.execution import Route
 
@@ -30,30 +30,34 @@ class Followers:
     def __init__(self, routes: Sequence[Route], options: "Waypoints", clearances: Float) -> None:
         count = len(routes)
         self._options = options
-        self.all = [Follower(route, options, clear) for route, clear in zip(routes, clearances.tolist(), strict=True)]
-        self._counts: Int32 = np.zeros((2, count), np.int32)
+        self._advance = Advance(routes, options, clearances)
         self._released: Int32 = np.zeros(count, np.int32)
-        self._values: Float = np.full((len(WATCHED), count), np.nan)
-        self._of: dict[str, Float] = dict(zip(WATCHED, self._values, strict=True))
+        self._ahead: Float = np.full((len(AHEAD), count), np.nan)
+        self._behind: Float = np.full((len(BEHIND), count), np.nan)
+        self._of: dict[str, Float] = dict(zip(AHEAD + BEHIND, (*self._ahead, *self._behind), strict=True))
         self._busy: Bool = np.zeros(count, bool)
         self._rides: Bool = np.zeros(count, bool)
         self._may_drive: Bool = np.zeros(count, bool)
         self._is_last: Bool = np.zeros(count, bool)
+        self.reached: Int32 = self._released
+        """i4[n], as `FleetView` has it."""
+        self.cleared: Int32 = self._released
+        """i4[n], as `FleetView` has it."""
         self.begin: Int = np.zeros(count, np.int64)
         """i8[n]: what lies ahead of robot i is `corners[begin[i]:end[i]]`."""
         self.end: Int = np.zeros(count, np.int64)
         self.adopt(routes)
 
+    def __len__(self) -> int:
+        return len(self.begin)
+
     def adopt(self, routes: Sequence[Route]) -> None:
         """Continue with routes that begin with what was released of the old ones."""
-        first = 0
-        for follower, route in zip(self.all, routes, strict=True):
-            follower.adopt(route, first)
-            first += len(follower.corners)
-        self.corners: Float = np.concatenate([np.empty((0, 2)), *(follower.corners for follower in self.all)])
+        self._advance.adopt(routes)
+        self.corners = self._advance.tracks.corners
         self._wants_yaw = any(not np.isnan(route.waypoint[:, 2]).all() for route in routes)
-        self._watch(range(len(self.all)))
-        self._released = np.full(len(self.all), -1, np.int32)  # all are looked at in the next period
+        self._watch(np.arange(len(routes)))
+        self._released = np.full(len(routes), -1, np.int32)  # all are looked at in the next period
 
     def update(self, pose: Float, speed: Float, released: Int32, level: Int16) -> None:
         """Take note of estimated poses f8[n,3], speeds f8[n], how many leading segments are released i4[n], and levels
@@ -63,32 +67,45 @@ class Followers:
         of = self._of
         ax, ay = x - of["arrive_x"], y - of["arrive_y"]
         ux, uy, within = of["arrive_ahead_x"], of["arrive_ahead_y"], of["arrive_within"]
-        changes = ax * ax + ay * ay <= within * within + _SLACK  # `update` decides; here it may only be asked too often
-        changes |= (ax * ux + ay * uy >= -_SLACK) & (np.abs(ux * ay - uy * ax) <= of["arrive_beside"] + _SLACK)
+        # Whether it is so is decided later; here it may only be asked too often.
+        arrives = ax * ax + ay * ay <= within * within + _SLACK
+        arrives |= (ax * ux + ay * uy >= -_SLACK) & (np.abs(ux * ay - uy * ax) <= of["arrive_beside"] + _SLACK)
+        arrives |= self._busy
+        arrives |= released != self._released
         forward = (x - of["round_x"]) * of["round_ahead_x"] + (y - of["round_y"]) * of["round_ahead_y"]
-        changes |= forward >= -_SLACK
         cx, cy, beyond = x - of["clear_x"], y - of["clear_y"], of["clear_beyond"]
-        changes |= cx * cx + cy * cy >= beyond * beyond
-        changes |= self._busy
-        changes |= released != self._released
         self._released = released
-        changed = changes.nonzero()[0].tolist()
-        for robot in changed:
-            px, py, yaw = pose[robot].tolist()
-            self.all[robot].update(px, py, yaw, float(speed[robot]), int(released[robot]), int(level[robot]))
-        if changed:
-            self._watch(changed)
+        arriving = arrives.nonzero()[0]
+        if len(arriving):
+            self._advance.arrive(arriving, pose, speed, released, level)
+            self.reached = frozen_array(self._advance.reached, "i4")
+        rounding = (arrives | (forward >= -_SLACK)).nonzero()[0]
+        if len(rounding):
+            self._advance.go_round(rounding, pose)
+            self._look_ahead(rounding)
+        leaving = (arrives | (cx * cx + cy * cy >= beyond * beyond)).nonzero()[0]
+        if len(leaving):
+            self._advance.leave_behind(leaving, pose, released)
+            self._look_behind(leaving)
 
     def rejoin(self, robot: int, x: float, y: float) -> None:
         """Let a robot continue from a point of its released route."""
-        self.all[robot].rejoin(x, y)
-        self._watch([robot])
+        self._advance.rejoin(robot, x, y)
+        self._watch(np.array([robot]))
 
     def skip(self, robot: int) -> None:
         """Count the end of a robot's path as reached."""
-        self.all[robot].skip()
-        self._watch([robot])
+        self._advance.skip(robot)
+        self._watch(np.array([robot]))
         self._busy[robot] = True  # it is looked at in the next period
+
+    def only_turns(self, robot: int) -> bool:
+        """Tell whether a robot is where it is to go next, and only its yaw is wrong."""
+        return bool(self._advance.only_turn(np.array([robot]))[0])
+
+    def left_behind(self, robot: int, x: float, y: float) -> tuple[tuple[float, float] | None, float]:
+        """The vertex that a robot has left to others last, and how far from it a robot at (x, y) must stay."""
+        return self._advance.left_behind(robot, x, y)
 
     def foot(self, pose: Float) -> Float:
         """The nearest point f8[n,2] of each robot's leg of its route."""
@@ -132,15 +149,24 @@ class Followers:
         """f8[n] m/s allowed on the segment under way."""
         return self._of["speed"]
 
-    def _watch(self, robots: Iterable[int]) -> None:
-        for robot in robots:
-            follower = self.all[robot]
-            self._values[:, robot] = follower.watched()
-            self._busy[robot], self._rides[robot] = follower.is_busy, follower.rides
-            self._may_drive[robot] = follower.may_drive
-            self._is_last[robot] = follower.is_last
-            self.begin[robot], self.end[robot] = follower.path
-            self._counts[:, robot] = follower.reached, follower.cleared
-        self.reached: Int32 = frozen_array(self._counts[0], "i4")
-        """i4[n], as `FleetView` has it."""
-        self.cleared: Int32 = frozen_array(self._counts[1], "i4")
+    def _watch(self, robots: Int) -> None:
+        """Look again at robots that something has been told about."""
+        self.reached = frozen_array(self._advance.reached, "i4")
+        self._look_ahead(robots)
+        self._look_behind(robots)
+
+    def _look_ahead(self, robots: Int) -> None:
+        advance = self._advance
+        first, end = advance.tracks.first_corner[robots], advance.path_end(robots)
+        self.begin[robots] = first + np.minimum(advance.leg[robots] + 1, end)
+        self.end[robots] = first + end + 1
+        self._ahead[:, robots] = advance.ahead(robots, end)
+        rides = advance.rides(robots)
+        self._rides[robots] = rides
+        self._busy[robots] = advance.is_busy(robots) | rides
+        self._may_drive[robots] = advance.may_drive(robots)
+        self._is_last[robots] = advance.is_last(robots)
+
+    def _look_behind(self, robots: Int) -> None:
+        self._behind[:, robots] = self._advance.behind(robots)
+        self.cleared = frozen_array(self._advance.cleared, "i4")

@@ -78,8 +78,8 @@ class Rescue:
         return events
 
     def _surroundings(self, robot: int, pose: Float) -> Surroundings:
-        follower = self._followers.all[robot]
-        return _Reserved(self._controllers, robot, *follower.left_behind(*pose[robot, :2].tolist()))
+        left_behind = self._followers.left_behind(robot, *pose[robot, :2].tolist())
+        return _Reserved(self._controllers, robot, *left_behind)
 
 
 class _Reserved(Surroundings):
