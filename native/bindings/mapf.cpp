@@ -5,6 +5,7 @@
 #include <nanobind/stl/string.h>
 
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -180,8 +181,24 @@ Points history(const Answer& it) {
 template <class T>
 T choose(const std::map<std::string, T>& choices, const std::string& name) {
   const auto place = choices.find(name);
-  if (place == choices.end()) throw std::invalid_argument("no such choice: " + name);
-  return place->second;
+  if (place != choices.end()) return place->second;
+  std::string known;
+  for (const auto& [choice, _] : choices) known += (known.empty() ? "" : ", ") + choice;
+  throw std::invalid_argument("'" + name + "' is none of: " + known);
+}
+
+/// NaN is not within.
+template <class T>
+void require_within(T value, T least, T most, const char* name) {
+  if (value >= least && value <= most) return;
+  std::ostringstream fault;
+  fault << name << " is from " << least << " to " << most << ", not " << value;
+  throw std::invalid_argument(fault.str());
+}
+
+template <class T>
+void require_at_least(T value, T least, const char* name) {
+  if (value < least) throw std::invalid_argument(std::string(name) + " is at least " + std::to_string(least));
 }
 
 Answer astar(const Instance& instance, const std::string& heuristic, double wall_s, std::int64_t memory_bytes) {
@@ -202,6 +219,7 @@ Answer prioritized(const Instance& instance, const std::string& order, int resta
                                                     {"longest_first", Order::longest_first},
                                                     {"shortest_first", Order::shortest_first},
                                                     {"random", Order::random}};
+  require_at_least(restarts, 0, "restarts");
   const PrioritizedOptions options{choose(choices, order), restarts, seed};
   nb::gil_scoped_release without_python;
   Limits limits(wall_s, memory_bytes);
@@ -233,7 +251,9 @@ Answer bounded_cbs(const Instance& instance, const std::string& goal_choice, con
                    double distance_weight, double conflict_weight, double wall_s, std::int64_t memory_bytes) {
   static const std::map<std::string, Selection> choices{{"focal", Selection::focal},
                                                         {"explicit_estimation", Selection::explicit_estimation}};
-  if (!(w >= 1.0 && w < 1e9)) throw std::invalid_argument("w is at least 1");
+  require_within(w, 1.0, 1e9, "w");
+  require_within(distance_weight, 1.0, 1e3, "distance_weight");
+  require_within(conflict_weight, 0.0, 1e6, "conflict_weight");
   const BoundedOptions options{.w = w,
                                .selection = choose(choices, selection),
                                .techniques = {.goals = goal_choice_of(goal_choice),
@@ -259,6 +279,7 @@ Answer pbs(const Instance& instance, double wall_s, std::int64_t memory_bytes) {
 
 Answer pibt(const Instance& instance, bool swap, int steps, std::uint64_t seed, double wall_s,
             std::int64_t memory_bytes) {
+  require_at_least(steps, 0, "steps");
   nb::gil_scoped_release without_python;
   Limits limits(wall_s, memory_bytes);
   return {instance, solve_pibt(instance, {swap, steps, seed}, limits)};
@@ -273,6 +294,7 @@ Objective objective_of(const std::string& name) {
 Answer lacam(const Instance& instance, const std::string& objective, bool swap, bool prioritized, bool guides,
              bool star, bool neighbourhoods, std::optional<std::int64_t> iterations, std::uint64_t seed, double wall_s,
              std::int64_t memory_bytes) {
+  if (iterations) require_at_least<std::int64_t>(*iterations, 0, "iterations");
   const LacamOptions options{objective_of(objective), swap,       prioritized, guides, star,
                              neighbourhoods,          iterations, seed};
   nb::gil_scoped_release without_python;
@@ -285,6 +307,8 @@ Answer lns(const Instance& instance, const std::string& objective, const std::st
            std::int64_t memory_bytes) {
   static const std::map<std::string, Initial> choices{
       {"repair", Initial::repair}, {"lacam", Initial::lacam}, {"either", Initial::either}};
+  if (iterations) require_at_least<std::int64_t>(*iterations, 0, "iterations");
+  if (neighbourhood) require_at_least(*neighbourhood, 1, "neighbourhood");
   const LnsOptions options{objective_of(objective), choose(choices, initial), neighbourhood, iterations, seed};
   nb::gil_scoped_release without_python;
   Limits limits(wall_s, memory_bytes);

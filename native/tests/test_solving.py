@@ -85,7 +85,36 @@ def test_every_algorithm_answers_with_paths_from_starts_to_goals(seed, algorithm
         ({"algorithm": "magic"}, "there is no algorithm 'magic'; there are: astar"),
         ({"algorithm": "cbs", "v": 2}, "cbs has no option 'v'; it has: "),
         ({"algorithm": "cbs", "bypass": "no"}, "cbs: an option is of the wrong type"),
-        ({"algorithm": "eecbs", "w": 0.5}, "w is at least 1"),
+        ({"algorithm": ["cbs"]}, r"there is no algorithm \['cbs'\]"),
+        ({"algorithm": "eecbs", "w": 0.5}, "w is from 1 to 1e[+]09, not 0.5"),
+        ({"algorithm": "eecbs", "w": np.nan}, "w is from 1 to 1e[+]09, not nan"),
+        ({"algorithm": "eecbs", "distance_weight": np.inf}, "distance_weight is from 1 to 1000, not inf"),
+        ({"algorithm": "eecbs", "distance_weight": 0.0}, "distance_weight is from 1 to 1000, not 0"),
+        ({"algorithm": "eecbs", "conflict_weight": np.nan}, "conflict_weight is from 0 to 1e[+]06, not nan"),
+        ({"algorithm": "eecbs", "selection": "best"}, "'best' is none of: explicit_estimation, focal"),
+        ({"algorithm": "lacam", "iterations": -1}, "iterations is at least 0"),
+        ({"algorithm": "lacam", "seed": -1}, "lacam: an option is of the wrong type"),
+        ({"algorithm": "lns", "iterations": -1}, "iterations is at least 0"),
+        ({"algorithm": "lns", "neighbourhood": 0}, "neighbourhood is at least 1"),
+        ({"algorithm": "pibt", "steps": -1}, "steps is at least 0"),
+        ({"algorithm": "prioritized", "restarts": -1}, "restarts is at least 0"),
+        ({"time_limit": -1}, "time_limit: seconds from 0 are needed, not -1"),
+        ({"time_limit": np.nan}, "time_limit: seconds from 0 are needed, not nan"),
+        ({"time_limit": "1"}, "time_limit: seconds from 0 are needed, not '1'"),
+        ({"memory_limit": -1}, "memory_limit: a whole number of bytes from 0 is needed, not -1"),
+        ({"memory_limit": 2.5}, "memory_limit: a whole number of bytes from 0 is needed, not 2.5"),
+        ({"memory_limit": 2**63}, "memory_limit: a whole number of bytes from 0 is needed"),
+        ({"roadmap": np.ones((0, 3), bool)}, r"starts: number 0 is \[0, 0\], which is blocked or does not exist"),
+        ({"roadmap": None}, r"a grid is bool\[rows, columns\]"),
+        ({"starts": [[0, 0], [0]]}, "starts: an array is needed, but the rows differ in length"),
+        ({"starts": None}, "starts: whole numbers are needed, not object"),
+        ({"starts": np.full((1, 2), 2**63, "u8")}, "starts: 9223372036854775808 is too large"),
+        ({"goals": None}, "goals: one for each robot, or a list of candidates"),
+        ({"goals": 3}, "goals: one for each robot, or a list of candidates"),
+        ({"goals": np.array(3)}, "goals: one for each robot, or a list of candidates"),
+        ({"goals": [[0, 0], [0]]}, "goals: an array is needed, but the rows differ in length"),
+        ({"goals": [[[0, 0], [0]]]}, "goals: one for each robot, or a list of candidates"),
+        ({"goals": [np.empty((0, 2), int)]}, "robot 0: has no goal"),
         ({"roadmap": Graph(edges=[(0, 1)]), "starts": [5], "goals": [1]}, "starts: number 0 is 5"),
     ],
 )
@@ -101,11 +130,61 @@ def test_mistakes_are_named(arguments, said):
         ({"edges": [(0, -1)]}, "numbered from 0"),
         ({"edges": [(0, 3)], "vertices": 3}, "from 0 to 2"),
         ({"edges": [(0, 1)], "duration": [0]}, "at least one tick"),
+        ({"edges": [(0, 1)], "duration": 2**21}, "at most 1048576"),
+        ({"edges": [(0, 1)], "duration": 2**32 + 1}, "at most 1048576"),
+        ({"edges": [(0, 1)], "duration": [1, 2]}, r"one for all or one for each of 1 edges, not \(2,\)"),
+        ({"edges": [(0, 1)], "duration": 1.5}, "duration: whole numbers are needed"),
+        ({"edges": [(0, 1, 2)]}, r"edges: from and to of each, but the array has shape \(1, 3\)"),
+        ({"edges": [0, 1]}, r"edges: from and to of each, but the array has shape \(2,\)"),
+        ({"edges": [(0, 1), (1,)]}, "edges: an array is needed, but the rows differ in length"),
+        ({"edges": [(0, 2**40)]}, "are more than the 2147483647 that can be numbered"),
+        ({"edges": [], "vertices": 2.5}, "vertices: a whole number is needed, not 2.5"),
     ],
 )
 def test_graphs_that_are_none_are_refused(arguments, said):
     with pytest.raises(ValueError, match=said):
         Graph(**arguments)
+
+
+anything = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=3),
+    lambda inner: st.lists(inner, max_size=4),
+    max_leaves=8,
+)
+places = st.lists(st.tuples(st.integers(-1, 4), st.integers(-1, 4)), max_size=5)
+
+
+@settings(deadline=None, max_examples=150)
+@given(
+    starts=anything | places,
+    goals=anything | places | st.lists(places, max_size=3),
+    algorithm=st.sampled_from(sorted(ALGORITHMS)),
+    time_limit=st.just(0.1) | anything.filter(lambda it: not isinstance(it, int | float) or it < 0.1),
+    memory_limit=st.sampled_from([0, 1 << 10, 1 << 20, 1 << 30]) | anything,
+)
+def test_whatever_is_asked_has_an_answer_or_a_clear_refusal(starts, goals, algorithm, time_limit, memory_limit):
+    refusal = ""
+    try:
+        solution = solve(OPEN, starts, goals, algorithm=algorithm, time_limit=time_limit, memory_limit=memory_limit)
+    except ValueError as error:
+        refusal = str(error)
+    assert "\n" not in refusal
+    assert len(refusal) < 400
+    assert refusal or (solution.cost is not None) == (solution.status == "solved")
+
+
+def test_arrays_need_not_be_contiguous():
+    wide = np.ones((8, 8), bool)
+    wide[0, 2] = False
+    places = np.array([[0, 0], [9, 9], [3, 3], [9, 9]])[::2]
+    solution = solve(np.asfortranarray(wide)[::2, ::2], places, places[::-1], algorithm="cbs")
+    assert (solution.status, solution.cost) == ("solved", 12)
+
+
+@pytest.mark.parametrize("algorithm", sorted(ALGORITHMS))
+def test_a_roadmap_larger_than_the_memory_is_out_of_memory(algorithm):
+    endless = Graph(edges=[(0, 1)], vertices=2**30)
+    assert solve(endless, [0], [1], algorithm=algorithm, memory_limit=1 << 30).status == "out_of_memory"
 
 
 def test_options_are_listed_with_their_defaults():

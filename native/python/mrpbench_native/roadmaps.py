@@ -1,9 +1,14 @@
 """Roadmaps as a user of the solvers alone has them: a grid of cells, or a graph."""
 
+import operator
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+MOST_VERTICES = 2**31 - 1
+LONGEST_DURATION = 2**20
+"""Ticks."""
 
 
 @dataclass(frozen=True)
@@ -24,15 +29,23 @@ class Graph:
         Raises:
             ValueError: an edge names no vertex, or takes less than a tick.
         """
-        edges = whole(self.edges, "edges").reshape(-1, 2)
+        edges = whole(self.edges, "edges")
+        if edges.size and (edges.ndim != 2 or edges.shape[1] != 2):
+            raise ValueError(f"edges: from and to of each, but the array has shape {edges.shape}")
+        edges = edges.reshape(-1, 2)
         largest = int(edges.max(initial=-1))
-        count = largest + 1 if self.vertices is None else self.vertices
+        count = largest + 1 if self.vertices is None else _count(self.vertices)
         if edges.min(initial=0) < 0 or largest >= count:
             raise ValueError(f"edges: vertices are numbered from 0 to {count - 1}, and one is called otherwise")
-        duration = np.broadcast_to(whole(self.duration, "duration"), len(edges)).astype("i4")
-        if (duration < 1).any():
-            raise ValueError("duration: every edge takes at least one tick")
-        object.__setattr__(self, "_arrays", Arrays(count, edges.astype("i4"), duration))
+        if count > MOST_VERTICES:
+            raise ValueError(f"edges: {count} vertices are more than the {MOST_VERTICES} that can be numbered")
+        duration = whole(self.duration, "duration")
+        if duration.shape not in ((), (1,), (len(edges),)):
+            raise ValueError(f"duration: one for all or one for each of {len(edges)} edges, not {duration.shape}")
+        if ((duration < 1) | (duration > LONGEST_DURATION)).any():
+            raise ValueError(f"duration: every edge takes at least one tick and at most {LONGEST_DURATION}")
+        ticks = np.broadcast_to(duration, len(edges)).astype("i4")
+        object.__setattr__(self, "_arrays", Arrays(count, edges.astype("i4"), ticks))
 
     @property
     def arrays(self) -> "Arrays":
@@ -93,8 +106,9 @@ class Grid:
         if cells.ndim != 2 or cells.shape[1] != 2:
             raise ValueError(f"{what}: a row and a column each, but the array has shape {cells.shape}")
         outside = (cells < 0) | (cells >= np.array(self.free.shape))
-        inside = np.atleast_1d(~outside.any(axis=1))
-        found = np.where(inside, self._number()[tuple(np.where(inside[:, None], cells, 0).T)], -1)
+        inside = np.flatnonzero(~outside.any(axis=1))
+        found: NDArray[np.int64] = np.full(len(cells), -1)
+        found[inside] = self._number()[tuple(cells[inside].T)]
         _within(found, int(self.free.sum()), what, cells)
         return found.astype("i4")
 
@@ -121,10 +135,22 @@ def whole(values: ArrayLike, what: str) -> NDArray[np.int64]:
     Raises:
         ValueError: it is none.
     """
-    array = np.asarray(values)
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{what}: an array is needed, but the rows differ in length") from error
     if array.size and array.dtype.kind not in "iu":
         raise ValueError(f"{what}: whole numbers are needed, not {array.dtype}")
+    if array.dtype.kind == "u" and array.size and array.max() > np.iinfo(np.int64).max:
+        raise ValueError(f"{what}: {array.max()} is too large")
     return array.astype(np.int64)
+
+
+def _count(vertices: object) -> int:
+    try:
+        return operator.index(vertices)  # type: ignore[arg-type]
+    except TypeError as error:
+        raise ValueError(f"vertices: a whole number is needed, not {vertices!r}") from error
 
 
 def _within(found: NDArray[np.int64], count: int, what: str, shown: NDArray[np.int64]) -> None:

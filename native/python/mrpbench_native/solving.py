@@ -1,5 +1,6 @@
 """The solvers in one call, for those who want nothing else: NumPy in, NumPy out."""
 
+import numbers
 import re
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -15,6 +16,8 @@ from mrpbench_native.algorithms import ALGORITHMS
 from mrpbench_native.roadmaps import Arrays, Graph, Grid
 
 _NOTHING = np.empty(0)
+_BYTES_PER_VERTEX = 48
+"""What a roadmap takes at least, before any solver begins to count."""
 
 
 @dataclass(frozen=True)
@@ -62,12 +65,12 @@ def solve(
         starts: on a grid int[n,2], row and column of each robot; on a graph int[n].
         goals: likewise; or a list with several candidates for each robot, of which it takes any that no other takes.
         algorithm: one of `ALGORITHMS`.
-        time_limit: seconds of wall time.
-        memory_limit: bytes.
+        time_limit: seconds of wall time, from 0; infinite: none.
+        memory_limit: bytes that the solver may take.
         options: of the algorithm, such as `w` of `eecbs`; `options_of(algorithm)` lists them.
 
     Raises:
-        ValueError: the roadmap, a place, the algorithm or an option makes no sense.
+        ValueError: the roadmap, a place, the algorithm, a limit or an option makes no sense.
 
     Example:
         >>> solution = solve(np.ones((8, 8), bool), [[0, 0], [0, 7]], [[7, 7], [7, 0]], algorithm="cbs")
@@ -76,15 +79,19 @@ def solve(
     """
     place = roadmap if isinstance(roadmap, Graph | Grid) else Grid(roadmap)
     solver, preset = _algorithm(algorithm)
+    _require_limits(time_limit, memory_limit)
     known = options_of(algorithm)
     if unknown := sorted(set(options) - set(known)):
         raise ValueError(f"{algorithm} has no option {unknown[0]!r}; it has: {', '.join(known) or 'none'}")
     arrays = place.arrays
     first = place.vertex(starts, "starts")
-    instance = _instance(arrays, first, _goal_sets(place, goals))
+    candidates = _goal_sets(place, goals)
+    if arrays.vertices * _BYTES_PER_VERTEX > memory_limit:
+        return Solution(status="out_of_memory")
+    instance = _instance(arrays, first, candidates)
     began, began_cpu = time.perf_counter(), time.process_time()
     try:
-        answer = solver(instance, wall_s=time_limit, memory_bytes=memory_limit, **(preset | options))
+        answer = solver(instance, wall_s=float(time_limit), memory_bytes=int(memory_limit), **(preset | options))
     except TypeError as error:
         raise ValueError(f"{algorithm}: an option is of the wrong type: {options}") from error
     seconds, cpu_seconds = time.perf_counter() - began, time.process_time() - began_cpu
@@ -104,21 +111,32 @@ def options_of(algorithm: str) -> dict[str, Any]:
     return {name: value for name, value in (own | preset).items() if name not in ("wall_s", "memory_bytes")}
 
 
-def _algorithm(name: str) -> tuple[Callable[..., mapf.Answer], dict[str, Any]]:
-    if name not in ALGORITHMS:
+def _algorithm(name: object) -> tuple[Callable[..., mapf.Answer], dict[str, Any]]:
+    if not isinstance(name, str) or name not in ALGORITHMS:
         raise ValueError(f"there is no algorithm {name!r}; there are: {', '.join(sorted(ALGORITHMS))}")
     return ALGORITHMS[name]
 
 
+def _require_limits(time_limit: object, memory_limit: object) -> None:
+    if not isinstance(time_limit, numbers.Real) or not float(time_limit) >= 0:
+        raise ValueError(f"time_limit: seconds from 0 are needed, not {time_limit!r}")
+    if not isinstance(memory_limit, numbers.Integral) or not 0 <= int(memory_limit) < 2**63:
+        raise ValueError(f"memory_limit: a whole number of bytes from 0 is needed, not {memory_limit!r}")
+
+
 def _goal_sets(place: Graph | Grid, goals: Any) -> list[NDArray[np.int32]]:
     """The candidates of each robot."""
-    dimensions = {np.ndim(goal) for goal in goals}
+    try:
+        each = list(goals)
+        dimensions = {np.ndim(goal) for goal in each}
+    except (TypeError, ValueError) as error:
+        raise ValueError("goals: one for each robot, or a list of candidates for each") from error
     single = 1 if isinstance(place, Grid) else 0
     if dimensions <= {single}:
-        return list(place.vertex(goals, "goals")[:, None]) if len(goals) else []
+        return list(place.vertex(each, "goals")[:, None]) if each else []
     if dimensions != {single + 1}:
         raise ValueError("goals: one for each robot, or a list of candidates for each")
-    return [np.unique(place.vertex(candidates, f"goals of robot {robot}")) for robot, candidates in enumerate(goals)]
+    return [np.unique(place.vertex(candidates, f"goals of robot {robot}")) for robot, candidates in enumerate(each)]
 
 
 def _instance(arrays: Arrays, starts: NDArray[np.int32], goals: list[NDArray[np.int32]]) -> mapf.Instance:

@@ -13,7 +13,7 @@ from mrpbench_planners_mapf.native import solve
 from mrpbench_planners_mapf.techniques import ConflictBased, Techniques, heuristic_option
 
 PROMISES = frozenset({Promise.CONFLICT_FREE, Promise.BOUNDED, Promise.COMPLETE, Promise.DETERMINISTIC})
-W = attrs.validators.and_(attrs.validators.ge(1.0), attrs.validators.lt(float("inf")))
+W = attrs.validators.and_(attrs.validators.ge(1.0), attrs.validators.le(1e9))
 
 
 @attrs.frozen(kw_only=True)
@@ -73,12 +73,12 @@ class Eecbs(Techniques):
         1.2,
         help="The search for one robot orders by elapsed time + this many times the distance to go + "
         "`conflict_weight` ticks per conflict (Veerapaneni, Kusnur and Likhachev, AAAI 2023).",
-        validator=attrs.validators.ge(1.0),
+        validator=attrs.validators.and_(attrs.validators.ge(1.0), attrs.validators.le(1e3)),
     )
     conflict_weight: float = option(
         20.0,
         help="See `distance_weight`; 0 = conflicts count more than anything else, as in the original.",
-        validator=attrs.validators.ge(0.0),
+        validator=attrs.validators.and_(attrs.validators.ge(0.0), attrs.validators.le(1e6)),
     )
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
