@@ -15,9 +15,11 @@ import yaml
 Cells = list[list[tuple[int, int]]]
 """The cell of each robot at each time step; robots may have lists of different lengths."""
 
-_CELL = re.compile(r"\(\s*(\d+)\s*,\s*(\d+)\s*\)")
-_AGENT = re.compile(r"^\s*Agent\s+(\d+)\s*:(.*)$", re.MULTILINE | re.IGNORECASE)
-_STEP = re.compile(r"^\s*(\d+)\s*:(\s*\(.*)$", re.MULTILINE)
+_CELL = re.compile(r"\(\s*(\d{1,9})\s*,\s*(\d{1,9})\s*\)")
+_AGENT = re.compile(r"^\s*Agent\s+(\d{1,9})\s*:(.*)$", re.MULTILINE | re.IGNORECASE)
+_STEP = re.compile(r"^\s*(\d{1,9})\s*:(\s*\(.*)$", re.MULTILINE)
+_LATEST = 1_000_000
+"""Time step; a program that says more has lost count, and nobody wants to write all steps down."""
 
 
 class UnreadableError(Exception):
@@ -49,13 +51,13 @@ def read_schedule(text: str) -> Cells:
     """YAML with `schedule`, robots in it by name, in order of the number at the end of the name."""
     try:
         document = yaml.safe_load(text)
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
         raise UnreadableError(f"it is no YAML: {error}") from error
     if not isinstance(document, dict) or not isinstance(document.get("schedule"), dict):
         raise UnreadableError("it has no `schedule`")
     found = {}
     for name, states in document["schedule"].items():
-        number = re.search(r"\d+$", str(name))
+        number = re.search(r"\d{1,9}$", str(name))
         if number is None:
             raise UnreadableError(f"robot {name!r} has no number")
         found[int(number[0])] = _held(states)
@@ -74,15 +76,18 @@ def _held(states: object) -> list[tuple[int, int]]:
     path: list[tuple[int, int]] = []
     try:
         for state in states:  # type: ignore[attr-defined]
-            path += path[-1:] * (int(state["t"]) - len(path))
+            step = int(state["t"])
+            if not (len(path) <= step <= _LATEST if path else step == 0):
+                raise UnreadableError(f"a state at time step {step} does not come after time step {len(path) - 1}")
+            path += path[-1:] * (step - len(path))
             path.append((int(state["y"]), int(state["x"])))
-    except (TypeError, KeyError, ValueError) as error:
+    except (TypeError, KeyError, ValueError, OverflowError) as error:
         raise UnreadableError("a state is not of the form {x, y, t}") from error
     return path
 
 
 def _in_order(found: dict[int, list[tuple[int, int]]], what: str) -> Cells:
-    missing = sorted(set(range(max(found, default=-1) + 1)) - set(found))
+    missing = [index for index in range(len(found)) if index not in found]
     if not found or missing:
         raise UnreadableError(f"it has no {what} {missing[0] if missing else 0}")
     return [found[index] for index in range(len(found))]

@@ -77,6 +77,14 @@ def _resident(pid: int) -> int:
 
 
 def _kill(process: "subprocess.Popen[bytes]") -> None:
+    """Its group, and also who left the group but still descends from it."""
+    family: list[psutil.Process] = []
+    if process.poll() is None:
+        with contextlib.suppress(psutil.Error):
+            family = psutil.Process(process.pid).children(recursive=True)
     with contextlib.suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
+    for member in family:
+        with contextlib.suppress(psutil.Error):
+            member.kill()
     process.wait()

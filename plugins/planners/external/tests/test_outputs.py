@@ -44,6 +44,16 @@ def test_a_state_of_a_schedule_lasts_until_the_next():
         ("schedule", "schedule: {agent0: 5}", "not of the form"),
         ("schedule", "schedule: {agent0: [{x: 1, t: 0}]}", "not of the form"),
         ("schedule", "schedule: {you: []}", "has no number"),
+        ("schedule", "[" * 5000, "no YAML"),
+        ("schedule", "schedule: {agent999999999: [{x: 0, y: 0, t: 0}]}", "no robot 0"),
+        ("schedule", "schedule: {agent0: [{x: 0, y: 0, t: 2}]}", "time step 2 does not come after"),
+        ("schedule", "schedule: {agent0: [{x: 0, y: 0, t: 0}, {x: 0, y: 0, t: 0}]}", "does not come after time step 0"),
+        ("schedule", "schedule: {agent0: [{x: 0, y: 0, t: 0}, {x: 0, y: 0, t: 99999999999}]}", "99999999999"),
+        ("schedule", "schedule: {agent0: [{x: .inf, y: 0, t: 0}]}", "not of the form"),
+        ("agents", "Agent 999999999: (0,0)->", "no Agent 0"),
+        ("agents", f"Agent {'9' * 9999}: (0,0)->", "no Agent 0"),
+        ("steps", "999999999:(1,0),", "no time step 0"),
+        ("agents", "\x00\ufffd\x7f" * 100, "no Agent 0"),
     ],
 )
 def test_other_text_is_refused_with_the_reason(name, text, said):

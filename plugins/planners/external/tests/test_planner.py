@@ -133,6 +133,7 @@ def test_a_program_that_writes_nothing_has_found_nothing(tmp_path):
     [
         ("#!/bin/sh\necho out of ideas >&2\nexit 3", "solver ended with exit code 3: out of ideas"),
         ("#!/bin/sh\nkill -SEGV $$", "solver ended with exit code -11: and said nothing"),
+        ("#!/bin/sh\nhead -c 100000 /dev/urandom > paths.txt", "not in the format 'agents'"),
         ("#!/bin/sh\necho nonsense > paths.txt", "not in the format 'agents': it has no Agent 0"),
         ("#!/bin/sh\necho 'Agent 0: (0,0)->' > paths.txt", "it has paths of 1 robots instead of 2"),
         (
@@ -150,9 +151,10 @@ def test_a_program_that_fails_is_named_with_what_it_said(tmp_path, text, said):
         External(binary=program(tmp_path, text)).plan(problem(), AMPLE)
 
 
-def test_a_program_that_passes_its_time_is_killed_with_all_it_started(tmp_path):
-    hangs = "#!/bin/sh\nsleep 321 &\nsleep 321\n"
-    result = External(binary=program(tmp_path, hangs)).plan(problem(), attrs.evolve(AMPLE, wall_s=0.3))
+@pytest.mark.parametrize("start", ["sleep 321", "setsid sleep 321"])
+def test_a_program_that_passes_its_time_is_killed_with_all_it_started(tmp_path, start):
+    hangs = f"#!/bin/sh\n{start} &\nsleep 321\n"
+    result = External(binary=program(tmp_path, hangs)).plan(problem(), attrs.evolve(AMPLE, wall_s=2))
     assert result.status is PlanStatus.TIMEOUT
     for _ in range(100):
         left = [one for one in psutil.process_iter(["cmdline"]) if one.info["cmdline"] == ["sleep", "321"]]
