@@ -220,3 +220,20 @@ def test_a_static_layer_of_several_levels_is_refused():
     with pytest.raises(InputError, match="one level, and house has 2"):
         session(house, plugins=("static_layer",))
     assert session(house) is not None
+
+
+@pytest.mark.parametrize(("padding", "nearest"), [(0.01, 0.10), (0.03, 0.15)])
+def test_a_wall_along_the_cells_is_kept_at_the_padded_radius_less_at_most_one_cell(padding, nearest):
+    gaps = []
+    for wall in np.arange(1.0, 1.1, 0.01):
+        angle = np.arange(360) * 2 * np.pi / 360
+        ahead = np.cos(angle) > 1e-9
+        scan = np.full(360, np.inf)
+        scan[ahead] = (wall - 0.5 - BURGER.lidar.mount[0]) / np.cos(angle[ahead])
+        controller = session(footprint_padding=padding)
+        see(controller, (0.5, 0.013, 0.0), scan)
+        x = np.arange(wall - 0.3, wall, 0.001)
+        free = controller.is_free(0, np.column_stack([x, np.full_like(x, 0.013), np.zeros_like(x)]))
+        gaps.append(wall - x[free].max())
+    assert min(gaps) == pytest.approx(nearest, abs=0.002)
+    assert max(gaps) <= nearest + 0.051
