@@ -58,10 +58,11 @@ class Advance:
         self.halting: Bool = np.zeros(len(routes), bool)
         self._at_goal: Bool = np.zeros(len(routes), bool)
 
-    def arrive(self, robots: Int, pose: Float, speed: Float, released: Int32, level: Int16) -> None:
+    def arrive(self, robots: Int, pose: Float, speed: Float, released: Int32, level: Int16) -> Int:
         """Count what robots have reached, given the fleet's estimated poses f8[n,3], speeds f8[n], how many leading
-        segments are released i4[n], and levels i2[n].
+        segments are released i4[n], and levels i2[n]; returns the robots for which anything changed.
         """
+        before = self._state(robots)
         moving = np.abs(speed) > _STANDING
         self.halting[robots] &= moving[robots]
         some = robots
@@ -76,6 +77,8 @@ class Advance:
         allowed = released[robots].astype(np.int64)
         self.released[robots] = np.minimum(self.reached[robots] + 1, allowed) if self._stops else allowed
         self.end[robots] = self._corner(robots, self.released[robots])
+        changed: Int = robots[(self._state(robots) != before).any(axis=0)]
+        return changed
 
     def go_round(self, robots: Int, pose: Float) -> None:
         """Count the corners that robots have rounded."""
@@ -175,6 +178,10 @@ class Advance:
         """Tell bool[k] who has reached all that is released and only drives on to its very end."""
         last: Bool = (self.leg[robots] + 1 >= self.end[robots]) & (self.reached[robots] == self.released[robots])
         return last
+
+    def _state(self, robots: Int) -> Int:
+        state: Int = np.array([table[robots] for table in (self.reached, self.released, self.halting, self._at_goal)])
+        return state
 
     def _corner(self, robots: Int | slice, waypoint: Int) -> Int:
         """The corners i8[k] at which waypoints i8[k] of some robots lie."""

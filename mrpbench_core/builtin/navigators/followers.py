@@ -77,8 +77,11 @@ class Followers:
         self._released = released
         arriving = arrives.nonzero()[0]
         if len(arriving):
-            self._advance.arrive(arriving, pose, speed, released, level)
-            self.reached = frozen_array(self._advance.reached, "i4")
+            changed = self._advance.arrive(arriving, pose, speed, released, level)
+            arrives[:] = False
+            arrives[changed] = True
+            if len(changed):
+                self.reached = frozen_array(self._advance.reached, "i4")
         rounding = (arrives | (forward >= -_SLACK)).nonzero()[0]
         if len(rounding):
             self._advance.go_round(rounding, pose)
