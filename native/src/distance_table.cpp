@@ -8,7 +8,7 @@ namespace mrpbench::mapf {
 
 DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits)
     : roadmap_(roadmap), limits_(limits), duration_(roadmap.duration(profile)) {
-  limits.charge(static_cast<std::size_t>(roadmap.vertex_count()) * (sizeof(Tick) + sizeof(Entry)));
+  limits.charge(static_cast<std::size_t>(roadmap.vertex_count()) * sizeof(Tick));
   for (const Tick duration : duration_) {
     if (duration < 0) continue;
     shortest_ = std::min(shortest_, duration);
@@ -18,20 +18,54 @@ DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<cons
   for (const int goal : goals) {
     if (distance_[goal] == 0) continue;
     distance_[goal] = 0;
-    queue_.push_back({0, goal});
+    if (is_uniform()) {
+      level_.push_back(goal);
+    } else {
+      heap_.push_back({0, goal});
+    }
   }
 }
 
 void DistanceTable::advance() {
   limits_.check();
-  const bool heap = shortest_ != longest_;
-  if (next_ == queue_.size()) {
+  if (is_uniform()) {
+    advance_level();
+  } else {
+    advance_heap();
+  }
+}
+
+/// Where all edges take equally long, vertices are found in the order of their distances.
+void DistanceTable::advance_level() {
+  if (next_ == level_.size()) {
+    std::swap(level_, found_);
+    found_.clear();
+    next_ = 0;
+    limits_.charge_growth(counted_, (level_.capacity() + found_.capacity()) * sizeof(std::int32_t));
+  }
+  if (level_.empty()) {
     final_ = kForever;
     return;
   }
-  if (heap) std::ranges::pop_heap(queue_, std::greater{});
-  const Entry entry = heap ? queue_.back() : queue_[next_++];
-  if (heap) queue_.pop_back();
+  const int vertex = level_[next_++];
+  const Tick distance = distance_[vertex] + shortest_;
+  for (const int edge : roadmap_.in(vertex)) {
+    const int tail = roadmap_.tail(edge);
+    if (distance >= distance_[tail] || duration_[edge] < 0 || distance >= kForever / 2) continue;
+    distance_[tail] = distance;
+    found_.push_back(tail);
+  }
+  final_ = std::min(kForever, distance);
+}
+
+void DistanceTable::advance_heap() {
+  if (heap_.empty()) {
+    final_ = kForever;
+    return;
+  }
+  std::ranges::pop_heap(heap_, std::greater{});
+  const Entry entry = heap_.back();
+  heap_.pop_back();
   if (entry.distance > distance_[entry.vertex]) return;
   for (const int edge : roadmap_.in(entry.vertex)) {
     if (duration_[edge] < 0) continue;
@@ -39,9 +73,10 @@ void DistanceTable::advance() {
     const Tick distance = entry.distance + duration_[edge];
     if (distance >= distance_[vertex] || distance >= kForever / 2) continue;
     distance_[vertex] = distance;
-    queue_.push_back({distance, vertex});
-    if (heap) std::ranges::push_heap(queue_, std::greater{});
+    heap_.push_back({distance, vertex});
+    std::ranges::push_heap(heap_, std::greater{});
   }
+  limits_.charge_growth(counted_, heap_.capacity() * sizeof(Entry));
   // What was found on the way is at least one edge farther than `entry`, and nothing nearer can still turn up.
   final_ = std::min(kForever, entry.distance + shortest_);
 }

@@ -29,7 +29,10 @@ class DistanceTable {
       return distance != other.distance ? distance > other.distance : vertex > other.vertex;
     }
   };
+  bool is_uniform() const { return shortest_ == longest_; }
   void advance();
+  void advance_level();
+  void advance_heap();
 
   const Roadmap& roadmap_;
   Limits& limits_;
@@ -37,8 +40,10 @@ class DistanceTable {
   Tick shortest_ = kForever;  // least and greatest duration of an edge
   Tick longest_ = 0;
   std::vector<Tick> distance_;
-  std::vector<Entry> queue_;  // first in, first out from `next_` if all edges take equally long, else a heap
+  std::vector<std::int32_t> level_, found_;  // uniform: of one distance, from `next_` on, and of the next one
   std::size_t next_ = 0;
+  std::vector<Entry> heap_;  // not uniform
+  std::size_t counted_ = 0;
   Tick final_ = 0;  // distances up to this one are final
 };
 
