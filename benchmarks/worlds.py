@@ -49,7 +49,7 @@ def study(name: str, options: argparse.Namespace) -> dict[str, Any]:
     }
 
 
-def contacts(record: dict[str, Any], kind: str) -> int:
+def touches(record: dict[str, Any], kind: str) -> int:
     """How often robots touched one another, or something solid; 0 if they did not drive, which is a failure anyway."""
     counted = record["metrics"].get(f"execution.{kind}_contacts")
     if counted is None and record["status"] == "succeeded":
@@ -61,7 +61,7 @@ def drive(name: str, options: argparse.Namespace) -> bool:
     """Run, print a line, and tell whether nothing went wrong."""
     with tempfile.TemporaryDirectory() as out:
         records = list(mrpbench_core.run(study(name, options), out=Path(out)))
-    robots, walls = (sum(contacts(record, kind) for record in records) for kind in ("robot", "wall"))
+    robots, walls = (sum(touches(record, kind) for record in records) for kind in ("robot", "wall"))
     others = [f"seed {record['seed']}: {record['status']}" for record in records if record["status"] != "succeeded"]
     arrived = f"{len(records) - len(others)}/{len(records)} arrived"
     contacts = f"{robots} contacts with robots, {walls} with walls"
