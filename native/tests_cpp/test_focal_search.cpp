@@ -119,12 +119,14 @@ TEST("a path costs at most w times its bound, which is exact, and meets as few o
     if (random() % 5 == 0) table.add({0, goal, {static_cast<Tick>(random() % 7), 0}, Kind::finish_after});
     if (random() % 5 == 0) table.add({0, goal, {6 + static_cast<Tick>(random() % 4), 0}, Kind::finish_by});
 
-    FocalSearch search(space, options, limits, statistics);
+    SafeIntervals intervals(space, limits, statistics);
+    FocalSearch search(space, intervals, options, limits, statistics);
     DistanceTables distances(it, limits);
     FoundPath path;
     const Tick least = search.search(table, distances[0], others, {options.w}, 0, path);
     const auto best = fewest_conflicts(space, table, others, goal, 60);
     CHECK((least == kForever) == best.empty());
+    CHECK(intervals.least_cost(table, distances[0]) == (best.empty() ? kForever : best.begin()->first));
     if (best.empty()) {
       ++none;
       continue;

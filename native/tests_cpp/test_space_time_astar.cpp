@@ -14,10 +14,15 @@ struct Alone {
         space(instance, limits),
         tables(instance, limits),
         table(space, limits),
-        astar(space, limits, statistics) {
+        intervals(space, limits, statistics),
+        astar(space, intervals, limits, statistics) {
     table.reset(0);
   }
-  Tick cost() { return astar.search(table, tables[0], nullptr, path) ? path.cost : kForever; }
+  Tick cost() {
+    const Tick cost = astar.search(table, tables[0], nullptr, path) ? path.cost : kForever;
+    CHECK(intervals.least_cost(table, tables[0]) == cost);
+    return cost;
+  }
   Mdd mdd(Tick cost) { return MddBuilder(space, limits).build(table, tables[0], cost); }
 
   Instance instance;
@@ -26,6 +31,7 @@ struct Alone {
   Space space;
   DistanceTables tables;
   ConstraintTable table;
+  SafeIntervals intervals;
   SpaceTimeAstar astar;
   FoundPath path;
 };
@@ -59,6 +65,15 @@ TEST("nobody passes a robot that has finished for good") {
   it.table.reset(0);
   it.table.add({1, 1, {2, 2}, Constraint::Kind::finish_by});
   CHECK(it.cost() == 2);
+}
+
+TEST("a goal that is cut off for good is given up in a large room too") {
+  Alone it(instance(grid(60, 60), {robot(0, 3599)}));
+  it.table.add(avoid_vertex(0, 3598, 0, kForever));
+  it.table.add(avoid_vertex(0, 3539, 500, kForever));
+  it.table.add(avoid_vertex(0, 3599, 0, 600));
+  CHECK(it.cost() == kForever);
+  CHECK(it.statistics.low_level_expansions < 10'000);
 }
 
 TEST("edges of many ticks are crossed whole") {

@@ -13,7 +13,7 @@ BoundedTree::BoundedTree(Workbench& bench, const BoundedOptions& options, Result
       result_(result),
       robots_(bench.space.instance().size()),
       queue_(options.selection, options.w),
-      search_(bench.space, options, limits_, result.statistics),
+      search_(bench.space, bench.intervals, options, limits_, result.statistics),
       situation_(robots_),
       present_(bench.space, limits_),
       nodes_(limits_),

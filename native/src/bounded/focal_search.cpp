@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <bit>
-#include <functional>
 
 namespace mrpbench::mapf {
 
 namespace {
 constexpr std::size_t kFewSlots = 1024;
-constexpr std::size_t kLongSearch = 4096;  // or as many states as there are vertices
+constexpr std::size_t kLongSearch = 1024;  // states
 }  // namespace
 
-FocalSearch::FocalSearch(const Space& space, const BoundedOptions& options, Limits& limits, Statistics& statistics)
-    : space_(space), options_(options), limits_(limits), statistics_(statistics), vertices_(space.vertex_count()) {}
+FocalSearch::FocalSearch(const Space& space, SafeIntervals& intervals, const BoundedOptions& options, Limits& limits,
+                         Statistics& statistics)
+    : space_(space),
+      intervals_(intervals),
+      options_(options),
+      limits_(limits),
+      statistics_(statistics),
+      vertices_(space.vertex_count()) {}
 
 Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable& others,
                          const CostBound& bound, Tick known, FoundPath& path) {
@@ -23,20 +28,20 @@ Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, 
   const Beginning& beginning = space_.instance().beginning(table.robot());
   const Tick to_go = distance(beginning.vertex), since = enter_tick(beginning.occupied.back());
   if (to_go == kForever || table.forbids_beginning()) return kForever;
-  least_ = std::max({known, table.earliest_finish(), to_go == 0 ? since : beginning.free_at + to_go});
-  if (least_ > table.latest_finish() || least_ == kForever) return kForever;
-  detours_ = false;
-  nodes_.clear();
-  known_.assign(kFewSlots, 0);
-  queue_.reset(least_, bound(least_));
-  reach(beginning.vertex, beginning.free_at, -1, -1, 0);
-  if (to_go == 0 && !nodes_.empty() && since >= table.earliest_finish(beginning.vertex)) finish(0, since);
-
-  Tick least = least_;
-  bool found = false;
+  const Tick soonest = to_go == 0 ? since : beginning.free_at + to_go;
+  Tick least = std::max({known, table.earliest_finish(), soonest});
+  if (least > table.latest_finish() || least == kForever) return kForever;
+  begin(least, bound);
+  bool exact = false, found = false;
   while (!queue_.empty() && !found) {
     limits_.check();
-    if (!detours_ && nodes_.size() > std::min<std::size_t>(kLongSearch, vertices_)) find_detours();
+    if (!exact && nodes_.size() > kLongSearch) {
+      // All that would cost less than the cheapest path is in vain, or there is none at all: better to know beforehand.
+      exact = true;
+      const Tick cost = intervals_.least_cost(table, distance);
+      if (cost == kForever) return kForever;
+      if (cost > least) begin(least = cost, bound);
+    }
     if (queue_.least_f() > least) {
       least = queue_.least_f();
       queue_.raise(bound(least));
@@ -53,6 +58,19 @@ Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, 
   limits_.charge_growth(
       counted_, nodes_.capacity() * (sizeof(Node) + FocalQueue::kNodeBytes) + known_.capacity() * sizeof(std::int32_t));
   return found ? least : kForever;
+}
+
+/// With nothing but the beginning; no path costs less than `least`.
+void FocalSearch::begin(Tick least, const CostBound& bound) {
+  const Beginning& beginning = space_.instance().beginning(table_->robot());
+  const Tick since = enter_tick(beginning.occupied.back());
+  least_ = least;
+  nodes_.clear();
+  known_.assign(kFewSlots, 0);
+  queue_.reset(least, bound(least));
+  reach(beginning.vertex, beginning.free_at, -1, -1, 0);
+  const bool there = (*distance_)(beginning.vertex) == 0 && !nodes_.empty();
+  if (there && since >= table_->earliest_finish(beginning.vertex)) finish(0, since);
 }
 
 void FocalSearch::expand(std::int32_t node) {
@@ -75,7 +93,7 @@ void FocalSearch::expand(std::int32_t node) {
 /// A robot that follows `parent` comes to `vertex` at `tick`.
 void FocalSearch::reach(std::int32_t vertex, Tick tick, std::int32_t parent, std::int32_t edge,
                         std::int32_t conflicts) {
-  const Tick h = estimate(vertex, tick);
+  const Tick h = (*distance_)(vertex);
   if (h == kForever) return;
   const Tick f = std::max(tick + h, least_);
   if (f > std::max(table_->latest_finish(), space_.instance().beginning(table_->robot()).free_at)) return;
@@ -114,37 +132,6 @@ void FocalSearch::relax(const Node& node, Tick f, Tick h) {
 int FocalSearch::column(Tick f, Tick h, std::int32_t conflicts) const {
   const double rest = (options_.distance_weight - 1.0) * h + options_.conflict_weight * conflicts;
   return f - least_ + static_cast<int>(rest);
-}
-
-/// Vertices that are closed for ever may cut the robot off: without this the search would go on for ever.
-void FocalSearch::find_detours() {
-  detours_ = true;
-  detour_.assign(vertices_, kForever);
-  const Roadmap& roadmap = space_.instance().roadmap();
-  const std::span<const Tick> duration = roadmap.duration(space_.instance().robots()[table_->robot()].profile);
-  const Tick settled = table_->settled();
-  using Entry = std::pair<Tick, std::int32_t>;
-  std::vector<Entry> open;
-  const auto reach = [&](std::int32_t vertex, Tick distance) {
-    if (distance >= detour_[vertex] || table_->forbids(vertex, settled)) return;
-    detour_[vertex] = distance;
-    open.push_back({distance, vertex});
-    std::ranges::push_heap(open, std::greater{});
-  };
-  for (const int goal : space_.instance().robots()[table_->robot()].goals) {
-    if (table_->goal() != TimedPath::kAnyGoal && table_->goal() != goal) continue;
-    if (table_->earliest_finish(goal) < kForever) reach(goal, 0);
-  }
-  while (!open.empty()) {
-    std::ranges::pop_heap(open, std::greater{});
-    const auto [distance, vertex] = open.back();
-    open.pop_back();
-    if (distance > detour_[vertex]) continue;
-    for (const int edge : roadmap.in(vertex)) {
-      const int tail = roadmap.tail(edge);
-      if (duration[edge] > 0 && !table_->forbids_entering(tail, edge, settled)) reach(tail, distance + duration[edge]);
-    }
-  }
 }
 
 std::int32_t& FocalSearch::slot(std::int32_t vertex, Tick tick) {

@@ -103,6 +103,23 @@ void ConstraintTable::keep_away(int element, Range halves) {
   if (ticks > 0 && first <= last) forbid(element, {first, last});
 }
 
+void ConstraintTable::at_vertex(int vertex, std::vector<Range>& halves) const {
+  for (std::int32_t k = head_[vertex]; k >= 0; k = entries_[k].next) {
+    if (entries_[k].edge == kVertex) halves.push_back(entries_[k].range);
+  }
+}
+
+Tick ConstraintTable::next_entry(int vertex, int edge, Tick at) const {
+  for (std::int32_t k = head_[vertex]; k >= 0;) {
+    const Entry& entry = entries_[k];
+    const bool blocked = entry.edge == edge && entry.range.first <= at && entry.range.last >= at;
+    if (blocked && entry.range.last >= kForever) return kForever;
+    if (blocked) at = entry.range.last + 1;
+    k = blocked ? head_[vertex] : entry.next;  // the others may forbid the new tick
+  }
+  return at;
+}
+
 bool ConstraintTable::forbids_beginning() const {
   if (forbids_beginning_) return true;
   for (const Occupation& it : space_.instance().beginning(robot_).occupied) {

@@ -26,9 +26,10 @@ std::optional<std::array<Constraint, 2>> Corridors::resolve(const Situation& sit
 
   // Earliest arrivals at the exits, and by other ways.
   situation.load(one, bench_.table);
-  const Tick one_first = bench_.astar.earliest(bench_.table, bench_.distance_to(one, exit), exit, kForever);
+  const Tick one_first = bench_.intervals.earliest(bench_.table, bench_.distance_to(one, exit), exit, kForever);
   situation.load(other, bench_.table);
-  const Tick other_first = bench_.astar.earliest(bench_.table, bench_.distance_to(other, entrance), entrance, kForever);
+  const Tick other_first =
+      bench_.intervals.earliest(bench_.table, bench_.distance_to(other, entrance), entrance, kForever);
   if (one_first == kForever || other_first == kForever) return std::nullopt;
   const Tick one_last = bound(situation, one, chain_[chain_.size() - 2], exit, other_first + one_ticks);
   if (arrival_at(one_stops_, exit) > one_last) return std::nullopt;
@@ -123,7 +124,7 @@ Tick Corridors::bound(const Situation& situation, int robot, int before_exit, in
     if (move.head != exit) continue;
     bench_.table.add({robot, bench_.space.vertex_count() + move.edge, {0, kForever}});
   }
-  const Tick round = bench_.astar.earliest(bench_.table, bench_.distance_to(robot, exit), exit, latest);
+  const Tick round = bench_.intervals.earliest(bench_.table, bench_.distance_to(robot, exit), exit, latest);
   return std::min(round - 1, latest);
 }
 

@@ -1,34 +1,42 @@
 #include "mrpbench_mapf/cbs/space_time_astar.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace mrpbench::mapf {
 
-SpaceTimeAstar::SpaceTimeAstar(const Space& space, Limits& limits, Statistics& statistics)
-    : space_(space), roadmap_(space.instance().roadmap()), limits_(limits), statistics_(statistics) {
+SpaceTimeAstar::SpaceTimeAstar(const Space& space, SafeIntervals& intervals, Limits& limits, Statistics& statistics)
+    : space_(space),
+      intervals_(intervals),
+      roadmap_(space.instance().roadmap()),
+      limits_(limits),
+      statistics_(statistics) {
   forget_seen(kSmallSeen);
 }
 
 bool SpaceTimeAstar::search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others,
                             FoundPath& path) {
   path.goal = table.goal();
-  const Beginning& beginning = space_.instance().beginning(table.robot());
   const Tick stay = table.earliest_finish();
   if (stay == kForever || !begin(table, distance, others, stay, table.latest_finish())) return false;
-  const int last = run([&](const Node& node) {
-    if (distance(node.vertex) != 0) return false;
-    const bool moved = node.tick > beginning.free_at;
-    return (moved ? node.tick : enter_tick(beginning.occupied.back())) >= table.earliest_finish(node.vertex);
-  });
+  int last = run(kLongSearch);
+  if (last == kLong) {
+    // Perhaps there is no path at all, which would take even longer to find out.
+    const Tick cost = intervals_.least_cost(table, distance);
+    if (cost == kForever) return false;
+    latest_ = std::max(cost, space_.instance().beginning(table.robot()).free_at);
+    last = run(std::numeric_limits<std::size_t>::max());
+  }
   if (last < 0) return false;
   trace(last, path);
   return path.cost <= table.latest_finish();
 }
 
-Tick SpaceTimeAstar::earliest(const ConstraintTable& table, DistanceTable& distance, int vertex, Tick latest) {
-  if (!begin(table, distance, nullptr, 0, latest)) return kForever;
-  const int last = run([&](const Node& node) { return node.vertex == vertex; });
-  return last < 0 ? kForever : nodes_[last].tick;
+bool SpaceTimeAstar::is_final(const Node& node) {
+  if ((*distance_)(node.vertex) != 0) return false;
+  const Beginning& beginning = space_.instance().beginning(table_->robot());
+  const bool moved = node.tick > beginning.free_at;
+  return (moved ? node.tick : enter_tick(beginning.occupied.back())) >= table_->earliest_finish(node.vertex);
 }
 
 bool SpaceTimeAstar::begin(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others,
@@ -48,10 +56,11 @@ bool SpaceTimeAstar::begin(const ConstraintTable& table, DistanceTable& distance
   return true;
 }
 
-template <class IsFinal>
-int SpaceTimeAstar::run(IsFinal is_final) {
-  int found = -1;
+/// Expand best first; the index of the node at the end, kNone, or kLong if that makes more than `most_nodes`.
+int SpaceTimeAstar::run(std::size_t most_nodes) {
+  int found = kNone;
   while (!open_.empty() && found < 0) {
+    if (nodes_.size() > most_nodes) return kLong;
     limits_.check();
     const std::int32_t index = open_.pop();
     const Node& node = nodes_[index];

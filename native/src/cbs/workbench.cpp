@@ -18,7 +18,8 @@ Workbench::Workbench(const Instance& instance, const CbsOptions& options, Limits
       statistics(statistics),
       space(instance, limits),
       distances(instance, limits),
-      astar(space, limits, statistics),
+      intervals(space, limits, statistics),
+      astar(space, intervals, limits, statistics),
       table(space, limits),
       scratch(space, limits),
       builder_(space, limits),
@@ -37,7 +38,8 @@ Tick Workbench::least_cost(const Situation& situation, int robot) {
   name += key_of({robot, 0, {0, 0}});
   const auto place = least_cost_.find(name);
   if (place != least_cost_.end()) return place->second;
-  const Tick cost = plan(situation, robot, situation.path(robot).goal, {}, nullptr, path_) ? path_.cost : kForever;
+  situation.load(robot, table);
+  const Tick cost = intervals.least_cost(table, distance_to_goal(robot, situation.path(robot).goal));
   least_cost_.emplace(name, cost);
   limits.charge_growth(counted_, least_cost_.size() * (sizeof(Key) + 40));
   return cost;
@@ -56,7 +58,12 @@ bool Workbench::costs_more(const Situation& situation, int robot, std::span<cons
       constraints[0].element < space.vertex_count() && constraints[0].range.first == constraints[0].range.last) {
     return mdd(situation, robot)->always_at(constraints[0].element, constraints[0].range.first / 2);
   }
-  return mdd(situation, robot)->blocked_by(constraints, scratch);
+  if (space.textbook()) return mdd(situation, robot)->blocked_by(constraints, scratch);
+  // Where moves take many ticks a diagram is large, and a search among intervals is short.
+  situation.load(robot, table);
+  table.add(constraints);
+  return intervals.least_cost(table, distance_to_goal(robot, situation.path(robot).goal)) >
+         least_cost(situation, robot);
 }
 
 DistanceTable& Workbench::distance_to_goal(int robot, int goal) {

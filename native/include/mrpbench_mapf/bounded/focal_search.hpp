@@ -7,14 +7,15 @@
 #include "mrpbench_mapf/bounded/focal_queue.hpp"
 #include "mrpbench_mapf/bounded/options.hpp"
 #include "mrpbench_mapf/cbs/avoidance_table.hpp"
-#include "mrpbench_mapf/cbs/constraint_table.hpp"
+#include "mrpbench_mapf/cbs/safe_intervals.hpp"
 #include "mrpbench_mapf/distance_table.hpp"
 
 namespace mrpbench::mapf {
 
 class FocalSearch {
  public:
-  FocalSearch(const Space& space, const BoundedOptions& options, Limits& limits, Statistics& statistics);
+  FocalSearch(const Space& space, SafeIntervals& intervals, const BoundedOptions& options, Limits& limits,
+              Statistics& statistics);
 
   /// Writes a path of the robot that `table` was reset for, and returns a lower bound on the cost of all its paths (at
   /// least `known`, which must be one), or kForever if there is none. `distance` leads to its goals. `others` must not
@@ -37,15 +38,12 @@ class FocalSearch {
   void finish(std::int32_t node, Tick cost);
   void relax(const Node& node, Tick f, Tick h);
   void expand(std::int32_t node);
-  /// Ticks from `vertex` to a goal for a robot that is there at `tick`; never more than the truth.
-  Tick estimate(std::int32_t vertex, Tick tick) {
-    return detours_ && tick >= table_->settled() ? detour_[vertex] : (*distance_)(vertex);
-  }
-  void find_detours();
+  void begin(Tick least, const CostBound& bound);
   void trace(std::int32_t node, FoundPath& path);
   int column(Tick f, Tick h, std::int32_t conflicts) const;
 
   const Space& space_;
+  SafeIntervals& intervals_;
   const BoundedOptions& options_;
   Limits& limits_;
   Statistics& statistics_;
@@ -57,8 +55,6 @@ class FocalSearch {
   Tick least_ = 0;  // no path costs less
   std::vector<Node> nodes_;
   std::vector<std::int32_t> known_;  // by hash of vertex and tick: node + 1, 0 = none
-  bool detours_ = false;
-  std::vector<Tick> detour_;  // distances to the goals around what is closed for ever
   std::vector<Stop> stops_;
   FocalQueue queue_;
   std::size_t counted_ = 0;

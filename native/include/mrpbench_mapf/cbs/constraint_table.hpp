@@ -32,6 +32,10 @@ class ConstraintTable {
   bool forbids_entering(int vertex, int edge, Tick at) const {
     return head_[vertex] >= 0 && blocked(vertex, edge, at, at);
   }
+  /// Append the half-ticks at which it must not be at `vertex`.
+  void at_vertex(int vertex, std::vector<Range>& halves) const;
+  /// The first tick from `at` on at which it may enter `edge`, which leads out of `vertex`.
+  Tick next_entry(int vertex, int edge, Tick at) const;
   /// Does something forbid what the robot does for certain?
   bool forbids_beginning() const;
 

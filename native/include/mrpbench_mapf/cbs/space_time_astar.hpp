@@ -4,22 +4,19 @@
 
 #include "mrpbench_mapf/cbs/avoidance_table.hpp"
 #include "mrpbench_mapf/cbs/bucket_queue.hpp"
-#include "mrpbench_mapf/cbs/constraint_table.hpp"
+#include "mrpbench_mapf/cbs/safe_intervals.hpp"
 #include "mrpbench_mapf/distance_table.hpp"
 
 namespace mrpbench::mapf {
 
 class SpaceTimeAstar {
  public:
-  SpaceTimeAstar(const Space& space, Limits& limits, Statistics& statistics);
+  SpaceTimeAstar(const Space& space, SafeIntervals& intervals, Limits& limits, Statistics& statistics);
 
   /// The path with the earliest last move of the robot that `table` was reset for, which stays at a goal for good
   /// (unless robots disappear there). `distance` leads to its goals. Among equally early paths one with the fewest
   /// conflicts with `others`. False if there is none.
   bool search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others, FoundPath& path);
-
-  /// Earliest tick at which it can be at `vertex`, to which `distance` leads; kForever if not by tick `latest`.
-  Tick earliest(const ConstraintTable& table, DistanceTable& distance, int vertex, Tick latest);
 
  private:
   struct Node {
@@ -38,12 +35,14 @@ class SpaceTimeAstar {
   };
   static constexpr std::int32_t kUnknown = 1 << 30;
   static constexpr std::size_t kSmallSeen = 1 << 12;
+  static constexpr std::size_t kLongSearch = 1024;  // nodes
 
   bool begin(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others, Tick least,
              Tick latest);
   /// Expand best first until `is_final(node)`; the index of that node, -1 = none.
-  template <class IsFinal>
-  int run(IsFinal is_final);
+  static constexpr int kNone = -1, kLong = -2;
+  int run(std::size_t most_nodes);
+  bool is_final(const Node& node);
   void expand(int index);
   void push(int vertex, Tick tick, int parent, int edge, int conflicts, Tick h);
   Seen& seen(int vertex, Tick tick);
@@ -52,6 +51,7 @@ class SpaceTimeAstar {
   void trace(int index, FoundPath& path);
 
   const Space& space_;
+  SafeIntervals& intervals_;
   const Roadmap& roadmap_;
   Limits& limits_;
   Statistics& statistics_;

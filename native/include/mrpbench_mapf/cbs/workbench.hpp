@@ -4,6 +4,7 @@
 #include "mrpbench_mapf/assignment/candidates.hpp"
 #include "mrpbench_mapf/cbs/mdd_cache.hpp"
 #include "mrpbench_mapf/cbs/options.hpp"
+#include "mrpbench_mapf/cbs/safe_intervals.hpp"
 #include "mrpbench_mapf/cbs/situation.hpp"
 #include "mrpbench_mapf/cbs/space_time_astar.hpp"
 
@@ -32,6 +33,7 @@ class Workbench {
   Statistics& statistics;
   const Space space;
   DistanceTables distances;
+  SafeIntervals intervals;
   SpaceTimeAstar astar;
   ConstraintTable table, scratch;
 
@@ -40,7 +42,6 @@ class Workbench {
   MddCache mdds_;
   std::unordered_map<Key, Tick, KeyHash> least_cost_;  // by robot and what binds it
   std::size_t counted_ = 0;
-  FoundPath path_;
   std::unordered_map<std::int64_t, std::unique_ptr<DistanceTable>> distance_to_;  // by profile and vertex
 };
 
