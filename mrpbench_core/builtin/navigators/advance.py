@@ -89,12 +89,13 @@ class Advance:
             some = some[self.leg[some] + 1 < self.end[some]]
 
     def leave_behind(self, robots: Int, pose: Float, released: Int32) -> None:
-        """Count what robots have cleared."""
-        some = robots[self.cleared[robots] < released[robots]]
+        """Count what robots have cleared: nothing beyond the segment that each is on."""
+        furthest = np.minimum(released, self.reached + 1)
+        some = robots[self.cleared[robots] < furthest[robots]]
         while len(some):
             some = some[self._have_cleared(some, pose)]
             self.cleared[some] += 1
-            some = some[self.cleared[some] < released[some]]
+            some = some[self.cleared[some] < furthest[some]]
 
     def rejoin(self, robot: int, x: float, y: float) -> None:
         """Let a robot continue from a point of its released route, as if it had reached all before."""

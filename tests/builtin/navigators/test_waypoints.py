@@ -1,3 +1,4 @@
+import attrs
 import numpy as np
 import pytest
 
@@ -134,6 +135,20 @@ def test_a_robot_goes_round_what_blocks_its_path_and_comes_back_to_it(fleet):
     for x, y in ((0.3, 0.3), (0.7, 0.3), (0.8, 0.05)):
         session.step(2.1, observe([[x, y, 0], [0, 5, 0]]), Orders(released=[1, 0]))
     assert controllers[0].seen[-1].path.tolist() == [[0.8, 0], [1, 0]]
+
+
+def test_waits_ahead_are_not_cleared_by_a_robot_that_has_yet_to_stop():
+    robots = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
+    waits = [[0, 0, np.nan], *[[1, 0, np.nan]] * 4, [1, 1, np.nan]]
+    routes = [Route(waypoint=waits, level=np.zeros(6), speed=np.full(5, np.inf)), ROUTES[1]]
+    navigator = Waypoints(waypoints="stop", waypoint_tolerance=0.25)
+    session = navigator.start(robots, World(name="w", levels=()), routes, _Recording(), 0.05, 0)
+    for period, speed in enumerate((0.2, 0.2, 0.0, 0.0)):
+        seen = observe([[0.751, 0, 1.4], [0, 5, 0]])
+        seen = attrs.evolve(seen, odometry=Odometry(pose=np.zeros((2, 3)), twist=np.array([[speed, 0], [0, 0]])))
+        motion = session.step(period * 0.05, seen, Orders(released=[5, 0]))
+        assert motion.cleared[0] <= motion.reached[0] + 1
+    assert motion.reached[0] == 4
 
 
 def test_a_robot_that_only_has_to_turn_goes_round_nothing():
