@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from movingai import read_map, read_scen
-from mrpbench_native import Grid, Solution, solve
+from mrpbench_native import Grid, Solution, options_of, solve
 
 ALLOWED_S = 0.05
 MEMORY = 64 << 20
@@ -53,6 +53,8 @@ def main() -> None:
             found = solve(grid, starts, goals, algorithm=solver, time_limit=30, memory_limit=MEMORY)
             grown = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1024
             print(f"{name} {solver} {MEMORY >> 20} MiB: {found.status}, peak grew by {grown:.0f} MiB", flush=True)
+            if "iterations" not in options_of(solver):  # it ends by itself
+                continue
             one, other = (
                 solve(grid, starts, goals, algorithm=solver, time_limit=60, iterations=arguments.iterations)
                 for _ in range(2)
