@@ -141,35 +141,29 @@ class Astar {
   std::vector<Open> open_;
 };
 
+void solve(const Instance& instance, Heuristic heuristic, Limits& limits, Result& result) {
+  DistanceTables tables(instance, limits);
+  if (const auto robot = find_cut_off_robot(instance, tables, limits)) {
+    result.statistics.failed_robot = *robot;
+    result.status = Status::unsolvable;
+    return;
+  }
+  Astar search(instance, heuristic, tables, limits, result.statistics);
+  Cost cost = 0;
+  for (int robot = 0; robot < instance.size(); ++robot) {
+    ++result.statistics.generated;
+    result.paths.push_back(search.search(robot));
+    ++result.statistics.expansions;
+    cost += arrival(result.paths.back());
+  }
+  result.lower_bound = static_cast<double>(cost);
+  result.status = Status::solved;
+}
+
 }  // namespace
 
 Result solve_astar(const Instance& instance, Heuristic heuristic, Limits& limits) {
-  Result result;
-  try {
-    DistanceTables tables(instance, limits);
-    if (const auto robot = find_cut_off_robot(instance, tables, limits)) {
-      result.statistics.failed_robot = *robot;
-      result.status = Status::unsolvable;
-      return result;
-    }
-    Astar search(instance, heuristic, tables, limits, result.statistics);
-    Cost cost = 0;
-    for (int robot = 0; robot < instance.size(); ++robot) {
-      ++result.statistics.generated;
-      result.paths.push_back(search.search(robot));
-      ++result.statistics.expansions;
-      cost += arrival(result.paths.back());
-    }
-    result.lower_bound = static_cast<double>(cost);
-    result.status = Status::solved;
-  } catch (const LimitReached& limit) {
-    result.paths.clear();
-    result.status = limit.status;
-  } catch (const std::bad_alloc&) {
-    result.paths.clear();
-    result.status = Status::out_of_memory;
-  }
-  return result;
+  return solve_within(limits, [&](Result& result) { solve(instance, heuristic, limits, result); });
 }
 
 }  // namespace mrpbench::mapf

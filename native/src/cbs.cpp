@@ -30,14 +30,11 @@ void solve(const Instance& instance, const CbsOptions& options, Limits& limits, 
   } else if (!tree.start(assignment.emplace(find_candidates(bench), limits))) {
     return unsolvable(result, -1);
   }
-  try {
-    const auto outcome = tree.run(std::numeric_limits<std::int64_t>::max());
-    result.status = outcome == ConstraintTree::Outcome::solved ? Status::solved : Status::unsolvable;
-  } catch (const LimitReached& limit) {
-    result.status = limit.status;
-  } catch (const std::bad_alloc&) {
-    result.status = Status::out_of_memory;
-  }
+  bool solved = false;
+  search_within_limits(result, [&] {
+    solved = tree.run(std::numeric_limits<std::int64_t>::max()) == ConstraintTree::Outcome::solved;
+    if (!solved) result.status = Status::unsolvable;
+  });
   result.lower_bound = static_cast<double>(tree.lower_bound());
   result.statistics.expansions = tree.counts().expansions;
   result.statistics.generated = tree.counts().generated;
@@ -45,25 +42,17 @@ void solve(const Instance& instance, const CbsOptions& options, Limits& limits, 
   if (ranked) result.statistics.assignments = tree.counts().roots;
   if (assignment) result.statistics.assignments = 1 + assignment->changes();
   if (dependencies) result.statistics.pair_expansions = dependencies->counts().expansions;
-  if (result.status != Status::solved) return;
+  if (!solved) return;
   for (int robot = 0; robot < instance.size(); ++robot) {
     result.paths.push_back(occupations(bench.space, robot, tree.situation().path(robot)));
   }
+  result.status = Status::solved;
 }
 
 }  // namespace
 
 Result solve_cbs(const Instance& instance, const CbsOptions& options, Limits& limits) {
-  Result result;
-  try {
-    solve(instance, options, limits, result);
-  } catch (const LimitReached& limit) {
-    result.status = limit.status;
-  } catch (const std::bad_alloc&) {
-    result.status = Status::out_of_memory;
-  }
-  result.statistics.memory_bytes = limits.memory_used();
-  return result;
+  return solve_within(limits, [&](Result& result) { solve(instance, options, limits, result); });
 }
 
 }  // namespace mrpbench::mapf

@@ -220,15 +220,7 @@ class Pbs {
 }  // namespace
 
 Result solve_pbs(const Instance& instance, Limits& limits) {
-  Result result;
-  try {
-    Pbs(instance, limits, result).solve();
-  } catch (const LimitReached& limit) {
-    result.status = limit.status;
-  } catch (const std::bad_alloc&) {
-    result.status = Status::out_of_memory;
-  }
-  return result;
+  return solve_within(limits, [&](Result& result) { Pbs(instance, limits, result).solve(); });
 }
 
 }  // namespace mrpbench::mapf

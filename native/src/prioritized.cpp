@@ -140,15 +140,7 @@ void solve(const Instance& instance, const PrioritizedOptions& options, Limits& 
 }  // namespace
 
 Result solve_prioritized(const Instance& instance, const PrioritizedOptions& options, Limits& limits) {
-  Result result;
-  try {
-    solve(instance, options, limits, result);
-  } catch (const LimitReached& limit) {
-    result.status = limit.status;
-  } catch (const std::bad_alloc&) {
-    result.status = Status::out_of_memory;
-  }
-  return result;
+  return solve_within(limits, [&](Result& result) { solve(instance, options, limits, result); });
 }
 
 }  // namespace mrpbench::mapf

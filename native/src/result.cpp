@@ -14,6 +14,7 @@ void Result::stop(Status limit) {
     clock_bound = limit == Status::timeout;
   } else {
     status = limit;
+    paths.clear();
   }
 }
 

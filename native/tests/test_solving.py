@@ -187,6 +187,17 @@ def test_a_roadmap_larger_than_the_memory_is_out_of_memory(algorithm):
     assert solve(endless, [0], [1], algorithm=algorithm, memory_limit=1 << 30).status == "out_of_memory"
 
 
+@pytest.mark.parametrize("algorithm", sorted(ALGORITHMS))
+def test_every_algorithm_says_what_it_took_within_its_memory(algorithm):
+    least = 4 * OPEN.size  # bytes of one table of distances
+    asked = {"starts": [[0, 0], [3, 3]], "goals": [[3, 3], [0, 0]], "algorithm": algorithm, "time_limit": 0.2}
+    solution = solve(OPEN, **asked)
+    taken = solution.statistics["memory_bytes"]
+    assert solution.status == "solved"
+    assert least < taken
+    assert solve(OPEN, **asked, memory_limit=least).status == "out_of_memory"
+
+
 def test_options_are_listed_with_their_defaults():
     assert options_of("cbs")["bypass"] is True
     assert options_of("prioritized")["restarts"] == 1000

@@ -4,12 +4,13 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 
 #include "mrpbench_mapf/result.hpp"
 
 namespace mrpbench::mapf {
 
-/// Thrown by `Limits`, caught by the solver's entry point.
+/// Thrown by `Limits`, caught by `solve_within`.
 struct LimitReached {
   Status status;
 };
@@ -58,5 +59,26 @@ class Limits {
   std::int64_t memory_limit_, memory_left_;
   std::uint32_t calls_ = 0;
 };
+
+/// Call `body()`; a limit that it reaches ends the search for `result`.
+template <class Body>
+void search_within_limits(Result& result, Body body) {
+  try {
+    body();
+  } catch (const LimitReached& limit) {
+    result.stop(limit.status);
+  } catch (const std::bad_alloc&) {
+    result.stop(Status::out_of_memory);
+  }
+}
+
+/// What `body(result)` makes of a result until it ends or reaches a limit: the frame of every solver.
+template <class Body>
+Result solve_within(Limits& limits, Body body) {
+  Result result;
+  search_within_limits(result, [&] { body(result); });
+  result.statistics.memory_bytes = limits.memory_used();
+  return result;
+}
 
 }  // namespace mrpbench::mapf

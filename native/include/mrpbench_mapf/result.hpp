@@ -42,7 +42,7 @@ struct Result {
 
   /// Add a point to the history; one that comes right after another takes its place, the first one stays.
   void note(double seconds, double cost, double bound);
-  /// A limit ended the solver: a plan that it has is one nevertheless.
+  /// A limit ended the solver: a plan that it has is one nevertheless, half a plan is none.
   void stop(Status limit);
 };
 

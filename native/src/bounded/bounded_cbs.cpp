@@ -21,16 +21,7 @@ void solve(const Instance& instance, const BoundedOptions& options, Limits& limi
 }  // namespace
 
 Result solve_bounded(const Instance& instance, const BoundedOptions& options, Limits& limits) {
-  Result result;
-  try {
-    solve(instance, options, limits, result);
-  } catch (const LimitReached& limit) {
-    result.status = limit.status;
-  } catch (const std::bad_alloc&) {
-    result.status = Status::out_of_memory;
-  }
-  result.statistics.memory_bytes = limits.memory_used();
-  return result;
+  return solve_within(limits, [&](Result& result) { solve(instance, options, limits, result); });
 }
 
 }  // namespace mrpbench::mapf

@@ -149,22 +149,13 @@ class Lacam {
 }  // namespace
 
 Result solve_lacam(const Instance& instance, const LacamOptions& options, Limits& limits) {
-  Result result;
   const auto moves = lacam::unit_moves(instance);
   if (!moves && instance.size() > 0) throw std::invalid_argument("lacam needs a roadmap of unit moves");
-  try {
-    if (moves) {
-      Lacam(instance, *moves, options, limits, result).solve();
-    } else {
-      result.status = Status::solved;
-      result.lower_bound = 0;
-    }
-  } catch (const LimitReached& limit) {
-    result.stop(limit.status);
-  } catch (const std::bad_alloc&) {
-    result.stop(Status::out_of_memory);
-  }
-  return result;
+  return solve_within(limits, [&](Result& result) {
+    if (moves) return Lacam(instance, *moves, options, limits, result).solve();
+    result.status = Status::solved;
+    result.lower_bound = 0;
+  });
 }
 
 }  // namespace mrpbench::mapf

@@ -41,22 +41,13 @@ void solve(const Instance& instance, const Moves& moves, const PibtOptions& opti
 }  // namespace
 
 Result solve_pibt(const Instance& instance, const PibtOptions& options, Limits& limits) {
-  Result result;
   const auto moves = lacam::unit_moves(instance);
   if (!moves && instance.size() > 0) throw std::invalid_argument("pibt needs a roadmap of unit moves");
-  try {
-    if (moves) {
-      solve(instance, *moves, options, limits, result);
-    } else {
-      result.status = Status::solved;
-      result.lower_bound = 0;
-    }
-  } catch (const LimitReached& limit) {
-    result.status = limit.status;
-  } catch (const std::bad_alloc&) {
-    result.status = Status::out_of_memory;
-  }
-  return result;
+  return solve_within(limits, [&](Result& result) {
+    if (moves) return solve(instance, *moves, options, limits, result);
+    result.status = Status::solved;
+    result.lower_bound = 0;
+  });
 }
 
 }  // namespace mrpbench::mapf

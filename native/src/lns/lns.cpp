@@ -100,15 +100,7 @@ class Lns {
 }  // namespace
 
 Result solve_lns(const Instance& instance, const LnsOptions& options, Limits& limits) {
-  Result result;
-  try {
-    Lns(instance, options, limits, result).solve();
-  } catch (const LimitReached& limit) {
-    result.stop(limit.status);
-  } catch (const std::bad_alloc&) {
-    result.stop(Status::out_of_memory);
-  }
-  return result;
+  return solve_within(limits, [&](Result& result) { Lns(instance, options, limits, result).solve(); });
 }
 
 }  // namespace mrpbench::mapf
