@@ -1,8 +1,12 @@
-"""Validates an assignment against its problem."""
+"""Validates an assignment against its problem, and what a planner that assigns has chosen."""
+
+from collections import defaultdict
 
 import numpy as np
 
 from mrpbench_core.model.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.plan import Plan
+from mrpbench_core.model.problem import Problem
 
 
 def check_assignment(problem: AssignmentProblem, assignment: Assignment) -> list[str]:
@@ -25,3 +29,18 @@ def check_assignment(problem: AssignmentProblem, assignment: Assignment) -> list
     if len(rows) != min(robots, tasks):
         faults.append(f"assigns {len(rows)} robots instead of {min(robots, tasks)}")
     return faults
+
+
+def check_choice(problem: Problem, plan: Plan) -> list[str]:
+    """Which robots took the same goal where the planner chose, one sentence each; the paths have to be sound.
+
+    Where robots disappear at their goals that is no conflict, but a task is done by one robot, and so another is not.
+    """
+    robots = defaultdict(list)
+    for robot, path in enumerate(plan.paths):
+        robots[path.end(problem.roadmap, int(problem.start[robot]))].append(robot)
+    return [
+        f"robots {' and '.join(map(str, there))} take the same goal, vertex {vertex}, so that a task is left undone"
+        for vertex, there in sorted(robots.items())
+        if len(there) > 1
+    ]

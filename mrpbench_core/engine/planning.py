@@ -9,6 +9,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.checking.assignment import check_choice
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.config.settings import Limits
@@ -66,8 +67,8 @@ def budget_within(limits: Limits) -> Budget:
 def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
     """Count the plan's conflicts, and say which promise it breaks, or None.
 
-    Soundness of the paths is asked of every planner; freedom from conflicts, bounds and optimality of those that
-    promise them.
+    Sound paths are asked of every planner, a task of its own for every robot of those that assign, and freedom from
+    conflicts, bounds and optimality of those that promise them.
     """
     if fault := result_fault(result):
         return PlanResult(status=PlanStatus.GAVE_UP), fault
@@ -76,6 +77,8 @@ def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanR
     report = check_plan(problem, result.plan)
     if report.faults:
         return result, report.faults[0]
+    if planner.assigns and (shared := check_choice(problem, result.plan)):
+        return result, shared[0]
     if result.status == PlanStatus.TIMEOUT:  # but not without a plan: a success that depends on the clock
         result = attrs.evolve(result, status=PlanStatus.SOLVED, clock_bound=True)
     statistics = {**result.statistics, "conflicts": float(len(report.conflicts))}

@@ -174,11 +174,8 @@ def candidates(setting: Setting) -> tuple[tuple[GoalSet, ...], ...]:
 def taken(setting: Setting, problem: Problem, plan: Plan) -> tuple[int, ...]:
     """The task of each robot when the planner has chosen: the one whose goal is where its path ends."""
     task = {sequence[0]: index for index, sequence in reversed(list(enumerate(setting.goals)))}
-    ends = (
-        path.vertices(problem.roadmap, start)[-1]
-        for path, start in zip(plan.paths, problem.start.tolist(), strict=True)
-    )
-    return tuple(task[int(end)] for end in ends)
+    starts = problem.start.tolist()
+    return tuple(task[path.end(problem.roadmap, start)] for path, start in zip(plan.paths, starts, strict=True))
 
 
 def summary(faults: list[str], shown: int = 3) -> str:

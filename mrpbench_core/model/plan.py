@@ -37,6 +37,10 @@ class Path:
             visited[segment + 1] = visited[segment]
         return visited
 
+    def end(self, roadmap: Roadmap, start: int) -> int:
+        """The vertex at which the last segment ends; `start` if there is none."""
+        return int(self.vertices(roadmap, start)[-1])
+
     @property
     def arrival(self) -> int:
         """Tick at which the last move ends, 0 if the robot never moves: its textbook cost."""
@@ -93,8 +97,6 @@ class PlanResult:
 
     status: PlanStatus
     plan: Plan | None = None
-    assignment: tuple[int, ...] | None = None
-    """Index of the candidate goal set each robot took, when the planner assigns."""
     lower_bound: float = attrs.field(default=float("nan"), eq=repr)  # NaN equals NaN
     """Proved lower bound on the sum of costs, in ticks; NaN if the planner proves none."""
     clock_bound: bool = False

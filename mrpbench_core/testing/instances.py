@@ -85,6 +85,13 @@ def headings() -> Problem:
     return problem("a . A", roadmap=attrs.evolve(line, heading=np.array([np.nan, 0.0, np.nan])))
 
 
+def choice(at_goal: str) -> Problem:
+    """Either robot may take either goal; the left one is nearer to both."""
+    drawn = problem("a b A . B")
+    ends = tuple(goals[0] for (goals,) in drawn.goals)
+    return problem("a b A . B", goals=((ends,), (ends,)), rules=Rules(at_goal=at_goal))
+
+
 def edge_between(drawn: Problem, tail: tuple[float, float], head: tuple[float, float]) -> int:
     """The edge from one point of a drawing to another."""
     ends = drawn.roadmap.nearest(*tail)[0], drawn.roadmap.nearest(*head)[0]
@@ -115,6 +122,10 @@ _SOLVABLE: dict[str, Callable[[], Problem]] = {
     "resources": resources,
     "headings": headings,
 }
+_CHOICES: dict[str, Callable[[], Problem]] = {
+    "goals of which one is the nearest to both robots": lambda: choice("stay"),
+    "such goals, at which robots disappear": lambda: choice("disappear"),
+}
 _UNSOLVABLE: dict[str, Callable[[], Problem]] = {
     "a goal behind a wall": lambda: problem("a # A\n . # ."),
     "a swap in a dead end": lambda: problem("aB . bA"),
@@ -124,6 +135,11 @@ _UNSOLVABLE: dict[str, Callable[[], Problem]] = {
 def solvable() -> dict[str, Problem]:
     """Problems with a solution, by name."""
     return {name: make() for name, make in _SOLVABLE.items()}
+
+
+def choices() -> dict[str, Problem]:
+    """Problems in which a planner that assigns chooses who goes where."""
+    return {name: make() for name, make in _CHOICES.items()}
 
 
 def unsolvable() -> dict[str, Problem]:

@@ -3,16 +3,15 @@
 import pickle
 from collections.abc import Iterator
 
-import attrs
-
 from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.checking.assignment import check_choice
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.plan import PlanResult, PlanStatus
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_core.testing.asking import ask
 from mrpbench_core.testing.component import ComponentConformance
 from mrpbench_core.testing.drawing import complete, grid
-from mrpbench_core.testing.instances import solvable, unsolvable
+from mrpbench_core.testing.instances import choices, solvable, unsolvable
 from mrpbench_core.testing.optimum import UNKNOWN, least_sum_of_costs
 from mrpbench_core.testing.outcome import Fault, Skip, require
 
@@ -78,6 +77,15 @@ class PlannerConformance(ComponentConformance):
                 )
         if unchecked := sorted(planner.supports & UNCHECKED):
             raise Skip(f"valid as far as can be told: {' and '.join(unchecked)} cannot be validated yet")
+
+    def test_gives_every_robot_a_task_of_its_own(self) -> None:
+        planner = self.make()
+        if not planner.assigns:
+            raise Skip("it leaves the tasks to an assigner")
+        for name, problem in choices().items():
+            if planner.skip(problem) is None and (plan := ask(planner, problem).plan) is not None:
+                require(not check_plan(problem, plan).faults, f"{name}: gives paths that are none")
+                require(not (faults := check_choice(problem, plan)), f"{name}: {'; '.join(faults)}")
 
     def test_does_not_claim_that_a_solvable_problem_is_unsolvable(self) -> None:
         planner = self.make()
@@ -179,4 +187,4 @@ def compared(planner: Planner) -> Iterator[tuple[str, Problem, int]]:
 
 def answer(result: PlanResult) -> tuple[object, ...]:
     """What of a result must not differ from call to call; statistics may hold times."""
-    return attrs.astuple(result, recurse=False)[:3]
+    return result.status, result.plan

@@ -5,8 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.checking.assignment import check_assignment
+from mrpbench_core.checking.assignment import check_assignment, check_choice
+from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.plan import Plan
+from mrpbench_core.model.problem import Rules
 
 COSTS = [[1.0, 2.0, np.inf], [3.0, 1.0, 1.0]]
 
@@ -57,3 +60,14 @@ def test_soundness_means_a_matching_as_large_as_the_smaller_side(seed):
         and all(costs[robot, index] < np.inf for robot, index in enumerate(task.tolist()) if index != -1)
     )
     assert (not faults(task, costs)) == sound
+
+
+def test_robots_that_choose_one_goal_are_found_even_where_they_disappear_there(make):
+    lane = make.grid(1, 5)
+    asked = make.problem(lane, [0, 1, 4], goals=(((2, 3, 4),),) * 3, rules=Rules(at_goal="disappear"))
+    stays, short, other = make.path(lane), make.path(lane, (1, 2, 1)), make.path(lane, (0, 1, 1), (1, 2, 2))
+    shared = Plan(paths=(other, short, stays))
+    assert check_plan(asked, shared).valid
+    assert check_choice(asked, shared) == ["robots 0 and 1 take the same goal, vertex 2, so that a task is left undone"]
+    apart = Plan(paths=(make.path(lane, (0, 1, 1), (1, 2, 2), (2, 3, 3)), short, stays))
+    assert check_choice(asked, apart) == []

@@ -8,6 +8,7 @@ import pytest
 from mrpbench_core.api import Planner, Promise
 from mrpbench_core.engine.planning import call_planner, judge
 from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus, Progress
+from mrpbench_core.model.problem import Feature
 
 BUDGET = Budget(wall_s=1.0, memory_bytes=1 << 30)
 COLLIDING = Plan(paths=(Path(edge=[0], enter=[0], leave=[1]), Path(edge=[-1, 2], enter=[0, 2], leave=[2, 3])))
@@ -37,6 +38,11 @@ class Bounded(Fixed):
     w = 1.5
 
 
+class Assigning(Fixed):
+    supports = frozenset({Feature.GOAL_SETS})
+    assign = True
+
+
 def judged(planner_class, problem, result):
     planner = planner_class(result=result)
     return judge(planner, problem, call_planner(planner, problem, BUDGET)[0])
@@ -58,6 +64,17 @@ def test_an_unsound_path_is_a_fault_of_every_planner(run_context):
     jump = Plan(paths=(Path(edge=[2], enter=[0], leave=[1]), COLLIDING.paths[1]))
     _, fault = judged(Fixed, run_context.problem, PlanResult(status=PlanStatus.SOLVED, plan=jump))
     assert fault == "robot 0: starts at vertex 1 instead of 0"
+
+
+def test_a_planner_that_assigns_must_give_every_robot_another_task(run_context):
+    either = attrs.evolve(run_context.problem, goals=(((1, 2),),) * 2)
+    together = Plan(paths=(Path(edge=[0], enter=[0], leave=[1]), Path(edge=[], enter=[], leave=[])))
+    said = PlanResult(status=PlanStatus.SOLVED, plan=together)
+    assert judged(Fixed, either, said)[1] is None
+    assert judged(Assigning, either, said)[1] == (
+        "robots 0 and 1 take the same goal, vertex 1, so that a task is left undone"
+    )
+    assert judged(Assigning, either, run_context.result)[1] is None
 
 
 @pytest.mark.parametrize(

@@ -63,7 +63,9 @@ def solve(
     Args:
         roadmap: a `Graph`, a `Grid`, or bool[rows, columns], true where free.
         starts: on a grid int[n,2], row and column of each robot; on a graph int[n].
-        goals: likewise; or a list with several candidates for each robot, of which it takes any that no other takes.
+        goals: likewise; or a list with several candidates for each robot, of which it takes any that no other takes
+            (robots stay, so no two can end at one place). `cbs`, `cbs_ta` and `ita_cbs` make the choice that costs
+            least, `ecbs`, `eecbs`, `ecbs_ta` and `ita_ecbs` one within `w`, the others any that works.
         algorithm: one of `ALGORITHMS`.
         time_limit: seconds of wall time, from 0; infinite: none.
         memory_limit: bytes that the solver may take.

@@ -75,6 +75,12 @@ PLANNERS = {
     "bounds hold": {
         "plan": lambda self, asked, budget: PlanResult(status=PlanStatus.GAVE_UP, lower_bound=1000.0),
     },
+    "gives every robot a task of its own": {
+        "plan": alone,
+        "assigns": True,
+        "supports": frozenset({Feature.GOAL_SETS}),
+        "promises": frozenset(),
+    },
     "is within its bound": {"plan": gives_up, "promises": frozenset({Promise.BOUNDED})},
 }
 

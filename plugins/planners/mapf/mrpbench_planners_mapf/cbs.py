@@ -28,7 +28,9 @@ class Cbs(Techniques):
 
     heuristic: bool = heuristic_option()
     assign: bool = option(
-        False, help="Also decide which robot does which task: the least sum of costs over all assignments."
+        False,
+        help="Also decide which robot does which task: the least sum of costs over all assignments. What keeps two "
+        "robots from one task is that they stay there; where they disappear, take ita_cbs or cbs_ta.",
     )
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
@@ -41,3 +43,9 @@ class Cbs(Techniques):
                 instance, **techniques, wall_s=wall_s, memory_bytes=memory_bytes
             ),
         )
+
+    def skip(self, problem: Problem) -> str | None:
+        """See `Planner.skip`; also, with `assign`, robots that disappear at their goals."""
+        if self.assign and problem.rules.at_goal == "disappear":
+            return "cannot `assign` where robots disappear at their goals; ita_cbs and cbs_ta can"
+        return super().skip(problem)

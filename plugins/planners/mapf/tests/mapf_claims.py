@@ -4,11 +4,23 @@ import math
 from collections.abc import Sequence
 
 from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.checking.assignment import check_choice
 from mrpbench_core.checking.plan import check_plan, path_fault
 from mrpbench_core.model.plan import Budget, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
 
 ENDED_BY_LIMITS = (PlanStatus.TIMEOUT, PlanStatus.OUT_OF_MEMORY)
+BUDGET = Budget(wall_s=0.2, memory_bytes=1 << 30)
+AMPLE = Budget(wall_s=20, memory_bytes=1 << 30)
+
+
+def ask(planner: Planner, asked: Problem, optimum: float | None = None, budget: Budget = BUDGET) -> PlanResult:
+    """What a planner answers within a budget of ample memory; nothing may be wrong with it."""
+    result = planner.plan(asked, budget)
+    found = faults(asked, planner, result, optimum)
+    assert not found, f"{planner}: {found}"
+    assert result.status is not PlanStatus.OUT_OF_MEMORY, planner
+    return result
 
 
 def faults(asked: Problem, planner: Planner, result: PlanResult, optimum: float | None = None) -> list[str]:
@@ -48,9 +60,7 @@ def _plan_faults(asked: Problem, planner: Planner, result: PlanResult, plan: Pla
         w = getattr(planner, "w", math.nan)
         found += [f"cost {cost}, more than {w} times lower bound {bound}"] * (not cost <= w * bound + 1e-9)
     if planner.assigns:
-        paths = zip(plan.paths, asked.start.tolist(), strict=True)
-        ends = {int(path.vertices(asked.roadmap, start)[-1]) for path, start in paths}
-        found += ["two robots at one goal"] * (len(ends) < len(asked))
+        found += check_choice(asked, plan)
     curve = [point.cost for point in result.history]
     found += [f"the costs {curve} rise"] * (curve != sorted(curve, reverse=True))
     return found

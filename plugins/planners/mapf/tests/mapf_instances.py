@@ -5,7 +5,7 @@ from pathlib import Path as File
 import attrs
 import numpy as np
 
-from mrpbench_core.model.plan import Path
+from mrpbench_core.model.plan import Path, Plan
 from mrpbench_core.model.problem import Feature, Problem, Rules, features_of
 from mrpbench_core.model.roadmap import Resource, Roadmap
 
@@ -130,7 +130,33 @@ def random_narrow_problem(random: np.random.Generator, robots: int) -> Problem:
 
 def with_releases(random: np.random.Generator, asked: Problem) -> Problem:
     """The same problem, but robots have set out already, for no or a few segments, in whatever directions."""
-    changed = attrs.evolve(asked, commitments=tuple(_wandering(random, asked, robot) for robot in range(len(asked))))
+    return _with_commitments(asked, tuple(_wandering(random, asked, robot) for robot in range(len(asked))))
+
+
+def with_plan_released(random: np.random.Generator, asked: Problem, plan: Plan) -> Problem:
+    """The same problem, but up to three segments of each robot's path are released already."""
+    sizes = random.integers(0, 4, len(plan.paths)).tolist()
+    released = tuple(_first_of(path, size) for path, size in zip(plan.paths, sizes, strict=True))
+    return _with_commitments(asked, released)
+
+
+def with_late_release(random: np.random.Generator, asked: Problem) -> Problem:
+    """The same problem for two robots, of which the first is late and slow on a lane, and waits there; or none."""
+    ways = np.flatnonzero((asked.roadmap.edges[:, 0] == asked.start[0]) & (asked.duration(0) > 0))
+    if not len(ways):
+        return asked
+    edge, enter = int(random.choice(ways)), int(random.integers(0, 3))
+    leave = enter + int(asked.duration(0)[edge]) + int(random.integers(0, 3))
+    late = Path(edge=[-1, edge, -1], enter=[0, enter, leave], leave=[enter, leave, leave + int(random.integers(0, 2))])
+    return _with_commitments(asked, (late, _first_of(late, 0)))
+
+
+def _first_of(path: Path, size: int) -> Path:
+    return Path(edge=path.edge[:size], enter=path.enter[:size], leave=path.leave[:size])
+
+
+def _with_commitments(asked: Problem, released: tuple[Path, ...]) -> Problem:
+    changed = attrs.evolve(asked, commitments=released)
     return attrs.evolve(changed, features=features_of(changed) | asked.features)
 
 

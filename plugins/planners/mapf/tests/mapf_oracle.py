@@ -37,22 +37,18 @@ class Step(NamedTuple):
     arrives: bool = False
 
 
-class TooLargeError(Exception):
-    """The oracle ran out of its node limit."""
-
-
-def least_cost(problem: Problem, limit: int = 6_000) -> float:
-    """The optimum, inf if there is no solution; raises TooLargeError."""
+def least_cost(problem: Problem, limit: int = 6_000) -> float | None:
+    """The optimum, inf if there is no solution, None if it is not known after `limit` states."""
     return _Search(problem, sum).run(limit)
 
 
-def least_makespan(problem: Problem, limit: int = 6_000) -> float:
-    """The least last arrival, inf if there is no solution; raises TooLargeError."""
+def least_makespan(problem: Problem, limit: int = 6_000) -> float | None:
+    """The least last arrival; the rest as `least_cost`."""
     return _Search(problem, max).run(limit)
 
 
-def least_cost_assigned(problem: Problem, limit: int = 6_000) -> float:
-    """The optimum over all assignments of robots to different goals; raises TooLargeError."""
+def least_cost_assigned(problem: Problem, limit: int = 6_000) -> float | None:
+    """The optimum over all assignments of robots to different goals; the rest as `least_cost`."""
     return _Search(problem, sum, different=True).run(limit)
 
 
@@ -112,7 +108,7 @@ class _Search:
                     distance[tail] = min(distance[tail], ticks + distance[head])
         return distance
 
-    def run(self, limit: int) -> float:
+    def run(self, limit: int) -> float | None:
         places = [state.place for state in self.first]
         uses = self._uses([(0,) * len(self.resources)] * len(places), places)
         if self._clash(places) or self._crowded(uses):
@@ -128,7 +124,7 @@ class _Search:
                 continue
             seen.add((min(tick, self.settled), state, uses))
             if len(seen) > limit:
-                raise TooLargeError
+                return None
             for after, paid, kept in self._successors(tick, state, uses):
                 arrived = self.total([cost, *paid])
                 estimate = self._bound(tick + 1, arrived, after)

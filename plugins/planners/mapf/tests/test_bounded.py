@@ -4,22 +4,26 @@
 """
 
 import csv
-import math
 
-import attrs
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mapf_instances import grid, movingai, problem, random_graph_problem, random_grid_problem, random_rules
-from mapf_oracle import TooLargeError, least_cost
+from mapf_claims import AMPLE, ask
+from mapf_instances import (
+    grid,
+    movingai,
+    problem,
+    random_graph_problem,
+    random_grid_problem,
+    random_rules,
+    with_plan_released,
+)
+from mapf_oracle import least_cost
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 
-from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.plan import Budget, PlanStatus
-from mrpbench_core.model.problem import features_of
+from mrpbench_core.model.plan import PlanStatus
 
-BUDGET = Budget(wall_s=0.2, memory_bytes=1 << 30)
 seeds = st.integers(0, 2**32 - 1)
 bounds = st.sampled_from([1.0, 1.01, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0])
 switches = st.booleans()
@@ -41,30 +45,9 @@ planners = st.one_of(
 )
 
 
-def check_result(planner, asked, result, optimum: float | None = None) -> PlanStatus:
-    """The plan is valid and within its bound; the bound is below the optimum, the cost above."""
-    if result.status is PlanStatus.SOLVED:
-        report = check_plan(asked, result.plan)
-        assert report.valid, (report.faults, report.conflicts)
-        assert result.plan.sum_of_costs <= planner.w * result.lower_bound
-    if optimum is None:
-        return result.status
-    if result.status is PlanStatus.SOLVED:
-        assert result.lower_bound <= optimum <= result.plan.sum_of_costs
-    elif result.status is PlanStatus.UNSOLVABLE:
-        assert optimum == math.inf
-    else:
-        assert result.status is PlanStatus.TIMEOUT
-        assert not result.lower_bound > optimum  # NaN if a busy machine left no time for any
-    return result.status
-
-
 def solve_and_compare(planner, asked) -> PlanStatus:
-    try:
-        optimum = least_cost(asked, limit=2000)
-    except TooLargeError:
-        optimum = None
-    return check_result(planner, asked, planner.plan(asked, BUDGET), optimum)
+    """Nothing is wrong with the answer, and the optimum is what an oracle says."""
+    return ask(planner, asked, least_cost(asked, limit=2000)).status
 
 
 @settings(max_examples=60, deadline=None)
@@ -94,7 +77,7 @@ def test_bounds_hold_on_graphs_of_unit_moves_with_one_way_lanes(planner, seed, r
 @given(planner=planners, seed=seeds)
 def test_crowds_get_valid_plans_within_the_bound(planner, seed):
     asked = random_grid_problem(np.random.default_rng(seed), 20, size=9)
-    check_result(planner, asked, planner.plan(asked, BUDGET))
+    ask(planner, asked)
 
 
 @settings(max_examples=20, deadline=None)
@@ -102,16 +85,9 @@ def test_crowds_get_valid_plans_within_the_bound(planner, seed):
 def test_plans_begin_with_what_was_released(planner, seed):
     random = np.random.default_rng(seed)
     before = random_graph_problem(random, 3, **random_rules(random))
-    first = planner.plan(before, BUDGET)
-    if first.status is not PlanStatus.SOLVED:
-        return
-    released = tuple(
-        attrs.evolve(path, edge=path.edge[:size], enter=path.enter[:size], leave=path.leave[:size])
-        for path, size in zip(first.plan.paths, random.integers(0, 4, 3), strict=True)
-    )
-    after = attrs.evolve(before, commitments=released)
-    after = attrs.evolve(after, features=features_of(after) | before.features)
-    check_result(planner, after, planner.plan(after, BUDGET))
+    first = ask(planner, before)
+    if first.plan is not None:
+        ask(planner, with_plan_released(random, before, first.plan))
 
 
 @pytest.mark.parametrize("planner", [Ecbs(w=1.0), Eecbs(w=1.0)])
@@ -127,8 +103,8 @@ def test_who_meets_in_a_corridor_lets_the_other_out(corridor):
     # Two robots meet head-on in a corridor of eight cells with a bay at each end.
     road = grid(["#.########.#", "............"])
     asked = problem(road, [2, 13], [13, 2])
-    result = Eecbs(w=1.0, corridor=corridor).plan(asked, Budget(wall_s=60, memory_bytes=1 << 30))
-    assert check_result(Eecbs(w=1.0), asked, result) is PlanStatus.SOLVED
+    result = ask(Eecbs(w=1.0, corridor=corridor), asked, budget=AMPLE)
+    assert result.status is PlanStatus.SOLVED
     assert result.plan.sum_of_costs == result.lower_bound
     if corridor:
         assert result.statistics["expansions"] < 10
@@ -143,8 +119,7 @@ def test_a_robot_that_has_arrived_makes_way():
 @pytest.mark.parametrize("planner", [Ecbs(), Eecbs(), Eecbs(w=1.05, flex=True)])
 def test_the_same_input_gives_the_same_output(planner):
     asked = random_grid_problem(np.random.default_rng(5), 12, size=7)
-    budget = Budget(wall_s=20, memory_bytes=1 << 30)
-    one, other = planner.plan(asked, budget), planner.plan(asked, budget)
+    one, other = planner.plan(asked, AMPLE), planner.plan(asked, AMPLE)
     assert one.status is PlanStatus.SOLVED
     assert one.plan == other.plan
     assert one.statistics == other.statistics
@@ -163,6 +138,5 @@ def test_published_optima_lie_within_the_bounds(shared_data, planner):
     solved = 0
     for row in rows:
         asked = movingai(shared_data, row["map"], row["scen"], int(row["agents"]))
-        result = planner.plan(asked, Budget(wall_s=0.2, memory_bytes=1 << 30))
-        solved += check_result(planner, asked, result, int(row["soc"])) is PlanStatus.SOLVED
+        solved += ask(planner, asked, int(row["soc"])).status is PlanStatus.SOLVED
     assert solved > len(rows) / 2

@@ -1,19 +1,23 @@
 """Prioritised planning: valid plans, never cheaper than optimal, and honest when it fails."""
 
-import attrs
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mapf_instances import grid, problem, random_graph_problem, random_grid_problem, random_rules
+from mapf_claims import AMPLE, BUDGET, ask
+from mapf_instances import (
+    grid,
+    problem,
+    random_graph_problem,
+    random_grid_problem,
+    random_rules,
+    with_plan_released,
+)
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.prioritized import Prioritized
 
-from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.plan import Budget, PlanStatus
-from mrpbench_core.model.problem import features_of
+from mrpbench_core.model.plan import PlanStatus
 
-BUDGET = Budget(wall_s=0.2, memory_bytes=1 << 30)
 seeds = st.integers(0, 2**32 - 1)
 orders = st.sampled_from(["index", "longest_first", "shortest_first", "random"])
 
@@ -23,11 +27,9 @@ orders = st.sampled_from(["index", "longest_first", "shortest_first", "random"])
 def test_plans_on_graphs_are_valid_and_not_better_than_optimal(seed, robots, order):
     random = np.random.default_rng(seed)
     asked = random_graph_problem(random, robots, ready=random.integers(0, 3, robots), **random_rules(random))
-    result = Prioritized(order=order, seed=seed % 7).plan(asked, BUDGET)
-    best = Cbs().plan(asked, BUDGET)
+    result = ask(Prioritized(order=order, seed=seed % 7), asked)
+    best = ask(Cbs(), asked)
     if result.status is PlanStatus.SOLVED:
-        report = check_plan(asked, result.plan)
-        assert report.valid, (report.faults, report.conflicts)
         assert result.lower_bound <= best.lower_bound <= result.plan.sum_of_costs
     elif result.status is PlanStatus.UNSOLVABLE:
         assert best.status in {PlanStatus.UNSOLVABLE, PlanStatus.TIMEOUT}
@@ -42,10 +44,7 @@ def test_crowds_are_planned_without_conflict(radius):
     solved = 0
     for _ in range(10):
         asked = random_grid_problem(random, 12, size=9, radius=radius)
-        result = Prioritized().plan(asked, Budget(wall_s=5, memory_bytes=1 << 30))
-        if result.status is PlanStatus.SOLVED:
-            solved += 1
-            assert check_plan(asked, result.plan).valid
+        solved += ask(Prioritized(), asked, budget=AMPLE).status is PlanStatus.SOLVED
     assert solved >= 5
 
 
@@ -54,19 +53,9 @@ def test_crowds_are_planned_without_conflict(radius):
 def test_plans_begin_with_what_was_released(seed):
     random = np.random.default_rng(seed)
     before = random_graph_problem(random, 3, **random_rules(random))
-    first = Prioritized().plan(before, BUDGET)
-    if first.status is not PlanStatus.SOLVED:
-        return
-    sizes = random.integers(0, 4, 3)
-    released = tuple(
-        attrs.evolve(path, edge=path.edge[:size], enter=path.enter[:size], leave=path.leave[:size])
-        for path, size in zip(first.plan.paths, sizes, strict=True)
-    )
-    after = attrs.evolve(before, commitments=released)
-    after = attrs.evolve(after, features=features_of(after) | before.features)
-    again = Prioritized().plan(after, BUDGET)
-    if again.status is PlanStatus.SOLVED:
-        assert check_plan(after, again.plan).valid
+    first = ask(Prioritized(), before)
+    if first.plan is not None:
+        ask(Prioritized(), with_plan_released(random, before, first.plan))
 
 
 def test_a_robot_that_blocks_another_plans_after_it():
@@ -82,8 +71,7 @@ def test_robots_that_park_in_one_anothers_way_start_late_by_chance_and_are_hurri
     road = grid(["#.#", "...", "#.#", "#.#"])  # 0; 1 2 3; 4; 5
     asked = problem(road, [5, 1], [2, 4])
     assert Prioritized(restarts=100).plan(asked, BUDGET).status is PlanStatus.GAVE_UP
-    result = Prioritized().plan(asked, BUDGET)
-    assert check_plan(asked, result.plan).valid
+    result = ask(Prioritized(), asked)
     assert 8 == Cbs().plan(asked, BUDGET).plan.sum_of_costs <= result.plan.sum_of_costs <= 10
 
 
