@@ -64,11 +64,14 @@ Roadmap make_roadmap(const Matrix<double, 2>& position, const Matrix<std::int32_
                      const nb::ndarray<const std::int32_t, nb::ndim<2>, nb::c_contig, nb::device::cpu>& duration) {
   require_size(duration.shape(1), edges.shape(0), "duration");
   std::vector<int> tail, head;
+  tail.reserve(edges.shape(0));
+  head.reserve(edges.shape(0));
   for (std::size_t e = 0; e < edges.shape(0); ++e) {
     tail.push_back(edges.data()[2 * e]);
     head.push_back(edges.data()[2 * e + 1]);
   }
   std::vector<Point> points;
+  points.reserve(position.shape(0));
   for (std::size_t v = 0; v < position.shape(0); ++v) {
     points.push_back({position.data()[2 * v], position.data()[2 * v + 1]});
   }

@@ -163,7 +163,7 @@ void solve(const Instance& instance, Heuristic heuristic, Limits& limits, Result
 }  // namespace
 
 Result solve_astar(const Instance& instance, Heuristic heuristic, Limits& limits) {
-  return solve_within(limits, [&](Result& result) { solve(instance, heuristic, limits, result); });
+  return solve_within(instance, limits, [&](Result& result) { solve(instance, heuristic, limits, result); });
 }
 
 }  // namespace mrpbench::mapf

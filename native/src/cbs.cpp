@@ -52,7 +52,7 @@ void solve(const Instance& instance, const CbsOptions& options, Limits& limits, 
 }  // namespace
 
 Result solve_cbs(const Instance& instance, const CbsOptions& options, Limits& limits) {
-  return solve_within(limits, [&](Result& result) { solve(instance, options, limits, result); });
+  return solve_within(instance, limits, [&](Result& result) { solve(instance, options, limits, result); });
 }
 
 }  // namespace mrpbench::mapf

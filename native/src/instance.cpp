@@ -32,6 +32,13 @@ Instance::Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Excl
   for (int robot = 0; robot < size(); ++robot) beginnings_.push_back(begin(robot));
 }
 
+std::size_t Instance::bytes() const {
+  std::size_t bytes = roadmap_.bytes() + resources_of_.capacity() * sizeof(resources_of_.front());
+  bytes += exclusions_.first.capacity() * sizeof(exclusions_.first.front());
+  bytes += exclusions_.element.capacity() * (sizeof(exclusions_.element.front()) + sizeof(double));
+  return bytes;
+}
+
 Beginning Instance::begin(int robot) const {
   const Robot& it = robots_[robot];
   Beginning result{{}, it.start, it.ready};

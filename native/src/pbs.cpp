@@ -220,7 +220,7 @@ class Pbs {
 }  // namespace
 
 Result solve_pbs(const Instance& instance, Limits& limits) {
-  return solve_within(limits, [&](Result& result) { Pbs(instance, limits, result).solve(); });
+  return solve_within(instance, limits, [&](Result& result) { Pbs(instance, limits, result).solve(); });
 }
 
 }  // namespace mrpbench::mapf

@@ -140,7 +140,7 @@ void solve(const Instance& instance, const PrioritizedOptions& options, Limits& 
 }  // namespace
 
 Result solve_prioritized(const Instance& instance, const PrioritizedOptions& options, Limits& limits) {
-  return solve_within(limits, [&](Result& result) { solve(instance, options, limits, result); });
+  return solve_within(instance, limits, [&](Result& result) { solve(instance, options, limits, result); });
 }
 
 }  // namespace mrpbench::mapf

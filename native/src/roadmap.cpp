@@ -18,6 +18,12 @@ Roadmap::Roadmap(int vertex_count, std::vector<int> tail, std::vector<int> head,
   index(head_, in_first_, in_edge_);
 }
 
+std::size_t Roadmap::bytes() const {
+  const std::size_t integers = tail_.capacity() + head_.capacity() + duration_.capacity() + out_first_.capacity() +
+                               out_edge_.capacity() + in_first_.capacity() + in_edge_.capacity();
+  return integers * sizeof(std::int32_t) + position_.capacity() * sizeof(Point);
+}
+
 void Roadmap::validate() const {
   if (head_.size() != tail_.size()) throw std::invalid_argument("edges need a vertex at both ends");
   if (duration_.size() != tail_.size() * static_cast<std::size_t>(profile_count_)) {

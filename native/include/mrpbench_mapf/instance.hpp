@@ -69,6 +69,8 @@ class Instance {
   }
   const Beginning& beginning(int robot) const { return beginnings_[robot]; }
   int size() const { return static_cast<int>(robots_.size()); }
+  /// What it takes in memory, but for what robots have.
+  std::size_t bytes() const;
   bool footprints() const { return !exclusions_.first.empty(); }
   /// Two elements closer than this exclude the two robots from one another.
   double reach(int one, int other) const {

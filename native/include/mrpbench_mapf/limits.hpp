@@ -74,9 +74,12 @@ void search_within_limits(Result& result, Body body) {
 
 /// What `body(result)` makes of a result until it ends or reaches a limit: the frame of every solver.
 template <class Body>
-Result solve_within(Limits& limits, Body body) {
+Result solve_within(const Instance& instance, Limits& limits, Body body) {
   Result result;
-  search_within_limits(result, [&] { body(result); });
+  search_within_limits(result, [&] {
+    limits.charge(instance.bytes());
+    body(result);
+  });
   result.statistics.memory_bytes = limits.memory_used();
   return result;
 }

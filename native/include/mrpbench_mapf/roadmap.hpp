@@ -33,6 +33,8 @@ class Roadmap {
     return {duration_.data() + static_cast<std::size_t>(profile) * tail_.size(), tail_.size()};
   }
   std::span<const Point> position() const { return position_; }
+  /// What it takes in memory.
+  std::size_t bytes() const;
 
  private:
   static std::span<const int> row(const std::vector<int>& first, const std::vector<int>& edge, int vertex) {

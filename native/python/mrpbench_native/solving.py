@@ -68,7 +68,9 @@ def solve(
             least, `ecbs`, `eecbs`, `ecbs_ta` and `ita_ecbs` one within `w`, the others any that works.
         algorithm: one of `ALGORITHMS`.
         time_limit: seconds of wall time, from 0; infinite: none.
-        memory_limit: bytes that the solver may take.
+        memory_limit: bytes that the solver may take. It counts the roadmap, tables, nodes and plans before it makes
+            them, and ends as `out_of_memory`, or with the best plan until then. Not counted is what Python holds
+            meanwhile, some 50 bytes for each cell of a grid, and the paths that are handed back.
         options: of the algorithm, such as `w` of `eecbs`; `options_of(algorithm)` lists them.
 
     Raises:

@@ -21,7 +21,7 @@ void solve(const Instance& instance, const BoundedOptions& options, Limits& limi
 }  // namespace
 
 Result solve_bounded(const Instance& instance, const BoundedOptions& options, Limits& limits) {
-  return solve_within(limits, [&](Result& result) { solve(instance, options, limits, result); });
+  return solve_within(instance, limits, [&](Result& result) { solve(instance, options, limits, result); });
 }
 
 }  // namespace mrpbench::mapf

@@ -1,7 +1,5 @@
 #include "mrpbench_mapf/lacam.hpp"
 
-#include <stdexcept>
-
 #include "lacam/arrivals.hpp"
 #include "lacam/lacam_search.hpp"
 #include "lns/improvement.hpp"
@@ -16,21 +14,18 @@ using namespace lns;
 
 class Lacam {
  public:
-  Lacam(const Instance& instance, const Moves& moves, const LacamOptions& options, Limits& limits, Result& result)
+  Lacam(const Instance& instance, const Moves& moves, DistanceTables& tables, const LacamOptions& options,
+        Limits& limits, Result& result)
       : instance_(instance),
         moves_(moves),
+        tables_(tables),
         options_(options),
         limits_(limits),
         result_(result),
-        tables_(instance, limits),
-        cut_off_(prove_unsolvable(instance, tables_, limits, result)),
-        search_(instance, moves, tables_, nullptr, options, limits, result.statistics) {}
+        search_(instance, moves, tables, nullptr, options, limits, result.statistics) {}
 
   void solve() {
-    if (cut_off_) return;
-    while (!search_.exhausted() && !search_.advance()) {
-    }
-    if (!search_.found()) {
+    if (!search_.find_first()) {
       result_.status = Status::unsolvable;
       return;
     }
@@ -136,11 +131,10 @@ class Lacam {
   static constexpr int kRepaired = 8;  // robots at a time
   const Instance& instance_;
   const Moves& moves_;
+  DistanceTables& tables_;
   const LacamOptions& options_;
   Limits& limits_;
   Result& result_;
-  DistanceTables tables_;
-  bool cut_off_;
   LacamSearch search_;
   Value best_{};
   Cost least_ = 0;
@@ -149,12 +143,12 @@ class Lacam {
 }  // namespace
 
 Result solve_lacam(const Instance& instance, const LacamOptions& options, Limits& limits) {
-  const auto moves = lacam::unit_moves(instance);
-  if (!moves && instance.size() > 0) throw std::invalid_argument("lacam needs a roadmap of unit moves");
-  return solve_within(limits, [&](Result& result) {
-    if (moves) return Lacam(instance, *moves, options, limits, result).solve();
-    result.status = Status::solved;
-    result.lower_bound = 0;
+  require_plain(instance, "lacam");
+  return solve_within(instance, limits, [&](Result& result) {
+    DistanceTables tables(instance, limits);
+    if (prove_unsolvable(instance, tables, limits, result)) return;
+    const Moves moves(instance, limits);
+    Lacam(instance, moves, tables, options, limits, result).solve();
   });
 }
 

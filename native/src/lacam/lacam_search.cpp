@@ -19,6 +19,12 @@ LacamSearch::LacamSearch(const Instance& instance, const Moves& moves, DistanceT
   ++statistics_.generated;
 }
 
+bool LacamSearch::find_first() {
+  while (!exhausted() && !advance()) {
+  }
+  return found();
+}
+
 bool LacamSearch::advance() {
   limits_.check_clock();
   Node& node = *open_.back();

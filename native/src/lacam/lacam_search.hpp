@@ -14,6 +14,8 @@ class LacamSearch {
   LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables, const Guides* guides,
               const LacamOptions& options, Limits& limits, Statistics& statistics);
 
+  /// Look for the first plan. False: there is none.
+  bool find_first();
   /// Look at one more configuration. True if there is a new way to the goal: `way()`.
   bool advance();
   std::vector<Configuration> way() const { return graph_.way_to(*goal_); }

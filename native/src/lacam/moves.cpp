@@ -1,11 +1,27 @@
 #include "lacam/moves.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 namespace mrpbench::mapf::lacam {
 
-Moves::Moves(const Roadmap& roadmap, int profile) {
-  const std::span<const Tick> duration = roadmap.duration(profile);
+namespace {
+
+int profile_of(const Instance& instance) {
+  return instance.size() == 0 ? 0 : instance.robots().front().profile;
+}
+
+}  // namespace
+
+Moves::Moves(const Instance& instance, Limits& limits) {
+  const Roadmap& roadmap = instance.roadmap();
+  const std::span<const Tick> duration = roadmap.duration(profile_of(instance));
+  const auto vertices = static_cast<std::size_t>(roadmap.vertex_count()), edges = duration.size();
+  limits.charge((vertices + 1 + 2 * edges) * sizeof(std::int32_t));
+  first_.reserve(vertices + 1);
+  head_.reserve(edges);
+  edge_.reserve(edges);
   first_.push_back(0);
   for (int vertex = 0; vertex < roadmap.vertex_count(); ++vertex) {
     const auto begin = static_cast<std::ptrdiff_t>(head_.size());
@@ -26,19 +42,21 @@ int Moves::edge(int tail, int head) const {
   return edge_[k];
 }
 
-std::optional<Moves> unit_moves(const Instance& instance) {
+bool is_plain(const Instance& instance) {
+  if (instance.size() == 0) return true;
   const Rules& rules = instance.rules();
-  if (instance.footprints() || !instance.resources().empty()) return std::nullopt;
-  if (rules.following_forbidden || rules.disappear_at_goal) return std::nullopt;
-  const int profile = instance.size() == 0 ? 0 : instance.robots().front().profile;
-  for (const Robot& robot : instance.robots()) {
-    const bool plain =
-        robot.profile == profile && robot.ready == 0 && robot.committed.empty() && robot.goals.size() == 1;
-    if (!plain) return std::nullopt;
-  }
-  const auto longer = [](Tick ticks) { return ticks > 1; };
-  if (std::ranges::any_of(instance.roadmap().duration(profile), longer)) return std::nullopt;
-  return Moves(instance.roadmap(), profile);
+  if (instance.footprints() || !instance.resources().empty()) return false;
+  if (rules.following_forbidden || rules.disappear_at_goal) return false;
+  const int profile = profile_of(instance);
+  const auto simple = [&](const Robot& robot) {
+    return robot.profile == profile && robot.ready == 0 && robot.committed.empty() && robot.goals.size() == 1;
+  };
+  if (!std::ranges::all_of(instance.robots(), simple)) return false;
+  return std::ranges::none_of(instance.roadmap().duration(profile), [](Tick ticks) { return ticks > 1; });
+}
+
+void require_plain(const Instance& instance, const char* solver) {
+  if (!is_plain(instance)) throw std::invalid_argument(std::string(solver) + " needs a roadmap of unit moves");
 }
 
 }  // namespace mrpbench::mapf::lacam

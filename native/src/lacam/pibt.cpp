@@ -1,7 +1,5 @@
 #include "mrpbench_mapf/pibt.hpp"
 
-#include <stdexcept>
-
 #include "lacam/configuration_step.hpp"
 #include "lacam/configurations.hpp"
 #include "mrpbench_mapf/arena.hpp"
@@ -12,9 +10,10 @@ namespace {
 
 using namespace lacam;
 
-void solve(const Instance& instance, const Moves& moves, const PibtOptions& options, Limits& limits, Result& result) {
+void solve(const Instance& instance, const PibtOptions& options, Limits& limits, Result& result) {
   DistanceTables tables(instance, limits);
   if (prove_unsolvable(instance, tables, limits, result)) return;
+  const Moves moves(instance, limits);
   ConfigurationStep step(instance, moves, tables, nullptr, options.swap, options.seed, limits);
   const std::vector<std::int32_t> goals = goals_of(instance), first = first_order(instance, tables);
   std::vector<std::int32_t> order = first, reordered = first, next(instance.size());
@@ -41,13 +40,8 @@ void solve(const Instance& instance, const Moves& moves, const PibtOptions& opti
 }  // namespace
 
 Result solve_pibt(const Instance& instance, const PibtOptions& options, Limits& limits) {
-  const auto moves = lacam::unit_moves(instance);
-  if (!moves && instance.size() > 0) throw std::invalid_argument("pibt needs a roadmap of unit moves");
-  return solve_within(limits, [&](Result& result) {
-    if (moves) return solve(instance, *moves, options, limits, result);
-    result.status = Status::solved;
-    result.lower_bound = 0;
-  });
+  require_plain(instance, "pibt");
+  return solve_within(instance, limits, [&](Result& result) { solve(instance, options, limits, result); });
 }
 
 }  // namespace mrpbench::mapf

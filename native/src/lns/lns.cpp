@@ -1,9 +1,8 @@
 #include "mrpbench_mapf/lns.hpp"
 
-#include "lacam/moves.hpp"
+#include "lacam/lacam_search.hpp"
 #include "lns/improvement.hpp"
 #include "lns/repair.hpp"
-#include "mrpbench_mapf/lacam.hpp"
 #include "mrpbench_mapf/solvability.hpp"
 
 namespace mrpbench::mapf {
@@ -54,7 +53,7 @@ class Lns {
 
   /// Put a plan without conflicts into `schedule` and the result, or set the status.
   bool begin(Schedule& schedule) {
-    const bool unit = options_.initial != Initial::repair && lacam::unit_moves(instance_).has_value();
+    const bool unit = options_.initial != Initial::repair && lacam::is_plain(instance_);
     if (unit && !begin_by_lacam()) return false;
     if (!unit || (options_.initial == Initial::either && !is_crowded())) repair(schedule, unit);
     if (result_.status != Status::solved) return false;
@@ -68,13 +67,17 @@ class Lns {
   }
 
   bool begin_by_lacam() {
-    LacamOptions options;
-    options.iterations = 0;
-    options.seed = options_.seed;
-    Result first = solve_lacam(instance_, options, limits_);
-    result_.status = first.status;
-    if (first.status == Status::solved) keep(std::move(first.paths));
-    return first.status == Status::solved;
+    const lacam::Moves moves(instance_, limits_);
+    const LacamOptions options{.seed = options_.seed};
+    Statistics of_search;
+    lacam::LacamSearch search(instance_, moves, tables_, nullptr, options, limits_, of_search);
+    if (!search.find_first()) {
+      result_.status = Status::unsolvable;
+      return false;
+    }
+    result_.status = Status::solved;
+    keep(lacam::paths_of(moves, search.way(), instance_.size()));
+    return true;
   }
 
   /// Take the repaired plan if it is cheaper than the one there is; with one, only try for a while.
@@ -100,7 +103,7 @@ class Lns {
 }  // namespace
 
 Result solve_lns(const Instance& instance, const LnsOptions& options, Limits& limits) {
-  return solve_within(limits, [&](Result& result) { Lns(instance, options, limits, result).solve(); });
+  return solve_within(instance, limits, [&](Result& result) { Lns(instance, options, limits, result).solve(); });
 }
 
 }  // namespace mrpbench::mapf
