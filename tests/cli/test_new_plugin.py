@@ -1,5 +1,6 @@
 """`mrpbench new-plugin`: what it writes installs, is found, passes its checks, and is gone when uninstalled."""
 
+import contextlib
 import json
 import os
 import shutil
@@ -9,6 +10,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from hatchling.build import build_wheel
 
 from mrpbench_core.cli.new_plugin import kinds
 
@@ -17,10 +19,9 @@ OPTIONS = {"scenario": ["robots=2"]}
 
 def install(folder: Path, site: Path) -> None:
     """Put a built wheel on the path: what pip does, which an environment made by uv lacks."""
-    command = [sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", str(site.parent), str(folder)]
-    subprocess.run(command, check=True, capture_output=True, timeout=100)
-    (wheel,) = site.parent.glob("*.whl")
-    zipfile.ZipFile(wheel).extractall(site)
+    with contextlib.chdir(folder):  # where a build backend is called (PEP 517)
+        wheel = build_wheel(str(site.parent))
+    zipfile.ZipFile(site.parent / wheel).extractall(site)
 
 
 @pytest.fixture
@@ -59,9 +60,14 @@ def test_a_new_plugin_works(kind, mrpbench, command, tmp_path):
     assert checked.returncode == 0, checked.stdout + checked.stderr
     assert " 0 failed" in checked.stdout
 
+
+def test_an_uninstalled_plugin_is_gone(mrpbench, command, tmp_path):
+    mrpbench("new-plugin", "metric", "acme-first")
+    install(tmp_path / "mrpbench-metrics-acme-first", tmp_path / "site")
+    assert "acme_first" in command("plugins", "metric").stdout
     shutil.rmtree(tmp_path / "site")
-    assert "acme_first" not in command("plugins", kind).stdout
-    assert command("check", f"{kind}:acme_first").returncode == 2
+    assert "acme_first" not in command("plugins", "metric").stdout
+    assert command("check", "metric:acme_first").returncode == 2
 
 
 @pytest.mark.parametrize("kind", kinds())

@@ -2,6 +2,8 @@ import json
 
 import pytest
 
+from mrpbench_core import run
+
 DRIVEN = """\
 name: driven
 world: {plugin: movingai, file: tiny.map}
@@ -16,18 +18,23 @@ limits: {execution: 60}
 """
 
 
-@pytest.fixture
-def driven(mrpbench, tmp_path):
-    (tmp_path / "driven.yaml").write_text(DRIVEN)
-    code, _, errors = mrpbench("run", "driven.yaml")
-    assert code == 0, errors
-    return mrpbench
+MAP = "type octile\nheight 3\nwidth 3\nmap\n...\n...\n...\n"
 
 
-def test_a_run_becomes_a_page_beside_its_results(driven, tmp_path):
-    code, output, _ = driven("view", "results/driven")
+@pytest.fixture(scope="module")
+def driven(tmp_path_factory):
+    """Return the results of a run with a recording."""
+    folder = tmp_path_factory.mktemp("driven")
+    (folder / "tiny.map").write_text(MAP)
+    (folder / "driven.yaml").write_text(DRIVEN)
+    run(folder / "driven.yaml", out=folder / "results")
+    return folder / "results"
+
+
+def test_a_run_becomes_a_page_beside_its_results(mrpbench, driven):
+    code, output, _ = mrpbench("view", driven)
     assert code == 0
-    (page,) = (tmp_path / "results" / "driven").glob("replay-*.html")
+    (page,) = driven.glob("replay-*.html")
     assert output.strip() == f"wrote {page}"
     text = page.read_text(encoding="utf-8")
     run = json.loads(text.split('id="run">')[1].split("</script>")[0])
@@ -38,9 +45,9 @@ def test_a_run_becomes_a_page_beside_its_results(driven, tmp_path):
     assert 'id="scans"' in text
 
 
-def test_pictures_are_written_where_asked(driven, tmp_path):
+def test_pictures_are_written_where_asked(mrpbench, driven, tmp_path):
     pytest.importorskip("matplotlib")
-    code, _, errors = driven("view", "results/driven", "--out", "a.html", "--png", "a.png", "--gif", "a.gif")
+    code, _, errors = mrpbench("view", driven, "--out", "a.html", "--png", "a.png", "--gif", "a.gif")
     assert code == 0, errors
     assert (tmp_path / "a.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
     assert (tmp_path / "a.png").read_bytes()[:4] == b"\x89PNG"

@@ -33,7 +33,7 @@ def planner():
     return found["prioritized"].load()()
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=12)
 @given(
     seed=st.integers(0, 2**32 - 1),
     robots=st.integers(1, 4),

@@ -59,6 +59,7 @@ def run(tmp_path, starts, goals, file=None, **fields):
         "dispatcher": "adg",
         "simulator": "kinematic",
         "limits": {"execution": "15 min"},
+        "control_rate": "10 Hz",
         "metrics": ["execution"],
         **fields,
     }

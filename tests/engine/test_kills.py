@@ -132,7 +132,7 @@ def test_an_interrupted_study_keeps_what_is_finished_and_goes_on(undisturbed, nu
     assert gone(workers)
     kept = len(load("out"))
     assert 3 <= kept < RUNS
-    assert finish(invoke("--workers", "2"))[0] == 0
+    run("odd.yaml", out="out", workers=2)
     assert essence("out") == undisturbed
 
 
@@ -161,5 +161,5 @@ def test_a_full_disk_ends_in_one_line_and_is_resumed(undisturbed):
     assert process.stderr.count("\n") == 1
     assert "cannot be written: File too large" in process.stderr
     assert 1 <= len(load("out")) < RUNS
-    assert finish(invoke("--workers", "2"))[0] == 0
+    run("odd.yaml", out="out", workers=2)
     assert essence("out") == undisturbed

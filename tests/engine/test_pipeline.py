@@ -22,6 +22,8 @@ FIRST = {
     "planner": "example",
     "limits": {"execution": "200 s"},
 }
+SHORT = {"execution": "20 s"}
+"""For what need not arrive."""
 
 
 def execute_first(tmp_path: Path, *overrides: str, observers: Observers | None = None, **changes):
@@ -37,8 +39,15 @@ def digest(file: Path) -> str:
     return hashlib.sha256(file.read_bytes()).hexdigest()
 
 
-def test_a_run_goes_through_every_stage_and_succeeds(tmp_path):
-    record, stages = execute_first(tmp_path)
+@pytest.fixture(scope="module")
+def first(tmp_path_factory):
+    """The run that `FIRST` describes: its record, the stages announced, its folder."""
+    folder = tmp_path_factory.mktemp("first")
+    return *execute_first(folder), folder
+
+
+def test_a_run_goes_through_every_stage_and_succeeds(first):
+    record, stages, folder = first
     before, after = ["world", "roadmap", "scenario", "assignment"], ["execution", "export", "metrics"]
     assert stages == [*before, "planning", "checking", *after]  # the limit of planning ends with the planner
     assert record["status"] == "succeeded"
@@ -46,12 +55,11 @@ def test_a_run_goes_through_every_stage_and_succeeds(tmp_path):
     assert record["metrics"]["execution.goals_reached"] == 3
     assert record["metrics"]["execution.robot_contacts"] == 0
     assert record["timing"]["real_time_factor"] > 1
-    assert (tmp_path / "run.zip").is_file()
+    assert (folder / "run.zip").is_file()
 
 
-def test_robots_end_within_tolerance_of_their_goals(tmp_path):
-    execute_first(tmp_path)
-    recording = Recording(tmp_path / "run.zip")
+def test_robots_end_within_tolerance_of_their_goals(first):
+    recording = Recording(first[-1] / "run.zip")
     end, goal = recording.channel("truth")[-1, :, :2], np.array(recording.context().goal)[:, :2]
     recording.close()
     assert np.hypot(*(end - goal).T).max() <= 0.11
@@ -61,15 +69,15 @@ def test_robots_end_within_tolerance_of_their_goals(tmp_path):
 def test_the_same_run_is_recorded_the_same(tmp_path, noise):
     digests = set()
     for name in ("one", "two"):
-        record, _ = execute_first(tmp_path / name, noise=noise, recording={"scans": True})
-        digests.add((record["metrics"]["execution.duration_s"], digest(tmp_path / name / "run.zip")))
+        record, _ = execute_first(tmp_path / name, noise=noise, recording={"scans": True}, limits=SHORT)
+        digests.add((record["metrics"]["execution.min_distance_m"], digest(tmp_path / name / "run.zip")))
     assert len(digests) == 1
 
 
 def test_a_repeat_meets_the_same_scenario_with_other_noise(tmp_path):
     noise = {"start_jitter": "5 s"}
-    first, _ = execute_first(tmp_path / "0", noise=noise)
-    again, _ = execute_first(tmp_path / "1", noise=noise, repeat=1)
+    first, _ = execute_first(tmp_path / "0", noise=noise, limits=SHORT)
+    again, _ = execute_first(tmp_path / "1", noise=noise, repeat=1, limits=SHORT)
     assert first["scenario_id"] == again["scenario_id"]
     assert first["metrics"]["planning.makespan"] == again["metrics"]["planning.makespan"]
     assert digest(tmp_path / "0" / "run.zip") != digest(tmp_path / "1" / "run.zip")
@@ -108,7 +116,7 @@ def test_too_little_time_misses_goals(tmp_path):
 
 @pytest.mark.parametrize(("keep", "kept"), [("all", True), ("failed", False), ("none", False)])
 def test_recordings_of_successes_are_kept_as_asked(tmp_path, keep, kept):
-    record, _ = execute_first(tmp_path, recording={"keep": keep})
+    record, _ = execute_first(tmp_path, "scenario.robots=1", recording={"keep": keep})
     assert record["metrics"]["execution.success"] is True
     assert (tmp_path / "run.zip").exists() is kept
 

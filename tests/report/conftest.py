@@ -50,12 +50,11 @@ def made(planner="cbs", seed=0, status="succeeded", *, repeat=0, cost=None, took
     } | more
 
 
-@pytest.fixture
-def results(tmp_path):
+@pytest.fixture(scope="session")
+def written():
     """Return a function that writes records into a results folder and loads it."""
 
-    def write(records, name="results", invocation=INVOCATION):
-        folder = tmp_path / name
+    def write(records, folder, invocation=INVOCATION):
         (folder / "runs").mkdir(parents=True, exist_ok=True)
         (folder / "invocations").mkdir(exist_ok=True)
         (folder / "invocations" / "1.yaml").write_text(invocation)
@@ -67,6 +66,16 @@ def results(tmp_path):
 
 
 @pytest.fixture
+def results(tmp_path, written):
+    """Return a function that does so in a folder of this test."""
+
+    def write(records, name="results", invocation=INVOCATION):
+        return written(records, tmp_path / name, invocation)
+
+    return write
+
+
+@pytest.fixture(scope="session")
 def record():
     """Return a function that makes a record."""
     return made

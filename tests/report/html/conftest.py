@@ -6,8 +6,8 @@ from mrpbench_core.report.analysis import analyse
 from mrpbench_core.report.html.page import write_report
 
 
-@pytest.fixture
-def study(results, record):
+@pytest.fixture(scope="package")
+def study(written, record, tmp_path_factory):
     """Return results of two planners on ten scenarios, one of them worse and with failures that carry markup."""
     records = []
     for planner, more in (("cbs", 0.0), ("<b>bad</b>", 1.0)):
@@ -20,13 +20,13 @@ def study(results, record):
                 took = 0.01 * (seed + 1) * (1 + more)
                 records.append(record(planner, seed, status, repeat=repeat, cost=cost, took=took, **extra))
     records.append(record("cbs", 77, "scenario_infeasible", scenario="none"))
-    return results(records)
+    return written(records, tmp_path_factory.mktemp("study"))
 
 
-@pytest.fixture
-def page(study, tmp_path):
+@pytest.fixture(scope="package")
+def page(study, tmp_path_factory):
     """Return the page's file."""
-    file = tmp_path / "report.html"
+    file = tmp_path_factory.mktemp("page") / "report.html"
     analysis = analyse([study], ["planning.cost", "timing.planning_s", "timing.planning_par2_s"])
     write_report(analysis, file, {"cbs-0-0-5-": "results/replay-cbs.html"})
     return file

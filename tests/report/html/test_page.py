@@ -102,7 +102,7 @@ def test_a_page_without_anything_to_compare(results, record, tmp_path):
 
 def test_a_folder_that_does_not_exist_is_named(study, tmp_path):
     with pytest.raises(InputError, match="cannot be written"):
-        write_report(analyse([study]), tmp_path / "no" / "a.html")
+        write_report(analyse([study], ["planning.cost"]), tmp_path / "no" / "a.html")
 
 
 def test_numbers_in_a_row_are_a_span():

@@ -14,6 +14,10 @@ def count(image, colour):
     return np.abs(np.asarray(image.convert("RGB")).astype(int) - wanted).max(axis=2) <= 8
 
 
+def first(chunk, samples):
+    return {name: rows[:samples] for name, rows in chunk.items()}
+
+
 def test_robots_move_through_the_frames(store, chunk, tmp_path):
     write_gif(store(chunk), tmp_path / "a.gif")
     with images.open(tmp_path / "a.gif") as movie:
@@ -34,14 +38,14 @@ def test_robots_move_through_the_frames(store, chunk, tmp_path):
 
 def test_a_folder_that_does_not_exist_is_named(store, chunk, tmp_path):
     with pytest.raises(InputError, match="cannot be written"):
-        write_gif(store(chunk), tmp_path / "no" / "a.gif")
+        write_gif(store(first(chunk, 3)), tmp_path / "no" / "a.gif")
 
 
 def test_robots_elsewhere_or_unknown_are_left_out(store, chunk, tmp_path):
     truth, level = chunk["truth"].copy(), chunk["level"].copy()
     truth[:, 0] = np.nan
     level[:, 1] = 1
-    world_without_robots = store(chunk | {"truth": truth, "level": level})
+    world_without_robots = store(first(chunk | {"truth": truth, "level": level}, 3))
     write_gif(world_without_robots, tmp_path / "a.gif")
     with images.open(tmp_path / "a.gif") as movie:
         assert not count(movie, COLOURS[0]).any()

@@ -57,7 +57,7 @@ class Heard(Progress):
 
 
 class LocalCluster:
-    """One scheduler and worker processes, each of them started as on any machine."""
+    """One scheduler and two worker processes, each of them started as on any machine."""
 
     def __init__(self, folder):
         self.folder = folder
@@ -68,7 +68,14 @@ class LocalCluster:
         while not self.file.exists():
             assert time.monotonic() < deadline
             time.sleep(0.05)
-        self.workers = [self.start("worker", "--no-nanny", "--nthreads", "1", "--no-dashboard") for _ in range(2)]
+        self.workers = []
+        self.complete()
+
+    def complete(self):
+        """Start workers in place of those that were killed."""
+        self.workers = [worker for worker in self.workers if worker.poll() is None]
+        while len(self.workers) < 2:
+            self.workers.append(self.start("worker", "--no-nanny", "--nthreads", "1", "--no-dashboard"))
 
     def start(self, what, *words):
         command = [sys.executable, "-m", "distributed.cli.dask_" + what, "--scheduler-file", str(self.file), *words]
@@ -87,17 +94,25 @@ class LocalCluster:
             process.wait(timeout=30)
 
 
-@pytest.fixture
-def cluster(tmp_path_factory):
+@pytest.fixture(scope="module")
+def scheduler(tmp_path_factory):
+    """Return a cluster whose scheduler lasts."""
     made = LocalCluster(tmp_path_factory.mktemp("cluster"))
     yield made
     made.close()
 
 
-@pytest.fixture(scope="module")
-def lasting_cluster(tmp_path_factory):
-    """One for tests that kill nobody."""
-    made = LocalCluster(tmp_path_factory.mktemp("cluster"))
+@pytest.fixture
+def cluster(scheduler):
+    """Return it with two workers, which a test may kill."""
+    scheduler.complete()
+    return scheduler
+
+
+@pytest.fixture
+def doomed(tmp_path):
+    """Return a cluster that a test may kill as a whole."""
+    made = LocalCluster(tmp_path)
     yield made
     made.close()
 
@@ -176,16 +191,16 @@ def _end_the_worker():
     os._exit(1)
 
 
-def test_a_lost_scheduler_ends_the_study_in_one_line_and_it_can_go_on(cluster, study, tmp_path):
+def test_a_lost_scheduler_ends_the_study_in_one_line_and_it_can_go_on(doomed, study, tmp_path):
     def kill_the_scheduler():
         while len(list((tmp_path / "marks").iterdir())) < 3:
             time.sleep(0.02)
-        cluster.processes[0].kill()
+        doomed.processes[0].kill()
 
     killer = threading.Thread(target=kill_the_scheduler)
     killer.start()
     with pytest.raises(InputError, match="the Dask scheduler was lost"):
-        run(study, out="there", workers=2, executor="dask", executor_options={"scheduler": cluster.address})
+        run(study, out="there", workers=2, executor="dask", executor_options={"scheduler": doomed.address})
     killer.join()
     kept = len(load("there"))
     assert kept < 8
@@ -201,8 +216,8 @@ def test_no_scheduler_is_one_line():
 
 class TestConformance(ExecutorConformance):
     @pytest.fixture(autouse=True)
-    def _use(self, lasting_cluster):
-        self.address = lasting_cluster.address
+    def _use(self, cluster):
+        self.address = cluster.address
 
     def make(self):
         return Dask(scheduler=self.address)

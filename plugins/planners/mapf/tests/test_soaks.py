@@ -10,7 +10,7 @@ from soaking import run
 from mrpbench_core.model.plan import PlanStatus
 
 
-@pytest.mark.parametrize(("soak", "count"), [(soak_planners.SOAK, 80), (soak_assigning.SOAK, 48)])
+@pytest.mark.parametrize(("soak", "count"), [(soak_planners.SOAK, 45), (soak_assigning.SOAK, 36)])
 def test_nothing_is_wrong_with_the_first_instances(soak, count, capsys):
     assert run(soak, count, seed=1) == 0
     printed = capsys.readouterr().out
