@@ -4,6 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 UV := $(shell command -v uv)
 STAMP := $(VENV)/.installed
+JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
@@ -54,8 +55,8 @@ cpp: install ## C++ tests, without Python
 	$(BIN)/cmake --build build/native
 	$(BIN)/ctest --test-dir build/native --output-on-failure
 
-python: install ## Python tests
-	$(BIN)/pytest
+python: install ## Python tests, JOBS at a time
+	$(BIN)/pytest --numprocesses $(JOBS) --dist worksteal
 
 soak: install ## thousands of random instances against brute force, and studies disturbed at random (an hour)
 	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1

@@ -27,7 +27,7 @@ class Session(ControllerSession):
         self.inner = inner
 
     def command(self, observation):
-        stopped = self.held and 5 < observation.now < 65
+        stopped = self.held and 5 < observation.now < 45
         return (0.0, 0.0) if stopped else self.inner.command(observation)
 
 

@@ -33,10 +33,4 @@ class Astar(Planner):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`; unsolvable if some robot cannot reach its goal."""
-        return solve(
-            problem,
-            budget,
-            lambda instance, wall_s, memory_bytes: mapf.astar(
-                instance, heuristic=self.heuristic, wall_s=wall_s, memory_bytes=memory_bytes
-            ),
-        )
+        return solve(problem, budget, mapf.astar, **attrs.asdict(self))

@@ -13,7 +13,16 @@ from mrpbench_planners_mapf.native import solve
 from mrpbench_planners_mapf.techniques import ConflictBased, Techniques, heuristic_option
 
 PROMISES = frozenset({Promise.CONFLICT_FREE, Promise.BOUNDED, Promise.COMPLETE, Promise.DETERMINISTIC})
-W = attrs.validators.and_(attrs.validators.ge(1.0), attrs.validators.le(1e9))
+
+
+def bound_option() -> float:
+    """The option that sets the bound."""
+    w: float = option(
+        1.2,
+        help="The plan costs at most this many times the lower bound; at least 1.",
+        validator=attrs.validators.and_(attrs.validators.ge(1.0), attrs.validators.le(1e9)),
+    )
+    return w
 
 
 @attrs.frozen(kw_only=True)
@@ -27,29 +36,25 @@ class Ecbs(ConflictBased):
 
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
-    w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
+    w: float = bound_option()
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
         return solve(
             problem,
             budget,
-            lambda instance, wall_s, memory_bytes: mapf.bounded_cbs(
-                instance,
-                selection="focal",
-                w=self.w,
-                prioritize=False,
-                bypass=False,
-                heuristic=False,
-                target=False,
-                corridor=False,
-                rectangle=False,
-                flex=False,
-                distance_weight=1.0,
-                conflict_weight=0.0,
-                wall_s=wall_s,
-                memory_bytes=memory_bytes,
-            ),
+            mapf.bounded_cbs,
+            selection="focal",
+            w=self.w,
+            prioritize=False,
+            bypass=False,
+            heuristic=False,
+            target=False,
+            corridor=False,
+            rectangle=False,
+            flex=False,
+            distance_weight=1.0,
+            conflict_weight=0.0,
         )
 
 
@@ -64,7 +69,7 @@ class Eecbs(Techniques):
 
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
-    w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
+    w: float = bound_option()
     heuristic: bool = heuristic_option()
     flex: bool = option(
         False, help="Let a robot's path use what the others leave of the common bound (Chan et al., AAAI 2022)."
@@ -83,14 +88,4 @@ class Eecbs(Techniques):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return solve(
-            problem,
-            budget,
-            lambda instance, wall_s, memory_bytes: mapf.bounded_cbs(
-                instance,
-                selection="explicit_estimation",
-                **attrs.asdict(self),
-                wall_s=wall_s,
-                memory_bytes=memory_bytes,
-            ),
-        )
+        return solve(problem, budget, mapf.bounded_cbs, selection="explicit_estimation", **attrs.asdict(self))

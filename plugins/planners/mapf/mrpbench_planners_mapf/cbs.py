@@ -36,13 +36,7 @@ class Cbs(Techniques):
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
         techniques = {name: value for name, value in attrs.asdict(self).items() if name != "assign"}
-        return solve(
-            problem,
-            budget,
-            lambda instance, wall_s, memory_bytes: mapf.cbs(
-                instance, **techniques, wall_s=wall_s, memory_bytes=memory_bytes
-            ),
-        )
+        return solve(problem, budget, mapf.cbs, **techniques)
 
     def skip(self, problem: Problem) -> str | None:
         """See `Planner.skip`; also, with `assign`, robots that disappear at their goals."""

@@ -28,13 +28,7 @@ class CbsTa(AssigningTechniques):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return solve(
-            problem,
-            budget,
-            lambda instance, wall_s, memory_bytes: mapf.cbs(
-                instance, goal_choice="ranked", **attrs.asdict(self), wall_s=wall_s, memory_bytes=memory_bytes
-            ),
-        )
+        return solve(problem, budget, mapf.cbs, goal_choice="ranked", **attrs.asdict(self))
 
 
 @attrs.frozen(kw_only=True)
@@ -50,15 +44,4 @@ class ItaCbs(AssigningTechniques):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return solve(
-            problem,
-            budget,
-            lambda instance, wall_s, memory_bytes: mapf.cbs(
-                instance,
-                goal_choice="by_node",
-                heuristic=False,
-                **attrs.asdict(self),
-                wall_s=wall_s,
-                memory_bytes=memory_bytes,
-            ),
-        )
+        return solve(problem, budget, mapf.cbs, goal_choice="by_node", heuristic=False, **attrs.asdict(self))

@@ -5,11 +5,10 @@ from typing import Any, ClassVar
 import attrs
 from mrpbench_native import mapf
 
-from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Problem
-from mrpbench_planners_mapf.bounded import PROMISES, W
+from mrpbench_planners_mapf.bounded import PROMISES, bound_option
 from mrpbench_planners_mapf.native import solve
 from mrpbench_planners_mapf.techniques import AssigningTechniques
 
@@ -32,7 +31,7 @@ class EcbsTa(AssigningTechniques):
 
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
-    w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
+    w: float = bound_option()
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
@@ -48,7 +47,7 @@ class ItaEcbs(AssigningTechniques):
 
     promises: ClassVar[frozenset[Promise]] = PROMISES
 
-    w: float = option(1.2, help="The plan costs at most this many times the lower bound; at least 1.", validator=W)
+    w: float = bound_option()
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
@@ -56,15 +55,4 @@ class ItaEcbs(AssigningTechniques):
 
 
 def _solve(planner: EcbsTa | ItaEcbs, problem: Problem, budget: Budget, goal_choice: str) -> PlanResult:
-    return solve(
-        problem,
-        budget,
-        lambda instance, wall_s, memory_bytes: mapf.bounded_cbs(
-            instance,
-            goal_choice=goal_choice,
-            **FOCAL,
-            **attrs.asdict(planner),
-            wall_s=wall_s,
-            memory_bytes=memory_bytes,
-        ),
-    )
+    return solve(problem, budget, mapf.bounded_cbs, goal_choice=goal_choice, **FOCAL, **attrs.asdict(planner))

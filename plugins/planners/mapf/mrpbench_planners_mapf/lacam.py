@@ -40,23 +40,7 @@ class Lacam(Planner):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return solve(
-            problem,
-            budget,
-            lambda instance, wall_s, memory_bytes: mapf.lacam(
-                instance,
-                objective=self.objective,
-                swap=self.swap,
-                prioritized=self.prioritized,
-                guides=self.guides,
-                star=self.star,
-                neighbourhoods=self.neighbourhoods,
-                iterations=budget.iterations,
-                seed=self.seed,
-                wall_s=wall_s,
-                memory_bytes=memory_bytes,
-            ),
-        )
+        return solve(problem, budget, mapf.lacam, **attrs.asdict(self), iterations=budget.iterations)
 
     def skip(self, problem: Problem) -> str | None:
         """See `Planner.skip`; also robots that disappear at their goals."""

@@ -42,17 +42,4 @@ class Lns(Planner):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return solve(
-            problem,
-            budget,
-            lambda instance, wall_s, memory_bytes: mapf.lns(
-                instance,
-                objective=self.objective,
-                initial=self.initial,
-                neighbourhood=self.neighbourhood,
-                iterations=budget.iterations,
-                seed=self.seed,
-                wall_s=wall_s,
-                memory_bytes=memory_bytes,
-            ),
-        )
+        return solve(problem, budget, mapf.lns, **attrs.asdict(self), iterations=budget.iterations)

@@ -25,12 +25,12 @@ SUPPORTED = frozenset(
 NOTHING = Path(edge=np.empty(0, np.int32), enter=np.empty(0, np.int64), leave=np.empty(0, np.int64))
 
 
-def solve(problem: Problem, budget: Budget, solver: Callable[[mapf.Instance, float, int], mapf.Answer]) -> PlanResult:
-    """Call `solver(instance, wall_s, memory_bytes)` with what is left of `budget` after the conversion."""
+def solve(problem: Problem, budget: Budget, solver: Callable[..., mapf.Answer], **options: object) -> PlanResult:
+    """Ask a solver, with its options and what is left of `budget` after the conversion."""
     start = time.monotonic()
     instance = _instance(problem)
     converted = time.monotonic() - start
-    answer = solver(instance, budget.wall_s - converted, budget.memory_bytes)
+    answer = solver(instance, **options, wall_s=budget.wall_s - converted, memory_bytes=budget.memory_bytes)
     status = PlanStatus(answer.status)
     return PlanResult(
         status=status,

@@ -24,8 +24,4 @@ class Pbs(Planner):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return solve(
-            problem,
-            budget,
-            lambda instance, wall_s, memory_bytes: mapf.pbs(instance, wall_s=wall_s, memory_bytes=memory_bytes),
-        )
+        return solve(problem, budget, mapf.pbs)

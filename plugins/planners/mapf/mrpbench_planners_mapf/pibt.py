@@ -34,13 +34,7 @@ class Pibt(Planner):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return solve(
-            problem,
-            budget,
-            lambda instance, wall_s, memory_bytes: mapf.pibt(
-                instance, swap=self.swap, steps=self.steps, seed=self.seed, wall_s=wall_s, memory_bytes=memory_bytes
-            ),
-        )
+        return solve(problem, budget, mapf.pibt, **attrs.asdict(self))
 
     def skip(self, problem: Problem) -> str | None:
         """See `Planner.skip`; also robots that disappear at their goals."""

@@ -39,15 +39,4 @@ class Prioritized(Planner):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return solve(
-            problem,
-            budget,
-            lambda instance, wall_s, memory_bytes: mapf.prioritized(
-                instance,
-                order=self.order,
-                restarts=self.restarts,
-                seed=self.seed,
-                wall_s=wall_s,
-                memory_bytes=memory_bytes,
-            ),
-        )
+        return solve(problem, budget, mapf.prioritized, **attrs.asdict(self))

@@ -7,12 +7,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_native.sim import Caster
 from mrpbench_simulators_planar import Planar
-from planar_rooms import BURGER, EMPTY, RASTER, ROOM, STARTS, WAFFLE, drive
+from planar_robots import BURGER, STARTS, WAFFLE
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.builtin.simulators.lidar import scan
 from mrpbench_core.model.fleet import Lidar
 from mrpbench_core.model.solids import segments, wall_boxes
+from mrpbench_core.testing.drives import EMPTY, FURNISHED, RASTER, drive
 
 
 def both(world, robots, starts, periods=8, **options):
@@ -25,7 +26,7 @@ def both(world, robots, starts, periods=8, **options):
     return tuple(np.concatenate([batch.ranges.ravel() for batch in scans]) for scans in (ours, theirs))
 
 
-@pytest.mark.parametrize("world", [ROOM, RASTER], ids=["walls", "raster"])
+@pytest.mark.parametrize("world", [FURNISHED, RASTER], ids=["walls", "raster"])
 def test_ranges_are_those_of_the_kinematic_simulator(world):
     starts = STARTS
     if world is RASTER:  # in the middle of free cells
@@ -97,7 +98,7 @@ def rotated(mount, yaw):
 def test_a_scan_does_not_depend_on_which_others_are_taken_with_it():
     lidar = BURGER.lidar
     caster = Caster(
-        segments=segments(ROOM), beams=lidar.beams, range=lidar.range, min_range=0.12, forward=-0.032, leftward=0.0
+        segments=segments(FURNISHED), beams=lidar.beams, range=lidar.range, min_range=0.12, forward=-0.032, leftward=0.0
     )
     pose, radius, nobody = np.array(STARTS, float), np.full(6, BURGER.radius), np.empty((0, 2))
     together = caster.scan(np.arange(6, dtype=np.int32), pose, nobody, radius)

@@ -6,11 +6,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_simulators_planar import Planar
-from planar_rooms import BURGER, EMPTY, PERIOD, ROOM, STARTS, WAFFLE, drive
+from planar_robots import BURGER, STARTS, WAFFLE
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.model.geometry import point_segment_distance
 from mrpbench_core.model.solids import segments
+from mrpbench_core.testing.drives import EMPTY, FURNISHED, drive
+from mrpbench_core.testing.room import PERIOD
 
 TOLERANCE = 1e-4
 """metres: the overlap that contacts may leave."""
@@ -39,7 +41,7 @@ def test_robots_that_touch_walls_and_each_other_move_as_in_the_kinematic_simulat
     """Where many push each other, rounding grows; a minute with hundreds of contacts shows by how much."""
     robots = (BURGER,) * 4 + (WAFFLE,) * 2
     starts = [[1, 1, 0.3], [1.3, 1.1, 2], [1.2, 1.4, -1], [0.3, 0.3, 3], [2.5, 1, -2.5], [2, 0.5, 1]]
-    (ours, _), (theirs, _) = (drive(kind, ROOM, robots, starts, wander, 1200) for kind in (Planar(), Kinematic()))
+    (ours, _), (theirs, _) = (drive(kind, FURNISHED, robots, starts, wander, 1200) for kind in (Planar(), Kinematic()))
     touched = sum(len(state.contacts) for state in theirs)
     assert touched > 300
     assert [state.contacts.tolist() for state in ours] == [state.contacts.tolist() for state in theirs]
@@ -80,8 +82,8 @@ commands = st.lists(st.tuples(st.floats(-1, 1), st.floats(-4, 4)), min_size=6, m
 def test_whatever_robots_do_they_overlap_nothing(plan, slip, noise):
     robots = (BURGER,) * 5 + (attrs.evolve(WAFFLE, max_speed=2.0),)
     simulator = Planar(slip=slip, actuation_noise=noise)
-    states, _ = drive(simulator, ROOM, robots, STARTS, lambda period: plan[period // 25 % len(plan)], 100, seed=3)
-    radii, outline = np.array([robot.radius for robot in robots]), segments(ROOM)
+    states, _ = drive(simulator, FURNISHED, robots, STARTS, lambda period: plan[period // 25 % len(plan)], 100, seed=3)
+    radii, outline = np.array([robot.radius for robot in robots]), segments(FURNISHED)
     first, second = np.triu_indices(6, 1)
     for state in states:
         place = state.pose[:, :2]
@@ -97,7 +99,7 @@ def test_whatever_robots_do_they_overlap_nothing(plan, slip, noise):
 
 def test_a_fast_robot_does_not_pass_through_a_wall():
     fast = attrs.evolve(BURGER, max_speed=20.0, acceleration=1000.0)
-    states, _ = drive(Planar(), ROOM, (fast,), [[1, 1, 0]], [[20, 0]], 20)
+    states, _ = drive(Planar(), FURNISHED, (fast,), [[1, 1, 0]], [[20, 0]], 20)
     assert states[-1].pose[0, 0] < 2.95
 
 
@@ -135,6 +137,6 @@ def test_slipping_wheels_report_the_speed_over_ground():
 
 
 def test_no_robots_are_fine():
-    states, scans = drive(Planar(), ROOM, (), np.empty((0, 3)), np.empty((0, 2)), 3)
+    states, scans = drive(Planar(), FURNISHED, (), np.empty((0, 3)), np.empty((0, 2)), 3)
     assert states[-1].pose.shape == (0, 3)
     assert not scans

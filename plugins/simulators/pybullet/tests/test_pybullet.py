@@ -13,39 +13,19 @@ from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.execution import Inputs
 from mrpbench_core.model.fleet import Fleet, Lidar
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Door, Level, Obstacle, World
+from mrpbench_core.model.world import Door, Level, World
+from mrpbench_core.testing.drives import EMPTY, FURNISHED, RASTER, drive
+from mrpbench_core.testing.room import PERIOD
 
 pytest.importorskip("pybullet", reason="PyBullet has no wheel for this Python")
 
-PERIOD = 0.05
 MODELS = pytest.mark.parametrize("model", ["wheels", "body"])
 BURGER = load_robot("turtlebot3_burger")
-EMPTY = World(name="empty", levels=(Level(name="L1"),))
-ROOM = World(
-    name="room",
-    levels=(
-        Level(
-            name="L1",
-            walls=[[0, 0, 6, 0], [6, 0, 6, 5], [6, 5, 0, 5], [0, 5, 0, 0], [3, 0, 3, 2], [3, 2, 4, 2.5]],
-            obstacles=(Obstacle(name="crate", polygon=[[1, 3], [1.6, 3.2], [1.2, 3.8]]),),
-        ),
-    ),
-)
-RASTER = World(
-    name="raster",
-    levels=(Level(name="L1", occupancy=Occupancy(blocked=np.arange(70).reshape(7, 10) % 6 == 5, cell_size=0.7)),),
-)
 
 
 def run(simulator, world, robots, starts, command, seconds, movers=(), place=None):
     """States before and after every period, and all scans."""
-    with simulator.open(world, Fleet(robots=robots), np.array(starts, float), 0, PERIOD, movers) as simulation:
-        states, scans = [simulation.state], [*simulation.scans()]
-        for _ in range(round(seconds / PERIOD)):
-            states.append(simulation.step(Inputs(twist=np.array(command, float), movers=place)))
-            scans += simulation.scans()
-    return states, scans
+    return drive(simulator, world, robots, starts, command, round(seconds / PERIOD), movers, place)
 
 
 def turned(states):
@@ -138,7 +118,7 @@ def test_ray_tests_and_the_native_caster_see_the_same():
     starts = [[1, 1, 0.3], [2.3, 1.7, 2], [4.4, 1, -1], [5, 4, 3], [2.5, 4.2, -2.5], [1.75, 1.2, 1]]
     place, command = np.array([[3.5, 3.5, 0, 0], [4.5, 2.5, 0.1, 0]]), np.tile((0.1, 0.4), (6, 1))
     door = Door(name="door", start=(4.0, 2.5), end=(5.9, 2.5), motion="hinged")
-    world = attrs.evolve(ROOM, levels=(attrs.evolve(ROOM.levels[0], doors=(door,)),))
+    world = attrs.evolve(FURNISHED, levels=(attrs.evolve(FURNISHED.levels[0], doors=(door,)),))
     (_, rays), (_, cast) = (
         run(PyBullet(lidar=kind), world, (BURGER,) * 6, starts, command, 2, (0.2, 0.3), place)
         for kind in ("pybullet", "native")
@@ -158,7 +138,7 @@ def test_a_longer_timestep_gives_nearly_the_same_motion():
     assert np.allclose(fine, coarse, atol=0.02)
 
 
-@pytest.mark.parametrize("world", [ROOM, RASTER], ids=["walls", "raster"])
+@pytest.mark.parametrize("world", [FURNISHED, RASTER], ids=["walls", "raster"])
 @pytest.mark.parametrize("lidar", ["pybullet", "native"])
 def test_lidars_of_both_simulators_agree(world, lidar):
     starts = [[1, 1, 0.3], [2.3, 1.7, 2], [4.4, 1, -1], [5, 4, 3], [2.5, 4.2, -2.5], [1.75, 1.2, 1]]
@@ -181,7 +161,7 @@ def test_large_worlds_are_several_meshes_that_act_as_one(monkeypatch):
     (whole, seen), (parts, seen_in_parts) = (
         (
             monkeypatch.setattr(walls, "_SEGMENTS", size),
-            run(PyBullet(lidar="pybullet"), ROOM, (BURGER,), [[5.6, 3.5, 0]], command, 3),
+            run(PyBullet(lidar="pybullet"), FURNISHED, (BURGER,), [[5.6, 3.5, 0]], command, 3),
         )[1]
         for size in (10_000, 7)
     )
@@ -196,15 +176,15 @@ def test_robots_see_each_other_as_discs():
 
 
 def test_more_beams_than_one_call_can_take():
-    lidar = Lidar(beams=20_000, range=9.0, mount=(0, 0, 0.2))
-    _, scans = run(PyBullet(lidar="pybullet"), ROOM, (attrs.evolve(BURGER, lidar=lidar),), [[1, 1, 0]], [[0, 0]], 0)
+    robot = attrs.evolve(BURGER, lidar=Lidar(beams=20_000, range=9.0, mount=(0, 0, 0.2)))
+    _, scans = run(PyBullet(lidar="pybullet"), FURNISHED, (robot,), [[1, 1, 0]], [[0, 0]], 0)
     assert scans[0].ranges.shape == (1, 20_000)
     assert np.isfinite(scans[0].ranges).all()
 
 
 @MODELS
 def test_a_robot_touches_a_wall_with_its_front_and_says_so(model):
-    states, _ = run(PyBullet(model=model), ROOM, (BURGER,), [[5.5, 3.5, 0]], [[0.2, 0]], 6)
+    states, _ = run(PyBullet(model=model), FURNISHED, (BURGER,), [[5.5, 3.5, 0]], [[0.2, 0]], 6)
     assert states[-1].contacts.tolist() == [[0, -1]]
     assert states[-1].pose[0, 0] + 0.038 == pytest.approx(6 - 0.05, abs=0.005)
     assert abs(states[-1].twist[0, 0]) < 0.02
