@@ -22,11 +22,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from movingai import Instance, option, read_map, read_scen
+from movingai import LEAST_S, Instance, algorithm_of, read_instance
 from mrpbench_native import solve
 
 EARLY_S = 1.0
-LEAST_S = 0.005
 OTHERS = ("lacam3", "LNS2")
 
 
@@ -87,10 +86,8 @@ def cheapest(curves: Sequence[Curve]) -> Curve:
 
 def solved(data: Path, instance: Instance, solver: str, limit: float) -> Curve:
     """Ours."""
-    algorithm, *words = solver.split()
-    free = read_map(data / "maps" / f"{instance.map}.map")
-    starts, goals = read_scen(data / "scens" / f"{instance.map}-{instance.scen}.scen", instance.agents)
-    solution = solve(free, starts, goals, algorithm=algorithm, time_limit=limit, **dict(map(option, words)))
+    algorithm, options = algorithm_of(solver)
+    solution = solve(*read_instance(data, instance), algorithm=algorithm, time_limit=limit, **options)
     if solution.cost is None:
         return NOTHING
     history = solution.history[:, :2].tolist()
@@ -100,9 +97,8 @@ def solved(data: Path, instance: Instance, solver: str, limit: float) -> Curve:
 
 def first(data: Path, instance: Instance, limit: float) -> float:
     """CPU seconds to our first plan, the median of three."""
-    free = read_map(data / "maps" / f"{instance.map}.map")
-    starts, goals = read_scen(data / "scens" / f"{instance.map}-{instance.scen}.scen", instance.agents)
-    solutions = [solve(free, starts, goals, algorithm="lacam", time_limit=limit, iterations=0) for _ in range(3)]
+    asked = read_instance(data, instance)
+    solutions = [solve(*asked, algorithm="lacam", time_limit=limit, iterations=0) for _ in range(3)]
     return statistics.median(one.cpu_seconds if one.cost is not None else math.inf for one in solutions)
 
 

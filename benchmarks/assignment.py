@@ -12,14 +12,13 @@ geometric means over the instances that both solved, ours by theirs: `ratio` cou
 import argparse
 import csv
 import math
-import statistics
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import yaml
-from movingai import LEAST_S, Outcome, option
+from movingai import Outcome, algorithm_of, outcome_of, ratio
 from mrpbench_native import solve
 
 PAIRS = {
@@ -55,10 +54,7 @@ def measured(file: Path, solver: str, limit: float) -> dict[Instance, Outcome]:
         for row in csv.DictReader(stream):
             if row["solver"] == solver and float(row["time_limit"]) == limit:
                 instance = Instance(row["set"], int(row["k"]), int(row["ex"]), row["goal_mode"])
-                solved = row["solved"] == "1"
-                found[instance] = Outcome(
-                    float(row["seconds"]) if solved else math.inf, float(row["cost"]) if solved else math.nan
-                )
+                found[instance] = outcome_of(row)
     return found
 
 
@@ -81,8 +77,7 @@ def load(data: Path, instance: Instance) -> Question:
 
 def run(question: Question, solver: str, limit: float, repeat: int) -> Outcome:
     """What a solver makes of a question, in the median."""
-    algorithm, *words = solver.split()
-    options: dict[str, Any] = dict(map(option, words))
+    algorithm, options = algorithm_of(solver)
     found = []
     for _ in range(repeat):
         solution = solve(*question, algorithm=algorithm, time_limit=limit, **options)
@@ -90,12 +85,6 @@ def run(question: Question, solver: str, limit: float, repeat: int) -> Outcome:
             return Outcome(math.inf, math.nan)
         found.append(Outcome(solution.seconds, solution.cost))
     return sorted(found)[len(found) // 2]
-
-
-def ratio(ours: Sequence[Outcome], theirs: Sequence[Outcome], least: float) -> float:
-    """Geometric mean of the ratios of times where both have solved."""
-    both = [(a.seconds, b.seconds) for a, b in zip(ours, theirs, strict=True) if math.isfinite(a.seconds + b.seconds)]
-    return statistics.geometric_mean(max(a, least) / max(b, least) for a, b in both) if both else math.nan
 
 
 def table(found: dict[Instance, Outcome], others: dict[Instance, Outcome]) -> Iterator[str]:
@@ -111,7 +100,7 @@ def table(found: dict[Instance, Outcome], others: dict[Instance, Outcome]) -> It
         slowest = max((it.seconds for it in ours if math.isfinite(it.seconds)), default=math.nan)
         yield (
             f"{name:<16}{agents or '':>7} {mode:<6}{len(members):>4}{solved[0]:>8}{solved[1]:>8}"
-            f"{ratio(ours, theirs, LEAST_S):>8.2f}{ratio(ours, theirs, 0.0):>8.3f}{slowest:>9.4f}"
+            f"{ratio(ours, theirs):>8.2f}{ratio(ours, theirs, 0.0):>8.3f}{slowest:>9.4f}"
         )
 
 

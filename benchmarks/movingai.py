@@ -48,6 +48,9 @@ class Outcome(NamedTuple):
     cost: float
 
 
+UNKNOWN = Outcome(math.nan, math.nan)
+
+
 @cache
 def read_map(file: Path) -> NDArray[np.bool_]:
     """Free cells bool[rows, columns]."""
@@ -63,6 +66,19 @@ def read_scen(file: Path, agents: int) -> tuple[NDArray[np.int64], NDArray[np.in
     return places[:, 0], places[:, 1]
 
 
+def read_instance(data: Path, instance: Instance) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int64]]:
+    """Free cells, starts and goals; fewer than `agents` if the scenario has fewer rows."""
+    free = read_map(data / "maps" / f"{instance.map}.map")
+    return free, *read_scen(data / "scens" / f"{instance.map}-{instance.scen}.scen", instance.agents)
+
+
+def outcome_of(row: Mapping[str, str]) -> Outcome:
+    """What one line of a table of measurements says."""
+    if row["solved"] != "1":
+        return Outcome(math.inf, math.nan)
+    return Outcome(float(row["seconds"]), float(row["cost"] or "nan"))
+
+
 def measured(file: Path, solvers: Sequence[str], limit: float = 10.0) -> dict[Instance, Outcome]:
     """The best that any of `solvers` was measured to reach, from a table of measurements."""
     best: dict[Instance, Outcome] = {}
@@ -71,22 +87,17 @@ def measured(file: Path, solvers: Sequence[str], limit: float = 10.0) -> dict[In
             if row["solver"] not in solvers or float(row["time_limit"]) != limit:
                 continue
             instance = Instance(row["map"], row["scen"], int(row["k"]))
-            solved = row["solved"] == "1"
-            found = Outcome(
-                float(row["seconds"]) if solved else math.inf, float(row["cost"] or "nan") if solved else math.nan
-            )
+            found = outcome_of(row)
             best[instance] = min(best.get(instance, found), found)
     return best
 
 
 def run(data: Path, instance: Instance, solver: str, limit: float, repeat: int) -> tuple[Outcome, Solution] | None:
     """The median outcome, and a solution; None if the scenario has fewer rows."""
-    algorithm, *words = solver.split()
-    free = read_map(data / "maps" / f"{instance.map}.map")
-    starts, goals = read_scen(data / "scens" / f"{instance.map}-{instance.scen}.scen", instance.agents)
+    free, starts, goals = read_instance(data, instance)
     if len(starts) < instance.agents:
         return None
-    options = dict(map(option, words))
+    algorithm, options = algorithm_of(solver)
     outcomes = []
     for _ in range(repeat):
         solution = solve(free, starts, goals, algorithm=algorithm, time_limit=PATIENCE * limit, **options)
@@ -97,7 +108,13 @@ def run(data: Path, instance: Instance, solver: str, limit: float, repeat: int) 
     return sorted(outcomes)[len(outcomes) // 2], solution
 
 
-def option(word: str) -> tuple[str, Any]:
+def algorithm_of(solver: str) -> tuple[str, dict[str, Any]]:
+    """An algorithm and its options from words such as `ecbs w=1.2`."""
+    algorithm, *words = solver.split()
+    return algorithm, dict(map(_option, words))
+
+
+def _option(word: str) -> tuple[str, Any]:
     """An option from `name=value`."""
     name, _, value = word.partition("=")
     if value in ("true", "false"):
@@ -118,19 +135,22 @@ def instances(arguments: argparse.Namespace, others: Mapping[Instance, Outcome])
     return [Instance(name, scen, k) for name in arguments.maps for k in arguments.agents for scen in scens]
 
 
+def ratio(ours: Sequence[Outcome], theirs: Sequence[Outcome], least: float = LEAST_S) -> float:
+    """Geometric mean of the ratios of times, each at least `least`, where both have solved; NaN if nowhere."""
+    both = [(a.seconds, b.seconds) for a, b in zip(ours, theirs, strict=True) if math.isfinite(a.seconds + b.seconds)]
+    return statistics.geometric_mean(max(a, least) / max(b, least) for a, b in both) if both else math.nan
+
+
 def line(
     title: str, members: Sequence[Instance], found: Mapping[Instance, Outcome], others: Mapping[Instance, Outcome]
 ) -> str:
     """What became of some instances."""
-    ours = [found[one].seconds for one in members]
-    theirs = [others[one].seconds if one in others else math.nan for one in members]
-    both = [(a, b) for a, b in zip(ours, theirs, strict=True) if math.isfinite(a) and math.isfinite(b)]
-    ratio = [max(a, LEAST_S) / max(b, LEAST_S) for a, b in both]
-    return (
-        f"{title:<31}{len(members):>5}{sum(map(math.isfinite, ours)):>8}{sum(map(math.isfinite, theirs)):>8}"
-        f"{statistics.median(ours):>10.4f}{statistics.median(theirs):>10.4f}"
-        f"{statistics.geometric_mean(ratio) if ratio else math.nan:>8.2f}"
-    )
+    ours = [found[one] for one in members]
+    theirs = [others.get(one, UNKNOWN) for one in members]
+    times = [[outcome.seconds for outcome in outcomes] for outcomes in (ours, theirs)]
+    solved = [f"{sum(map(math.isfinite, seconds)):>8}" for seconds in times]
+    medians = [f"{statistics.median(seconds):>10.4f}" for seconds in times]
+    return f"{title:<31}{len(members):>5}{''.join(solved + medians)}{ratio(ours, theirs):>8.2f}"
 
 
 HEADER = f"{'map':<24}{'robots':>7}{'n':>5}{'solved':>8}{'theirs':>8}{'median s':>10}{'theirs':>10}{'ratio':>8}"
