@@ -19,6 +19,12 @@ matrix:
 """
 
 
+@pytest.fixture(scope="session")
+def tiny_map():
+    """Return nine free cells as a MovingAI map."""
+    return MAP
+
+
 @pytest.fixture
 def mrpbench(tmp_path, monkeypatch, capsys):
     """Return a function that runs a command in a folder with a tiny study and gives exit code, output and errors."""

@@ -18,14 +18,11 @@ limits: {execution: 60}
 """
 
 
-MAP = "type octile\nheight 3\nwidth 3\nmap\n...\n...\n...\n"
-
-
 @pytest.fixture(scope="module")
-def driven(tmp_path_factory):
+def driven(tmp_path_factory, tiny_map):
     """Return the results of a run with a recording."""
     folder = tmp_path_factory.mktemp("driven")
-    (folder / "tiny.map").write_text(MAP)
+    (folder / "tiny.map").write_text(tiny_map)
     (folder / "driven.yaml").write_text(DRIVEN)
     run(folder / "driven.yaml", out=folder / "results")
     return folder / "results"

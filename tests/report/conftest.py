@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from html.parser import HTMLParser
 
 import pytest
 
@@ -48,6 +49,39 @@ def made(planner="cbs", seed=0, status="succeeded", *, repeat=0, cost=None, took
         "timing": {"planning_s": took, "clock_bound": False},
         "provenance": {},
     } | more
+
+
+VOID = {"meta", "link", "input", "wbr", "line", "br"}
+
+
+class Parsed(HTMLParser):
+    """Notes text, attributes, and elements that are not closed in order."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.open, self.wrong, self.attributes, self.words = [], [], [], []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        self.attributes += [(tag, *pair) for pair in attributes]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.attributes += [(tag, *pair) for pair in attributes]
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+@pytest.fixture(scope="session")
+def parsed():
+    """Return a function that reads a page."""
+    return Parsed
 
 
 @pytest.fixture(scope="session")

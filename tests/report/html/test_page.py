@@ -4,7 +4,6 @@ import base64
 import json
 import re
 import zlib
-from html.parser import HTMLParser
 from importlib import resources
 
 import numpy as np
@@ -16,36 +15,10 @@ from mrpbench_core.report.html.origin import spans
 from mrpbench_core.report.html.page import write_report
 from mrpbench_core.report.picture import COLOURS
 
-VOID = {"meta", "link", "input", "wbr", "line", "br"}
 
-
-class Reader(HTMLParser):
-    """Notes text, attributes, and elements that are not closed in order."""
-
-    def __init__(self, text):
-        super().__init__()
-        self.open, self.wrong, self.attributes, self.words = [], [], [], []
-        self.feed(text)
-
-    def handle_starttag(self, tag, attributes):
-        self.attributes += [(tag, *pair) for pair in attributes]
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attributes):
-        self.attributes += [(tag, *pair) for pair in attributes]
-
-    def handle_endtag(self, tag):
-        if not self.open or self.open.pop() != tag:
-            self.wrong.append(tag)
-
-    def handle_data(self, data):
-        self.words.append(data)
-
-
-def test_the_page_is_well_formed_and_loads_nothing(page):
+def test_the_page_is_well_formed_and_loads_nothing(page, parsed):
     text = page.read_text(encoding="utf-8")
-    reader = Reader(text)
+    reader = parsed(text)
     assert (reader.wrong, reader.open) == ([], [])
     ids = [value for _, name, value in reader.attributes if name == "id"]
     assert len(ids) == len(set(ids))
@@ -63,8 +36,8 @@ def test_text_of_runs_is_text(page):
     assert "&lt;b&gt;bad&lt;/b&gt;" in text
 
 
-def test_the_page_tells_what_a_reviewer_asks(page, study):
-    words = " ".join(" ".join(Reader(page.read_text(encoding="utf-8")).words).split())
+def test_the_page_tells_what_a_reviewer_asks(page, parsed):
+    words = " ".join(" ".join(parsed(page.read_text(encoding="utf-8")).words).split())
     assert "41 runs of 2 configurations on 11 scenarios." in words
     assert "<b>bad</b> is worse than cbs in planning.cost : 1.47 [1.26, 1.64] on average" in words
     assert "in 9 of 9 pairs more, in 0 less; adjusted p = 0.004" in words
@@ -94,9 +67,9 @@ def test_groups_have_the_colours_of_the_house():
     assert tuple(re.findall(r"--s\d: (#\w+)", light)) == COLOURS
 
 
-def test_a_page_without_anything_to_compare(results, record, tmp_path):
+def test_a_page_without_anything_to_compare(results, record, tmp_path, parsed):
     write_report(analyse([results([record(status="crashed", scenario=None)])]), tmp_path / "a.html")
-    words = " ".join(Reader((tmp_path / "a.html").read_text(encoding="utf-8")).words)
+    words = " ".join(parsed((tmp_path / "a.html").read_text(encoding="utf-8")).words)
     assert "1 run of 1 configuration on 0 scenarios." in words
 
 

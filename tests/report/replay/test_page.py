@@ -1,6 +1,5 @@
 import json
 import re
-from html.parser import HTMLParser
 from importlib import resources
 
 import attrs
@@ -13,8 +12,6 @@ from mrpbench_core.model.world import Area, Door, Lane, Level, Obstacle, World
 from mrpbench_core.report.picture import COLOURS
 from mrpbench_core.report.replay.page import write_page
 
-VOID = {"meta", "link", "input", "br"}
-
 
 @pytest.fixture
 def page(store, chunk, record, tmp_path):
@@ -23,29 +20,8 @@ def page(store, chunk, record, tmp_path):
     return (tmp_path / "a.html").read_text(encoding="utf-8")
 
 
-class Balance(HTMLParser):
-    """Notes elements that are not closed in order, and all attributes."""
-
-    def __init__(self):
-        super().__init__()
-        self.open, self.wrong, self.attributes, self.ids = [], [], [], []
-
-    def handle_starttag(self, tag, attributes):
-        self.attributes += [(tag, *pair) for pair in attributes]
-        if tag not in VOID:
-            self.open.append(tag)
-
-    def handle_startendtag(self, tag, attributes):
-        self.attributes += [(tag, *pair) for pair in attributes]
-
-    def handle_endtag(self, tag):
-        if not self.open or self.open.pop() != tag:
-            self.wrong.append(tag)
-
-
-def test_the_page_is_well_formed(page):
-    parser = Balance()
-    parser.feed(page)
+def test_the_page_is_well_formed(page, parsed):
+    parser = parsed(page)
     assert parser.wrong == []
     assert parser.open == []
     ids = [value for _, name, value in parser.attributes if name == "id"]
@@ -54,9 +30,8 @@ def test_the_page_is_well_formed(page):
     assert not re.search(r"<!--\w+-->", page), "every mark of the template is filled"
 
 
-def test_the_page_loads_nothing(page, scripts):
-    parser = Balance()
-    parser.feed(page)
+def test_the_page_loads_nothing(page, scripts, parsed):
+    parser = parsed(page)
     loaded = [value for _, name, value in parser.attributes if name in ("src", "href", "srcset", "action", "poster")]
     assert all(value.startswith("data:") for value in loaded)
     assert "default-src 'none'" in page
