@@ -57,31 +57,82 @@ class Ticks {
   std::vector<Conflict>& found_;
 };
 
-void find_between_occupations(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,
-                              Arena<Constraint>& constraints, std::vector<Conflict>& found) {
-  const auto stays = [](const TimedPath& it, Half time) {
-    return it.occupied.back().end == kForeverHalf && time >= 2 * it.cost;
-  };
-  for (std::size_t step = 0; step < path.occupied.size(); ++step) {
-    const Occupation& here = path.occupied[step];
-    present.reservations().conflicts_of(robot, here, [&](const auto& entry, Relation relation) {
-      const TimedPath& other = present.path(entry.robot);
-      const Half time = std::max(here.begin, entry.begin);
-      const PairConflict pair{robot, entry.robot, static_cast<std::int32_t>(step), entry.step, time, relation, 1};
-      const Pair branch = split(pair, path.occupied, other.occupied, space.vertex_count());
-      const std::span<const Constraint> kept = constraints.copy(branch);
-      found.push_back({robot, entry.robot, here.element, other.occupied[entry.step].element, time, stays(path, time),
-                       stays(other, time)});
-      found.back().branch = {kept.first(1), kept.last(1)};
-    });
-  }
+/// Does a robot that uses something at the half-ticks `own` do so for good, and since before another leaves it?
+bool stays(const TimedPath& path, const Range& own, const Range& beside) {
+  return own.last == kForeverHalf && 2 * path.cost <= beside.last;
 }
 
-/// When is the one of two robots that leave a resource first done with it? While they use it for good: when both do.
+/// When is the one of two robots that leave first done with what both use? While they use it for good: when both do.
 Half instant_of(const Range& one, const Range& other) {
   const Half end = std::min(one.last, other.last);
   return end < kForeverHalf ? end : std::max(one.first, other.first);
 }
+
+/// All steps of a path, one after another, by which the robot is on the crossing at `vertex`.
+Range time_on(const Space& space, int vertex, std::span<const Occupation> path, std::size_t step) {
+  std::size_t first = step, last = step;
+  while (first > 0 && space.meets(path[first - 1].element, vertex)) --first;
+  while (last + 1 < path.size() && space.meets(path[last + 1].element, vertex)) ++last;
+  return {path[first].begin, path[last].end};
+}
+
+/// Conflicts of two robots, neither of which may be where the other is.
+class Occupations {
+ public:
+  Occupations(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,
+              Arena<Constraint>& constraints, std::vector<Conflict>& found)
+      : space_(space), present_(present), robot_(robot), path_(path), constraints_(constraints), found_(found) {}
+
+  void sweep() {
+    for (std::size_t step = 0; step < path_.occupied.size(); ++step) {
+      present_.reservations().conflicts_of(robot_, path_.occupied[step], [&](const auto& entry, Relation relation) {
+        const TimedPath& other = present_.path(entry.robot);
+        const Half time = std::max(path_.occupied[step].begin, entry.begin);
+        const PairConflict pair{robot_, entry.robot, static_cast<std::int32_t>(step), entry.step, time, relation, 1};
+        if (!meet_at_crossings(pair, other)) {
+          const Occupation &here = path_.occupied[step], &there = other.occupied[entry.step];
+          keep(pair, other, {here.begin, here.end}, {there.begin, there.end},
+               split(pair, path_.occupied, other.occupied, space_.vertex_count()));
+        }
+      });
+    }
+  }
+
+ private:
+  /// False if they are not on one crossing.
+  bool meet_at_crossings(const PairConflict& pair, const TimedPath& other) {
+    const std::int32_t here = path_.occupied[pair.one_step].element, there = other.occupied[pair.other_step].element;
+    bool met = false;
+    for (const int vertex : space_.ends(here)) {
+      if (vertex < 0 || !space_.is_crossing(vertex) || !space_.meets(there, vertex)) continue;
+      met = true;
+      const Range one = time_on(space_, vertex, path_.occupied, pair.one_step);
+      const Range two = time_on(space_, vertex, other.occupied, pair.other_step);
+      if (pair.time > std::max(one.first, two.first)) continue;  // found when they met there
+      const Half instant = instant_of(one, two);
+      const auto keep_clear = [&](int who) {
+        return Constraint{who, vertex, {instant, instant}, Constraint::Kind::keep_clear};
+      };
+      keep(pair, other, one, two, {keep_clear(pair.one), keep_clear(pair.other)});
+    }
+    return met;
+  }
+  void keep(const PairConflict& pair, const TimedPath& other, const Range& one_time, const Range& other_time,
+            const Pair& branch) {
+    const std::span<const Constraint> kept = constraints_.copy(branch);
+    found_.push_back({pair.one, pair.other, path_.occupied[pair.one_step].element,
+                      other.occupied[pair.other_step].element, pair.time, stays(path_, one_time, other_time),
+                      stays(other, other_time, one_time)});
+    found_.back().branch = {kept.first(1), kept.last(1)};
+  }
+
+  const Space& space_;
+  const AvoidanceTable& present_;
+  int robot_;
+  const TimedPath& path_;
+  Arena<Constraint>& constraints_;
+  std::vector<Conflict>& found_;
+};
 
 /// Two robots use a resource, which holds one, at one time. They do not both use it at any instant of that time, so one
 /// of them must not at the last: whoever comes later comes after the other has left, as far as it is known.
@@ -89,9 +140,6 @@ void find_in_resources(const Space& space, const AvoidanceTable& present, int ro
                        Arena<Constraint>& constraints, std::vector<Conflict>& found) {
   for (const Use& use : uses(space.instance(), path.occupied)) {
     present.reservations().users_beside(robot, use, [&](int other, const Range& theirs) {
-      const auto stays = [](const TimedPath& it, const Range& own, const Range& beside) {
-        return own.last == kForeverHalf && 2 * it.cost <= beside.last;
-      };
       const Half instant = instant_of(use.halves, theirs);
       const auto keep_off = [&](int who) {
         return Constraint{who, use.resource, {instant, instant}, Constraint::Kind::keep_off};
@@ -111,7 +159,7 @@ void find_conflicts(const Space& space, const AvoidanceTable& present, int robot
   if (space.textbook()) {
     Ticks(space, present.ticks(), robot, path, constraints, found).sweep();
   } else {
-    find_between_occupations(space, present, robot, path, constraints, found);
+    Occupations(space, present, robot, path, constraints, found).sweep();
     find_in_resources(space, present, robot, path, constraints, found);
   }
 }

@@ -36,11 +36,14 @@ void ConstraintTable::add(const Constraint& constraint) {
         finish_at_ = constraint.element;
         latest_finish_ = std::min(latest_finish_, constraint.range.first);
       } else {
-        keep_clear(constraint);
+        make_way(constraint);
       }
       break;
     case Constraint::Kind::keep_off:
       if (mine) keep_off(constraint.element, constraint.range);
+      break;
+    case Constraint::Kind::keep_clear:
+      if (mine) keep_clear(constraint.element, constraint.range);
       break;
   }
 }
@@ -69,7 +72,7 @@ void ConstraintTable::enter(int vertex, const Entry& entry) {
 }
 
 /// Another robot stands at its goal for good: nothing that excludes the goal may be occupied any more.
-void ConstraintTable::keep_clear(const Constraint& parked) {
+void ConstraintTable::make_way(const Constraint& parked) {
   const Tick from = parked.range.first;
   if (space_.textbook()) return forbid(parked.element, {2 * from, kForeverHalf});
   const Instance& instance = space_.instance();
@@ -87,6 +90,13 @@ void ConstraintTable::keep_off(int resource, Range halves) {
   const Resource& it = space_.instance().resources()[resource];
   halves.first = static_cast<Half>(std::max<std::int64_t>(0, halves.first - std::int64_t{2} * it.setup));
   for (const int element : it.elements) keep_away(element, halves);
+}
+
+void ConstraintTable::keep_clear(int crossing, Range halves) {
+  const Roadmap& roadmap = space_.instance().roadmap();
+  keep_away(crossing, halves);
+  for (const int edge : roadmap.out(crossing)) keep_away(space_.vertex_count() + edge, halves);
+  for (const int edge : roadmap.in(crossing)) keep_away(space_.vertex_count() + edge, halves);
 }
 
 /// Nothing that is done at `halves` may be done there.

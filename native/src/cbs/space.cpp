@@ -19,6 +19,7 @@ Space::Space(const Instance& instance, Limits& limits) : instance_(instance), te
     committed |= beginning.occupied.size() > 1 || beginning.free_at > 0;
   }
   if (committed || !textbook_) relations_.emplace(instance, limits);
+  if (instance.footprints() && instance.size() > 1) find_crossings(limits);
   if (!committed) return;
   certain_.emplace(instance, *relations_, limits);
   reserve_beginnings(instance, *certain_);
@@ -79,6 +80,27 @@ int Space::degree(int vertex) const {
   for (const int edge : roadmap.in(vertex)) around.push_back(roadmap.tail(edge));
   std::ranges::sort(around);
   return static_cast<int>(std::unique(around.begin(), around.end()) - around.begin());
+}
+
+void Space::find_crossings(Limits& limits) {
+  const Roadmap& roadmap = instance_.roadmap();
+  std::vector<double> radii;
+  for (const Robot& robot : instance_.robots()) radii.push_back(robot.radius);
+  std::ranges::sort(radii);
+  const double reach = radii[0] + radii[1] - 1e-9;  // of the two that exclude one another least
+  limits.charge(static_cast<std::size_t>(vertex_count()));
+  crossing_.resize(vertex_count());
+  std::vector<int> around;
+  for (int vertex = 0; vertex < vertex_count(); ++vertex) {
+    limits.check();
+    around.assign(1, vertex);
+    for (const int edge : roadmap.out(vertex)) around.push_back(vertex_count() + edge);
+    for (const int edge : roadmap.in(vertex)) around.push_back(vertex_count() + edge);
+    crossing_[vertex] = std::ranges::all_of(around, [&](int one) {
+      return std::ranges::all_of(
+          around, [&](int other) { return relations_->between(one, other, reach) == Relation::exclusive; });
+    });
+  }
 }
 
 void Space::list_certain() {

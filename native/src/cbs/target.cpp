@@ -6,10 +6,19 @@ namespace mrpbench::mapf {
 
 namespace {
 
-/// The last half-tick at which the robot on `path` has its part in `conflict`.
-Half last_in_way(const Space& space, std::span<const Occupation> path, const Conflict& conflict) {
+/// The last half-tick at which `passing`, which got in the way of one that stands at `target` by `conflict`, is still.
+Half last_in_way(const Space& space, const Situation& situation, const Conflict& conflict, int parked, int passing) {
+  const std::span<const Occupation> path = situation.path(passing).occupied;
   if (conflict.resource < 0) {
-    return std::ranges::find_if(path, [&](const Occupation& it) { return it.end >= conflict.time; })->end;
+    const int target = situation.path(parked).end();
+    const double reach = space.instance().reach(parked, passing);
+    Half last = conflict.time;
+    for (const Occupation& it : path) {
+      if (it.end < conflict.time) continue;
+      if (space.relations().between(it.element, target, reach) != Relation::exclusive) break;
+      last = it.end;
+    }
+    return last;
   }
   for (const Use& it : uses(space.instance(), path)) {
     if (it.resource == conflict.resource && it.halves.last >= conflict.time) return it.halves.last;
@@ -24,7 +33,7 @@ std::optional<std::array<Constraint, 2>> resolve_at_target(const Space& space, c
   Tick tick = conflict.time / 2;
   if (!space.textbook()) {
     // The last tick from which on the one that stands would still be in the way.
-    const Half last = last_in_way(space, situation.path(passing).occupied, conflict);
+    const Half last = last_in_way(space, situation, conflict, parked, passing);
     if (last == kForeverHalf) return std::nullopt;
     tick = last / 2;
   }

@@ -15,6 +15,7 @@ struct Constraint {
     finish_by,     // its last move ends at the vertex `element`, at tick `range.first` at the latest: no other robot
                    // may be in the way of one that stands there from that tick on
     keep_off,      // the resource `element`: must not use it at the half-ticks `range`
+    keep_clear,    // the crossing at the vertex `element`: must be nowhere on it at the half-ticks `range`
   };
   std::int32_t robot;
   std::int32_t element;

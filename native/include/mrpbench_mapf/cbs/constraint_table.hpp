@@ -64,8 +64,9 @@ class ConstraintTable {
   void forbid(int element, Range range);
   void forbid_finishing(int vertex, Tick until);
   void enter(int vertex, const Entry& entry);
-  void keep_clear(const Constraint& parked);
+  void make_way(const Constraint& parked);
   void keep_off(int resource, Range halves);
+  void keep_clear(int crossing, Range halves);
   void keep_away(int element, Range halves);
 
   const Space& space_;

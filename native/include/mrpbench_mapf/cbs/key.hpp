@@ -39,7 +39,7 @@ inline Key key_of(const Constraint& constraint) {
   const auto word = [](std::int32_t high, std::int32_t low) {
     return static_cast<std::uint64_t>(static_cast<std::uint32_t>(high)) << 32 | static_cast<std::uint32_t>(low);
   };
-  const std::uint64_t where = mix(word(constraint.robot * 4 + static_cast<int>(constraint.kind), constraint.element));
+  const std::uint64_t where = mix(word(constraint.robot * 8 + static_cast<int>(constraint.kind), constraint.element));
   const std::uint64_t when = word(constraint.range.first, constraint.range.last);
   return {mix(where + 0x9E3779B97F4A7C15ULL * (when + 1)), mix((where ^ 0xD1B54A32D192ED03ULL) + mix(when))};
 }

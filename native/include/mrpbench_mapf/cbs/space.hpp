@@ -2,6 +2,7 @@
 // what robots do for certain, and whether the textbook's rules suffice.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "mrpbench_mapf/cbs/constraint.hpp"
@@ -32,6 +33,19 @@ class Space {
   bool committed() const { return certain_.has_value(); }
   /// Which elements exclude one another; only unless `textbook`, or if `committed`.
   const Relations& relations() const { return *relations_; }
+  /// Is only one robot at a time at `vertex` and on the edges that end there?
+  bool is_crossing(int vertex) const { return !crossing_.empty() && crossing_[vertex]; }
+  /// The vertices at which a robot is on an element, or to which the element leads; -1 = no second one.
+  std::array<int, 2> ends(int element) const {
+    const int edge = element - vertex_count();
+    if (edge < 0) return {element, -1};
+    return {instance_.roadmap().tail(edge), instance_.roadmap().head(edge)};
+  }
+  /// Is `element` the vertex, or an edge that ends there?
+  bool meets(int element, int vertex) const {
+    const std::array<int, 2> both = ends(element);
+    return both[0] == vertex || both[1] == vertex;
+  }
   /// Moves of `robot` out of `vertex`.
   std::span<const Move> moves(int robot, int vertex) const {
     const Profile& it = profiles_[instance_.robots()[robot].profile];
@@ -53,12 +67,14 @@ class Space {
   };
   bool is_textbook() const;
   Profile profile(int index) const;
+  void find_crossings(Limits& limits);
   void list_certain();
 
   const Instance& instance_;
   bool textbook_;
   std::vector<Profile> profiles_;
   std::optional<Relations> relations_;
+  std::vector<char> crossing_;  // by vertex; empty if there are none
   std::optional<Reservations> certain_;
   std::vector<std::vector<Constraint>> certain_of_;  // by robot
 };
