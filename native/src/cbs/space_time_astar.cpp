@@ -1,7 +1,6 @@
 #include "mrpbench_mapf/cbs/space_time_astar.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace mrpbench::mapf {
 
@@ -17,15 +16,21 @@ SpaceTimeAstar::SpaceTimeAstar(const Space& space, SafeIntervals& intervals, Lim
 bool SpaceTimeAstar::search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others,
                             FoundPath& path) {
   path.goal = table.goal();
-  const Tick stay = table.earliest_finish();
-  if (stay == kForever || !begin(table, distance, others, stay, table.latest_finish())) return false;
-  int last = run(kLongSearch);
+  Tick least = table.earliest_finish(), latest = table.latest_finish();
+  if (least == kForever) return false;
+  if (!space_.textbook()) {
+    // Where moves take many ticks, most states are in vain: only what leads to the least cost is looked at.
+    least = latest = intervals_.least_cost(table, distance);
+    if (least == kForever) return false;
+  }
+  if (!begin(table, distance, others, least, latest)) return false;
+  int last = run(space_.textbook() ? kLongSearch : kWholeSearch);
   if (last == kLong) {
     // Perhaps there is no path at all, which would take even longer to find out.
     const Tick cost = intervals_.least_cost(table, distance);
     if (cost == kForever) return false;
     latest_ = std::max(cost, space_.instance().beginning(table.robot()).free_at);
-    last = run(std::numeric_limits<std::size_t>::max());
+    last = run(kWholeSearch);
   }
   if (last < 0) return false;
   trace(last, path);

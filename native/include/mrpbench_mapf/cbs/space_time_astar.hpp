@@ -2,6 +2,8 @@
 // heuristic (Silver, "Cooperative Pathfinding", AIIDE 2005), ties broken by conflicts with the other robots.
 #pragma once
 
+#include <limits>
+
 #include "mrpbench_mapf/cbs/avoidance_table.hpp"
 #include "mrpbench_mapf/cbs/bucket_queue.hpp"
 #include "mrpbench_mapf/cbs/safe_intervals.hpp"
@@ -36,6 +38,7 @@ class SpaceTimeAstar {
   static constexpr std::int32_t kUnknown = 1 << 30;
   static constexpr std::size_t kSmallSeen = 1 << 12;
   static constexpr std::size_t kLongSearch = 1024;  // nodes
+  static constexpr std::size_t kWholeSearch = std::numeric_limits<std::size_t>::max();
 
   bool begin(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others, Tick least,
              Tick latest);
