@@ -96,10 +96,12 @@ void Space::find_crossings(Limits& limits) {
     around.assign(1, vertex);
     for (const int edge : roadmap.out(vertex)) around.push_back(vertex_count() + edge);
     for (const int edge : roadmap.in(vertex)) around.push_back(vertex_count() + edge);
-    crossing_[vertex] = std::ranges::all_of(around, [&](int one) {
-      return std::ranges::all_of(
-          around, [&](int other) { return relations_->between(one, other, reach) == Relation::exclusive; });
-    });
+    crossing_[vertex] = true;
+    for (std::size_t i = 0; i < around.size() && crossing_[vertex]; ++i) {
+      crossing_[vertex] = std::ranges::all_of(std::span(around).subspan(i), [&](int other) {
+        return relations_->between(around[i], other, reach) == Relation::exclusive;
+      });
+    }
   }
 }
 

@@ -54,6 +54,8 @@ bool SpaceTimeAstar::begin(const ConstraintTable& table, DistanceTable& distance
   others_ = others;
   least_ = std::max(least, beginning.free_at + h);
   latest_ = std::max(latest, beginning.free_at);  // a robot that never moves has finished before it could
+  // Among ways of one cost, the first to be expanded need not be the earliest.
+  merged_from_ = space_.textbook() ? table.settled() : kForever;
   nodes_.clear();
   open_.clear();
   forget_seen(kSmallSeen);
@@ -69,7 +71,7 @@ int SpaceTimeAstar::run(std::size_t most_nodes) {
     limits_.check();
     const std::int32_t index = open_.pop();
     const Node& node = nodes_[index];
-    Seen& known = seen(node.vertex, node.tick < table_->settled() ? node.tick : -1);
+    Seen& known = seen(node.vertex, node.tick < merged_from_ ? node.tick : -1);
     if (known.conflicts < node.conflicts) continue;  // expanded, or a better way was found
     known.conflicts = -1;
     if (is_final(node)) {
@@ -89,7 +91,7 @@ void SpaceTimeAstar::expand(int index) {
   const int robot = table.robot();
   const bool constrained = table.constrains(node.vertex);
   const int waiting = others_ == nullptr ? 0 : others_->waiting(robot, node.vertex, node.tick);
-  if (node.tick < table.settled() && !(constrained && table.forbids_waiting(node.vertex, node.tick))) {
+  if (node.tick < merged_from_ && !(constrained && table.forbids_waiting(node.vertex, node.tick))) {
     push(node.vertex, node.tick + 1, index, -1, node.conflicts + waiting, (*distance_)(node.vertex));
   }
   for (const Move& move : space_.moves(robot, node.vertex)) {
@@ -106,7 +108,7 @@ void SpaceTimeAstar::expand(int index) {
 void SpaceTimeAstar::push(int vertex, Tick tick, int parent, int edge, int conflicts, Tick h) {
   const Tick f = std::max(tick + h, least_);
   if (f > latest_) return;
-  const bool settled = tick >= table_->settled();
+  const bool settled = tick >= merged_from_;
   Seen& known = seen(vertex, settled ? -1 : tick);
   // Once nothing changes, an earlier arrival beats fewer conflicts: only what was expanded is known to be earliest.
   if (settled ? known.conflicts < 0 : known.conflicts <= conflicts) return;

@@ -63,6 +63,7 @@ class SpaceTimeAstar {
   DistanceTable* distance_ = nullptr;
   const AvoidanceTable* others_ = nullptr;
   Tick least_ = 0, latest_ = 0;
+  Tick merged_from_ = 0;  // from then on all ticks of a vertex are one state
   std::vector<Node> nodes_;
   std::vector<Stop> stops_;  // of the path that was found
   BucketQueue<std::int32_t> open_;

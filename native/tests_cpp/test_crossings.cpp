@@ -1,0 +1,111 @@
+#include "check.hpp"
+#include "grids.hpp"
+#include "root.hpp"
+
+using namespace mrpbench::mapf;
+
+namespace {
+
+constexpr Tick kLane = 10;
+
+/// Four lanes of ten ticks, both ways, between vertex 0 and the vertices 1 to 4.
+Roadmap star() {
+  return Roadmap(5, {0, 1, 0, 2, 0, 3, 0, 4}, {1, 0, 2, 0, 3, 0, 4, 0}, std::vector<Tick>(8, kLane));
+}
+
+/// Whatever touches excludes.
+Exclusions touching(const Roadmap& roadmap) {
+  const int vertices = roadmap.vertex_count();
+  const auto ends = [&](int element) {
+    const int edge = element - vertices;
+    return edge < 0 ? std::pair(element, element) : std::pair(roadmap.tail(edge), roadmap.head(edge));
+  };
+  Exclusions result{{0}, {}, {}};
+  for (int one = 0; one < roadmap.element_count(); ++one) {
+    for (int other = 0; other < roadmap.element_count(); ++other) {
+      const auto [a, b] = ends(one);
+      const auto [c, d] = ends(other);
+      if (a != c && a != d && b != c && b != d) continue;
+      result.element.push_back(other);
+      result.distance.push_back(0.0);
+    }
+    result.first.push_back(static_cast<std::int64_t>(result.element.size()));
+  }
+  return result;
+}
+
+Robot large(int start, int goal, Tick ready = 0) {
+  Robot it = robot(start, goal);
+  it.radius = 0.2;
+  it.ready = ready;
+  return it;
+}
+
+Root on_star(std::vector<Robot> robots) {
+  Roadmap roadmap = star();
+  Exclusions exclusions = touching(roadmap);
+  return Root(Instance(std::move(roadmap), std::move(robots), {}, std::move(exclusions)));
+}
+
+Tick least_cost(Root& root, int robot, std::span<const Constraint> constraints) {
+  for (const Constraint& constraint : constraints) root.situation.add(constraint);
+  root.situation.set_path(robot, root.situation.path(robot), 0);
+  const Tick cost = root.bench.least_cost(root.situation, robot);
+  root.situation.clear_constraints();
+  return cost;
+}
+
+}  // namespace
+
+TEST("of two robots that cross, the later one comes when the other has left the crossing") {
+  Root root = on_star({large(1, 2), large(3, 4, 5)});
+  CHECK(root.conflicts.size() == 1);  // however many elements they exclude one another from
+  const Conflict& conflict = root.conflicts[0];
+  const Half leaves = 2 * 2 * kLane - 1;
+  CHECK((conflict.branch[0][0] == Constraint{0, 0, {leaves, leaves}, Constraint::Kind::keep_clear}));
+  CHECK((conflict.branch[1][0] == Constraint{1, 0, {leaves, leaves}, Constraint::Kind::keep_clear}));
+  CHECK(conflict.cardinality == Conflict::Cardinality::both);
+  CHECK(least_cost(root, 0, conflict.branch[0]) == 4 * kLane);
+  CHECK(least_cost(root, 1, conflict.branch[1]) == 4 * kLane);
+}
+
+TEST("who is to keep clear of a crossing keeps off its vertex and all edges that end there") {
+  Root root = on_star({large(1, 2), large(3, 4)});
+  ConstraintTable table(root.bench.space, root.limits);
+  table.reset(0);
+  table.add({0, 0, {2 * 30, 2 * 30}, Constraint::Kind::keep_clear});
+  CHECK(table.forbids(0, 30) && !table.forbids(0, 29) && !table.forbids(0, 31));
+  const Roadmap& roadmap = root.instance.roadmap();
+  for (int leaf = 1; leaf <= 4; ++leaf) {
+    for (const auto& [tail, head] : {std::pair(0, leaf), std::pair(leaf, 0)}) {
+      const int edge = edge_between(roadmap, tail, head);
+      for (Tick tick = 0; tick <= 40; ++tick) {
+        CHECK(table.forbids_entering(tail, edge, tick) == (tick < 30 && 30 < tick + kLane));
+      }
+    }
+    CHECK(!table.forbids(leaf, 30));
+  }
+}
+
+TEST("a robot that has arrived where another one passes finishes after the whole passage, or before all of it") {
+  Root root = on_star({large(1, 0), large(3, 4, 30)});
+  CHECK(root.conflicts.size() == 1);
+  const Conflict& conflict = root.conflicts[0];
+  CHECK(conflict.kind == Conflict::Kind::target);
+  const Tick last = 30 + 2 * kLane - 1;  // of the passage
+  CHECK((conflict.branch[0][0] == Constraint{0, 0, {last, last}, Constraint::Kind::finish_after}));
+  CHECK((conflict.branch[1][0] == Constraint{0, 0, {last, last}, Constraint::Kind::finish_by}));
+}
+
+TEST("a vertex at which robots may pass one another is no crossing") {
+  const Root points(instance(star(), {robot(1, 2), robot(3, 4)}));
+  CHECK(!points.bench.space.is_crossing(0));
+  Root large_ones = on_star({large(1, 2), large(3, 4)});
+  CHECK(large_ones.bench.space.is_crossing(0));
+  Roadmap roadmap = star();
+  Exclusions exclusions = touching(roadmap);
+  for (double& distance : exclusions.distance) distance = 0.3;  // less than two large robots, more than a small one
+  std::vector<Robot> robots{large(1, 2), large(3, 4), robot(2, 1)};
+  const Root mixed(Instance(std::move(roadmap), std::move(robots), {}, std::move(exclusions)));
+  CHECK(!mixed.bench.space.is_crossing(0));
+}
