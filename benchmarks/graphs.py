@@ -14,7 +14,7 @@ import statistics
 from collections.abc import Iterator
 from typing import Any
 
-from movingai import PATIENCE, option
+from movingai import PATIENCE, algorithm_of
 
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.study import load_study
@@ -29,13 +29,13 @@ MEMORY = 4 << 30
 
 def runs(world: str, robots: int, planner: str, seeds: int) -> Iterator[RunConfig]:
     """One configuration for each seed."""
-    name, *words = planner.split()
+    name, options = algorithm_of(planner)
     block: dict[str, Any] = {
         "name": "graphs",
         "world": {"plugin": "rmf", "file": world} if world.endswith(".yaml") else world,
         "roadmap": "graph",
         "scenario": {"plugin": "random", "robots": robots},
-        "planner": {"plugin": name, **dict(map(option, words))},
+        "planner": {"plugin": name, **options},
         "simulator": "none",
         "matrix": {"seed": f"0..{seeds - 1}"},
     }
