@@ -93,6 +93,7 @@ def test_a_run_with_new_plans_comes_back_with_its_numbers(tmp_path, monkeypatch)
             "simulator": "planar",
             "recording": {"scans": True},
             "metrics": [*names, {"plugin": "./beside.py:Beside"}],
+            "limits": {"execution": "30 s"},
             "export": ["rosbag2"],
         }
     )
