@@ -8,6 +8,7 @@ void Reasoning::examine(const Situation& situation, Conflict& conflict) {
   if (bench_.options.target && examine_target(situation, conflict)) return;
   rate(situation, conflict);
   if (conflict.resource >= 0) return;
+  if (bench_.options.prioritize) examine_crossing(situation, conflict);
   if (bench_.options.corridor && examine_corridor(situation, conflict)) return;
   if (bench_.options.rectangle && bench_.space.textbook()) examine_rectangle(situation, conflict);
 }
@@ -33,6 +34,38 @@ bool Reasoning::examine_passing(const Situation& situation, Conflict& conflict) 
     conflict.cardinality = static_cast<Conflict::Cardinality>(rising);
   }
   return true;
+}
+
+/// Keep robots clear of a crossing at an earlier instant, if both then cost more: at the last at which the first to
+/// leave must still be on it, however much it hurries.
+void Reasoning::examine_crossing(const Situation& situation, Conflict& conflict) {
+  const Constraint present = conflict.branch[0][0];
+  if (present.kind != Constraint::Kind::keep_clear || conflict.cardinality != Conflict::Cardinality::semi) return;
+  for (const int robot : {conflict.one, conflict.other}) {
+    const Half instant = earliest_done(situation, conflict, robot, present.element);
+    if (instant < conflict.time || instant >= present.range.first) continue;
+    Conflict sooner = conflict;
+    const auto keep_clear = [&](int who) {
+      return Constraint{who, present.element, {instant, instant}, Constraint::Kind::keep_clear};
+    };
+    const std::array branches{keep_clear(conflict.one), keep_clear(conflict.other)};
+    use(sooner, conflict.kind, std::span(&branches[0], 1), std::span(&branches[1], 1));
+    rate(situation, sooner);
+    if (sooner.cardinality > conflict.cardinality) conflict = sooner;
+  }
+}
+
+/// The half-tick at which `robot`, if it hurried to where it leaves `crossing`, would be on it last; or kForeverHalf.
+Half Reasoning::earliest_done(const Situation& situation, const Conflict& conflict, int robot, int crossing) {
+  const std::span<const Occupation> path = situation.path(robot).occupied;
+  auto step = std::ranges::find_if(path, [&](const Occupation& it) { return it.end >= conflict.time; });
+  while (step != path.end() && bench_.space.meets(step->element, crossing)) ++step;
+  if (step == path.end()) return kForeverHalf;
+  // Whoever leaves by an edge comes out at a vertex.
+  situation.load(robot, bench_.table);
+  const Tick tick = bench_.intervals.earliest(bench_.table, bench_.distance_to(robot, step->element), step->element,
+                                              enter_tick(*step));
+  return tick == kForever ? kForeverHalf : 2 * tick - 1;
 }
 
 bool Reasoning::examine_corridor(const Situation& situation, Conflict& conflict) {

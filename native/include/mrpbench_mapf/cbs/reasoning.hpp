@@ -19,6 +19,8 @@ class Reasoning {
  private:
   bool examine_target(const Situation& situation, Conflict& conflict);
   bool examine_passing(const Situation& situation, Conflict& conflict);
+  void examine_crossing(const Situation& situation, Conflict& conflict);
+  Half earliest_done(const Situation& situation, const Conflict& conflict, int robot, int crossing);
   bool examine_corridor(const Situation& situation, Conflict& conflict);
   void examine_rectangle(const Situation& situation, Conflict& conflict);
   void rate(const Situation& situation, Conflict& conflict);
