@@ -14,7 +14,7 @@ import statistics
 from collections.abc import Iterator
 from typing import Any
 
-from movingai import PATIENCE, algorithm_of
+from movingai import algorithm_of
 
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.study import load_study
@@ -25,6 +25,8 @@ from mrpbench_core.model.problem import Problem
 
 PLANNERS = ("cbs", "ecbs w=1.2", "eecbs w=1.2", "pbs", "prioritized")
 MEMORY = 4 << 30
+PATIENCE = 2
+"""Wall seconds of the machine that a planner is given for each CPU second that it may use."""
 
 
 def runs(world: str, robots: int, planner: str, seeds: int) -> Iterator[RunConfig]:

@@ -8,9 +8,9 @@ namespace {
 
 constexpr Tick kLane = 10;
 
-/// Four lanes of ten ticks, both ways, between vertex 0 and the vertices 1 to 4.
+/// Lanes of ten ticks, both ways, between vertex 0 and the vertices 1 to 4, and from 2 on to 5.
 Roadmap star() {
-  return Roadmap(5, {0, 1, 0, 2, 0, 3, 0, 4}, {1, 0, 2, 0, 3, 0, 4, 0}, std::vector<Tick>(8, kLane));
+  return Roadmap(6, {0, 1, 0, 2, 0, 3, 0, 4, 2, 5}, {1, 0, 2, 0, 3, 0, 4, 0, 5, 2}, std::vector<Tick>(10, kLane));
 }
 
 /// Whatever touches excludes.
@@ -67,6 +67,31 @@ TEST("of two robots that cross, the later one comes when the other has left the 
   CHECK(conflict.cardinality == Conflict::Cardinality::both);
   CHECK(least_cost(root, 0, conflict.branch[0]) == 4 * kLane);
   CHECK(least_cost(root, 1, conflict.branch[1]) == 4 * kLane);
+}
+
+TEST("who has dawdled on a crossing is kept clear of it at an instant by which it cannot be gone") {
+  Root root = on_star({large(1, 5, 20), large(3, 4, 35)});
+  // It could be gone at 40, but waits at the crossing until 42, since it is not to finish before 62.
+  root.situation.add({0, 5, {61, 61}, Constraint::Kind::finish_after});
+  const Space& space = root.bench.space;
+  FoundPath path;
+  const auto edge = [&](int tail, int head) { return edge_between(root.instance.roadmap(), tail, head); };
+  const std::array<Stop, 5> stops{
+      {{1, 20, -1}, {0, 30, edge(1, 0)}, {0, 42, -1}, {2, 52, edge(0, 2)}, {5, 62, edge(2, 5)}}};
+  follow(space, 0, stops, path);
+  root.situation.set_path(0, root.paths.keep(path));
+  AvoidanceTable present(space, root.limits);
+  present.add(1, root.situation.path(1));
+  present.refresh();
+  root.conflicts.clear();
+  find_conflicts(space, present, 0, root.situation.path(0), root.constraints, root.conflicts);
+  CHECK(root.conflicts.size() == 1);
+  Conflict& conflict = root.conflicts[0];
+  CHECK((conflict.branch[0][0].range == Range{2 * 52 - 1, 2 * 52 - 1}));  // its present last instant there
+  root.reasoning.examine(root.situation, conflict);
+  CHECK(conflict.cardinality == Conflict::Cardinality::both);
+  CHECK((conflict.branch[0][0] == Constraint{0, 0, {2 * 40 - 1, 2 * 40 - 1}, Constraint::Kind::keep_clear}));
+  CHECK((conflict.branch[1][0] == Constraint{1, 0, {2 * 40 - 1, 2 * 40 - 1}, Constraint::Kind::keep_clear}));
 }
 
 TEST("who is to keep clear of a crossing keeps off its vertex and all edges that end there") {

@@ -36,11 +36,11 @@ bool Reasoning::examine_passing(const Situation& situation, Conflict& conflict) 
   return true;
 }
 
-/// Keep robots clear of a crossing at an earlier instant, if both then cost more: at the last at which the first to
-/// leave must still be on it, however much it hurries.
+/// Keep robots clear of a crossing at an earlier instant, if more of them then cost more: at the last at which one of
+/// them must still be on it, however much it hurries.
 void Reasoning::examine_crossing(const Situation& situation, Conflict& conflict) {
   const Constraint present = conflict.branch[0][0];
-  if (present.kind != Constraint::Kind::keep_clear || conflict.cardinality != Conflict::Cardinality::semi) return;
+  if (present.kind != Constraint::Kind::keep_clear || conflict.cardinality == Conflict::Cardinality::both) return;
   for (const int robot : {conflict.one, conflict.other}) {
     const Half instant = earliest_done(situation, conflict, robot, present.element);
     if (instant < conflict.time || instant >= present.range.first) continue;
