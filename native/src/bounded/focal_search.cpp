@@ -32,10 +32,11 @@ Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, 
   Tick least = std::max({known, table.earliest_finish(), soonest});
   if (least > table.latest_finish() || least == kForever) return kForever;
   begin(least, bound);
+  const std::size_t many = space_.textbook() ? kLongSearch : 0;  // where moves take many ticks, all searches are long
   bool exact = false, found = false;
   while (!queue_.empty() && !found) {
     limits_.check();
-    if (!exact && nodes_.size() > kLongSearch) {
+    if (!exact && nodes_.size() > many) {
       // All that would cost less than the cheapest path is in vain, or there is none at all: better to know beforehand.
       exact = true;
       const Tick cost = intervals_.least_cost(table, distance);
