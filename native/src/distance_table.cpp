@@ -101,6 +101,12 @@ Cost DistanceTables::sum_of_costs(const Instance& instance) {
   return sum;
 }
 
+Cost DistanceTables::makespan(const Instance& instance) {
+  Cost latest = 0;
+  for (int robot = 0; robot < instance.size(); ++robot) latest = std::max(latest, least_cost(instance, robot));
+  return latest;
+}
+
 Cost DistanceTables::least_cost(const Instance& instance, int robot) {
   const Beginning& beginning = instance.beginning(robot);
   const Tick distance = (*this)[robot](beginning.vertex);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "mrpbench_mapf/chains.hpp"
+
 namespace mrpbench::mapf {
 
 namespace {
@@ -19,7 +21,7 @@ bool applies(const Instance& instance) {
 
 /// A connected part of the roadmap, disregarding the direction of edges, and the robots that start in it.
 struct Part {
-  std::vector<int> vertices;  // a path and a cycle: in their order
+  std::vector<int> vertices;
   std::vector<int> robots;
 };
 
@@ -60,42 +62,72 @@ class Parts {
   std::vector<char> seen_;
 };
 
-/// The vertices of a part that is a path or a cycle, one after another; empty if it is neither.
+/// The vertices of a part that is a cycle, one after another; empty if it is none.
 std::vector<int> line_up(const Parts& parts, const std::vector<int>& part) {
-  int begin = part.front();
   for (const int vertex : part) {
-    const std::size_t degree = parts.neighbours(vertex).size();
-    if (degree > 2) return {};
-    if (degree < 2) begin = vertex;
+    if (parts.neighbours(vertex).size() != 2) return {};
   }
-  std::vector<int> line{begin};
+  std::vector<int> line{part.front()};
   while (line.size() < part.size()) {
     const int before = line.size() > 1 ? line[line.size() - 2] : -1;
-    for (const int next : parts.neighbours(line.back())) {
-      if (next == before) continue;
-      line.push_back(next);
-      break;
-    }
+    const std::vector<int> next = parts.neighbours(line.back());
+    line.push_back(next.front() == before ? next.back() : next.front());
   }
   return line;
 }
 
-/// The robot at which the order of the goals along `line` first differs from that of the starts, -1 = nowhere. Where
-/// the line is closed, any turn of it is the same order.
-int find_disorder(const Instance& instance, const std::vector<int>& line, bool closed) {
+/// The robot at which the order of the goals along a cycle first differs from that of the starts, -1 = nowhere. Any
+/// turn of it is the same order.
+int find_disorder(const Instance& instance, const std::vector<int>& cycle) {
   std::vector<int> robot_at(instance.roadmap().vertex_count(), -1), place(instance.roadmap().vertex_count());
-  for (std::size_t k = 0; k < line.size(); ++k) place[line[k]] = static_cast<int>(k);
+  for (std::size_t k = 0; k < cycle.size(); ++k) place[cycle[k]] = static_cast<int>(k);
   for (int robot = 0; robot < instance.size(); ++robot) robot_at[instance.robots()[robot].start] = robot;
   int previous = -1, first = -1, turns = 0;
-  for (const int vertex : line) {
+  for (const int vertex : cycle) {
     if (robot_at[vertex] < 0) continue;
     const int goal = place[instance.robots()[robot_at[vertex]].goals.front()];
-    if (previous >= 0 && goal < previous && ++turns > (closed ? 1 : 0)) return robot_at[vertex];
+    if (previous >= 0 && goal < previous && ++turns > 1) return robot_at[vertex];
     previous = goal;
     if (first < 0) first = goal;
   }
-  if (!closed || turns == 0 || previous < first) return -1;
-  return robot_at[*std::ranges::find_if(line, [&](int vertex) { return robot_at[vertex] >= 0; })];
+  if (turns == 0 || previous < first) return -1;
+  return robot_at[*std::ranges::find_if(cycle, [&](int vertex) { return robot_at[vertex] >= 0; })];
+}
+
+bool is_moved(const Instance& instance, const Part& part) {
+  return std::ranges::any_of(
+      part.robots, [&](int robot) { return instance.robots()[robot].start != instance.robots()[robot].goals.front(); });
+}
+
+/// With a single empty vertex, every move is an exchange of it with a robot, so that the parity of the arrangement
+/// follows from where it is, if neighbours always differ in colour (Wilson, "Graph puzzles, homotopy, and the
+/// alternating group", JCTB 1974). Where following is forbidden, there are no other moves.
+bool has_wrong_parity(const Instance& instance, const Parts& parts, const Part& part) {
+  std::vector<int> colour(instance.roadmap().vertex_count(), -1), robot_at(colour), goal_of(colour);
+  colour[part.vertices.front()] = 0;
+  for (const int vertex : part.vertices) {  // each was found from one before it
+    for (const int next : parts.neighbours(vertex)) {
+      if (colour[next] == colour[vertex]) return false;
+      colour[next] = 1 - colour[vertex];
+    }
+  }
+  for (const int robot : part.robots) {
+    const Robot& it = instance.robots()[robot];
+    goal_of[it.start] = it.goals.front();
+    robot_at[it.goals.front()] = robot;
+  }
+  const auto is_free = [](const std::vector<int>& of) { return [&of](int vertex) { return of[vertex] < 0; }; };
+  const int before = *std::ranges::find_if(part.vertices, is_free(goal_of));
+  const int after = *std::ranges::find_if(part.vertices, is_free(robot_at));
+  goal_of[before] = after;
+  bool odd = false;
+  for (const int vertex : part.vertices) {
+    for (int next = std::exchange(goal_of[vertex], -1); next >= 0 && next != vertex;) {
+      odd = !odd;
+      next = std::exchange(goal_of[next], -1);
+    }
+  }
+  return odd != (colour[before] != colour[after]);
 }
 
 /// All arrangements of robots on a few vertices that can be reached.
@@ -157,7 +189,7 @@ class Arrangements {
         see(at);
         at[robot] = from;
       } else if (there == chain_.front() && chain_.size() > 2) {
-        turn(at);
+        if (!instance_.rules().following_forbidden) turn(at);
       } else if (there > chain_.front() && std::ranges::find(chain_, there) == chain_.end()) {
         chain_.push_back(there);  // a cycle is begun at its least robot only
         extend(at);
@@ -211,13 +243,19 @@ std::optional<int> find_misplaced_robot(const Instance& instance, Limits& limits
     if (part_of[instance.robots()[robot].goals.front()] != part_of[start]) return robot;
     all[part_of[start]].robots.push_back(robot);
   }
-  for (Part& part : all) {
+  for (const Part& part : all) {
     if (part.robots.size() < 2) continue;
-    const std::vector<int> line = line_up(parts, part.vertices);
-    if (!line.empty()) {
-      const bool closed = parts.neighbours(line.front()).size() == 2;
-      const int robot = find_disorder(instance, line, closed);
+    const std::size_t empty = part.vertices.size() - part.robots.size();
+    const auto is_thin = [&](int vertex) { return instance.roadmap().out(vertex).size() <= 2; };
+    if (empty <= 2 + static_cast<std::size_t>(std::ranges::count_if(part.vertices, is_thin))) {
+      if (const auto robot = find_robot_beyond_chain(instance, part.vertices, part.robots, limits)) return robot;
+    }
+    if (const std::vector<int> cycle = line_up(parts, part.vertices); !cycle.empty()) {
+      const int robot = find_disorder(instance, cycle);
       if (robot >= 0) return robot;
+    }
+    if (instance.rules().following_forbidden && empty < 2) {
+      if (empty == 1 ? has_wrong_parity(instance, parts, part) : is_moved(instance, part)) return part.robots.front();
     }
     if (Arrangements::are_few(part) && !Arrangements(instance, part, limits).can_reach_goals()) {
       return part.robots.front();

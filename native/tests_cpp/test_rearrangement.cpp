@@ -77,6 +77,20 @@ TEST("robots keep their cyclic order on a cycle") {
   CHECK(!misplaced(line(3, true, {robot(0, 1), robot(1, 2), robot(2, 0)})));
 }
 
+TEST("where following is forbidden, a full grid stands still and one with a hole keeps its parity") {
+  const auto board = [](int last, bool exchanged, bool following_forbidden) {
+    std::vector<Robot> robots;
+    for (int vertex = 0; vertex <= last; ++vertex) robots.push_back(robot(vertex, vertex));
+    if (exchanged) std::swap(robots[0].goals, robots[1].goals);
+    return instance(grid(20, 20), robots, {.following_forbidden = following_forbidden});
+  };
+  CHECK(misplaced(board(399, true, true)).has_value());
+  CHECK(misplaced(board(398, true, true)).has_value());
+  CHECK(!misplaced(board(397, true, true)));
+  CHECK(!misplaced(board(398, false, true)));
+  CHECK(!misplaced(board(398, true, false)));
+}
+
 TEST("a branch lets two robots change places, and what it does not know it leaves open") {
   CHECK(!misplaced(instance(grid(200, 2), {robot(0, 199), robot(199, 0)})));
   const Rules gone{.disappear_at_goal = true};

@@ -54,6 +54,8 @@ class DistanceTables {
   DistanceTable& operator[](int robot) { return *tables_[of_robot_[robot]]; }
   /// Sum of costs if every robot were alone: a lower bound. All of them must be able to reach a goal.
   Cost sum_of_costs(const Instance& instance);
+  /// The latest arrival if every robot were alone: a lower bound likewise.
+  Cost makespan(const Instance& instance);
   /// Of one robot.
   Cost least_cost(const Instance& instance, int robot);
 

@@ -1,9 +1,10 @@
-// Proofs that robots cannot be rearranged as asked, whatever the time: on a path they keep their order, on a cycle
-// their cyclic order, and where there are few arrangements all that can be reached are tried, a robot's move into an
-// empty place or a full cycle's turn at a time, of which all simultaneous moves consist. Pebbles on graphs: Kornhauser,
-// Miller and Spirakis, "Coordinating pebble motion on graphs, the diameter of permutation groups, and applications",
-// FOCS 1984; with turns of cycles: Yu and Rus, "Pebble motion on graphs with rotations: Efficient feasibility tests and
-// planning algorithms", WAFR 2014.
+// Proofs that robots cannot be rearranged as asked, whatever the time: nobody gets through a chain if too few vertices
+// are empty, on a cycle robots keep their cyclic order, and where there are few arrangements all that can be reached
+// are tried, a robot's move into an empty place or a full cycle's turn at a time, of which all simultaneous moves
+// consist. Where following is forbidden no cycle turns, and the parity of a full part with one empty vertex is tested.
+// Pebbles on graphs: Kornhauser, Miller and Spirakis, "Coordinating pebble motion on graphs, the diameter of
+// permutation groups, and applications", FOCS 1984; with turns of cycles: Yu and Rus, "Pebble motion on graphs with
+// rotations: Efficient feasibility tests and planning algorithms", WAFR 2014.
 #pragma once
 
 #include <optional>

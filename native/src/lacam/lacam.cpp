@@ -29,24 +29,14 @@ class Lacam {
       result_.status = Status::unsolvable;
       return;
     }
-    least_ = least();
+    const bool sum = options_.objective == Objective::flowtime;
+    least_ = sum ? tables_.sum_of_costs(instance_) : tables_.makespan(instance_);
     result_.status = Status::solved;
     keep(paths_of(moves_, search_.way(), instance_.size()));
     if (options_.iterations != 0 && best_.first > least_) improve();
   }
 
  private:
-  /// What the objective is at least.
-  Cost least() {
-    Cost sum = 0, latest = 0;
-    for (int robot = 0; robot < instance_.size(); ++robot) {
-      const Cost alone = tables_.least_cost(instance_, robot);
-      sum += alone;
-      latest = std::max(latest, alone);
-    }
-    return options_.objective == Objective::makespan ? latest : sum;
-  }
-
   void keep(std::vector<Path> paths) {
     result_.paths = std::move(paths);
     note();

@@ -19,6 +19,8 @@ class Lns {
   void solve() {
     if (const auto robot = find_cut_off_robot(instance_, tables_, limits_)) return unsolvable(*robot);
     result_.lower_bound = static_cast<double>(tables_.sum_of_costs(instance_));
+    const bool sum = options_.objective == Objective::flowtime;
+    least_ = sum ? result_.lower_bound : static_cast<double>(tables_.makespan(instance_));
     const Relations relations(instance_, limits_);
     if (const auto robot = find_clash(instance_, relations, limits_)) return unsolvable(*robot);
     Schedule schedule(instance_, tables_, relations, options_.seed, limits_, result_.statistics);
@@ -44,11 +46,7 @@ class Lns {
   }
 
   void note() {
-    result_.note(limits_.seconds(), static_cast<double>(value(options_.objective, result_.paths).first), least());
-  }
-
-  double least() const {
-    return options_.objective == Objective::makespan ? std::numeric_limits<double>::quiet_NaN() : result_.lower_bound;
+    result_.note(limits_.seconds(), static_cast<double>(value(options_.objective, result_.paths).first), least_);
   }
 
   /// Put a plan without conflicts into `schedule` and the result, or set the status.
@@ -68,7 +66,8 @@ class Lns {
 
   bool begin_by_lacam() {
     const lacam::Moves moves(instance_, limits_);
-    const LacamOptions options{.seed = options_.seed};
+    LacamOptions options;
+    options.seed = options_.seed;
     Statistics of_search;
     lacam::LacamSearch search(instance_, moves, tables_, nullptr, options, limits_, of_search);
     if (!search.find_first()) {
@@ -98,6 +97,7 @@ class Lns {
   Limits& limits_;
   Result& result_;
   DistanceTables tables_;
+  double least_ = 0;  // what the objective is at least
 };
 
 }  // namespace

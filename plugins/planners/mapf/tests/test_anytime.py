@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mapf_claims import ask
 from mapf_instances import grid, movingai, problem, random_graph_problem, random_grid_problem, random_rules
-from mapf_oracle import least_cost
+from mapf_oracle import least_cost, least_makespan
 from mrpbench_planners_mapf.lacam import Lacam
 from mrpbench_planners_mapf.lns import Lns
 from mrpbench_planners_mapf.pbs import Pbs
@@ -32,6 +32,19 @@ def test_lacam_ends_with_the_optimum_or_proves_that_there_is_no_plan(seed, robot
     else:
         assert result.plan.sum_of_costs == optimum == result.lower_bound
         assert not result.clock_bound
+
+
+@settings(max_examples=25, deadline=None)
+@given(seed=seeds, robots=st.integers(2, 3))
+def test_the_last_arrival_is_the_earliest_possible_and_no_bound_is_later(seed, robots):
+    asked = random_grid_problem(np.random.default_rng(seed), robots, size=3)
+    earliest = least_makespan(asked)
+    if earliest is None or np.isinf(earliest):
+        return
+    found = Lacam(objective="makespan").plan(asked, attrs.evolve(BUDGET, iterations=None))
+    assert found.plan.makespan == earliest == found.history[-1].lower_bound
+    other = Lns(objective="makespan").plan(asked, BUDGET)
+    assert other.history[-1].lower_bound <= earliest <= other.plan.makespan
 
 
 @settings(max_examples=60, deadline=None)

@@ -4,7 +4,11 @@ import time
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mapf_claims import faults
 from mapf_instances import endless_swap, grid, movingai, problem, random_grid_problem, roadmap
+from mapf_oracle import least_cost
 from mrpbench_planners_mapf.astar import Astar
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
@@ -44,12 +48,37 @@ def test_a_swap_that_nothing_rules_out_ends_at_the_deadline_with_a_bound():
         (["." * 200], [0, 199], [199, 0]),  # no room to pass
         (["..", ".."], [0, 1, 2], [1, 0, 2]),  # round and round, always in the same order
         (["..#", "...", "#.#"], [0, 1, 2, 3, 4, 5], [0, 1, 2, 3, 5, 4]),  # no room to move apart from turning
+        (["." * 100, "#" * 49 + "." + "#" * 50], range(99), [1, 0, *range(2, 99)]),  # too far from where they could
     ],
 )
 def test_robots_that_can_never_pass_one_another_are_unsolvable(planner, rows, starts, goals):
     asked = problem(grid(rows), starts, goals)
     result = planner.plan(asked, Budget(wall_s=60, memory_bytes=1 << 30))
     assert result.status is PlanStatus.UNSOLVABLE
+
+
+@settings(max_examples=40, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), planner=st.sampled_from([Prioritized(), Pbs(), Lns(), Cbs()]))
+def test_what_is_called_unsolvable_where_nobody_may_follow_has_no_plan(seed, planner):
+    random = np.random.default_rng(seed)
+    rows = ["".join("#" if random.random() < 0.2 else "." for _ in range(3)) for _ in range(2)]
+    road = grid(rows)
+    vertices = len(road.position)
+    robots = vertices - int(random.integers(0, 3))
+    if robots < 1:
+        return
+    starts, goals = random.permutation(vertices)[:robots], random.permutation(vertices)[:robots]
+    asked = problem(road, starts, goals.tolist(), following="forbidden")
+    optimum = least_cost(asked)
+    budget = Budget(wall_s=0.2, memory_bytes=1 << 30, iterations=20)
+    assert not faults(asked, planner, planner.plan(asked, budget), optimum)
+
+
+@pytest.mark.parametrize("planner", [Prioritized(), Pbs(), Cbs()])
+def test_a_sliding_puzzle_of_the_wrong_parity_is_unsolvable(planner):
+    goals = [1, 0, *range(2, 99)]
+    asked = problem(grid(["." * 10] * 10), range(99), goals, following="forbidden")
+    assert planner.plan(asked, Budget(wall_s=60, memory_bytes=1 << 30)).status is PlanStatus.UNSOLVABLE
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
