@@ -280,10 +280,12 @@ void BoundedTree::find_conflicts(int robot, const TimedPath& path, std::vector<C
   for (Conflict& conflict : conflicts_.copy(found_)) conflicts.push_back(&conflict);
 }
 
-/// Take over the paths of a child that keep to the bound of `node` and have fewer conflicts.
+/// Take over the paths of a child that keep to the bound of `node` and have fewer conflicts. Where moves take many
+/// ticks they must not cost more: dear detours would use the bound up long before the last conflict is gone.
 bool BoundedTree::bypass(Node& node, const Child& child) {
   if (!child.possible || child.conflicts.size() >= node.conflicts.size()) return false;
   if (static_cast<double>(child.cost) > options_.w * static_cast<double>(node.least)) return false;
+  if (!bench_.space.textbook() && child.cost > node.cost) return false;
   if (!options_.flex && std::ranges::any_of(child.plans, [&](const Plan& plan) {
         return plan.path.cost > CostBound{options_.w}(current_[plan.robot].least);
       })) {

@@ -12,9 +12,9 @@ struct BoundedOptions {
   /// The solution costs at most this many times the lower bound; at least 1.
   double w = 1.2;
   Selection selection = Selection::explicit_estimation;
-  /// Within a bound, paths that are taken over may cost more, as long as they keep to it; conflicts are rated by the
-  /// cheapest paths of the robots, not the present ones; and the heuristic is asked for nodes that are to raise the
-  /// lower bound (Li, Ruml and Koenig, AAAI 2021).
+  /// Within a bound, paths that are taken over may cost more, as long as they keep to it (if moves take one tick);
+  /// conflicts are rated by the cheapest paths of the robots, not the present ones; and the heuristic is asked for
+  /// nodes that are to raise the lower bound (Li, Ruml and Koenig, AAAI 2021).
   CbsOptions techniques = {};
   /// The bound of one robot's path is what the other robots leave of the common bound: Chan, Li, Gange, Harabor,
   /// Stuckey and Koenig, "Flex distribution for bounded-suboptimal multi-agent path finding", AAAI 2022.

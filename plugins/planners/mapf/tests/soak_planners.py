@@ -47,6 +47,9 @@ KINDS: dict[str, Draw] = {
         random, int(random.integers(2, 4)), longest=1, at_goal=str(random.choice(["stay", "disappear"]))
     ),
     "graph": lambda random: random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random)),
+    "graph, long lanes": lambda random: random_graph_problem(
+        random, int(random.integers(2, 4)), longest=8, radius=0.3, at_goal=str(random.choice(["stay", "disappear"]))
+    ),
     "graph, late start": lambda random: random_graph_problem(
         random, 2, ready=random.integers(0, 5, 2), **random_rules(random)
     ),
