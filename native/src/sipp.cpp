@@ -6,11 +6,12 @@
 namespace mrpbench::mapf {
 
 Sipp::Sipp(const Instance& instance, Limits& limits, Statistics& statistics)
-    : instance_(instance), roadmap_(instance.roadmap()), limits_(limits), statistics_(statistics) {
-  limits.charge(static_cast<std::size_t>(roadmap_.element_count()) * sizeof(Slot));
-  vertex_slot_.resize(roadmap_.vertex_count());
-  edge_slot_.resize(roadmap_.edge_count());
-}
+    : instance_(instance),
+      roadmap_(instance.roadmap()),
+      limits_(limits),
+      statistics_(statistics),
+      states_(roadmap_.vertex_count(), limits),
+      departures_(roadmap_.edge_count(), limits) {}
 
 bool Sipp::search(int robot, DistanceTable& distance, const Obstacles& obstacles, Path& path,
                   const Reservations* others, Tick delay) {
@@ -20,8 +21,8 @@ bool Sipp::search(int robot, DistanceTable& distance, const Obstacles& obstacles
   least_cost_ = earliest_stay(instance_.robots()[robot]);
   if (least_cost_ == kForever || distance(beginning.vertex) == kForever) return false;
 
-  const Slot slot = states_of(beginning.vertex);
-  for (int state = slot.first; state < slot.first + slot.count; ++state) {
+  const Row row = states_of(beginning.vertex);
+  for (int state = row.first; state < row.last; ++state) {
     if (states_[state].first > beginning.free_at || states_[state].last < beginning.free_at) continue;
     states_[state].arrival = std::min(states_[state].last, beginning.free_at + delay);
     push(state);
@@ -41,8 +42,7 @@ bool Sipp::search(int robot, DistanceTable& distance, const Obstacles& obstacles
       expand(best.state);
     }
   }
-  limits_.charge_growth(counted_, states_.capacity() * sizeof(State) + open_.capacity() * sizeof(Open) +
-                                      departures_.capacity() * sizeof(Range));
+  limits_.charge_growth(counted_, open_.capacity() * sizeof(Open));
   return found;
 }
 
@@ -51,13 +51,8 @@ void Sipp::begin(int robot, const Obstacles& obstacles, const Reservations* othe
   obstacles_ = &obstacles;
   others_ = others;
   duration_ = roadmap_.duration(instance_.robots()[robot].profile);
-  if (++epoch_ == 0) {  // wrapped round: old stamps would look new
-    std::ranges::fill(vertex_slot_, Slot{});
-    std::ranges::fill(edge_slot_, Slot{});
-    epoch_ = 1;
-  }
-  states_.clear();
-  departures_.clear();
+  states_.forget();
+  departures_.forget();
   open_.clear();
 }
 
@@ -66,50 +61,45 @@ Tick Sipp::earliest_stay(const Robot& robot) {
   if (instance_.rules().disappear_at_goal) return 0;
   Tick earliest = kForever;
   for (const int goal : robot.goals) {
-    const Slot slot = states_of(goal);
-    if (slot.count == 0) continue;
-    const State& last = states_[slot.first + slot.count - 1];
+    const Row row = states_of(goal);
+    if (row.size() == 0) continue;
+    const State& last = states_[row.last - 1];
     if (last.last == kForever) earliest = std::min(earliest, last.first);
   }
   return earliest;
 }
 
 /// The states of a vertex, made when it is first touched: the gaps between the blocked half-ticks that hold a tick.
-Sipp::Slot Sipp::states_of(int vertex) {
-  Slot& slot = vertex_slot_[vertex];
-  if (slot.epoch == epoch_) return slot;
-  slot = {epoch_, static_cast<std::int32_t>(states_.size()), 0};
-  scratch_.clear();
-  obstacles_->at_vertex(vertex, scratch_);
-  unite(scratch_);
-  const auto add = [&](Half first, Half last) {
-    const Tick begin = (first + 1) / 2, end = last / 2;
-    if (first <= last && begin <= end) states_.push_back({begin, end, kForever, vertex, -1, -1, 0, false});
-  };
-  Half free = 0;
-  for (const Range& blocked : scratch_) {
-    add(free, blocked.first - 1);
-    free = blocked.last + 1;
-  }
-  if (free <= kForeverHalf) add(free, kForeverHalf);
-  slot.count = static_cast<std::int32_t>(states_.size()) - slot.first;
-  return slot;
+Sipp::Row Sipp::states_of(int vertex) {
+  return states_.row(vertex, [&](std::vector<State>& states) {
+    scratch_.clear();
+    obstacles_->at_vertex(vertex, scratch_);
+    unite(scratch_);
+    const auto add = [&](Half first, Half last) {
+      const Tick begin = (first + 1) / 2, end = last / 2;
+      if (first <= last && begin <= end) states.push_back({begin, end, kForever, vertex, -1, -1, 0, false});
+    };
+    Half free = 0;
+    for (const Range& blocked : scratch_) {
+      add(free, blocked.first - 1);
+      free = blocked.last + 1;
+    }
+    if (free <= kForeverHalf) add(free, kForeverHalf);
+  });
 }
 
 /// The first tick from `departure` on at which the robot may enter `edge`.
 Tick Sipp::next_departure(int edge, Tick departure) {
-  Slot& slot = edge_slot_[edge];
-  if (slot.epoch != epoch_) {
+  const auto row = departures_.row(edge, [&](std::vector<Range>& departures) {
     scratch_.clear();
     obstacles_->on_edge(edge, duration_[edge], scratch_);
     unite(scratch_);
-    slot = {epoch_, static_cast<std::int32_t>(departures_.size()), static_cast<std::int32_t>(scratch_.size())};
-    departures_.insert(departures_.end(), scratch_.begin(), scratch_.end());
-  }
-  if (slot.count == 0) return departure;
-  const auto begin = departures_.begin() + slot.first, end = begin + slot.count;
-  const auto next = std::partition_point(begin, end, [&](const Range& range) { return range.last < departure; });
-  return next == end || next->first > departure ? departure : next->last + 1;
+    departures.insert(departures.end(), scratch_.begin(), scratch_.end());
+  });
+  if (row.size() == 0) return departure;
+  const std::span<const Range> blocked = departures_.items(row);
+  const auto next = std::ranges::partition_point(blocked, [&](const Range& it) { return it.last < departure; });
+  return next == blocked.end() || next->first > departure ? departure : next->last + 1;
 }
 
 void Sipp::expand(int state) {
@@ -118,8 +108,8 @@ void Sipp::expand(int state) {
   for (const int edge : roadmap_.out(from.vertex)) {
     const Tick duration = duration_[edge];
     if (duration < 0 || (*distance_)(roadmap_.head(edge)) == kForever) continue;
-    const Slot slot = states_of(roadmap_.head(edge));
-    for (int to = slot.first; to < slot.first + slot.count; ++to) {
+    const Row row = states_of(roadmap_.head(edge));
+    for (int to = row.first; to < row.last; ++to) {
       const Tick safe_from = states_[to].first - duration, safe_until = states_[to].last - duration;
       Tick departure = std::max(from.arrival, safe_from);
       if (safe_from > from.last) break;

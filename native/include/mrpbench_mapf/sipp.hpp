@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mrpbench_mapf/distance_table.hpp"
+#include "mrpbench_mapf/lazy_rows.hpp"
 #include "mrpbench_mapf/reservations.hpp"
 
 namespace mrpbench::mapf {
@@ -43,14 +44,10 @@ class Sipp {
       return state < other.state;
     }
   };
-  struct Slot {
-    std::uint32_t epoch = 0;  // valid for the current search if equal to `epoch_`
-    std::int32_t first = 0;
-    std::int32_t count = 0;
-  };
+  using Row = LazyRows<State>::Row;
 
   void begin(int robot, const Obstacles& obstacles, const Reservations* others);
-  Slot states_of(int vertex);
+  Row states_of(int vertex);
   Tick next_departure(int edge, Tick departure);
   Tick earliest_stay(const Robot& robot);
   void expand(int state);
@@ -72,10 +69,8 @@ class Sipp {
   DistanceTable* distance_ = nullptr;
   std::span<const Tick> duration_;
   Tick least_cost_ = 0;
-  std::uint32_t epoch_ = 0;
-  std::vector<Slot> vertex_slot_, edge_slot_;
-  std::vector<State> states_;
-  std::vector<Range> departures_;  // forbidden ones of all edges touched so far
+  LazyRows<State> states_;      // by vertex
+  LazyRows<Range> departures_;  // forbidden ones, by edge
   std::vector<Open> open_;
   std::vector<Range> scratch_;
   std::size_t counted_ = 0;

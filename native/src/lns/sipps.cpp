@@ -13,10 +13,9 @@ Sipps::Sipps(const Traffic& traffic, std::uint64_t seed, Limits& limits, Statist
       roadmap_(instance_.roadmap()),
       limits_(limits),
       statistics_(statistics),
-      random_(seed) {
-  limits.charge(static_cast<std::size_t>(roadmap_.element_count()) * sizeof(Slot));
-  vertex_slot_.resize(roadmap_.vertex_count());
-  edge_slot_.resize(roadmap_.edge_count());
+      random_(seed),
+      states_(roadmap_.vertex_count(), limits),
+      departures_(roadmap_.edge_count(), limits) {
   for (int profile = 0; profile < roadmap_.profile_count(); ++profile) gather_ways(profile);
 }
 
@@ -45,8 +44,8 @@ bool Sipps::search(int robot, DistanceTable& distance, Others others, Tick lates
   alone_ = beginning.free_at + to_go;
   least_ = is_soft() ? 0 : earliest_stay();
   if (least_ > latest) return false;
-  const Slot slot = states_of(beginning.vertex);
-  for (int state = slot.first; state < slot.first + slot.count; ++state) {
+  const Row row = states_of(beginning.vertex);
+  for (int state = row.first; state < row.last; ++state) {
     if (states_[state].first > beginning.free_at || states_[state].last < beginning.free_at) continue;
     reach(-1, state, -1, beginning.free_at, states_[state].company.present);
   }
@@ -66,8 +65,7 @@ bool Sipps::search(int robot, DistanceTable& distance, Others others, Tick lates
     state.closed = labels_[label].arrival;
     expand(label);
   }
-  limits_.charge_growth(counted_, states_.capacity() * sizeof(State) + labels_.capacity() * sizeof(Label) +
-                                      open_.capacity() * sizeof(Open) + departures_.capacity() * sizeof(Range));
+  limits_.charge_growth(counted_, labels_.capacity() * sizeof(Label) + open_.capacity() * sizeof(Open));
   return found;
 }
 
@@ -75,13 +73,8 @@ void Sipps::begin(int robot) {
   robot_ = robot;
   duration_ = roadmap_.duration(instance_.robots()[robot].profile);
   out_ = &ways_[instance_.robots()[robot].profile];
-  if (++epoch_ == 0) {  // wrapped round: old stamps would look new
-    std::ranges::fill(vertex_slot_, Slot{});
-    std::ranges::fill(edge_slot_, Slot{});
-    epoch_ = 1;
-  }
-  states_.clear();
-  departures_.clear();
+  states_.forget();
+  departures_.forget();
   labels_.clear();
   open_.clear();
 }
@@ -91,25 +84,22 @@ Tick Sipps::earliest_stay() {
   if (instance_.rules().disappear_at_goal) return 0;
   Tick earliest = kForever;
   for (const int goal : instance_.robots()[robot_].goals) {
-    const Slot slot = states_of(goal);
-    if (slot.count == 0) continue;
-    const State& last = states_[slot.first + slot.count - 1];
+    const Row row = states_of(goal);
+    if (row.size() == 0) continue;
+    const State& last = states_[row.last - 1];
     if (last.last == kForever) earliest = std::min(earliest, last.first);
   }
   return earliest;
 }
 
-Sipps::Slot Sipps::states_of(int vertex) {
-  Slot& slot = vertex_slot_[vertex];
-  if (slot.epoch == epoch_) return slot;
-  slot = {epoch_, static_cast<std::int32_t>(states_.size()), 0};
-  if (is_soft()) {
-    add_shared(vertex);
-  } else {
-    add_free(vertex);
-  }
-  slot.count = static_cast<std::int32_t>(states_.size()) - slot.first;
-  return slot;
+Sipps::Row Sipps::states_of(int vertex) {
+  return states_.row(vertex, [&](std::vector<State>& states) {
+    if (is_soft()) {
+      add_shared(vertex, states);
+    } else {
+      add_free(vertex, states);
+    }
+  });
 }
 
 /// The visits that exclude the robot from `vertex`, by their beginnings.
@@ -133,21 +123,21 @@ Sipps::Window Sipps::window_of(int vertex) {
   return {2 * (alone_ - h), stays ? kForeverHalf : 2 * (latest_ - h)};
 }
 
-void Sipps::add_free(int vertex) {
+void Sipps::add_free(int vertex, std::vector<State>& states) {
   const Window window = window_of(vertex);
   Half free = 0;
   std::int32_t before = -1;
   for (const Visit& visit : visits_at(vertex)) {
     if (free > window.last) return;
     if (visit.begin > free && visit.begin > window.first)
-      add_state(vertex, free, visit.begin - 1, {.before = before, .after = visit.robot});
+      add_state(states, vertex, free, visit.begin - 1, {.before = before, .after = visit.robot});
     free = std::max(free, visit.end + 1);
     before = visit.robot;
   }
-  if (free <= window.last) add_state(vertex, free, kForeverHalf, {.before = before});
+  if (free <= window.last) add_state(states, vertex, free, kForeverHalf, {.before = before});
 }
 
-void Sipps::add_shared(int vertex) {
+void Sipps::add_shared(int vertex, std::vector<State>& states) {
   const Window window = window_of(vertex);
   const std::span<const Visit> visits = visits_at(vertex);
   ends_.clear();
@@ -162,40 +152,39 @@ void Sipps::add_shared(int vertex) {
     Half until = kForeverHalf;
     if (next < visits.size()) until = std::min(until, visits[next].begin - 1);
     if (ended < ends_.size()) until = std::min(until, ends_[ended]);
-    const std::size_t before = states_.size();
-    if (until >= window.first) add_state(vertex, from, until, {.present = present, .begun = begun});
-    if (states_.size() > before) begun = 0;  // else it lies between two ticks: whoever waits on meets them as well
+    const std::size_t before = states.size();
+    if (until >= window.first) add_state(states, vertex, from, until, {.present = present, .begun = begun});
+    if (states.size() > before) begun = 0;  // else it lies between two ticks: whoever waits on meets them as well
     from = until + 1;
   }
 }
 
-void Sipps::add_state(int vertex, Half first, Half last, Company company) {
+void Sipps::add_state(std::vector<State>& states, int vertex, Half first, Half last, Company company) {
   const Tick begin = (first + 1) / 2, end = last / 2;
-  if (begin <= end) states_.push_back({begin, end, vertex, company, kForever, kForever, 0});
+  if (begin <= end) states.push_back({begin, end, vertex, company, kForever, kForever, 0});
 }
 
 /// Departures at which the robot conflicts with others on `edge`; hard: sorted and united.
-Sipps::Slot Sipps::departures_of(int edge) {
-  Slot& slot = edge_slot_[edge];
-  if (slot.epoch == epoch_) return slot;
-  ranges_.clear();
-  const Tick duration = duration_[edge];
-  for (const Near& near : traffic_.relations().row(roadmap_.vertex_count() + edge)) {
-    for (const Visit& visit : traffic_.at(near.element)) {
-      const Relation relation = near.relation(instance_.reach(robot_, visit.robot));
-      if (relation == Relation::none) continue;
-      Range range{visit.begin / 2 + 1 - duration, (visit.end - 1) >> 1};  // [2d+1, 2(d+duration)-1] meets the visit
-      if (relation == Relation::ordered) {                                // not the same order at both ends
-        const Tick enter = visit.begin / 2, level = (visit.end + 1) / 2 - duration;
-        range = {std::min(enter, level), std::max(enter, level)};
+std::span<const Range> Sipps::departures_of(int edge) {
+  const auto row = departures_.row(edge, [&](std::vector<Range>& departures) {
+    ranges_.clear();
+    const Tick duration = duration_[edge];
+    for (const Near& near : traffic_.relations().row(roadmap_.vertex_count() + edge)) {
+      for (const Visit& visit : traffic_.at(near.element)) {
+        const Relation relation = near.relation(instance_.reach(robot_, visit.robot));
+        if (relation == Relation::none) continue;
+        Range range{visit.begin / 2 + 1 - duration, (visit.end - 1) >> 1};  // [2d+1, 2(d+duration)-1] meets the visit
+        if (relation == Relation::ordered) {                                // not the same order at both ends
+          const Tick enter = visit.begin / 2, level = (visit.end + 1) / 2 - duration;
+          range = {std::min(enter, level), std::max(enter, level)};
+        }
+        if (range.first <= range.last) ranges_.push_back(range);
       }
-      if (range.first <= range.last) ranges_.push_back(range);
     }
-  }
-  if (!is_soft()) unite(ranges_);
-  slot = {epoch_, static_cast<std::int32_t>(departures_.size()), static_cast<std::int32_t>(ranges_.size())};
-  departures_.insert(departures_.end(), ranges_.begin(), ranges_.end());
-  return slot;
+    if (!is_soft()) unite(ranges_);
+    departures.insert(departures.end(), ranges_.begin(), ranges_.end());
+  });
+  return departures_.items(row);
 }
 
 void Sipps::expand(int label) {
@@ -207,15 +196,14 @@ void Sipps::expand(int label) {
   for (const auto& [edge, head, duration] : std::span(out_->way).subspan(first, last - first)) {
     const Tick h = (*distance_)(head);
     if (h == kForever || from.arrival + duration + h > latest_) continue;
-    const Slot slot = states_of(head);
-    int to = slot.first, end = slot.first + slot.count;
-    while (to < end && states_[to].last < from.arrival + duration) ++to;
-    for (; to < end && states_[to].first - duration <= here.last; ++to) follow(label, edge, to);
+    const Row row = states_of(head);
+    int to = row.first;
+    while (to < row.last && states_[to].last < from.arrival + duration) ++to;
+    for (; to < row.last && states_[to].first - duration <= here.last; ++to) follow(label, edge, to);
   }
   if (!is_soft()) return;
-  const Slot slot = states_of(here.vertex);
   const int next = from.state + 1;
-  if (next < slot.first + slot.count) {
+  if (next < states_of(here.vertex).last) {
     reach(label, next, -1, states_[next].first, from.conflicts + states_[next].company.begun);
   }
 }
@@ -235,8 +223,7 @@ void Sipps::follow(int label, int edge, int to) {
     }
     return reach(label, to, edge, departure + 1, conflicts);
   }
-  const Slot slot = departures_of(edge);
-  const std::span<const Range> ranges(departures_.data() + slot.first, slot.count);
+  const std::span<const Range> ranges = departures_of(edge);
   if (is_soft()) {
     const auto met = [&](Tick tick) {
       return std::ranges::count_if(ranges, [&](const Range& it) { return it.first <= tick && tick <= it.last; });
@@ -272,8 +259,8 @@ void Sipps::finish(int label) {
   const State& state = states_[end.state];
   if (!instance_.rules().disappear_at_goal) {
     if (!is_soft() && state.last != kForever) return;
-    const Slot slot = vertex_slot_[state.vertex];
-    for (int later = end.state + 1; is_soft() && later < slot.first + slot.count; ++later) {
+    const Row row = states_of(state.vertex);
+    for (int later = end.state + 1; is_soft() && later < row.last; ++later) {
       end.conflicts += states_[later].company.begun;
     }
   }

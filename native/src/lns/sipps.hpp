@@ -6,6 +6,7 @@
 
 #include "lns/traffic.hpp"
 #include "mrpbench_mapf/distance_table.hpp"
+#include "mrpbench_mapf/lazy_rows.hpp"
 #include "mrpbench_mapf/random.hpp"
 
 namespace mrpbench::mapf::lns {
@@ -65,21 +66,17 @@ class Sipps {
   struct Window {
     Half first, last;
   };
-  struct Slot {
-    std::uint32_t epoch = 0;  // valid for the current search if equal to `epoch_`
-    std::int32_t first = 0;
-    std::int32_t count = 0;
-  };
+  using Row = LazyRows<State>::Row;
 
   void gather_ways(int profile);
   void begin(int robot);
-  Slot states_of(int vertex);
+  Row states_of(int vertex);
   std::span<const Visit> visits_at(int vertex);
   Window window_of(int vertex);
-  void add_free(int vertex);
-  void add_shared(int vertex);
-  void add_state(int vertex, Half first, Half last, Company company);
-  Slot departures_of(int edge);
+  void add_free(int vertex, std::vector<State>& states);
+  void add_shared(int vertex, std::vector<State>& states);
+  static void add_state(std::vector<State>& states, int vertex, Half first, Half last, Company company);
+  std::span<const Range> departures_of(int edge);
   Tick earliest_stay();
   void expand(int label);
   void follow(int label, int edge, int to);
@@ -105,10 +102,8 @@ class Sipps {
   DistanceTable* distance_ = nullptr;
   std::span<const Tick> duration_;
   const Ways* out_ = nullptr;
-  std::uint32_t epoch_ = 0;
-  std::vector<Slot> vertex_slot_, edge_slot_;
-  std::vector<State> states_;
-  std::vector<Range> departures_;  // forbidden ones (soft: in conflict) of all edges touched so far
+  LazyRows<State> states_;      // by vertex
+  LazyRows<Range> departures_;  // forbidden ones (soft: in conflict), by edge
   std::vector<Label> labels_;
   std::vector<Open> open_;
   std::vector<Visit> visits_;
