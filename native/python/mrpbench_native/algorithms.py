@@ -15,6 +15,7 @@ _FOCAL: dict[str, Any] = {
     "corridor": False,
     "rectangle": False,
     "flex": False,
+    "incumbent": False,
     "distance_weight": 1.0,
     "conflict_weight": 0.0,
 }
@@ -28,10 +29,15 @@ _EXPLICIT_ESTIMATION: dict[str, Any] = {
     "corridor": True,
     "rectangle": True,
     "flex": False,
+    "incumbent": True,
     "distance_weight": 1.2,
     "conflict_weight": 20.0,
 }
-_ASSIGNING: dict[str, Any] = _EXPLICIT_ESTIMATION | {"selection": "focal", "heuristic": False}
+_ASSIGNING: dict[str, Any] = _EXPLICIT_ESTIMATION | {
+    "selection": "focal",
+    "heuristic": False,
+    "incumbent": False,
+}
 
 ALGORITHMS: Mapping[str, tuple[Callable[..., mapf.Answer], dict[str, Any]]] = {
     "astar": (mapf.astar, {"heuristic": "exact"}),

@@ -118,6 +118,7 @@ def bounded_cbs(
     corridor: bool,
     rectangle: bool,
     flex: bool,
+    incumbent: bool,
     distance_weight: float,
     conflict_weight: float,
     wall_s: float,

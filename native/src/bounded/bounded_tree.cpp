@@ -30,6 +30,7 @@ void BoundedTree::solve() {
   start();
   while (!queue_.empty()) {
     result_.lower_bound = std::max(result_.lower_bound, static_cast<double>(queue_.least()));
+    if (finish_aside()) return;
     const std::int32_t id = queue_.pop();
     if (by_id_[id] == nullptr) {
       make_ranked_root();
@@ -42,6 +43,20 @@ void BoundedTree::solve() {
     expand(node);
   }
   result_.status = Status::unsolvable;  // the tree is exhausted
+}
+
+/// Once the tree has taken a while, has a search aside of it found a solution that is within the bound?
+bool BoundedTree::finish_aside() {
+  constexpr std::int64_t kAlone = 100'000;  // expansions of searches for a single robot
+  if (!options_.incumbent || options_.techniques.goals != GoalChoice::own) return false;
+  const std::int64_t effort = result_.statistics.low_level_expansions - (incumbent_ ? incumbent_->effort() : 0);
+  if (effort < kAlone) return false;
+  if (!incumbent_) incumbent_.emplace(bench_.space.instance(), bench_.distances, limits_, result_.statistics);
+  incumbent_->advance(effort / 2);
+  if (static_cast<double>(incumbent_->cost()) > options_.w * result_.lower_bound) return false;
+  result_.paths = incumbent_->paths();
+  result_.status = Status::solved;
+  return true;
 }
 
 void BoundedTree::finish() {

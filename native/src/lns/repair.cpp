@@ -26,14 +26,13 @@ bool Repair::run(const Patience& patience, std::int64_t& iterations) {
   if (!begin(patience.in_the_way)) return false;
   const std::int64_t begun = schedule_.expansions();
   const double most = patience.effort * static_cast<double>(begun - before);
-  for (std::int64_t k = 0; pairs_ > 0; ++k, ++iterations) {
+  for (std::int64_t k = 0; !is_done(); ++k, ++iterations) {
     if (k >= patience.iterations || static_cast<double>(schedule_.expansions() - begun) >= most) return false;
     advance();
   }
   return true;
 }
 
-/// A first path for every robot.
 bool Repair::begin(int most_in_the_way) {
   std::vector<int> order(schedule_.instance().size());
   std::iota(order.begin(), order.end(), 0);

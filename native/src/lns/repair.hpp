@@ -29,9 +29,16 @@ class Repair {
   /// Begin, then plan groups anew until no conflict is left; false if patience ran out before.
   bool run(const Patience& patience, std::int64_t& iterations);
 
- private:
-  bool begin(int most_in_the_way);
+  // The same step by step.
+
+  /// A first path for every robot; false if one has none, or if more than so many are in the way of others.
+  bool begin(int most_in_the_way = std::numeric_limits<int>::max());
+  /// No conflict is left.
+  bool is_done() const { return pairs_ == 0; }
+  /// Plan a group anew.
   void advance();
+
+ private:
   bool plan_first(int robot, Tick latest, int& in_the_way, int most_in_the_way);
   int conflicts_of(int robot, const Path& path, std::vector<int>& partners);
   void link(int robot, const std::vector<int>& partners);

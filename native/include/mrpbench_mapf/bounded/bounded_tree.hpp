@@ -5,6 +5,7 @@
 #pragma once
 
 #include "mrpbench_mapf/bounded/focal_search.hpp"
+#include "mrpbench_mapf/bounded/incumbent.hpp"
 #include "mrpbench_mapf/bounded/node_queue.hpp"
 #include "mrpbench_mapf/cbs/dependencies.hpp"
 
@@ -50,6 +51,7 @@ class BoundedTree {
   bool make_root(std::span<const int> goals);
   void make_ranked_root();
   void announce_root();
+  bool finish_aside();
   void finish();
   void push(const Node* parent, const Child& child);
   void enqueue(std::int32_t id);
@@ -93,6 +95,7 @@ class BoundedTree {
   PathStore paths_;
   Reasoning reasoning_;
   Dependencies dependencies_;
+  std::optional<Incumbent> incumbent_;
   std::optional<NodeAssignment> assignment_;
   std::optional<RankedGoals> ranked_;
   std::optional<RankedGoals::Ranked> next_root_;

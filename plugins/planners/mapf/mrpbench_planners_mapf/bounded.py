@@ -53,6 +53,7 @@ class Ecbs(ConflictBased):
             corridor=False,
             rectangle=False,
             flex=False,
+            incumbent=False,
             distance_weight=1.0,
             conflict_weight=0.0,
         )
@@ -73,6 +74,11 @@ class Eecbs(Techniques):
     heuristic: bool = heuristic_option()
     flex: bool = option(
         False, help="Let a robot's path use what the others leave of the common bound (Chan et al., AAAI 2022)."
+    )
+    incumbent: bool = option(
+        True,
+        help="Where that takes long, look for a plan within the bound by large neighbourhood search as well (ours; "
+        "off = the plan comes from the constraint tree, as in the original).",
     )
     distance_weight: float = option(
         1.2,
