@@ -7,16 +7,16 @@ namespace mrpbench::mapf {
 
 namespace {
 constexpr std::size_t kFewSlots = 1024;
-constexpr std::size_t kLongSearch = 1024;  // states
 }  // namespace
 
 FocalSearch::FocalSearch(const Space& space, SafeIntervals& intervals, const BoundedOptions& options, Limits& limits,
-                         Statistics& statistics)
+                         Statistics& statistics, std::size_t patience)
     : space_(space),
       intervals_(intervals),
       options_(options),
       limits_(limits),
       statistics_(statistics),
+      patience_(patience),
       vertices_(space.vertex_count()) {}
 
 Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable& others,
@@ -32,7 +32,7 @@ Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, 
   Tick least = std::max({known, table.earliest_finish(), soonest});
   if (least > table.latest_finish() || least == kForever) return kForever;
   begin(least, bound);
-  const std::size_t many = space_.textbook() ? kLongSearch : 0;  // where moves take many ticks, all searches are long
+  const std::size_t many = space_.textbook() ? patience_ : 0;  // where moves take many ticks, all searches are long
   bool exact = false, found = false;
   while (!queue_.empty() && !found) {
     limits_.check();

@@ -4,12 +4,14 @@
 
 namespace mrpbench::mapf {
 
-SpaceTimeAstar::SpaceTimeAstar(const Space& space, SafeIntervals& intervals, Limits& limits, Statistics& statistics)
+SpaceTimeAstar::SpaceTimeAstar(const Space& space, SafeIntervals& intervals, Limits& limits, Statistics& statistics,
+                               std::size_t patience)
     : space_(space),
       intervals_(intervals),
       roadmap_(space.instance().roadmap()),
       limits_(limits),
-      statistics_(statistics) {
+      statistics_(statistics),
+      patience_(patience) {
   forget_seen(kSmallSeen);
 }
 
@@ -24,7 +26,7 @@ bool SpaceTimeAstar::search(const ConstraintTable& table, DistanceTable& distanc
     if (least == kForever) return false;
   }
   if (!begin(table, distance, others, least, latest)) return false;
-  int last = run(space_.textbook() ? kLongSearch : kWholeSearch);
+  int last = run(space_.textbook() ? patience_ : kWholeSearch);
   if (last == kLong) {
     // Perhaps there is no path at all, which would take even longer to find out.
     const Tick cost = intervals_.least_cost(table, distance);

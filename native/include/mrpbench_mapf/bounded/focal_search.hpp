@@ -14,8 +14,9 @@ namespace mrpbench::mapf {
 
 class FocalSearch {
  public:
+  /// After `patience` states, what the cheapest path costs is found out first.
   FocalSearch(const Space& space, SafeIntervals& intervals, const BoundedOptions& options, Limits& limits,
-              Statistics& statistics);
+              Statistics& statistics, std::size_t patience = 1024);
 
   /// Writes a path of the robot that `table` was reset for, and returns a lower bound on the cost of all its paths (at
   /// least `known`, which must be one), or kForever if there is none. `distance` leads to its goals. `others` must not
@@ -47,6 +48,7 @@ class FocalSearch {
   const BoundedOptions& options_;
   Limits& limits_;
   Statistics& statistics_;
+  std::size_t patience_;
   int vertices_;
   // the current search
   const ConstraintTable* table_ = nullptr;

@@ -13,7 +13,9 @@ namespace mrpbench::mapf {
 
 class SpaceTimeAstar {
  public:
-  SpaceTimeAstar(const Space& space, SafeIntervals& intervals, Limits& limits, Statistics& statistics);
+  /// After `patience` nodes, what the path costs is found out first.
+  SpaceTimeAstar(const Space& space, SafeIntervals& intervals, Limits& limits, Statistics& statistics,
+                 std::size_t patience = 1024);
 
   /// The path with the earliest last move of the robot that `table` was reset for, which stays at a goal for good
   /// (unless robots disappear there). `distance` leads to its goals. Among equally early paths one with the fewest
@@ -37,7 +39,6 @@ class SpaceTimeAstar {
   };
   static constexpr std::int32_t kUnknown = 1 << 30;
   static constexpr std::size_t kSmallSeen = 1 << 12;
-  static constexpr std::size_t kLongSearch = 1024;  // nodes
   static constexpr std::size_t kWholeSearch = std::numeric_limits<std::size_t>::max();
 
   bool begin(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable* others, Tick least,
@@ -58,6 +59,7 @@ class SpaceTimeAstar {
   const Roadmap& roadmap_;
   Limits& limits_;
   Statistics& statistics_;
+  std::size_t patience_;
   // the current search
   const ConstraintTable* table_ = nullptr;
   DistanceTable* distance_ = nullptr;
