@@ -251,13 +251,14 @@ Answer cbs(const Instance& instance, const std::string& goal_choice, bool priori
 
 Answer bounded_cbs(const Instance& instance, const std::string& goal_choice, const std::string& selection, double w,
                    bool prioritize, bool bypass, bool heuristic, bool target, bool corridor, bool rectangle, bool flex,
-                   bool incumbent, double distance_weight, double conflict_weight, double wall_s,
-                   std::int64_t memory_bytes) {
+                   std::optional<std::int64_t> incumbent_after, double distance_weight, double conflict_weight,
+                   double wall_s, std::int64_t memory_bytes) {
   static const std::map<std::string, Selection> choices{{"focal", Selection::focal},
                                                         {"explicit_estimation", Selection::explicit_estimation}};
   require_within(w, 1.0, 1e9, "w");
   require_within(distance_weight, 1.0, 1e3, "distance_weight");
   require_within(conflict_weight, 0.0, 1e6, "conflict_weight");
+  if (incumbent_after) require_at_least<std::int64_t>(*incumbent_after, 0, "incumbent_after");
   const BoundedOptions options{.w = w,
                                .selection = choose(choices, selection),
                                .techniques = {.goals = goal_choice_of(goal_choice),
@@ -268,7 +269,7 @@ Answer bounded_cbs(const Instance& instance, const std::string& goal_choice, con
                                               .corridor = corridor,
                                               .rectangle = rectangle},
                                .flex = flex,
-                               .incumbent = incumbent,
+                               .incumbent_after = incumbent_after,
                                .distance_weight = distance_weight,
                                .conflict_weight = conflict_weight};
   nb::gil_scoped_release without_python;
@@ -368,7 +369,7 @@ NB_MODULE(mapf, module) {
       "or by_node (all take different ones, by trees for the cheapest assignments or by an assignment in each node).");
   module.def("bounded_cbs", &bounded_cbs, "instance"_a, nb::kw_only(), "goal_choice"_a = "own", "selection"_a, "w"_a,
              "prioritize"_a, "bypass"_a, "heuristic"_a, "target"_a, "corridor"_a, "rectangle"_a, "flex"_a,
-             "incumbent"_a, "distance_weight"_a, "conflict_weight"_a, "wall_s"_a, "memory_bytes"_a,
+             "incumbent_after"_a, "distance_weight"_a, "conflict_weight"_a, "wall_s"_a, "memory_bytes"_a,
              "At most w times the least sum of arrival times, by bounded-suboptimal conflict-based search.");
   module.def("pbs", &pbs, "instance"_a, nb::kw_only(), "wall_s"_a, "memory_bytes"_a,
              "One robot after another, by a search over who comes before whom.");

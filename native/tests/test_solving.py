@@ -91,6 +91,7 @@ def test_every_algorithm_answers_with_paths_from_starts_to_goals(seed, algorithm
         ({"algorithm": "eecbs", "distance_weight": np.inf}, "distance_weight is from 1 to 1000, not inf"),
         ({"algorithm": "eecbs", "distance_weight": 0.0}, "distance_weight is from 1 to 1000, not 0"),
         ({"algorithm": "eecbs", "conflict_weight": np.nan}, "conflict_weight is from 0 to 1e[+]06, not nan"),
+        ({"algorithm": "eecbs", "incumbent_after": -1}, "incumbent_after is at least 0"),
         ({"algorithm": "eecbs", "selection": "best"}, "'best' is none of: explicit_estimation, focal"),
         ({"algorithm": "lacam", "iterations": -1}, "iterations is at least 0"),
         ({"algorithm": "lacam", "seed": -1}, "lacam: an option is of the wrong type"),

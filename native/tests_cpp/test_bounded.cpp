@@ -22,6 +22,7 @@ BoundedOptions draw(Random& random) {
   options.techniques.corridor = toss();
   options.techniques.rectangle = toss();
   options.flex = toss();
+  options.incumbent_after = toss() ? std::nullopt : std::optional(static_cast<std::int64_t>(toss() ? 0 : 200));
   options.distance_weight = toss() ? 1.0 : 1.5;
   options.conflict_weight = toss() ? 0.0 : 5.0;
   return options;

@@ -15,7 +15,7 @@ _FOCAL: dict[str, Any] = {
     "corridor": False,
     "rectangle": False,
     "flex": False,
-    "incumbent": False,
+    "incumbent_after": None,
     "distance_weight": 1.0,
     "conflict_weight": 0.0,
 }
@@ -29,14 +29,14 @@ _EXPLICIT_ESTIMATION: dict[str, Any] = {
     "corridor": True,
     "rectangle": True,
     "flex": False,
-    "incumbent": True,
+    "incumbent_after": 100_000,
     "distance_weight": 1.2,
     "conflict_weight": 20.0,
 }
 _ASSIGNING: dict[str, Any] = _EXPLICIT_ESTIMATION | {
     "selection": "focal",
     "heuristic": False,
-    "incumbent": False,
+    "incumbent_after": None,
 }
 
 ALGORITHMS: Mapping[str, tuple[Callable[..., mapf.Answer], dict[str, Any]]] = {

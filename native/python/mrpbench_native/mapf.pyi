@@ -118,7 +118,7 @@ def bounded_cbs(
     corridor: bool,
     rectangle: bool,
     flex: bool,
-    incumbent: bool,
+    incumbent_after: int | None,
     distance_weight: float,
     conflict_weight: float,
     wall_s: float,

@@ -47,10 +47,9 @@ void BoundedTree::solve() {
 
 /// Once the tree has taken a while, has a search aside of it found a solution that is within the bound?
 bool BoundedTree::finish_aside() {
-  constexpr std::int64_t kAlone = 100'000;  // expansions of searches for a single robot
-  if (!options_.incumbent || options_.techniques.goals != GoalChoice::own) return false;
+  if (!options_.incumbent_after || options_.techniques.goals != GoalChoice::own) return false;
   const std::int64_t effort = result_.statistics.low_level_expansions - (incumbent_ ? incumbent_->effort() : 0);
-  if (effort < kAlone) return false;
+  if (effort < root_effort_ + *options_.incumbent_after) return false;
   if (!incumbent_) incumbent_.emplace(bench_.space.instance(), bench_.distances, limits_, result_.statistics);
   incumbent_->advance(effort / 2);
   if (static_cast<double>(incumbent_->cost()) > options_.w * result_.lower_bound) return false;
@@ -118,6 +117,7 @@ bool BoundedTree::postpone(std::int32_t id) {
     tighten(node, conflict->other);
   }
   const Cost heuristic = dependencies_.evaluate(situation_, node.conflicts);
+  result_.statistics.pair_expansions = dependencies_.counts().expansions;
   if (heuristic == Dependencies::kImpossible) return true;
   node.heuristic = std::max(heuristic, before - node.least);
   if (node.least + node.heuristic <= before) return false;

@@ -13,6 +13,7 @@ void BoundedTree::start() {
   if (goals == GoalChoice::by_node && !assignment_.emplace(find_candidates(bench_), limits_).solve()) return;
   const std::vector<int> any(robots_, TimedPath::kAnyGoal);
   if (!make_root(any)) result_.statistics.failed_robot = failed_;
+  root_effort_ = result_.statistics.low_level_expansions;
 }
 
 /// Put into the queue a node without constraints in which robots go to `goals`. False if one cannot.

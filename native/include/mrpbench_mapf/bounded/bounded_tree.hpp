@@ -95,6 +95,7 @@ class BoundedTree {
   PathStore paths_;
   Reasoning reasoning_;
   Dependencies dependencies_;
+  std::int64_t root_effort_ = 0;  // low-level expansions for the first node
   std::optional<Incumbent> incumbent_;
   std::optional<NodeAssignment> assignment_;
   std::optional<RankedGoals> ranked_;

@@ -1,6 +1,8 @@
 // What can be chosen in bounded-suboptimal conflict-based search, each with the paper it comes from.
 #pragma once
 
+#include <optional>
+
 #include "mrpbench_mapf/cbs/options.hpp"
 
 namespace mrpbench::mapf {
@@ -19,8 +21,9 @@ struct BoundedOptions {
   /// The bound of one robot's path is what the other robots leave of the common bound: Chan, Li, Gange, Harabor,
   /// Stuckey and Koenig, "Flex distribution for bounded-suboptimal multi-agent path finding", AAAI 2022.
   bool flex = false;
-  /// Look for a solution by large neighbourhood search too: see `Incumbent`.
-  bool incumbent = true;
+  /// Once searches for a single robot have taken so many expansions beyond those for the first node, look for a
+  /// solution by large neighbourhood search too: see `Incumbent`. Nothing: never.
+  std::optional<std::int64_t> incumbent_after = 100'000;
   /// The lower level orders paths by elapsed time + `distance_weight` * distance to go + `conflict_weight` * conflicts,
   /// in ticks; without a conflict weight conflicts count more than anything else. Veerapaneni, Kusnur and Likhachev,
   /// "Effective integration of weighted cost-to-go and conflict heuristic within suboptimal CBS", AAAI 2023.

@@ -53,7 +53,7 @@ class Ecbs(ConflictBased):
             corridor=False,
             rectangle=False,
             flex=False,
-            incumbent=False,
+            incumbent_after=None,
             distance_weight=1.0,
             conflict_weight=0.0,
         )
@@ -75,10 +75,11 @@ class Eecbs(Techniques):
     flex: bool = option(
         False, help="Let a robot's path use what the others leave of the common bound (Chan et al., AAAI 2022)."
     )
-    incumbent: bool = option(
-        True,
-        help="Where that takes long, look for a plan within the bound by large neighbourhood search as well (ours; "
-        "off = the plan comes from the constraint tree, as in the original).",
+    incumbent_after: int | None = option(
+        100_000,
+        help="After so many low-level expansions look for a plan within the bound by large neighbourhood search as "
+        "well; null = the plan always comes from the constraint tree, as in the original.",
+        validator=attrs.validators.optional(attrs.validators.ge(0)),
     )
     distance_weight: float = option(
         1.2,

@@ -16,7 +16,7 @@ FOCAL: dict[str, Any] = {
     "selection": "focal",
     "heuristic": False,  # raises lower bounds, which a focal list hardly ever waits for
     "flex": False,
-    "incumbent": False,  # it keeps to one assignment
+    "incumbent_after": None,  # it keeps to one assignment
     "distance_weight": 1.2,
     "conflict_weight": 20.0,
 }

@@ -86,6 +86,7 @@ def drawn_planners(random: Random) -> list[Planner]:
         Eecbs(
             w=three,
             **drawn_switches(random, Eecbs),
+            incumbent_after=[None, 0, 100_000][random.integers(3)],
             **{name: float(random.choice(values)) for name, values in weights.items()},
         ),
         Astar(heuristic=_one(random, Heuristic)),

@@ -39,6 +39,7 @@ planners = st.one_of(
         corridor=switches,
         rectangle=switches,
         flex=switches,
+        incumbent_after=st.sampled_from([None, 0, 500]),
         distance_weight=st.sampled_from([1.0, 1.2, 3.0]),
         conflict_weight=st.sampled_from([0.0, 2.0, 20.0]),
     ),
