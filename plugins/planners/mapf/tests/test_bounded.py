@@ -5,6 +5,7 @@
 
 import csv
 
+import attrs
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -21,6 +22,7 @@ from mapf_instances import (
 )
 from mapf_oracle import least_cost
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
+from mrpbench_planners_mapf.cbs import Cbs
 
 from mrpbench_core.model.plan import PlanStatus
 
@@ -115,6 +117,18 @@ def test_a_robot_that_has_arrived_makes_way():
     # Robot 0 arrives at once in the corridor through which robot 1 has to pass; the bay is beside its goal.
     asked = problem(grid(["##.##", "....."]), [2, 1], [3, 5])
     assert solve_and_compare(Eecbs(w=1.5), asked) is PlanStatus.SOLVED
+
+
+@pytest.mark.parametrize("seed", [1, 2, 4])
+@pytest.mark.parametrize("planner", [Cbs(), Eecbs()])
+def test_who_comes_later_to_a_crossing_of_long_lanes_waits_until_the_other_has_left_it(planner, seed):
+    # Split lane by lane, the same conflicts take 12 to 360 expansions, and cbs at least 30.
+    random = np.random.default_rng(seed)
+    road = grid(["...", "...", "..."])
+    starts, goals = random.choice(9, 4, replace=False), random.choice(9, 4, replace=False).tolist()
+    result = planner.plan(problem(attrs.evolve(road, duration=20 * road.duration), starts, goals, radius=0.2), AMPLE)
+    assert result.status is PlanStatus.SOLVED
+    assert result.statistics["expansions"] <= 20
 
 
 @pytest.mark.parametrize("planner", [Ecbs(), Eecbs(), Eecbs(w=1.05, flex=True)])
