@@ -25,7 +25,7 @@ from mrpbench_core.model.problem import Problem
 
 PLANNERS = ("cbs", "ecbs w=1.2", "eecbs w=1.2", "pbs", "prioritized")
 MEMORY = 4 << 30
-PATIENCE = 4
+PATIENCE = 2
 """Wall seconds of the machine that a planner is given for each CPU second that it may use."""
 
 

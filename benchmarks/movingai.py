@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 LEAST_S = 0.005
 PASSABLE = ".GS"
-PATIENCE = 8
+PATIENCE = 2
 """Wall seconds of the machine that a solver is given for each CPU second that it may use."""
 
 
