@@ -30,7 +30,6 @@ void BoundedTree::solve() {
   start();
   while (!queue_.empty()) {
     result_.lower_bound = std::max(result_.lower_bound, static_cast<double>(queue_.least()));
-    if (finish_aside()) return;
     const std::int32_t id = queue_.pop();
     if (by_id_[id] == nullptr) {
       make_ranked_root();
@@ -39,6 +38,7 @@ void BoundedTree::solve() {
     Node& node = *by_id_[id];
     visit(node);
     if (node.conflicts.empty()) return finish();
+    if (finish_aside()) return;
     if (queue_.popped_to_raise_the_bound() && postpone(id)) continue;
     expand(node);
   }
