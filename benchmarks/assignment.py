@@ -112,6 +112,7 @@ def main() -> None:
     parser.add_argument("--against", help="a solver of the table of measurements")
     parser.add_argument("--time-limit", type=float, default=5.0)
     parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--least", type=float, default=0.0, help="leave out what the others solve in fewer seconds")
     arguments = parser.parse_args()
     pairs = {arguments.solver: arguments.against or PAIRS.get(arguments.solver)} if arguments.solver else PAIRS
     for solver, against in pairs.items():
@@ -119,6 +120,7 @@ def main() -> None:
         found = {
             one: run(load(arguments.data, one), solver, arguments.time_limit, arguments.repeat)
             for one in sorted(others)
+            if others[one].seconds >= arguments.least
         }
         print(f"{solver} against {against}")
         print("\n".join(table(found, others)), flush=True)
