@@ -1,3 +1,5 @@
+#include <numeric>
+
 #include "check.hpp"
 #include "mrpbench_mapf/cbs.hpp"
 #include "mrpbench_mapf/lacam.hpp"
@@ -103,6 +105,31 @@ TEST("a plan along ways that keep clear of one another is no worse, and mostly b
     better += sum_of_costs(second) < sum_of_costs(first);
   }
   CHECK(all > 5 && 2 * better > all);
+}
+
+TEST("in a crowd further plans are drawn, and the best of all is kept") {
+  Random random(8);
+  int better = 0, crowded = 0;
+  for (int k = 0; k < 10; ++k) {
+    std::vector<int> starts(48), goals(48);
+    std::iota(starts.begin(), starts.end(), 0);
+    std::iota(goals.begin(), goals.end(), 0);
+    random.shuffle(starts);
+    random.shuffle(goals);
+    std::vector<Robot> robots;
+    for (int i = 0; i < 40; ++i) robots.push_back(robot(starts[i], goals[i]));
+    const Instance it = instance(grid(16, 3), robots);
+    const Result first = lacam(it, {.iterations = 0});
+    if (static_cast<double>(sum_of_costs(first)) < 4 * first.history.back().lower_bound) continue;
+    const LacamOptions options{.prioritized = false, .star = false, .neighbourhoods = false, .iterations = 1};
+    const Result best = lacam(it, options);
+    CHECK(faults(it, best) == 0);
+    CHECK(sum_of_costs(best) <= sum_of_costs(first));
+    CHECK(lacam(it, options).paths == best.paths);
+    ++crowded;
+    better += sum_of_costs(best) < sum_of_costs(first);
+  }
+  CHECK(crowded > 5 && better > crowded / 2);
 }
 
 TEST("where there is room, robots planned in turn are hardly later than alone") {

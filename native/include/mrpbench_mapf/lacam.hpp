@@ -17,7 +17,7 @@ struct LacamOptions {
   Objective objective = Objective::flowtime;
   bool swap = true;
   bool prioritized = true;                 // look for a second plan by planning robots in turn, nearest first
-  bool guides = true;                      // else along ways that keep clear of one another
+  bool guides = true;                      // else along ways that keep clear of one another; in a crowd by chance
   bool star = true;                        // go on searching configurations after the first plan
   bool neighbourhoods = true;              // replan groups of robots after the first plan
   std::optional<std::int64_t> iterations;  // of improving; nothing: until the clock ends it

@@ -54,7 +54,13 @@ class Lacam {
     const bool in_turn = options_.prioritized && best_.first < kRoom * least_ && plan_in_turn(schedule);
     // What is good for the sum need not be for the last robot.
     const bool enough = in_turn && options_.objective == Objective::flowtime;
-    if (options_.guides && !enough && best_.first < kCrowded * least_) follow_guides(schedule);
+    if (options_.guides && !enough) {
+      if (best_.first < kCrowded * least_) {
+        follow_guides(schedule);
+      } else {
+        draw_others();
+      }
+    }
     if (best_.first == least_ || !(options_.star || options_.neighbourhoods)) return;
     schedule.replace(result_.paths);
     Improvement improvement(schedule, options_.objective, {}, options_.seed);
@@ -81,6 +87,21 @@ class Lacam {
     if (!repair.run(Patience::brief(instance_.size()), result_.statistics.expansions)) return false;
     if (value(options_.objective, schedule.paths()) < best_) keep(schedule.paths());
     return true;
+  }
+
+  /// First plans by other chances: in a crowd their costs differ by a tenth, and each is sooner found than improved by
+  /// as much.
+  void draw_others() {
+    LacamOptions options = options_;
+    const std::int64_t most = 2 * result_.statistics.expansions;
+    for (int k = 0; k < kOthers; ++k) {
+      ++options.seed;
+      LacamSearch search(instance_, moves_, tables_, nullptr, options, limits_, result_.statistics);
+      for (std::int64_t step = 0; step < most && !search.found(); ++step) search.advance();
+      if (!search.found()) continue;
+      std::vector<Path> paths = paths_of(moves_, search.way(), instance_.size());
+      if (value(options_.objective, paths) < best_) keep(std::move(paths));
+    }
   }
 
   /// A second plan, with ways that keep clear of one another as guides: slower to find, mostly much cheaper.
@@ -117,6 +138,7 @@ class Lacam {
 
   // Where a plan costs so many times what robots alone do, the crowd and not their ways is what delays them.
   static constexpr Cost kCrowded = 4;
+  static constexpr int kOthers = 40;   // plans to draw there
   static constexpr Cost kRoom = 2;     // and up to so many times, robots can be planned in turn
   static constexpr int kRepaired = 8;  // robots at a time
   const Instance& instance_;

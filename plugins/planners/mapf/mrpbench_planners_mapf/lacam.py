@@ -20,10 +20,10 @@ class Lacam(Planner):
 
     For roadmaps on which every move takes one tick. Complete: `unsolvable` means that it has seen every configuration.
     The plan is improved by a second one, made by planning the robots in turn, nearest first (`prioritized`), or where
-    there is no room for that, along ways that keep clear of one another (`guides`; Okumura, AAMAS 2024),
-    by going on with the search (`star`) and by planning groups anew (`neighbourhoods`), until nothing can become
-    better, `limits.iterations` are done, or the time is over. The result is optimal, and `lower_bound` says so, once
-    all better configurations are ruled out, which happens with a handful of robots only.
+    there is no room for that, along ways that keep clear of one another (`guides`; Okumura, AAMAS 2024; in a crowd, by
+    chance), by going on with the search (`star`) and by planning groups anew (`neighbourhoods`), until nothing can
+    become better, `limits.iterations` are done, or the time is over. The result is optimal, and `lower_bound` says so,
+    once all better configurations are ruled out, which happens with a handful of robots only.
     """
 
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.COMPLETE, Promise.DETERMINISTIC})
@@ -33,7 +33,11 @@ class Lacam(Planner):
     prioritized: bool = option(
         True, help="After the first plan look for one by planning robots in turn, nearest first."
     )
-    guides: bool = option(True, help="If that fails, look for one along ways that keep clear of one another.")
+    guides: bool = option(
+        True,
+        help="If that fails, look for one along ways that keep clear of one another; in a crowd, where there are none, "
+        "for further first plans, by chance.",
+    )
     star: bool = option(True, help="After the first plan go on searching configurations.")
     neighbourhoods: bool = option(True, help="After the first plan improve it by large neighbourhood search.")
     seed: int = option(0, help="Seed of all random choices.", validator=attrs.validators.ge(0))
