@@ -72,11 +72,11 @@ def test_a_changed_local_source_is_noticed(study):
 
 
 def test_a_shards_records_count_when_they_are_copied_to_another_folder(study):
-    study["matrix"] = {"seed": "0..7"}
+    study["matrix"] = {"seed": "0..19"}  # not few: the shard of a run depends on its identity, and all might be in one
     part = {record["run_id"] for record in run(study, out="part", shard="0/2")}
-    assert 0 < len(part) < 8
+    assert 0 < len(part) < 20
     shutil.copytree("part", "out")
-    assert len(run(study, out="out")) == 8
+    assert len(run(study, out="out")) == 20
     newest = max(Path("out/runs").iterdir(), key=lambda file: file.stat().st_mtime)
     done = {json.loads(line)["run_id"] for line in newest.read_text().splitlines()}
     assert done == {record["run_id"] for record in load("out")} - part
