@@ -143,11 +143,7 @@ class Astar {
 
 void solve(const Instance& instance, Heuristic heuristic, Limits& limits, Result& result) {
   DistanceTables tables(instance, limits);
-  if (const auto robot = find_cut_off_robot(instance, tables, limits)) {
-    result.statistics.failed_robot = *robot;
-    result.status = Status::unsolvable;
-    return;
-  }
+  if (const auto robot = find_cut_off_robot(instance, tables, limits)) return result.no_plan_for(*robot);
   Astar search(instance, heuristic, tables, limits, result.statistics);
   Cost cost = 0;
   for (int robot = 0; robot < instance.size(); ++robot) {

@@ -8,15 +8,10 @@ namespace mrpbench::mapf {
 
 namespace {
 
-void unsolvable(Result& result, int robot) {
-  result.statistics.failed_robot = robot;
-  result.status = Status::unsolvable;
-}
-
 void solve(const Instance& instance, const CbsOptions& options, Limits& limits, Result& result) {
   limits.check_clock();
   Workbench bench(instance, options, limits, result.statistics);
-  if (const auto robot = find_hopeless(bench)) return unsolvable(result, *robot);
+  if (const auto robot = find_hopeless(bench)) return result.no_plan_for(*robot);
   result.lower_bound = static_cast<double>(bench.distances.sum_of_costs(instance));
   std::optional<Dependencies> dependencies;
   if (options.heuristic && options.goals != GoalChoice::by_node) dependencies.emplace(bench);
@@ -24,11 +19,11 @@ void solve(const Instance& instance, const CbsOptions& options, Limits& limits, 
   std::optional<RankedGoals> ranked;
   std::optional<NodeAssignment> assignment;
   if (options.goals == GoalChoice::own) {
-    if (const auto robot = tree.start()) return unsolvable(result, *robot);
+    if (const auto robot = tree.start()) return result.no_plan_for(*robot);
   } else if (options.goals == GoalChoice::ranked) {
     tree.start(ranked.emplace(find_candidates(bench), limits));
   } else if (!tree.start(assignment.emplace(find_candidates(bench), limits))) {
-    return unsolvable(result, -1);
+    return result.no_plan_for(-1);
   }
   bool solved = false;
   search_within_limits(result, [&] {

@@ -42,24 +42,19 @@ class Pbs {
         before_(robots_) {}
 
   void solve() {
-    if (const auto robot = find_cut_off_robot(instance_, tables_, limits_)) return unsolvable(*robot);
+    if (const auto robot = find_cut_off_robot(instance_, tables_, limits_)) return result_.no_plan_for(*robot);
     result_.lower_bound = static_cast<double>(tables_.sum_of_costs(instance_));
-    if (const auto robot = find_clash(instance_, relations_, limits_)) return unsolvable(*robot);
+    if (const auto robot = find_clash(instance_, relations_, limits_)) return result_.no_plan_for(*robot);
     auto root = std::make_unique<Node>();
     root->paths.resize(robots_);
     gather(*root);
     for (int robot = 0; robot < robots_; ++robot) {
-      if (!plan(*root, robot)) return unsolvable(robot);  // what is certain alone stands in its way
+      if (!plan(*root, robot)) return result_.no_plan_for(robot);  // what is certain alone stands in its way
     }
     depth_first(std::move(root));
   }
 
  private:
-  void unsolvable(int robot) {
-    result_.statistics.failed_robot = robot;
-    result_.status = Status::unsolvable;
-  }
-
   void depth_first(std::unique_ptr<Node> root) {
     // Parents stay below their children until these are done, for their priorities.
     std::vector<std::unique_ptr<Node>> open;

@@ -101,15 +101,11 @@ class Prioritized {
 
 void solve(const Instance& instance, const PrioritizedOptions& options, Limits& limits, Result& result) {
   Statistics& statistics = result.statistics;
-  const auto unsolvable = [&](int robot) {
-    statistics.failed_robot = robot;
-    result.status = Status::unsolvable;
-  };
   DistanceTables tables(instance, limits);
-  if (const auto robot = find_cut_off_robot(instance, tables, limits)) return unsolvable(*robot);
+  if (const auto robot = find_cut_off_robot(instance, tables, limits)) return result.no_plan_for(*robot);
   result.lower_bound = static_cast<double>(tables.sum_of_costs(instance));
   const Relations relations(instance, limits);
-  if (const auto robot = find_clash(instance, relations, limits)) return unsolvable(*robot);
+  if (const auto robot = find_clash(instance, relations, limits)) return result.no_plan_for(*robot);
 
   Prioritized search(instance, tables, relations, limits, statistics);
   std::mt19937_64 random(options.seed);
@@ -121,7 +117,7 @@ void solve(const Instance& instance, const PrioritizedOptions& options, Limits& 
   }
   std::set<Priorities> tried;
   while (const auto failed = search.plan(order, delays)) {
-    if (*failed == order.front() && delays[*failed] == 0) return unsolvable(*failed);  // certain things are in its way
+    if (*failed == order.front() && delays[*failed] == 0) return result.no_plan_for(*failed);  // certain things are in its way
     statistics.failed_robot = *failed;
     if (statistics.restarts == options.restarts) return;
     ++statistics.restarts;

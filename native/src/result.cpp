@@ -9,6 +9,11 @@ void Result::note(double seconds, double cost, double bound) {
   history.push_back({seconds, cost, bound});
 }
 
+void Result::no_plan_for(int robot) {
+  statistics.failed_robot = robot;
+  status = Status::unsolvable;
+}
+
 void Result::stop(Status limit) {
   if (status == Status::solved) {
     clock_bound = limit == Status::timeout;

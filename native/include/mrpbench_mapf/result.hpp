@@ -42,6 +42,8 @@ struct Result {
 
   /// Add a point to the history; one that comes right after another takes its place, the first one stays.
   void note(double seconds, double cost, double bound);
+  /// It is proved that there is no plan, because of `robot` (-1 = nobody in particular).
+  void no_plan_for(int robot);
   /// A limit ended the solver: a plan that it has is one nevertheless, half a plan is none.
   void stop(Status limit);
 };

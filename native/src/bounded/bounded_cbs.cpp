@@ -10,11 +10,7 @@ void solve(const Instance& instance, const BoundedOptions& options, Limits& limi
   limits.check_clock();
   result.lower_bound = 0.0;
   Workbench bench(instance, options.techniques, limits, result.statistics);
-  if (const auto robot = find_hopeless(bench)) {
-    result.statistics.failed_robot = *robot;
-    result.status = Status::unsolvable;
-    return;
-  }
+  if (const auto robot = find_hopeless(bench)) return result.no_plan_for(*robot);
   BoundedTree(bench, options, result).solve();
 }
 

@@ -18,8 +18,7 @@ bool prove_unsolvable(const Instance& instance, DistanceTables& tables, Limits& 
   std::optional<int> culprit = find_cut_off_robot(instance, tables, limits);
   if (!culprit) culprit = find_shared_place(instance, limits);
   if (culprit) {
-    result.statistics.failed_robot = *culprit;
-    result.status = Status::unsolvable;
+    result.no_plan_for(*culprit);
   } else {
     result.lower_bound = static_cast<double>(tables.sum_of_costs(instance));
   }

@@ -17,12 +17,12 @@ class Lns {
       : instance_(instance), options_(options), limits_(limits), result_(result), tables_(instance, limits) {}
 
   void solve() {
-    if (const auto robot = find_cut_off_robot(instance_, tables_, limits_)) return unsolvable(*robot);
+    if (const auto robot = find_cut_off_robot(instance_, tables_, limits_)) return result_.no_plan_for(*robot);
     result_.lower_bound = static_cast<double>(tables_.sum_of_costs(instance_));
     const bool sum = options_.objective == Objective::flowtime;
     least_ = sum ? result_.lower_bound : static_cast<double>(tables_.makespan(instance_));
     const Relations relations(instance_, limits_);
-    if (const auto robot = find_clash(instance_, relations, limits_)) return unsolvable(*robot);
+    if (const auto robot = find_clash(instance_, relations, limits_)) return result_.no_plan_for(*robot);
     Schedule schedule(instance_, tables_, relations, options_.seed, limits_, result_.statistics);
     if (!begin(schedule)) return;
     Improvement improvement(schedule, options_.objective, options_.neighbourhood, options_.seed);
@@ -35,11 +35,6 @@ class Lns {
   }
 
  private:
-  void unsolvable(int robot) {
-    result_.statistics.failed_robot = robot;
-    result_.status = Status::unsolvable;
-  }
-
   void keep(std::vector<Path> paths) {
     result_.paths = std::move(paths);
     note();
