@@ -19,15 +19,6 @@ struct Tree {
   std::vector<int> number;  // by vertex of the roadmap
 };
 
-std::vector<int> neighbours_of(const Roadmap& roadmap, int vertex) {
-  std::vector<int> found;
-  for (const int edge : roadmap.out(vertex)) found.push_back(roadmap.head(edge));
-  for (const int edge : roadmap.in(vertex)) found.push_back(roadmap.tail(edge));
-  std::ranges::sort(found);
-  found.erase(std::ranges::unique(found).begin(), found.end());
-  return found;
-}
-
 /// Begins where no chain has an inner vertex. Bridges as by Tarjan, "A note on finding the bridges of a graph", IPL
 /// 1974.
 Tree grow_tree(const Roadmap& roadmap, std::span<const int> vertices, Limits& limits) {
@@ -36,7 +27,7 @@ Tree grow_tree(const Roadmap& roadmap, std::span<const int> vertices, Limits& li
   limits.charge(vertices.size() * 64 + static_cast<std::size_t>(roadmap.vertex_count()) * sizeof(int));
   tree.number.assign(roadmap.vertex_count(), -1);
   tree.end.resize(size);
-  const auto no_inner = [&](int vertex) { return neighbours_of(roadmap, vertex).size() != 2; };
+  const auto no_inner = [&](int vertex) { return roadmap.neighbours(vertex).size() != 2; };
   const auto root = std::ranges::find_if(vertices, no_inner);
   struct Visit {
     int number;
@@ -50,7 +41,7 @@ Tree grow_tree(const Roadmap& roadmap, std::span<const int> vertices, Limits& li
     tree.number[at] = number;
     vertex.push_back(at);
     tree.parent.push_back(parent);
-    tree.neighbours.push_back(neighbours_of(roadmap, at));
+    tree.neighbours.push_back(roadmap.neighbours(at));
     open.push_back({number, 0});
   };
   enter(root == vertices.end() ? vertices.front() : *root, -1);

@@ -25,52 +25,31 @@ struct Part {
   std::vector<int> robots;
 };
 
-class Parts {
- public:
-  explicit Parts(const Roadmap& roadmap) : roadmap_(roadmap), seen_(roadmap.vertex_count()) {}
-
-  /// The part that `vertex` belongs to, if it was not asked for before.
-  std::vector<int> around(int vertex) {
-    std::vector<int> part;
-    if (!seen_[vertex]) part.push_back(vertex);
-    seen_[vertex] = true;
-    for (std::size_t next = 0; next < part.size(); ++next) {
-      for_neighbours(part[next], [&](int neighbour) {
-        if (!seen_[neighbour]) part.push_back(neighbour);
-        seen_[neighbour] = true;
-      });
-    }
-    return part;
+/// All vertices connected with `vertex`, of which none has a number in `part_of` (-1 = none) yet; they get `number`.
+std::vector<int> gather_part(const Roadmap& roadmap, int vertex, int number, std::vector<int>& part_of) {
+  std::vector<int> part;
+  const auto reach = [&](int at) {
+    if (part_of[at] < 0) part.push_back(at);
+    part_of[at] = number;
+  };
+  reach(vertex);
+  for (std::size_t next = 0; next < part.size(); ++next) {
+    const int at = part[next];
+    for (const int edge : roadmap.out(at)) reach(roadmap.head(edge));
+    for (const int edge : roadmap.in(at)) reach(roadmap.tail(edge));
   }
-
-  std::vector<int> neighbours(int vertex) const {
-    std::vector<int> found;
-    for_neighbours(vertex, [&](int neighbour) { found.push_back(neighbour); });
-    std::ranges::sort(found);
-    found.erase(std::ranges::unique(found).begin(), found.end());
-    return found;
-  }
-
- private:
-  template <class Visit>
-  void for_neighbours(int vertex, Visit visit) const {
-    for (const int edge : roadmap_.out(vertex)) visit(roadmap_.head(edge));
-    for (const int edge : roadmap_.in(vertex)) visit(roadmap_.tail(edge));
-  }
-
-  const Roadmap& roadmap_;
-  std::vector<char> seen_;
-};
+  return part;
+}
 
 /// The vertices of a part that is a cycle, one after another; empty if it is none.
-std::vector<int> line_up(const Parts& parts, const std::vector<int>& part) {
+std::vector<int> line_up(const Roadmap& roadmap, const std::vector<int>& part) {
   for (const int vertex : part) {
-    if (parts.neighbours(vertex).size() != 2) return {};
+    if (roadmap.neighbours(vertex).size() != 2) return {};
   }
   std::vector<int> line{part.front()};
   while (line.size() < part.size()) {
     const int before = line.size() > 1 ? line[line.size() - 2] : -1;
-    const std::vector<int> next = parts.neighbours(line.back());
+    const std::vector<int> next = roadmap.neighbours(line.back());
     line.push_back(next.front() == before ? next.back() : next.front());
   }
   return line;
@@ -102,11 +81,11 @@ bool is_moved(const Instance& instance, const Part& part) {
 /// With a single empty vertex, every move is an exchange of it with a robot, so that the parity of the arrangement
 /// follows from where it is, if neighbours always differ in colour (Wilson, "Graph puzzles, homotopy, and the
 /// alternating group", JCTB 1974). Where following is forbidden, there are no other moves.
-bool has_wrong_parity(const Instance& instance, const Parts& parts, const Part& part) {
+bool has_wrong_parity(const Instance& instance, const Part& part) {
   std::vector<int> colour(instance.roadmap().vertex_count(), -1), robot_at(colour), goal_of(colour);
   colour[part.vertices.front()] = 0;
   for (const int vertex : part.vertices) {  // each was found from one before it
-    for (const int next : parts.neighbours(vertex)) {
+    for (const int next : instance.roadmap().neighbours(vertex)) {
       if (colour[next] == colour[vertex]) return false;
       colour[next] = 1 - colour[vertex];
     }
@@ -230,15 +209,13 @@ class Arrangements {
 
 std::optional<int> find_misplaced_robot(const Instance& instance, Limits& limits) {
   if (instance.size() < 2 || !applies(instance)) return std::nullopt;
-  Parts parts(instance.roadmap());
   std::vector<int> part_of(instance.roadmap().vertex_count(), -1);
   std::vector<Part> all;
   for (int robot = 0; robot < instance.size(); ++robot) {
     const int start = instance.robots()[robot].start;
     limits.check();
     if (part_of[start] < 0) {
-      all.push_back({parts.around(start), {}});
-      for (const int vertex : all.back().vertices) part_of[vertex] = static_cast<int>(all.size()) - 1;
+      all.push_back({gather_part(instance.roadmap(), start, static_cast<int>(all.size()), part_of), {}});
     }
     if (part_of[instance.robots()[robot].goals.front()] != part_of[start]) return robot;
     all[part_of[start]].robots.push_back(robot);
@@ -250,12 +227,12 @@ std::optional<int> find_misplaced_robot(const Instance& instance, Limits& limits
     if (empty <= 2 + static_cast<std::size_t>(std::ranges::count_if(part.vertices, is_thin))) {
       if (const auto robot = find_robot_beyond_chain(instance, part.vertices, part.robots, limits)) return robot;
     }
-    if (const std::vector<int> cycle = line_up(parts, part.vertices); !cycle.empty()) {
+    if (const std::vector<int> cycle = line_up(instance.roadmap(), part.vertices); !cycle.empty()) {
       const int robot = find_disorder(instance, cycle);
       if (robot >= 0) return robot;
     }
     if (instance.rules().following_forbidden && empty < 2) {
-      if (empty == 1 ? has_wrong_parity(instance, parts, part) : is_moved(instance, part)) return part.robots.front();
+      if (empty == 1 ? has_wrong_parity(instance, part) : is_moved(instance, part)) return part.robots.front();
     }
     if (Arrangements::are_few(part) && !Arrangements(instance, part, limits).can_reach_goals()) {
       return part.robots.front();

@@ -1,5 +1,6 @@
 #include "mrpbench_mapf/roadmap.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -16,6 +17,15 @@ Roadmap::Roadmap(int vertex_count, std::vector<int> tail, std::vector<int> head,
   validate();
   index(tail_, out_first_, out_edge_);
   index(head_, in_first_, in_edge_);
+}
+
+std::vector<int> Roadmap::neighbours(int vertex) const {
+  std::vector<int> found;
+  for (const int edge : out(vertex)) found.push_back(head_[edge]);
+  for (const int edge : in(vertex)) found.push_back(tail_[edge]);
+  std::ranges::sort(found);
+  found.erase(std::ranges::unique(found).begin(), found.end());
+  return found;
 }
 
 std::size_t Roadmap::bytes() const {

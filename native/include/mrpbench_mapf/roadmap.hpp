@@ -29,6 +29,8 @@ class Roadmap {
   /// Edges out of (into) a vertex, without self-loops: waiting does not need an edge.
   std::span<const int> out(int vertex) const { return row(out_first_, out_edge_, vertex); }
   std::span<const int> in(int vertex) const { return row(in_first_, in_edge_, vertex); }
+  /// Vertices from which or to which an edge leads, sorted, each once.
+  std::vector<int> neighbours(int vertex) const;
   std::span<const Tick> duration(int profile) const {
     return {duration_.data() + static_cast<std::size_t>(profile) * tail_.size(), tail_.size()};
   }

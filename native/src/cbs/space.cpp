@@ -74,12 +74,7 @@ int Space::edge(int robot, int tail, int head) const {
 }
 
 int Space::degree(int vertex) const {
-  const Roadmap& roadmap = instance_.roadmap();
-  std::vector<int> around;
-  for (const int edge : roadmap.out(vertex)) around.push_back(roadmap.head(edge));
-  for (const int edge : roadmap.in(vertex)) around.push_back(roadmap.tail(edge));
-  std::ranges::sort(around);
-  return static_cast<int>(std::unique(around.begin(), around.end()) - around.begin());
+  return static_cast<int>(instance_.roadmap().neighbours(vertex).size());
 }
 
 void Space::find_crossings(Limits& limits) {
