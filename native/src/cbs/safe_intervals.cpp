@@ -8,10 +8,7 @@
 namespace mrpbench::mapf {
 
 SafeIntervals::SafeIntervals(const Space& space, Limits& limits, Statistics& statistics)
-    : space_(space), limits_(limits), statistics_(statistics) {
-  limits.charge(static_cast<std::size_t>(space.vertex_count()) * sizeof(Slot));
-  slots_.resize(space.vertex_count());
-}
+    : space_(space), limits_(limits), statistics_(statistics), states_(space.vertex_count(), limits) {}
 
 Tick SafeIntervals::least_cost(const ConstraintTable& table, DistanceTable& distance) {
   const Beginning& beginning = space_.instance().beginning(table.robot());
@@ -40,8 +37,8 @@ Tick SafeIntervals::run(const ConstraintTable& table, DistanceTable& distance, T
   begin(table);
   latest_ = std::max(latest, beginning.free_at);  // a robot that never moves has finished before it could
   int start = -1;
-  const Slot slot = states_of(beginning.vertex);
-  for (int k = slot.first; k < slot.first + slot.count; ++k) {
+  const auto row = states_of(beginning.vertex);
+  for (int k = row.first; k < row.last; ++k) {
     if (states_[k].first <= beginning.free_at && beginning.free_at <= states_[k].last) start = k;
   }
   if (start < 0) return kForever;
@@ -65,8 +62,8 @@ Tick SafeIntervals::run(const ConstraintTable& table, DistanceTable& distance, T
     for (const Move& move : space_.moves(table.robot(), from.vertex)) {
       const Tick h = distance(move.head);
       if (h == kForever) continue;
-      const Slot to = states_of(move.head);
-      for (int k = to.first; k < to.first + to.count; ++k) {
+      const auto to = states_of(move.head);
+      for (int k = to.first; k < to.last; ++k) {
         const Tick soonest = std::max(from.arrival, states_[k].first - move.duration);
         if (soonest > from.last) break;
         const Tick depart = table.next_entry(from.vertex, move.edge, soonest);
@@ -78,42 +75,35 @@ Tick SafeIntervals::run(const ConstraintTable& table, DistanceTable& distance, T
       }
     }
   }
-  limits_.charge_growth(counted_, states_.capacity() * sizeof(State) + open_.capacity() * sizeof(Open));
+  limits_.charge_growth(counted_, open_.capacity() * sizeof(Open));
   return found;
 }
 
 void SafeIntervals::begin(const ConstraintTable& table) {
   table_ = &table;
-  if (++epoch_ == 0) {  // wrapped round: old stamps would look new
-    std::ranges::fill(slots_, Slot{});
-    epoch_ = 1;
-  }
-  states_.clear();
+  states_.forget();
   open_.clear();
 }
 
 /// The states of a vertex, made when it is first touched: the gaps between what is forbidden that hold a tick.
-SafeIntervals::Slot SafeIntervals::states_of(int vertex) {
-  Slot& slot = slots_[vertex];
-  if (slot.epoch == epoch_) return slot;
-  slot = {epoch_, static_cast<std::int32_t>(states_.size()), 0};
-  const auto add = [&](Half first, Half last) {
-    const Tick begin = (first + 1) / 2, end = last / 2;
-    if (first <= last && begin <= end) states_.push_back({begin, end, kForever, vertex, false});
-  };
-  Half free = 0;
-  if (table_->constrains(vertex)) {
-    blocked_.clear();
-    table_->at_vertex(vertex, blocked_);
-    unite(blocked_);
-    for (const Range& range : blocked_) {
-      add(free, range.first - 1);
-      free = range.last + 1;
+LazyRows<SafeIntervals::State>::Row SafeIntervals::states_of(int vertex) {
+  return states_.row(vertex, [&](std::vector<State>& states) {
+    const auto add = [&](Half first, Half last) {
+      const Tick begin = (first + 1) / 2, end = last / 2;
+      if (first <= last && begin <= end) states.push_back({begin, end, kForever, vertex, false});
+    };
+    Half free = 0;
+    if (table_->constrains(vertex)) {
+      blocked_.clear();
+      table_->at_vertex(vertex, blocked_);
+      unite(blocked_);
+      for (const Range& range : blocked_) {
+        add(free, range.first - 1);
+        free = range.last + 1;
+      }
     }
-  }
-  if (free <= kForeverHalf) add(free, kForeverHalf);
-  slot.count = static_cast<std::int32_t>(states_.size()) - slot.first;
-  return slot;
+    if (free <= kForeverHalf) add(free, kForeverHalf);
+  });
 }
 
 void SafeIntervals::push(Tick f, Tick h, int state) {

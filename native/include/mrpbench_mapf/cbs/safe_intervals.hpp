@@ -5,6 +5,7 @@
 
 #include "mrpbench_mapf/cbs/constraint_table.hpp"
 #include "mrpbench_mapf/distance_table.hpp"
+#include "mrpbench_mapf/lazy_rows.hpp"
 
 namespace mrpbench::mapf {
 
@@ -25,10 +26,6 @@ class SafeIntervals {
     std::int32_t vertex;
     bool closed;
   };
-  struct Slot {
-    std::uint32_t epoch = 0;  // valid for the current search if equal to `epoch_`
-    std::int32_t first = 0, count = 0;
-  };
   struct Open {
     Tick f, h;
     std::int32_t state;  // -1 = at the end
@@ -38,7 +35,7 @@ class SafeIntervals {
   template <class CostAt>
   Tick run(const ConstraintTable& table, DistanceTable& distance, Tick latest, CostAt cost_at);
   void begin(const ConstraintTable& table);
-  Slot states_of(int vertex);
+  LazyRows<State>::Row states_of(int vertex);
   void push(Tick f, Tick h, int state);
 
   const Space& space_;
@@ -47,9 +44,7 @@ class SafeIntervals {
   // the current search
   const ConstraintTable* table_ = nullptr;
   Tick latest_ = kForever;
-  std::uint32_t epoch_ = 0;
-  std::vector<Slot> slots_;  // by vertex
-  std::vector<State> states_;
+  LazyRows<State> states_;  // by vertex
   std::vector<Open> open_;
   std::vector<Range> blocked_;
   std::size_t counted_ = 0;
