@@ -8,6 +8,7 @@
 
 #include "mrpbench_mapf/instance.hpp"
 #include "mrpbench_mapf/limits.hpp"
+#include "mrpbench_mapf/objective.hpp"
 
 namespace mrpbench::mapf {
 
@@ -54,8 +55,12 @@ class DistanceTables {
   DistanceTable& operator[](int robot) { return *tables_[of_robot_[robot]]; }
   /// Sum of costs if every robot were alone: a lower bound. All of them must be able to reach a goal.
   Cost sum_of_costs(const Instance& instance);
-  /// The latest arrival if every robot were alone: a lower bound likewise.
+  /// The same for the latest arrival.
   Cost makespan(const Instance& instance);
+  /// The one of these that `objective` asks for.
+  Cost least(Objective objective, const Instance& instance) {
+    return objective == Objective::flowtime ? sum_of_costs(instance) : makespan(instance);
+  }
   /// Of one robot.
   Cost least_cost(const Instance& instance, int robot);
 

@@ -7,7 +7,6 @@
 namespace mrpbench::mapf {
 
 namespace {
-constexpr int kNeighbourhood = 8;        // robots to repair at a time
 constexpr int kRestarts = 100;           // of planning in turn
 constexpr std::int64_t kOverhead = 100;  // what a step takes besides, in expansions
 }  // namespace
@@ -18,7 +17,7 @@ class Incumbent::Search {
   Search(const Instance& instance, DistanceTables& distances, Limits& limits, Statistics& statistics)
       : relations_(instance, limits),
         schedule_(instance, distances, relations_, 0, limits, statistics),
-        repair_(schedule_, kNeighbourhood, 0),
+        repair_(schedule_, lns::Repair::kNeighbourhood, 0),
         improvement_(schedule_, Objective::flowtime, std::nullopt, 0),
         is_done_(!repair_.begin()) {}
 

@@ -29,8 +29,7 @@ class Lacam {
       result_.status = Status::unsolvable;
       return;
     }
-    const bool sum = options_.objective == Objective::flowtime;
-    least_ = sum ? tables_.sum_of_costs(instance_) : tables_.makespan(instance_);
+    least_ = tables_.least(options_.objective, instance_);
     result_.status = Status::solved;
     keep(paths_of(moves_, search_.way(), instance_.size()));
     if (options_.iterations != 0 && best_.first > least_) improve();
@@ -83,7 +82,7 @@ class Lacam {
 
   /// A second plan, one robot after another: where there is room, much cheaper and soon found. False if there is not.
   bool plan_in_turn(Schedule& schedule) {
-    Repair repair(schedule, kRepaired, options_.seed);
+    Repair repair(schedule, Repair::kNeighbourhood, options_.seed);
     if (!repair.run(Patience::brief(instance_.size()), result_.statistics.expansions)) return false;
     if (value(options_.objective, schedule.paths()) < best_) keep(schedule.paths());
     return true;
@@ -140,7 +139,6 @@ class Lacam {
   static constexpr Cost kCrowded = 4;
   static constexpr int kOthers = 40;   // plans to draw there
   static constexpr Cost kRoom = 2;     // and up to so many times, robots can be planned in turn
-  static constexpr int kRepaired = 8;  // robots at a time
   const Instance& instance_;
   const Moves& moves_;
   DistanceTables& tables_;

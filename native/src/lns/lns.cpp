@@ -19,8 +19,7 @@ class Lns {
   void solve() {
     if (const auto robot = find_cut_off_robot(instance_, tables_, limits_)) return result_.no_plan_for(*robot);
     result_.lower_bound = static_cast<double>(tables_.sum_of_costs(instance_));
-    const bool sum = options_.objective == Objective::flowtime;
-    least_ = sum ? result_.lower_bound : static_cast<double>(tables_.makespan(instance_));
+    least_ = static_cast<double>(tables_.least(options_.objective, instance_));
     const Relations relations(instance_, limits_);
     if (const auto robot = find_clash(instance_, relations, limits_)) return result_.no_plan_for(*robot);
     Schedule schedule(instance_, tables_, relations, options_.seed, limits_, result_.statistics);
@@ -76,7 +75,7 @@ class Lns {
 
   /// Take the repaired plan if it is cheaper than the one there is; with one, only try for a while.
   void repair(Schedule& schedule, bool unit) {
-    Repair repair(schedule, options_.neighbourhood.value_or(kNeighbourhood), options_.seed);
+    Repair repair(schedule, options_.neighbourhood.value_or(Repair::kNeighbourhood), options_.seed);
     Patience patience = unit ? Patience::brief(instance_.size()) : Patience{};
     if (options_.iterations) patience.iterations = *options_.iterations;
     if (!repair.run(patience, result_.statistics.expansions)) return;  // stays `gave_up`, or the plan there is
@@ -86,7 +85,6 @@ class Lns {
   }
 
   static constexpr double kCrowded = 2;     // times the cost of robots alone
-  static constexpr int kNeighbourhood = 8;  // robots to repair at a time
   const Instance& instance_;
   const LnsOptions& options_;
   Limits& limits_;

@@ -24,6 +24,8 @@ struct Patience {
 
 class Repair {
  public:
+  static constexpr int kNeighbourhood = 8;  // robots at a time, where nobody says how many
+
   Repair(Schedule& schedule, int neighbourhood, std::uint64_t seed);
 
   /// Begin, then plan groups anew until no conflict is left; false if patience ran out before.
