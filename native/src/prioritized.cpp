@@ -117,7 +117,8 @@ void solve(const Instance& instance, const PrioritizedOptions& options, Limits& 
   }
   std::set<Priorities> tried;
   while (const auto failed = search.plan(order, delays)) {
-    if (*failed == order.front() && delays[*failed] == 0) return result.no_plan_for(*failed);  // certain things are in its way
+    // Only what is certain can be in the way of the first.
+    if (*failed == order.front() && delays[*failed] == 0) return result.no_plan_for(*failed);
     statistics.failed_robot = *failed;
     if (statistics.restarts == options.restarts) return;
     ++statistics.restarts;

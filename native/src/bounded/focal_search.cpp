@@ -16,7 +16,7 @@ FocalSearch::FocalSearch(const Space& space, SafeIntervals& intervals, const Bou
       options_(options),
       limits_(limits),
       statistics_(statistics),
-      patience_(patience),
+      patience_(space.textbook() ? patience : 0),  // where moves take many ticks, all searches are long
       vertices_(space.vertex_count()) {}
 
 Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable& others,
@@ -32,11 +32,10 @@ Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, 
   Tick least = std::max({known, table.earliest_finish(), soonest});
   if (least > table.latest_finish() || least == kForever) return kForever;
   begin(least, bound);
-  const std::size_t many = space_.textbook() ? patience_ : 0;  // where moves take many ticks, all searches are long
   bool exact = false, found = false;
   while (!queue_.empty() && !found) {
     limits_.check();
-    if (!exact && nodes_.size() > many) {
+    if (!exact && nodes_.size() > patience_) {
       // All that would cost less than the cheapest path is in vain, or there is none at all: better to know beforehand.
       exact = true;
       const Tick cost = intervals_.least_cost(table, distance);

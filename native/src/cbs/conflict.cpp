@@ -8,6 +8,13 @@ namespace {
 
 using Pair = std::array<Constraint, 2>;
 
+/// Keep `conflict`, to be resolved by either of `branch`.
+void keep(Conflict conflict, const Pair& branch, Arena<Constraint>& constraints, std::vector<Conflict>& found) {
+  const std::span<const Constraint> kept = constraints.copy(branch);
+  conflict.branch = {kept.first(1), kept.last(1)};
+  found.push_back(conflict);
+}
+
 /// Textbook: one path tick by tick.
 class Ticks {
  public:
@@ -33,21 +40,17 @@ class Ticks {
  private:
   void meet(int other, int vertex, Tick tick) {
     if (other == robot_) return;
-    found_.push_back({robot_, other, vertex, vertex, 2 * tick, stays(path_, tick), stays(present_.path(other), tick)});
-    keep({avoid_vertex(robot_, vertex, tick, tick), avoid_vertex(other, vertex, tick, tick)});
+    keep({robot_, other, vertex, vertex, 2 * tick, stays(path_, tick), stays(present_.path(other), tick)},
+         {avoid_vertex(robot_, vertex, tick, tick), avoid_vertex(other, vertex, tick, tick)}, constraints_, found_);
   }
   void swap(int other, Tick tick) {
     if (other == robot_) return;
     const int from = path_.at[tick], to = path_.at[tick + 1], vertices = space_.vertex_count();
     const int here = vertices + space_.edge(robot_, from, to), there = vertices + space_.edge(other, to, from);
-    found_.push_back({robot_, other, here, there, 2 * tick + 1, false, false});
-    keep({Constraint{robot_, here, {tick, tick}}, Constraint{other, there, {tick, tick}}});
+    keep({robot_, other, here, there, 2 * tick + 1, false, false},
+         {Constraint{robot_, here, {tick, tick}}, Constraint{other, there, {tick, tick}}}, constraints_, found_);
   }
   static bool stays(const TimedPath& path, Tick tick) { return path.stays && tick >= path.cost; }
-  void keep(const Pair& branch) {
-    const std::span<const Constraint> kept = constraints_.copy(branch);
-    found_.back().branch = {kept.first(1), kept.last(1)};
-  }
 
   const Space& space_;
   const PathTable& present_;
@@ -91,7 +94,7 @@ class Occupations {
         const PairConflict pair{robot_, entry.robot, static_cast<std::int32_t>(step), entry.step, time, relation, 1};
         if (!meet_at_crossings(pair, other)) {
           const Occupation &here = path_.occupied[step], &there = other.occupied[entry.step];
-          keep(pair, other, {here.begin, here.end}, {there.begin, there.end},
+          meet(pair, other, {here.begin, here.end}, {there.begin, there.end},
                split(pair, path_.occupied, other.occupied, space_.vertex_count()));
         }
       });
@@ -110,20 +113,15 @@ class Occupations {
       const Range two = time_on(space_, vertex, other.occupied, pair.other_step);
       if (pair.time > std::max(one.first, two.first)) continue;  // found when they met there
       const Half instant = instant_of(one, two);
-      const auto keep_clear = [&](int who) {
-        return Constraint{who, vertex, {instant, instant}, Constraint::Kind::keep_clear};
-      };
-      keep(pair, other, one, two, {keep_clear(pair.one), keep_clear(pair.other)});
+      meet(pair, other, one, two, {keep_clear(pair.one, vertex, instant), keep_clear(pair.other, vertex, instant)});
     }
     return met;
   }
-  void keep(const PairConflict& pair, const TimedPath& other, const Range& one_time, const Range& other_time,
+  void meet(const PairConflict& pair, const TimedPath& other, const Range& one_time, const Range& other_time,
             const Pair& branch) {
-    const std::span<const Constraint> kept = constraints_.copy(branch);
-    found_.push_back({pair.one, pair.other, path_.occupied[pair.one_step].element,
-                      other.occupied[pair.other_step].element, pair.time, stays(path_, one_time, other_time),
-                      stays(other, other_time, one_time)});
-    found_.back().branch = {kept.first(1), kept.last(1)};
+    keep({pair.one, pair.other, path_.occupied[pair.one_step].element, other.occupied[pair.other_step].element,
+          pair.time, stays(path_, one_time, other_time), stays(other, other_time, one_time)},
+         branch, constraints_, found_);
   }
 
   const Space& space_;
@@ -144,10 +142,9 @@ void find_in_resources(const Space& space, const AvoidanceTable& present, int ro
       const auto keep_off = [&](int who) {
         return Constraint{who, use.resource, {instant, instant}, Constraint::Kind::keep_off};
       };
-      const std::span<const Constraint> kept = constraints.copy(Pair{keep_off(robot), keep_off(other)});
-      found.push_back({robot, other, -1, -1, std::max(use.halves.first, theirs.first), stays(path, use.halves, theirs),
-                       stays(present.path(other), theirs, use.halves), use.resource});
-      found.back().branch = {kept.first(1), kept.last(1)};
+      keep({robot, other, -1, -1, std::max(use.halves.first, theirs.first), stays(path, use.halves, theirs),
+            stays(present.path(other), theirs, use.halves), use.resource},
+           {keep_off(robot), keep_off(other)}, constraints, found);
     });
   }
 }

@@ -45,10 +45,8 @@ void Reasoning::examine_crossing(const Situation& situation, Conflict& conflict)
     const Half instant = earliest_done(situation, conflict, robot, present.element);
     if (instant < conflict.time || instant >= present.range.first) continue;
     Conflict sooner = conflict;
-    const auto keep_clear = [&](int who) {
-      return Constraint{who, present.element, {instant, instant}, Constraint::Kind::keep_clear};
-    };
-    const std::array branches{keep_clear(conflict.one), keep_clear(conflict.other)};
+    const std::array branches{keep_clear(conflict.one, present.element, instant),
+                              keep_clear(conflict.other, present.element, instant)};
     use(sooner, conflict.kind, std::span(&branches[0], 1), std::span(&branches[1], 1));
     rate(situation, sooner);
     if (sooner.cardinality > conflict.cardinality) conflict = sooner;

@@ -137,8 +137,8 @@ class Lacam {
 
   // Where a plan costs so many times what robots alone do, the crowd and not their ways is what delays them.
   static constexpr Cost kCrowded = 4;
-  static constexpr int kOthers = 40;   // plans to draw there
-  static constexpr Cost kRoom = 2;     // and up to so many times, robots can be planned in turn
+  static constexpr int kOthers = 40;  // plans to draw there
+  static constexpr Cost kRoom = 2;    // and up to so many times, robots can be planned in turn
   const Instance& instance_;
   const Moves& moves_;
   DistanceTables& tables_;

@@ -84,7 +84,7 @@ class Lns {
     result_.status = Status::solved;
   }
 
-  static constexpr double kCrowded = 2;     // times the cost of robots alone
+  static constexpr double kCrowded = 2;  // times the cost of robots alone
   const Instance& instance_;
   const LnsOptions& options_;
   Limits& limits_;

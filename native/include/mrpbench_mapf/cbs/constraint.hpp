@@ -30,6 +30,11 @@ inline Constraint avoid_vertex(int robot, int vertex, Tick first, Tick last) {
   return {robot, vertex, {2 * first, last >= kForever ? kForeverHalf : 2 * last}};
 }
 
+/// `robot` must be nowhere on the crossing at `vertex` at the half-tick `instant`.
+inline Constraint keep_clear(int robot, int vertex, Half instant) {
+  return {robot, vertex, {instant, instant}, Constraint::Kind::keep_clear};
+}
+
 /// Two constraints, one for each robot, at least one of which every solution keeps: whatever the one forbids conflicts
 /// with whatever the other forbids. Both forbid what the robots now do.
 ///
