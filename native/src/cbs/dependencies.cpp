@@ -5,6 +5,7 @@
 namespace mrpbench::mapf {
 
 Cost Dependencies::evaluate(const Situation& situation, std::span<const Conflict* const> conflicts) {
+  ++spare_;
   pairs_.clear();
   for (const Conflict* it : conflicts) pairs_.push_back(std::minmax(it->one, it->other));
   std::ranges::sort(pairs_);
@@ -38,8 +39,16 @@ std::int32_t Dependencies::least_cost(const Situation& situation, int one, int o
 
 std::int32_t Dependencies::solve(const Situation& situation, int one, int other) {
   pair_.start(situation, one, other);
-  if (pair_.run(bench_.options.pair_expansions) == ConstraintTree::Outcome::exhausted) return kImpossible;
-  return static_cast<std::int32_t>(pair_.lower_bound());
+  const std::int64_t before = pair_.counts().expansions;
+  const auto outcome = pair_.run(std::clamp<std::int64_t>(spare_, 1, bench_.options.pair_expansions));
+  if (outcome == ConstraintTree::Outcome::exhausted) return kImpossible;
+  const auto cost = static_cast<std::int32_t>(pair_.lower_bound());
+  if (outcome == ConstraintTree::Outcome::interrupted) {
+    // To raise its bound by so much, a tree branches about 2^raised times.
+    const std::int32_t raised = std::clamp(cost - situation.least(one) - situation.least(other), 0, 16);
+    spare_ -= std::clamp<std::int64_t>(pair_.counts().expansions - before - (1 << raised), 0, spare_);
+  }
+  return cost;
 }
 
 }  // namespace mrpbench::mapf

@@ -35,6 +35,10 @@ class Dependencies {
     }
   };
 
+  // Searches for pairs that come to no end and raise the bound little (of two robots in a wide maze, say) may take so
+  // many expansions, and as many more as nodes are evaluated.
+  static constexpr std::int64_t kSpareAtFirst = 640;
+
   std::int32_t least_cost(const Situation& situation, int one, int other);
   std::int32_t solve(const Situation& situation, int one, int other);
 
@@ -42,6 +46,7 @@ class Dependencies {
   ConstraintTree pair_;
   std::unordered_map<Name, std::int32_t, Hash> known_;
   std::size_t counted_ = 0;
+  std::int64_t spare_ = kSpareAtFirst;  // expansions for such searches
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs_;
   std::vector<std::int32_t> number_;  // by robot: its vertex in the graph of dependencies
   std::vector<WeightedEdge> edges_;
