@@ -1,5 +1,7 @@
 """A planner is held to what it promises, and only to that."""
 
+import subprocess
+import sys
 from typing import ClassVar
 
 import attrs
@@ -114,6 +116,17 @@ def test_timing_is_that_of_the_call(run_context):
     _, timing = call_planner(Careful(result=run_context.result), run_context.problem, BUDGET)
     assert timing["planning_s"] < 1
     assert timing["planning_peak_bytes"] >= 0
+
+
+def test_cpu_time_counts_the_programs_that_a_planner_runs(run_context):
+    @attrs.frozen(kw_only=True)
+    class Delegating(Fixed):
+        def plan(self, problem, budget):
+            subprocess.run([sys.executable, "-c", "sum(range(3_000_000))"], check=True)
+            return super().plan(problem, budget)
+
+    _, timing = call_planner(Delegating(result=run_context.result), run_context.problem, BUDGET)
+    assert timing["planning_cpu_s"] > 0.01
 
 
 def test_what_is_no_result_is_a_fault_and_watchers_still_get_one(run_context):

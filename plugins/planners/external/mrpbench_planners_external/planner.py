@@ -79,6 +79,8 @@ class External(Planner):
             write_scen(problem, "world.map", folder / "world.scen")
             ended = run(self._command(len(problem), budget), folder, budget.wall_s, budget.memory_bytes)
             statistics = {"process_s": ended.seconds}
+            if ended.resident > 0:  # who ends at once is not seen
+                statistics["memory_bytes"] = ended.resident
             if ended.limit is not None:
                 status = PlanStatus.TIMEOUT if ended.limit == "time" else PlanStatus.OUT_OF_MEMORY
                 return PlanResult(status=status, statistics=statistics)

@@ -24,6 +24,8 @@ class Ended:
     limit: str | None
     """time | memory | None."""
     seconds: float
+    resident: int
+    """The most bytes that it and all it started were seen to use."""
     output: str
 
 
@@ -38,31 +40,31 @@ def run(command: Sequence[str], folder: Path, wall_s: float, memory_bytes: int) 
         process = subprocess.Popen(
             command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, process_group=0
         )
-        limit = None
         try:
-            limit = _wait(process, began + wall_s, memory_bytes)
+            limit, resident = _wait(process, began + wall_s, memory_bytes)
         finally:
             _kill(process)
         seconds = time.monotonic() - began
         output.seek(0)
-        return Ended(process.returncode, limit, seconds, output.read().decode(errors="replace"))
+        return Ended(process.returncode, limit, seconds, resident, output.read().decode(errors="replace"))
 
 
-def _wait(process: "subprocess.Popen[bytes]", deadline: float, memory_bytes: int) -> str | None:
-    """Wait until the program has ended, or say which limit it has passed."""
-    pause = _GLANCE_S
+def _wait(process: "subprocess.Popen[bytes]", deadline: float, memory_bytes: int) -> tuple[str | None, int]:
+    """Wait until the program has ended or passed a limit, and say which; and how much memory it was seen to use."""
+    pause, most = _GLANCE_S, 0
     while True:
         left = deadline - time.monotonic()
         if left <= 0:
-            return "time"
+            return "time", most
         try:
             process.wait(min(pause, left))
         except subprocess.TimeoutExpired:
             pause = min(pause * 1.5, 10 * _GLANCE_S)
         else:
-            return None
-        if _resident(process.pid) > memory_bytes:
-            return "memory"
+            return None, most
+        most = max(most, _resident(process.pid))
+        if most > memory_bytes:
+            return "memory", most
 
 
 def _resident(pid: int) -> int:

@@ -170,6 +170,7 @@ def test_a_program_that_passes_its_memory_is_killed(tmp_path):
     eats = "#!{python}\nimport time\nkept = bytearray(300_000_000)\ntime.sleep(321)\n"
     result = External(binary=program(tmp_path, eats)).plan(problem(), attrs.evolve(AMPLE, memory_bytes=100_000_000))
     assert result.status is PlanStatus.OUT_OF_MEMORY
+    assert 100_000_000 < result.statistics["memory_bytes"] < 1_000_000_000
 
 
 def test_what_is_no_map_of_cells_is_skipped_with_the_reason(tmp_path):
