@@ -15,16 +15,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from movingai import algorithm_of
+from posing import MEMORY, pose
 
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.planning import call_planner
-from mrpbench_core.engine.preparation import Ended, assign, pose_problem, set_scene
 from mrpbench_core.model.plan import Budget
-from mrpbench_core.model.problem import Problem
 
 PLANNERS = ("cbs", "ecbs w=1.2", "eecbs w=1.2", "pbs", "prioritized")
-MEMORY = 4 << 30
 PATIENCE = 2
 """Wall seconds of the machine that a planner is given for each CPU second that it may use."""
 
@@ -42,15 +40,6 @@ def runs(world: str, robots: int, planner: str, seeds: int) -> Iterator[RunConfi
         "matrix": {"seed": f"0..{seeds - 1}"},
     }
     yield from (point.config for point in load_study(block).runs)
-
-
-def pose(config: RunConfig) -> Problem | None:
-    """The problem of a run; None where there cannot be a plan."""
-    try:
-        setting = set_scene(config, lambda *_: None)
-        return pose_problem(setting, assign(config, setting, lambda *_: None, {}), config.assigner)
-    except Ended:
-        return None
 
 
 def measure(world: str, planner: str, arguments: argparse.Namespace) -> str:

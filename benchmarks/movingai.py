@@ -3,19 +3,26 @@
     python benchmarks/movingai.py --data ../shared/data/movingai --solver cbs --maps empty-8-8 --agents 8 16 24
     python benchmarks/movingai.py --data ../shared/data/movingai --anchors ../shared/data/anchors.csv \
         --solver "eecbs w=1.2" --against EECBS-w1.2 EECBS-sipp-w1.2
+    python benchmarks/movingai.py --data … --maps empty-8-8 --solver "eecbs w=1.2" --beside 'external binary=./eecbs
+        arguments="-m {map} -a {scen} --outputPaths {paths} -k {agents} -t {seconds} --suboptimality 1.2"'
 
-With `--against`, the instances are those that these solvers were measured on, and the best of them counts. A time is
-the median of `--repeat` runs in CPU seconds of one thread, distance tables included: on an idle machine that is the
-wall time, on a busy one it is still the solver's own. Who needs more than `--time-limit` of them has not solved the
-instance. Less than 5 ms counts as 5 ms, since nobody would notice. Ratios are geometric means over the instances that
-both solved: ours by theirs, so less than 1 is faster. Times of the others were measured on another day on a machine of
-the same kind, and leave their distance tables out: that is to their advantage.
+A solver is an algorithm of `mrpbench_native` or any planner that is installed, with its options; for anytime solvers
+there is `anytime.py`. With `--against`, the instances are those that these solvers were measured on, and the best of
+them counts; with `--beside`, another solver runs in their place, each instance right after ours. A time is the median
+of `--repeat` runs in CPU seconds of one thread, distance tables included: on an idle machine that is the wall time,
+on a busy one it is still the solver's own. Who needs more than `--time-limit` of them has not solved the instance.
+Less than 5 ms counts as 5 ms, since nobody would notice. Ratios are geometric means over the instances that both
+solved: ours by theirs, so less than 1 is faster. Of a program that `external` runs, all its time counts, with the
+reading of its files. Times in the table were measured on another day on a machine of the same kind, and leave
+distance tables out: that is to their advantage.
 """
 
 import argparse
 import csv
 import math
+import shlex
 import statistics
+import sys
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
@@ -23,8 +30,11 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from mrpbench_native import Solution, solve
+from mrpbench_native import ALGORITHMS, Solution, solve
 from numpy.typing import NDArray
+from posing import ask, pose_cells
+
+from mrpbench_core.files.errors import InputError, InputErrors
 
 LEAST_S = 0.005
 PASSABLE = ".GS"
@@ -66,10 +76,15 @@ def read_scen(file: Path, agents: int) -> tuple[NDArray[np.int64], NDArray[np.in
     return places[:, 0], places[:, 1]
 
 
+def files(data: Path, instance: Instance) -> tuple[Path, Path]:
+    """Map and scenario."""
+    return data / "maps" / f"{instance.map}.map", data / "scens" / f"{instance.map}-{instance.scen}.scen"
+
+
 def read_instance(data: Path, instance: Instance) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int64]]:
     """Free cells, starts and goals; fewer than `agents` if the scenario has fewer rows."""
-    free = read_map(data / "maps" / f"{instance.map}.map")
-    return free, *read_scen(data / "scens" / f"{instance.map}-{instance.scen}.scen", instance.agents)
+    world, scen = files(data, instance)
+    return read_map(world), *read_scen(scen, instance.agents)
 
 
 def outcome_of(row: Mapping[str, str]) -> Outcome:
@@ -92,15 +107,22 @@ def measured(file: Path, solvers: Sequence[str], limit: float = 10.0) -> dict[In
     return best
 
 
+def attempt(data: Path, instance: Instance, solver: str, limit: float) -> Solution:
+    """What a solver makes of an instance in so many seconds of wall time."""
+    name, options = algorithm_of(solver)
+    if name in ALGORITHMS:
+        return solve(*read_instance(data, instance), algorithm=name, time_limit=limit, **options)
+    problem = pose_cells(*files(data, instance), instance.agents)
+    return Solution(status="unsolvable") if problem is None else ask(name, options, problem, limit)
+
+
 def run(data: Path, instance: Instance, solver: str, limit: float, repeat: int) -> tuple[Outcome, Solution] | None:
     """The median outcome, and a solution; None if the scenario has fewer rows."""
-    free, starts, goals = read_instance(data, instance)
-    if len(starts) < instance.agents:
+    if len(read_instance(data, instance)[1]) < instance.agents:
         return None
-    algorithm, options = algorithm_of(solver)
     outcomes = []
     for _ in range(repeat):
-        solution = solve(free, starts, goals, algorithm=algorithm, time_limit=PATIENCE * limit, **options)
+        solution = attempt(data, instance, solver, PATIENCE * limit)
         solved = solution.status == "solved" and solution.cpu_seconds <= limit and solution.cost is not None
         outcomes.append(Outcome(solution.cpu_seconds, solution.cost or 0) if solved else Outcome(math.inf, math.nan))
         if not solved or 2 * solution.cpu_seconds > limit:
@@ -109,8 +131,8 @@ def run(data: Path, instance: Instance, solver: str, limit: float, repeat: int) 
 
 
 def algorithm_of(solver: str) -> tuple[str, dict[str, Any]]:
-    """An algorithm and its options from words such as `ecbs w=1.2`."""
-    algorithm, *words = solver.split()
+    """An algorithm and its options from words such as `ecbs w=1.2`; words with spaces in quotes."""
+    algorithm, *words = shlex.split(solver)
     return algorithm, dict(map(_option, words))
 
 
@@ -174,28 +196,41 @@ def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, required=True, help="folder with maps/ and scens/")
-    parser.add_argument("--solver", default="cbs", help="an algorithm and its options, such as 'eecbs w=1.2'")
+    parser.add_argument("--solver", default="cbs", help="a solver and its options, such as 'eecbs w=1.2'")
     parser.add_argument("--maps", nargs="*", default=[])
     parser.add_argument("--agents", nargs="*", type=int, default=[10])
     parser.add_argument("--scens", type=int, default=5, help="scenario files random-1 to random-N")
     parser.add_argument("--anchors", type=Path, help="table of what others reach")
     parser.add_argument("--against", nargs="*", default=[], help="solvers of that table")
-    parser.add_argument("--time-limit", type=float, default=10.0)
+    parser.add_argument("--beside", metavar="SOLVER", help="another solver, to be run as well")
+    parser.add_argument("--time-limit", type=float, default=10.0, help="CPU seconds")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--write", type=Path, help="file for one CSV row an instance")
     arguments = parser.parse_args()
+    try:
+        compare(arguments)
+    except (OSError, ValueError, InputError, InputErrors) as error:
+        sys.exit(f"{error}")
+
+
+def compare(arguments: argparse.Namespace) -> None:
+    """Run, write, and print."""
     others = measured(arguments.anchors, arguments.against) if arguments.anchors else {}
     found: dict[Instance, Outcome] = {}
     rows = []
     for instance in instances(arguments, others):
-        ran = run(arguments.data, instance, arguments.solver, arguments.time_limit, arguments.repeat)
-        if ran is None:
-            continue
-        found[instance], solution = ran
-        seconds, cost = found[instance]
-        rows.append([*instance, arguments.solver, solution.status, seconds, cost, solution.lower_bound])
-        if cost < others.get(instance, (0, cost))[1] and arguments.solver == "cbs":
-            print(f"{instance}: cost {cost} is less than theirs, {others[instance].cost}, which was to be optimal")
+        for solver, outcomes in ((arguments.solver, found), (arguments.beside, others)):
+            if solver is None:
+                continue
+            ran = run(arguments.data, instance, solver, arguments.time_limit, arguments.repeat)
+            if ran is None:
+                break
+            outcomes[instance], solution = ran
+            rows.append([*instance, solver, solution.status, *outcomes[instance], solution.lower_bound])
+        else:
+            cost = found[instance].cost
+            if cost < others.get(instance, UNKNOWN).cost and arguments.solver == "cbs" and not arguments.beside:
+                print(f"{instance}: cost {cost} is less than theirs, {others[instance].cost}, which was to be optimal")
     if arguments.write:
         with arguments.write.open("w", newline="") as stream:
             writer = csv.writer(stream)

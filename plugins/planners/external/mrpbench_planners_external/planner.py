@@ -78,7 +78,7 @@ class External(Planner):
             write_map(problem.roadmap, folder / "world.map")
             write_scen(problem, "world.map", folder / "world.scen")
             ended = run(self._command(len(problem), budget), folder, budget.wall_s, budget.memory_bytes)
-            statistics = {"process_s": ended.seconds}
+            statistics = {"process_s": ended.seconds, "process_cpu_s": ended.cpu_s}
             if ended.resident > 0:  # who ends at once is not seen
                 statistics["memory_bytes"] = ended.resident
             if ended.limit is not None:

@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import resource
 import signal
 import subprocess
 import time
@@ -24,6 +25,8 @@ class Ended:
     limit: str | None
     """time | memory | None."""
     seconds: float
+    cpu_s: float
+    """Of it and all that it waited for."""
     resident: int
     """The most bytes that it and all it started were seen to use."""
     output: str
@@ -35,7 +38,7 @@ def run(command: Sequence[str], folder: Path, wall_s: float, memory_bytes: int) 
     Raises:
         OSError: it cannot be started.
     """
-    began = time.monotonic()
+    began, began_cpu = time.monotonic(), _cpu_s()
     with (folder / "output.txt").open("w+b") as output:
         process = subprocess.Popen(
             command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, process_group=0
@@ -46,7 +49,15 @@ def run(command: Sequence[str], folder: Path, wall_s: float, memory_bytes: int) 
             _kill(process)
         seconds = time.monotonic() - began
         output.seek(0)
-        return Ended(process.returncode, limit, seconds, resident, output.read().decode(errors="replace"))
+        return Ended(
+            process.returncode, limit, seconds, _cpu_s() - began_cpu, resident, output.read().decode(errors="replace")
+        )
+
+
+def _cpu_s() -> float:
+    """Of all programs that were run so far."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _wait(process: "subprocess.Popen[bytes]", deadline: float, memory_bytes: int) -> tuple[str | None, int]:

@@ -114,6 +114,7 @@ def test_the_paths_of_a_program_become_a_plan(tmp_path, form):
     assert check_plan(asked, result.plan).valid
     assert result.plan.sum_of_costs == 6
     assert result.statistics["process_s"] > 0
+    assert result.statistics["process_cpu_s"] > 0
 
 
 def test_paths_may_come_on_the_standard_output(tmp_path):

@@ -1,0 +1,67 @@
+"""Poses the problems of runs, and puts them to any planner of mrpbench: measured and judged as the engine does."""
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from mrpbench_native import Solution
+
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.planning import call_planner, judge
+from mrpbench_core.engine.preparation import Ended, assign, pose_problem, set_scene
+from mrpbench_core.model.plan import Budget
+from mrpbench_core.model.problem import Problem
+
+MEMORY = 4 << 30
+
+
+def pose(config: RunConfig) -> Problem | None:
+    """The problem of a run; None where there cannot be a plan."""
+    try:
+        setting = set_scene(config, lambda *_: None)
+        return pose_problem(setting, assign(config, setting, lambda *_: None, {}), config.assigner)
+    except Ended:
+        return None
+
+
+@lru_cache(maxsize=1)  # the next run of the median asks the same
+def pose_cells(world: Path, scen: Path, robots: int) -> Problem | None:
+    """The problem of the first `robots` rows of a MovingAI scenario."""
+    block = {
+        "name": "cells",
+        "world": {"plugin": "movingai", "file": str(world)},
+        "roadmap": "grid",
+        "scenario": {"plugin": "movingai", "file": str(scen), "robots": robots},
+        "assigner": "identity",
+        "planner": "astar",
+        "simulator": "none",
+    }
+    return pose(load_study(block).runs[0].config)
+
+
+def ask(name: str, options: dict[str, Any], problem: Problem, wall_s: float) -> Solution:
+    """What a planner makes of `problem`; `failed` if it does not know such problems or its plan does not hold.
+
+    Of a planner that runs a program (`external`) the time of that program counts.
+
+    Raises:
+        InputErrors: there is no such planner, or it has no such options.
+    """
+    block = {"name": "asked", "world": "office", "scenario": {"plugin": "random", "robots": 1}, "simulator": "none"}
+    planner = load_study({**block, "planner": {"plugin": name, **options}}).runs[0].config.planner
+    if why := planner.skip(problem):
+        print(f"{name}: {why}")
+        return Solution(status="failed")
+    result, timing = call_planner(planner, problem, Budget(wall_s=wall_s, memory_bytes=MEMORY))
+    result, fault = judge(planner, problem, result)
+    if fault is not None:
+        print(f"{name}: {fault}")
+        return Solution(status="failed")
+    return Solution(
+        status=str(result.status),
+        cost=result.plan.sum_of_costs if result.plan is not None else None,
+        lower_bound=result.lower_bound,
+        seconds=timing["planning_s"],
+        cpu_seconds=result.statistics.get("process_cpu_s", timing["planning_cpu_s"]),
+    )
