@@ -16,26 +16,63 @@ std::optional<std::array<Constraint, 2>> Corridors::resolve(const Situation& sit
   list_stops(situation.path(one), one_stops_);
   list_stops(situation.path(other), other_stops_);
   if (!find_lane(conflict)) return std::nullopt;
-  extend(situation, conflict, true);
-  extend(situation, conflict, false);
+  extend([&](int vertex) {
+    return std::ranges::any_of(std::array{one, other},
+                               [&](int robot) { return situation.path(robot).end() == vertex; });
+  });
   if (chain_.size() == 2 && !pseudo) return std::nullopt;
   const int entrance = chain_.front(), exit = chain_.back();  // of `one`
-  if (entrance == exit || !fits(one, entrance) || !fits(other, exit)) return std::nullopt;
-  const Tick one_ticks = length(one, true), other_ticks = length(other, false);
+  if (entrance == exit || !opposed(one, other)) return std::nullopt;
+  const Tick one_ticks = length(one, 0, chain_.size() - 1), other_ticks = length(other, chain_.size() - 1, 0);
   if (one_ticks == kForever || other_ticks == kForever) return std::nullopt;
 
   // Earliest arrivals at the exits, and by other ways.
-  situation.load(one, bench_.table);
-  const Tick one_first = bench_.intervals.earliest(bench_.table, bench_.distance_to(one, exit), exit, kForever);
-  situation.load(other, bench_.table);
-  const Tick other_first =
-      bench_.intervals.earliest(bench_.table, bench_.distance_to(other, entrance), entrance, kForever);
+  const Tick one_first = earliest(situation, one, exit, kForever);
+  const Tick other_first = earliest(situation, other, entrance, kForever);
   if (one_first == kForever || other_first == kForever) return std::nullopt;
   const Tick one_last = bound(situation, one, chain_[chain_.size() - 2], exit, other_first + one_ticks);
   if (arrival_at(one_stops_, exit) > one_last) return std::nullopt;
   const Tick other_last = bound(situation, other, chain_[1], entrance, one_first + other_ticks);
   if (arrival_at(other_stops_, entrance) > other_last) return std::nullopt;
   return std::array{avoid_vertex(one, exit, 0, one_last), avoid_vertex(other, entrance, 0, other_last)};
+}
+
+std::optional<Corridors::AtTarget> Corridors::resolve_at_target(const Situation& situation, const Conflict& conflict,
+                                                                int passing, int ending) {
+  const Instance& instance = bench_.space.instance();
+  const int target = situation.path(ending).end();
+  const auto is_end = [&](int vertex) {
+    return instance.robots()[passing].start == vertex || situation.path(passing).end() == vertex;
+  };
+  if (instance.rules().disappear_at_goal || bench_.space.degree(target) != 2 || is_end(target)) return std::nullopt;
+  for (const int robot : {passing, ending}) {
+    if (instance.beginning(robot).occupied.size() > 1) return std::nullopt;
+  }
+  list_stops(situation.path(passing), one_stops_);
+  if (!find_passage(conflict, target)) return std::nullopt;
+  extend(is_end);
+  const int entrance = chain_.front(), exit = chain_.back();
+  if (entrance == exit) return std::nullopt;
+  const std::size_t inside = std::ranges::find(chain_, target) - chain_.begin(), last = chain_.size() - 1;
+
+  // Who goes through the chain lets nobody else stay inside. If `passing` comes out at the exit, before it could by any
+  // other way, then `ending` is at its end only after that, and comes there from the exit, once `passing` was there; or
+  // from the entrance, behind it.
+  const Tick first = earliest(situation, passing, exit, kForever);
+  const Tick back = length(ending, last, inside), on = length(ending, 0, inside);
+  if (first == kForever || back == kForever) return std::nullopt;
+  Tick until = first + back;
+  if (on < until) {
+    const Tick before = std::max(earliest(situation, ending, entrance, until - on) - 1,
+                                 earliest(situation, passing, entrance, until - on));
+    until = std::min(until, std::min(before, until) + on);
+  }
+  if (situation.path(ending).cost > until) return std::nullopt;
+  const Tick round = bound(situation, passing, chain_[last - 1], exit, kForever);
+  if (arrival_at(one_stops_, exit) > round) return std::nullopt;
+  using Kind = Constraint::Kind;
+  return AtTarget{{ending, target, {until, until}, Kind::finish_after},
+                  {Constraint{ending, target, {until, until}, Kind::finish_by}, avoid_vertex(passing, exit, 0, round)}};
 }
 
 void Corridors::list_stops(const TimedPath& path, std::vector<Stop>& stops) const {
@@ -69,26 +106,42 @@ bool Corridors::find_lane(const Conflict& conflict) {
   return false;
 }
 
-/// Lengthen `chain_` while there is only one way on, at most to where one of the robots starts or ends.
-void Corridors::extend(const Situation& situation, const Conflict& conflict, bool forwards) {
-  if (!forwards) std::ranges::reverse(chain_);
-  const auto ends_at = [&](int vertex, int robot) {
-    return bench_.space.instance().robots()[robot].start == vertex || situation.path(robot).end() == vertex;
-  };
-  while (bench_.space.degree(chain_.back()) == 2 && !ends_at(chain_.back(), conflict.one) &&
-         !ends_at(chain_.back(), conflict.other)) {
-    const int beyond = next(chain_.back(), chain_[chain_.size() - 2]);
-    if (beyond == chain_.front()) break;  // a ring
-    chain_.push_back(beyond);
+/// Put into `chain_` how the robot of `one_stops_` goes through `target`, nearest to the conflict.
+bool Corridors::find_passage(const Conflict& conflict, int target) {
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k + 1 < one_stops_.size(); ++k) {
+    if (one_stops_[k].vertex != target || one_stops_[k - 1].vertex == one_stops_[k + 1].vertex) continue;
+    const auto far = [&](std::size_t it) { return std::abs(2 * one_stops_[it].arrive - conflict.time); };
+    if (nearest == 0 || far(k) < far(nearest)) nearest = k;
   }
-  if (!forwards) std::ranges::reverse(chain_);
+  if (nearest == 0) return false;
+  chain_ = {one_stops_[nearest - 1].vertex, target, one_stops_[nearest + 1].vertex};
+  return true;
 }
 
-/// Must `robot`, if it comes out at the other end of the chain, have entered at `entrance`?
-bool Corridors::fits(int robot, int entrance) const {
-  const Beginning& beginning = bench_.space.instance().beginning(robot);
-  if (beginning.occupied.size() > 1) return false;
-  return beginning.vertex == entrance || std::ranges::find(chain_, beginning.vertex) == chain_.end();
+/// Lengthen `chain_` both ways while there is only one way on, at most to where `is_end`.
+template <class IsEnd>
+void Corridors::extend(IsEnd is_end) {
+  for (int side = 0; side < 2; ++side) {
+    while (bench_.space.degree(chain_.back()) == 2 && !is_end(chain_.back())) {
+      const int beyond = next(chain_.back(), chain_[chain_.size() - 2]);
+      if (beyond == chain_.front()) break;  // a ring
+      chain_.push_back(beyond);
+    }
+    std::ranges::reverse(chain_);
+  }
+}
+
+/// Do they begin in the chain, or come into it, so that `one` gets to its exit only past `other`?
+bool Corridors::opposed(int one, int other) const {
+  const auto place = [&](int robot, std::size_t outside) {
+    const auto at = std::ranges::find(chain_, bench_.space.instance().beginning(robot).vertex);
+    return at == chain_.end() ? outside : static_cast<std::size_t>(at - chain_.begin());
+  };
+  for (const int robot : {one, other}) {
+    if (bench_.space.instance().beginning(robot).occupied.size() > 1) return false;
+  }
+  return place(one, 0) < place(other, chain_.size() - 1);
 }
 
 int Corridors::next(int vertex, int from) const {
@@ -102,11 +155,11 @@ int Corridors::next(int vertex, int from) const {
   return from;
 }
 
-/// Ticks that `robot` needs for the chain, kForever if it cannot pass.
-Tick Corridors::length(int robot, bool forwards) const {
+/// Ticks that `robot` needs from one place in the chain to another, kForever if it cannot go there.
+Tick Corridors::length(int robot, std::size_t from, std::size_t to) const {
   Tick sum = 0;
-  for (std::size_t k = 0; k + 1 < chain_.size(); ++k) {
-    const int tail = forwards ? chain_[k] : chain_[k + 1], head = forwards ? chain_[k + 1] : chain_[k];
+  while (from != to) {
+    const int tail = chain_[from], head = chain_[from < to ? ++from : --from];
     Tick least = kForever;
     for (const Move& move : bench_.space.moves(robot, tail)) {
       if (move.head == head) least = std::min(least, move.duration);
@@ -117,6 +170,12 @@ Tick Corridors::length(int robot, bool forwards) const {
   return sum;
 }
 
+/// The earliest tick at which `robot` can be at `vertex`, kForever if not by tick `latest`.
+Tick Corridors::earliest(const Situation& situation, int robot, int vertex, Tick latest) {
+  situation.load(robot, bench_.table);
+  return bench_.intervals.earliest(bench_.table, bench_.distance_to(robot, vertex), vertex, latest);
+}
+
 /// Last tick at which `robot` can be at `exit` only by way of the chain, at most `latest`.
 Tick Corridors::bound(const Situation& situation, int robot, int before_exit, int exit, Tick latest) {
   situation.load(robot, bench_.table);
@@ -125,7 +184,7 @@ Tick Corridors::bound(const Situation& situation, int robot, int before_exit, in
     bench_.table.add({robot, bench_.space.vertex_count() + move.edge, {0, kForever}});
   }
   const Tick round = bench_.intervals.earliest(bench_.table, bench_.distance_to(robot, exit), exit, latest);
-  return std::min(round - 1, latest);
+  return round == kForever ? latest : std::min(round - 1, latest);
 }
 
 Tick Corridors::arrival_at(std::span<const Stop> stops, int vertex) const {

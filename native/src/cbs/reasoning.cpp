@@ -25,6 +25,9 @@ bool Reasoning::examine_target(const Situation& situation, Conflict& conflict) {
 bool Reasoning::examine_passing(const Situation& situation, Conflict& conflict) {
   const int parked = conflict.one_stays ? conflict.one : conflict.other;
   const int passing = conflict.one_stays ? conflict.other : conflict.one;
+  if (bench_.options.corridor && conflict.resource < 0 && examine_corridor_to(situation, conflict, passing, parked)) {
+    return true;
+  }
   const auto branches = resolve_at_target(bench_.space, situation, conflict, parked, passing);
   if (!branches) return false;
   use(conflict, Conflict::Kind::target, std::span(&(*branches)[0], 1), std::span(&(*branches)[1], 1));
@@ -68,9 +71,29 @@ Half Reasoning::earliest_done(const Situation& situation, const Conflict& confli
 
 bool Reasoning::examine_corridor(const Situation& situation, Conflict& conflict) {
   const bool pseudo = conflict.cardinality == Conflict::Cardinality::both;
-  const auto branches = corridors_.resolve(situation, conflict, pseudo);
-  if (!branches) return false;
-  use(conflict, Conflict::Kind::corridor, std::span(&(*branches)[0], 1), std::span(&(*branches)[1], 1));
+  if (const auto branches = corridors_.resolve(situation, conflict, pseudo)) {
+    use(conflict, Conflict::Kind::corridor, std::span(&(*branches)[0], 1), std::span(&(*branches)[1], 1));
+    rate(situation, conflict);
+    return true;
+  }
+  if (!bench_.options.target) return false;
+  for (const auto& [passing, ending] : {std::pair(conflict.one, conflict.other), {conflict.other, conflict.one}}) {
+    Conflict there = conflict;
+    if (!examine_corridor_to(situation, there, passing, ending)) continue;
+    if (bench_.options.prioritize && there.cardinality <= conflict.cardinality) continue;
+    conflict = there;
+    return true;
+  }
+  return false;
+}
+
+/// Use a corridor that leads `passing` through the end of `ending`.
+bool Reasoning::examine_corridor_to(const Situation& situation, Conflict& conflict, int passing, int ending) {
+  const auto found = corridors_.resolve_at_target(situation, conflict, passing, ending);
+  if (!found) return false;
+  const std::span<const Constraint> first(&found->ending, 1), second(found->passing);
+  const bool in_order = ending == conflict.one;
+  use(conflict, Conflict::Kind::target, in_order ? first : second, in_order ? second : first);
   rate(situation, conflict);
   return true;
 }

@@ -22,6 +22,7 @@ class Reasoning {
   void examine_crossing(const Situation& situation, Conflict& conflict);
   Half earliest_done(const Situation& situation, const Conflict& conflict, int robot, int crossing);
   bool examine_corridor(const Situation& situation, Conflict& conflict);
+  bool examine_corridor_to(const Situation& situation, Conflict& conflict, int passing, int ending);
   void examine_rectangle(const Situation& situation, Conflict& conflict);
   void rate(const Situation& situation, Conflict& conflict);
   void use(Conflict& conflict, Conflict::Kind kind, std::span<const Constraint> one, std::span<const Constraint> other);

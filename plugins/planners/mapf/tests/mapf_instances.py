@@ -1,5 +1,6 @@
 """Small problems for the tests: grids, drawn graphs, and the MovingAI benchmark."""
 
+import itertools
 from pathlib import Path as File
 
 import attrs
@@ -126,6 +127,24 @@ def random_narrow_problem(random: np.random.Generator, robots: int) -> Problem:
     road = roadmap(random.random((vertices, 2)), edges, np.full(len(edges), random.integers(1, 3)))
     starts = random.choice(vertices, robots, replace=False)
     return problem(road, starts, random.choice(vertices, robots, replace=False).tolist())
+
+
+def random_corridor_problem(random: np.random.Generator, robots: int, longest: int = 1, **fields) -> Problem:
+    """Two hubs with a few bays each, joined by one or two chains; robots start and end anywhere, also in a chain."""
+    pairs: list[tuple[int, int]] = []
+    for hub in (0, 1):
+        first = max((max(pair) for pair in pairs), default=1) + 1
+        pairs += [(hub, bay) for bay in range(first, first + int(random.integers(1, 4)))]
+    for _ in range(int(random.integers(1, 3))):
+        first = max(max(pair) for pair in pairs) + 1
+        chain = [0, *range(first, first + int(random.integers(1, 5))), 1]
+        pairs += itertools.pairwise(chain)
+    edges = sorted({*pairs, *((b, a) for a, b in pairs)})
+    vertices = max(max(edge) for edge in edges) + 1
+    position = random.random((vertices, 2)) * 100  # only lanes that share an end are close to one another
+    road = roadmap(position, edges, random.integers(1, longest + 1, len(edges)))
+    starts, goals = (random.choice(vertices, robots, replace=False) for _ in range(2))
+    return problem(road, starts, goals.tolist(), **fields)
 
 
 def with_releases(random: np.random.Generator, asked: Problem) -> Problem:

@@ -9,6 +9,7 @@ from typing import get_args
 
 import attrs
 from mapf_instances import (
+    random_corridor_problem,
     random_full_problem,
     random_graph_problem,
     random_grid_problem,
@@ -43,6 +44,9 @@ KINDS: dict[str, Draw] = {
     ),
     "full grid": random_full_problem,
     "path, cycle or tree": lambda random: random_narrow_problem(random, int(random.integers(2, 5))),
+    "corridor": lambda random: random_corridor_problem(
+        random, int(random.integers(2, 4)), int(random.choice([1, 1, 3])), **random_rules(random)
+    ),
     "unit graph": lambda random: random_graph_problem(
         random, int(random.integers(2, 4)), longest=1, at_goal=str(random.choice(["stay", "disappear"]))
     ),
