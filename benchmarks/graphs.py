@@ -14,7 +14,7 @@ import statistics
 from collections.abc import Iterator
 from typing import Any
 
-from movingai import algorithm_of
+from movingai import PATIENCE, algorithm_of
 from posing import MEMORY, pose
 
 from mrpbench_core.config.settings import RunConfig
@@ -23,8 +23,6 @@ from mrpbench_core.engine.planning import call_planner
 from mrpbench_core.model.plan import Budget
 
 PLANNERS = ("cbs", "ecbs w=1.2", "eecbs w=1.2", "pbs", "prioritized")
-PATIENCE = 2
-"""Wall seconds of the machine that a planner is given for each CPU second that it may use."""
 
 
 def runs(world: str, robots: int, planner: str, seeds: int) -> Iterator[RunConfig]:

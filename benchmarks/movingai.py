@@ -69,6 +69,7 @@ def read_map(file: Path) -> NDArray[np.bool_]:
     return np.array([[cell in PASSABLE for cell in row] for row in rows if row])
 
 
+@cache
 def read_scen(file: Path, agents: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Starts and goals i8[agents,2], row and column."""
     rows = [line.split()[4:8] for line in file.read_text().splitlines()[1:] if line.strip()][:agents]
@@ -218,18 +219,15 @@ def compare(arguments: argparse.Namespace) -> None:
     others = measured(arguments.anchors, arguments.against) if arguments.anchors else {}
     found: dict[Instance, Outcome] = {}
     rows = []
+    contest = [(arguments.solver, found)] + ([(arguments.beside, others)] if arguments.beside else [])
     for instance in instances(arguments, others):
-        for solver, outcomes in ((arguments.solver, found), (arguments.beside, others)):
-            if solver is None:
-                continue
-            ran = run(arguments.data, instance, solver, arguments.time_limit, arguments.repeat)
-            if ran is None:
-                break
-            outcomes[instance], solution = ran
-            rows.append([*instance, solver, solution.status, *outcomes[instance], solution.lower_bound])
-        else:
-            cost = found[instance].cost
-            if cost < others.get(instance, UNKNOWN).cost and arguments.solver == "cbs" and not arguments.beside:
+        for solver, outcomes in contest:
+            if ran := run(arguments.data, instance, solver, arguments.time_limit, arguments.repeat):
+                outcomes[instance], solution = ran
+                rows.append([*instance, solver, solution.status, *outcomes[instance], solution.lower_bound])
+    if arguments.solver == "cbs" and not arguments.beside:
+        for instance, (_, cost) in found.items():
+            if cost < others.get(instance, UNKNOWN).cost:
                 print(f"{instance}: cost {cost} is less than theirs, {others[instance].cost}, which was to be optimal")
     if arguments.write:
         with arguments.write.open("w", newline="") as stream:

@@ -45,9 +45,7 @@ std::optional<Corridors::AtTarget> Corridors::resolve_at_target(const Situation&
     return instance.robots()[passing].start == vertex || situation.path(passing).end() == vertex;
   };
   if (instance.rules().disappear_at_goal || bench_.space.degree(target) != 2 || is_end(target)) return std::nullopt;
-  for (const int robot : {passing, ending}) {
-    if (instance.beginning(robot).occupied.size() > 1) return std::nullopt;
-  }
+  if (is_under_way(passing) || is_under_way(ending)) return std::nullopt;
   list_stops(situation.path(passing), one_stops_);
   if (!find_passage(conflict, target)) return std::nullopt;
   extend(is_end);
@@ -132,16 +130,18 @@ void Corridors::extend(IsEnd is_end) {
   }
 }
 
+/// Does `robot` begin with moves that it is committed to, which may end or lead through anywhere?
+bool Corridors::is_under_way(int robot) const {
+  return bench_.space.instance().beginning(robot).occupied.size() > 1;
+}
+
 /// Do they begin in the chain, or come into it, so that `one` gets to its exit only past `other`?
 bool Corridors::opposed(int one, int other) const {
   const auto place = [&](int robot, std::size_t outside) {
     const auto at = std::ranges::find(chain_, bench_.space.instance().beginning(robot).vertex);
     return at == chain_.end() ? outside : static_cast<std::size_t>(at - chain_.begin());
   };
-  for (const int robot : {one, other}) {
-    if (bench_.space.instance().beginning(robot).occupied.size() > 1) return false;
-  }
-  return place(one, 0) < place(other, chain_.size() - 1);
+  return !is_under_way(one) && !is_under_way(other) && place(one, 0) < place(other, chain_.size() - 1);
 }
 
 int Corridors::next(int vertex, int from) const {

@@ -36,6 +36,7 @@ class Corridors {
   bool find_passage(const Conflict& conflict, int target);
   template <class IsEnd>
   void extend(IsEnd is_end);
+  bool is_under_way(int robot) const;
   bool opposed(int one, int other) const;
   int next(int vertex, int from) const;
   Tick length(int robot, std::size_t from, std::size_t to) const;

@@ -131,16 +131,15 @@ def random_narrow_problem(random: np.random.Generator, robots: int) -> Problem:
 
 def random_corridor_problem(random: np.random.Generator, robots: int, longest: int = 1, **fields) -> Problem:
     """Two hubs with a few bays each, joined by one or two chains; robots start and end anywhere, also in a chain."""
+    unused = itertools.count(2)  # 0 and 1 are the hubs
     pairs: list[tuple[int, int]] = []
     for hub in (0, 1):
-        first = max((max(pair) for pair in pairs), default=1) + 1
-        pairs += [(hub, bay) for bay in range(first, first + int(random.integers(1, 4)))]
-    for _ in range(int(random.integers(1, 3))):
-        first = max(max(pair) for pair in pairs) + 1
-        chain = [0, *range(first, first + int(random.integers(1, 5))), 1]
+        pairs += [(hub, next(unused)) for _ in range(random.integers(1, 4))]
+    for _ in range(random.integers(1, 3)):
+        chain = [0, *(next(unused) for _ in range(random.integers(1, 5))), 1]
         pairs += itertools.pairwise(chain)
     edges = sorted({*pairs, *((b, a) for a, b in pairs)})
-    vertices = max(max(edge) for edge in edges) + 1
+    vertices = next(unused)
     position = random.random((vertices, 2)) * 100  # only lanes that share an end are close to one another
     road = roadmap(position, edges, random.integers(1, longest + 1, len(edges)))
     starts, goals = (random.choice(vertices, robots, replace=False) for _ in range(2))
