@@ -1,4 +1,4 @@
-"""Prints docs/metrics.md from the columns of the metrics: `python scripts/metrics_page.py > docs/metrics.md`."""
+"""Print docs/metrics.md from the columns of the metrics: `python scripts/metrics_page.py > docs/metrics.md`."""
 
 import importlib
 import inspect
@@ -7,15 +7,15 @@ from pathlib import Path
 
 HEAD = """\
 # Metrics
-Written by `scripts/metrics_page.py` from what each metric says of itself. `planning` and `execution` are measured by
-default; others are named in the configuration, with options where the defaults do not fit:
+`scripts/metrics_page.py` writes this page from the descriptions of the metrics. `planning` and `execution` are measured by
+default. A configuration names other metrics, with options where the defaults do not fit:
 ```yaml
 metrics: [planning, execution, delay, {plugin: stops, least: 1 s}]
 ```
-In records and tables a column is `<metric>.<column>`. Times are simulated seconds, never wall time. What cannot be
-measured is null, never zero. `requires` names the channels of the recording (see [results](results.md)), `plan` (there
-is one) or `path` (what robots were to follow is known) without which a metric, or one column of it, is null. Samples
-come at `recording.rate`, so times are known to a sample.
+In records and tables a column is called `<metric>.<column>`. Times are simulated seconds, never wall time. A value that
+cannot be measured is null, never zero. `Requires` names the data without which a metric, or one of its columns, is null:
+channels of the recording (see [results folder](results-folder.md)), `plan` (a plan exists) or `path` (the path that each
+robot was to follow is known). Samples are taken at `recording.rate`, so times are exact to one sample.
 """
 
 

@@ -1,0 +1,64 @@
+"""The pages agree with the tree: links and paths exist, and the layers are those that import-linter checks."""
+
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted(
+    file
+    for pattern in ("*.md", "docs/**/*.md", "plugins/*/*/README.md", "native/README.md")
+    for file in ROOT.glob(pattern)
+)
+CURRENT = [page for page in PAGES if page.name != "CHANGELOG.md" and "results" not in page.parts]
+"""Pages that describe the tree as it is; the others name files as they were."""
+LINK = re.compile(r"\]\((?!https?:|mailto:)([^)#\s]*)(?:#([^)\s]+))?\)")
+HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
+IN_TREE = re.compile(r"`((?:mrpbench_core|native|plugins|tests|docs|benchmarks|scripts|studies)/[\w./-]*[\w/])`")
+
+
+def name(page):
+    return str(page.relative_to(ROOT))
+
+
+def anchors(page):
+    """The anchors that GitHub gives to headings."""
+    words = (re.sub(r"[^\w\- ]", "", heading.lower()) for heading in HEADING.findall(page.read_text()))
+    return {heading.strip().replace(" ", "-") for heading in words}
+
+
+@pytest.fixture(scope="module")
+def project():
+    return tomllib.loads((ROOT / "pyproject.toml").read_text())
+
+
+@pytest.mark.parametrize("page", PAGES, ids=name)
+def test_links_lead_to_files_and_headings(page):
+    for file, heading in LINK.findall(page.read_text()):
+        target = (page.parent / file).resolve() if file else page
+        assert target.exists(), file
+        assert not heading or heading in anchors(target), f"{file}#{heading}"
+
+
+@pytest.mark.parametrize("page", CURRENT, ids=name)
+def test_paths_that_pages_name_exist(page):
+    missing = [path for path in IN_TREE.findall(page.read_text()) if not list(ROOT.glob(path))]
+    assert not missing
+
+
+def test_the_design_page_has_the_layers_of_the_contract(project):
+    block = (ROOT / "docs/design.md").read_text().partition("## Layers")[2].split("```")[1]
+    said = [set(layer.split(", ")) for layer in block.strip().split(" → ")]
+    (contract,) = (it for it in project["tool"]["importlinter"]["contracts"] if it.get("exhaustive"))
+    assert said == [set(layer.split(" | ")) for layer in contract["layers"]]
+
+
+def test_the_contracts_know_every_package(project):
+    members = [ROOT / member for member in project["tool"]["uv"]["workspace"]["members"]]
+    packages = {file.parent.name for member in members for file in member.glob("mrpbench_*/__init__.py")}
+    linter = project["tool"]["importlinter"]
+    assert set(linter["root_packages"]) == packages | {"mrpbench_core", "mrpbench_native"}
+    (rule,) = (it for it in linter["contracts"] if it["name"].startswith("Plugins import only"))
+    assert set(rule["source_modules"]) == packages
