@@ -7,15 +7,15 @@ from pathlib import Path
 
 HEAD = """\
 # Metrics
-`scripts/metrics_page.py` writes this page from the descriptions of the metrics. `planning` and `execution` are measured by
-default. A configuration names other metrics, with options where the defaults do not fit:
+`scripts/metrics_page.py` writes this page from the descriptions of the metrics. `planning` and `execution` are
+measured by default. A configuration names other metrics, with options where the defaults do not fit:
 ```yaml
 metrics: [planning, execution, delay, {plugin: stops, least: 1 s}]
 ```
-In records and tables a column is called `<metric>.<column>`. Times are simulated seconds, never wall time. A value that
-cannot be measured is null, never zero. `Requires` names the data without which a metric, or one of its columns, is null:
-channels of the recording (see [results folder](results-folder.md)), `plan` (a plan exists) or `path` (the path that each
-robot was to follow is known). Samples are taken at `recording.rate`, so times are exact to one sample.
+In records and tables a column is called `<metric>.<column>`. Times are simulated seconds, never wall time. A value
+that cannot be measured is null, never zero. `Requires` names the data without which a metric, or one of its columns,
+is null: channels of the recording (see [results folder](results-folder.md)), `plan` (a plan exists) or `path` (the
+path that each robot was to follow is known). Samples are taken at `recording.rate`, so times are exact to one sample.
 """
 
 
