@@ -20,7 +20,8 @@ class Promise(StrEnum):
     COMPLETE = "complete"
     """Finds a plan if one exists, given time."""
     DETERMINISTIC = "deterministic"
-    """The same problem and options give the same plan, unless the clock ended the search (`PlanResult.clock_bound`)."""
+    """The same problem, options and `Budget.seed` give the same plan, unless the clock ended the search
+    (`PlanResult.clock_bound`)."""
 
 
 class Planner(Component):

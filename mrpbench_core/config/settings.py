@@ -186,8 +186,14 @@ class RunConfig:
     recording: Recording = option(Recording(), help="what is kept of an execution")
     limits: Limits = option(Limits(), help="when a stage is ended")
     replanning: Replanning = option(Replanning(), help="when the planner is asked again during execution")
-    seed: int = option(0, help="of scenario and planner", validator=validators.ge(0))
-    repeat: int = option(0, help="of the noise: the same scenario again", validator=validators.ge(0))
+    seed: int = option(
+        0, help="of the scenario, the planner's random choices and the noise", validator=validators.ge(0)
+    )
+    repeat: int = option(
+        0,
+        help="the same scenario again with other noise and other random choices of the planner",
+        validator=validators.ge(0),
+    )
 
 
 EXECUTION = ("dispatcher", "navigator", "controller", "localizer")

@@ -14,7 +14,7 @@ from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.mission import Outcome, Stack, execute_plan
 from mrpbench_core.engine.noise import Disturbances
 from mrpbench_core.engine.observers import Observers
-from mrpbench_core.engine.planning import budget_within, call_planner, judge
+from mrpbench_core.engine.planning import budget_of, call_planner, judge
 from mrpbench_core.engine.preparation import Announce, Ended
 from mrpbench_core.engine.recorder import Recorder
 from mrpbench_core.engine.replanning import Replans
@@ -93,7 +93,7 @@ def _replans(
         if reason := config.planner.skip(problem):
             return PlanResult(status=PlanStatus.GAVE_UP), f"the planner {reason}"
         announce("replanning", {"limit_s": config.limits.planning})
-        result, spent = call_planner(config.planner, problem, budget_within(config.limits))
+        result, spent = call_planner(config.planner, problem, budget_of(config))
         announce("execution", {})
         timing["replanning_s"] = timing.get("replanning_s", 0.0) + spent["planning_s"]
         timing["clock_bound"] = timing.get("clock_bound", False) or spent["clock_bound"]

@@ -10,7 +10,7 @@ from mrpbench_core.engine.execution import drive, measure_recording
 from mrpbench_core.engine.measure import measure
 from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.plain import readable
-from mrpbench_core.engine.planning import STATUS, budget_within, call_planner, judge
+from mrpbench_core.engine.planning import STATUS, budget_of, call_planner, judge
 from mrpbench_core.engine.preparation import (
     Announce,
     Ended,
@@ -78,7 +78,7 @@ def _plan(
     if reason := config.planner.skip(problem) or replanning_fault(config):
         raise Ended("skipped", "planning", reason)
     announce("planning", {"limit_s": config.limits.planning})
-    result, spent = call_planner(config.planner, problem, budget_within(config.limits))
+    result, spent = call_planner(config.planner, problem, budget_of(config))
     timing |= spent
     announce("checking", {})  # which is no part of the planner's time
     result, fault = judge(config.planner, problem, result)

@@ -12,7 +12,8 @@ from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.checking.assignment import check_choice
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.checking.plan_result import result_fault
-from mrpbench_core.config.settings import Limits
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
@@ -61,10 +62,19 @@ def _history(result: Any) -> list[list[float | None]]:
     return [[value if math.isfinite(value) else None for value in attrs.astuple(point)] for point in result.history]
 
 
-def budget_within(limits: Limits) -> Budget:
-    """What one call of a planner may use: of the memory so much that it stops by itself before the run is killed."""
-    memory = max(1, int(0.9 * limits.memory) - _resident())
-    return Budget(wall_s=limits.planning, memory_bytes=memory, iterations=limits.iterations)
+def budget_of(config: RunConfig) -> Budget:
+    """What one call of a planner may use.
+
+    The memory is less than the run's, so that the planner stops by itself before the run is killed. The seed comes from
+    a stream of its own, keyed by the run's seed and repeat.
+    """
+    limits = config.limits
+    return Budget(
+        wall_s=limits.planning,
+        memory_bytes=max(1, int(0.9 * limits.memory) - _resident()),
+        iterations=limits.iterations,
+        seed=seed_of(config.seed, config.repeat, "planner") >> 32,  # 31 bits, which any program reads
+    )
 
 
 def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:

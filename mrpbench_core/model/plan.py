@@ -116,3 +116,5 @@ class Budget:
     memory_bytes: int
     iterations: int | None = None
     """For anytime planners: stop after this many, which is reproducible where a clock is not."""
+    seed: int = 0
+    """0 to 2^31 - 1: where a planner's random choices begin, unless its own option `seed` says otherwise."""

@@ -83,6 +83,24 @@ def test_a_repeat_meets_the_same_scenario_with_other_noise(tmp_path):
     assert digest(tmp_path / "0" / "run.zip") != digest(tmp_path / "1" / "run.zip")
 
 
+def test_a_randomised_planner_draws_from_the_runs_repeat_unless_its_own_seed_is_set(tmp_path):
+    def costs(seed: int | None) -> list[float]:
+        planned = {"simulator": "none", "roadmap": "grid", "limits": {"iterations": 0}, "metrics": ["planning"]}
+        planner = {"plugin": "lacam", "seed": seed}
+        scenario = {"plugin": "random", "robots": 9}
+        records = [
+            execute_first(tmp_path, planner=planner, scenario=scenario, repeat=repeat, **planned)[0]
+            for repeat in (0, 1, 2, 0)
+        ]
+        assert len({record["scenario_id"] for record in records}) == 1
+        return [record["metrics"]["planning.sum_of_costs"] for record in records]
+
+    drawn, fixed = costs(None), costs(0)
+    assert drawn[0] == drawn[3]
+    assert len(set(drawn)) > 1
+    assert len(set(fixed)) == 1
+
+
 def test_without_a_simulator_the_run_ends_after_planning(tmp_path):
     record, stages = execute_first(tmp_path, simulator="none")
     assert record["status"] == "succeeded"

@@ -8,7 +8,8 @@ import attrs
 import pytest
 
 from mrpbench_core.api import Planner, Promise
-from mrpbench_core.engine.planning import call_planner, judge
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.planning import budget_of, call_planner, judge
 from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus, Progress
 from mrpbench_core.model.problem import Feature
 
@@ -43,6 +44,20 @@ class Bounded(Fixed):
 class Assigning(Fixed):
     supports = frozenset({Feature.GOAL_SETS})
     assign = True
+
+
+def seed_of_run(**changes) -> int:
+    (point,) = load_study(
+        {"world": "office", "scenario": {"plugin": "random", "robots": 2}, "planner": "example", **changes}, ()
+    ).runs
+    return budget_of(point.config).seed
+
+
+def test_planners_get_a_seed_that_only_the_runs_seed_and_repeat_decide():
+    first = seed_of_run(seed=3)
+    assert 0 <= first < 2**31
+    assert seed_of_run(seed=3, planner="astar", limits={"planning": 5}) == first
+    assert len({first, seed_of_run(seed=4), seed_of_run(seed=3, repeat=1)}) == 3
 
 
 def judged(planner_class, problem, result):

@@ -55,13 +55,17 @@ class External(Planner):
     arguments: str = option(
         "-m {map} -a {scen} -o {paths} -k {agents} -t {seconds}",
         help="its arguments: {map} and {scen} are the files to read, {paths} the file to write, {agents} the number of "
-        "robots, {seconds} the time limit, {seed} the option below",
+        "robots, {seconds} the time limit in seconds, {seed} a seed",
         validator=_names_fields,
     )
     output: Literal["agents", "steps", "schedule"] = option(
         "agents", help="format of the paths: as CBSH2-RTC and EECBS, as PIBT2 and LaCAM, or as libMultiRobotPlanning"
     )
-    seed: int = option(0, help="handed to the program as {seed}", validator=attrs.validators.ge(0))
+    seed: int | None = option(
+        None,
+        help="handed to the program as {seed}; without it drawn from the run's seed and repeat, below 2^31",
+        validator=attrs.validators.optional(attrs.validators.ge(0)),
+    )
 
     def skip(self, problem: Problem) -> str | None:
         """Also what cannot be written as a map of cells."""
@@ -108,7 +112,7 @@ class External(Planner):
             "paths": "paths.txt",
             "agents": robots,
             "seconds": f"{max(0.1, budget.wall_s - _MARGIN_S):g}",
-            "seed": self.seed,
+            "seed": budget.seed if self.seed is None else self.seed,
         }
         return [str(self.binary.resolve()), *(word.format_map(fields) for word in shlex.split(self.arguments))]
 

@@ -16,7 +16,7 @@ from mrpbench_core.model.plan import Budget, PlanStatus
 from mrpbench_core.model.problem import Problem, features_of
 from mrpbench_core.model.roadmap import Grid, Roadmap
 
-AMPLE = Budget(wall_s=30.0, memory_bytes=1 << 30)
+AMPLE = Budget(wall_s=30.0, memory_bytes=1 << 30, seed=7)
 BLOCKED = {(1, 1), (2, 1)}  # row from the top, column
 ROWS, COLUMNS = 4, 3
 
@@ -123,6 +123,13 @@ def test_paths_may_come_on_the_standard_output(tmp_path):
         problem(starts=((0, 0),), goals=((3, 0),)), AMPLE
     )
     assert result.plan.sum_of_costs == 3
+
+
+@pytest.mark.parametrize(("seed", "given"), [(None, "7"), (0, "0")])
+def test_a_program_is_given_the_seed_of_the_budget_unless_the_option_sets_one(tmp_path, seed, given):
+    echo = program(tmp_path, '#!/bin/sh\necho "seed $2"; exit 1\n')
+    with pytest.raises(RuntimeError, match=f"seed {given}"):
+        External(binary=echo, arguments="{map} {seed}", seed=seed).plan(problem(), AMPLE)
 
 
 def test_a_program_that_writes_nothing_has_found_nothing(tmp_path):

@@ -11,6 +11,7 @@ from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Problem
 from mrpbench_planners_mapf.native import solve
 from mrpbench_planners_mapf.objective import Objective, objective_option
+from mrpbench_planners_mapf.seeds import seed_option
 from mrpbench_planners_mapf.unit_moves import no_unit_moves
 
 
@@ -40,7 +41,7 @@ class Lacam(Planner):
     )
     star: bool = option(True, help="After the first plan go on searching configurations.")
     neighbourhoods: bool = option(True, help="After the first plan improve it by large neighbourhood search.")
-    seed: int = option(0, help="Seed of all random choices.", validator=attrs.validators.ge(0))
+    seed: int | None = seed_option("Seed of all random choices")
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""

@@ -11,6 +11,7 @@ from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_planners_mapf.native import SUPPORTED, solve
 from mrpbench_planners_mapf.objective import Objective, objective_option
+from mrpbench_planners_mapf.seeds import seed_option
 
 Initial = Literal["repair", "lacam", "either"]
 
@@ -38,7 +39,7 @@ class Lns(Planner):
         help="Robots that are planned anew at a time; without it 8 while repairing, then 1 to 32, as brings most.",
         validator=attrs.validators.optional(attrs.validators.ge(1)),
     )
-    seed: int = option(0, help="Seed of all random choices.", validator=attrs.validators.ge(0))
+    seed: int | None = seed_option("Seed of all random choices")
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""

@@ -28,6 +28,8 @@ NOTHING = Path(edge=np.empty(0, np.int32), enter=np.empty(0, np.int64), leave=np
 def solve(problem: Problem, budget: Budget, solver: Callable[..., mapf.Answer], **options: object) -> PlanResult:
     """Ask a solver, with its options and what is left of `budget` after the conversion."""
     start = time.monotonic()
+    if "seed" in options and options["seed"] is None:
+        options["seed"] = budget.seed
     instance = _instance(problem)
     converted = time.monotonic() - start
     answer = solver(instance, **options, wall_s=budget.wall_s - converted, memory_bytes=budget.memory_bytes)

@@ -10,6 +10,7 @@ from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Problem
 from mrpbench_planners_mapf.native import solve
+from mrpbench_planners_mapf.seeds import seed_option
 from mrpbench_planners_mapf.unit_moves import no_unit_moves
 
 
@@ -30,7 +31,7 @@ class Pibt(Planner):
         help="Ticks after which to give up; 0: twice as many as the roadmap has vertices, and a thousand.",
         validator=attrs.validators.ge(0),
     )
-    seed: int = option(0, help="Seed of the choice between equally good vertices.", validator=attrs.validators.ge(0))
+    seed: int | None = seed_option("Seed of the choice between equally good vertices")
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""

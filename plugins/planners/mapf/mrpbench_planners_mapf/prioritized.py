@@ -10,6 +10,7 @@ from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.model.plan import Budget, PlanResult
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_planners_mapf.native import SUPPORTED, solve
+from mrpbench_planners_mapf.seeds import seed_option
 
 Order = Literal["index", "longest_first", "shortest_first", "random"]
 
@@ -35,7 +36,7 @@ class Prioritized(Planner):
         validator=attrs.validators.in_(get_args(Order)),
     )
     restarts: int = option(1000, help="Further orders to try after a failure.", validator=attrs.validators.ge(0))
-    seed: int = option(0, help="Seed of random orders and late starts.", validator=attrs.validators.ge(0))
+    seed: int | None = seed_option("Seed of random orders and late starts")
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""

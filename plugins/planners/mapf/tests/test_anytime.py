@@ -97,6 +97,20 @@ def test_more_than_unit_moves_is_skipped_with_the_reason(planner):
     assert "footprints" in planner.skip(problem(road, [0], [2], radius=0.3))
 
 
+@pytest.mark.parametrize("planner", [Lacam(), Lns(), Pibt()])
+def test_random_choices_come_from_the_seed_of_the_budget_unless_the_option_sets_one(planner):
+    asked = random_grid_problem(np.random.default_rng(2), 20, size=9)
+
+    def plans(planner) -> list[str]:
+        budgets = [attrs.evolve(BUDGET, iterations=3, seed=seed) for seed in (0, 1, 2, 3, 0)]
+        return [repr(planner.plan(asked, budget).plan) for budget in budgets]
+
+    drawn, fixed = plans(planner), plans(attrs.evolve(planner, seed=2))
+    assert drawn[0] == drawn[4]
+    assert len(set(drawn)) > 1
+    assert set(fixed) == {drawn[2]}
+
+
 @pytest.mark.parametrize("planner", [Lacam(), Lns(), Pibt(), Pbs()])
 def test_limits_hold(planner):
     asked = random_grid_problem(np.random.default_rng(1), 30, size=20)
