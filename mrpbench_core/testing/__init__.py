@@ -12,26 +12,26 @@ In pytest, subclass the suite and return your component from `make`:
 `mrpbench_core.testing.strategies`, problems drawn as text in `mrpbench_core.testing.drawing`.
 """
 
-from mrpbench_core.testing.assigner import AssignerConformance
 from mrpbench_core.testing.checks import Check, run_checks
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.controller import ControllerConformance
-from mrpbench_core.testing.crowd import CrowdConformance
-from mrpbench_core.testing.dispatcher import DispatcherConformance
-from mrpbench_core.testing.executor import ExecutorConformance
-from mrpbench_core.testing.exporter import ExporterConformance
-from mrpbench_core.testing.importer import ImporterConformance
-from mrpbench_core.testing.localizer import LocalizerConformance
-from mrpbench_core.testing.metric import MetricConformance
-from mrpbench_core.testing.navigator import NavigatorConformance
-from mrpbench_core.testing.outcome import Fault, Skip, require
-from mrpbench_core.testing.plan_filter import PlanFilterConformance
-from mrpbench_core.testing.planner import PlannerConformance
-from mrpbench_core.testing.roadmap import RoadmapConformance
-from mrpbench_core.testing.scenario import ScenarioConformance
-from mrpbench_core.testing.simulator import SimulatorConformance
+from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.suites import SUITES, suite_for
-from mrpbench_core.testing.world import WorldConformance
+from mrpbench_core.testing.suites.assigner import AssignerConformance
+from mrpbench_core.testing.suites.component import ComponentConformance
+from mrpbench_core.testing.suites.controller import ControllerConformance
+from mrpbench_core.testing.suites.crowd import CrowdConformance
+from mrpbench_core.testing.suites.dispatcher import DispatcherConformance
+from mrpbench_core.testing.suites.executor import ExecutorConformance
+from mrpbench_core.testing.suites.exporter import ExporterConformance
+from mrpbench_core.testing.suites.importer import ImporterConformance
+from mrpbench_core.testing.suites.localizer import LocalizerConformance
+from mrpbench_core.testing.suites.metric import MetricConformance
+from mrpbench_core.testing.suites.navigator import NavigatorConformance
+from mrpbench_core.testing.suites.plan_filter import PlanFilterConformance
+from mrpbench_core.testing.suites.planner import PlannerConformance
+from mrpbench_core.testing.suites.roadmap import RoadmapConformance
+from mrpbench_core.testing.suites.scenario import ScenarioConformance
+from mrpbench_core.testing.suites.simulator import SimulatorConformance
+from mrpbench_core.testing.suites.world import WorldConformance
 
 __all__ = [
     "SUITES",

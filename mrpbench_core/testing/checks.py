@@ -7,8 +7,8 @@ from typing import Literal
 import attrs
 
 from mrpbench_core.files.errors import InputError, one_line
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import Fault, Skip
+from mrpbench_core.testing.faults import Fault, Skip
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 
 @attrs.frozen

@@ -11,8 +11,8 @@ from mrpbench_core.model.execution import FleetView, Mode, Orders, State
 from mrpbench_core.model.geometry import point_segment_distance
 from mrpbench_core.model.plan import Path
 from mrpbench_core.model.world import Lane, Vertex
-from mrpbench_core.testing.building import CABIN, DOOR, building
-from mrpbench_core.testing.room import fleet
+from mrpbench_core.testing.fixtures.building import CABIN, DOOR, building
+from mrpbench_core.testing.fixtures.room import fleet
 
 PERIOD, SPEED = 0.1, 0.2
 PLACES = {

@@ -7,7 +7,7 @@ import pytest
 from mrpbench_core.model.facilities import STOREY, Facilities, ride_time
 from mrpbench_core.model.storeys import Storeys
 from mrpbench_core.model.world import Door, Level, World
-from mrpbench_core.testing.building import CABIN, RISE, building
+from mrpbench_core.testing.fixtures.building import CABIN, RISE, building
 
 NOBODY = np.empty((0, 3)), np.empty(0, np.int16), np.empty(0)
 

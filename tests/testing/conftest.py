@@ -2,8 +2,8 @@ import pytest
 
 from mrpbench_core.builtin.scenarios.random import Random
 from mrpbench_core.files.scenario import write_scenario
-from mrpbench_core.testing.office import office, office_roadmap
-from mrpbench_core.testing.room import fleet
+from mrpbench_core.testing.fixtures.office import office, office_roadmap
+from mrpbench_core.testing.fixtures.room import fleet
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import installed
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.testing import SUITES, run_checks, suite_for
-from mrpbench_core.testing.office import office
+from mrpbench_core.testing.fixtures.office import office
 
 MAP = "type octile\nheight 3\nwidth 4\nmap\n....\n.@..\n....\n"
 INSTANCES = "version 1\n0\ttiny.map\t4\t3\t0\t0\t3\t2\t5\n0\ttiny.map\t4\t3\t3\t0\t0\t2\t5\n"

@@ -5,8 +5,8 @@ from hypothesis import given, settings
 
 from mrpbench_core.model.problem import Feature
 from mrpbench_core.testing.drawing import grid, problem
-from mrpbench_core.testing.instances import BAY, CROSSING, solvable, unsolvable
-from mrpbench_core.testing.optimum import least_sum_of_costs
+from mrpbench_core.testing.instances.named import BAY, CROSSING, solvable, unsolvable
+from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 from mrpbench_core.testing.strategies import plans
 
 BY_HAND = {

@@ -9,7 +9,7 @@ from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.poses import composed, wrapped
 from mrpbench_core.model.world import Level, World
 from mrpbench_core.testing import LocalizerConformance
-from mrpbench_core.testing.room import PERIOD, ROBOT, driven
+from mrpbench_core.testing.fixtures.room import PERIOD, ROBOT, driven
 
 WORLD = World(name="empty", levels=(Level(name="L1"),))
 PLACES = np.array([[1.0, 2.0, 0.5], [3.0, 1.0, -2.0]])

@@ -16,7 +16,7 @@ from mrpbench_core.model.facilities import Facilities, ride_time
 from mrpbench_core.model.geometry import segment_distance
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.world import Door, Lane, Level, Vertex, World
-from mrpbench_core.testing.building import CABIN, building
+from mrpbench_core.testing.fixtures.building import CABIN, building
 
 RADIUS = 0.12
 WALLS = [[0, 0, 6, 0], [6, 0, 6, 4], [6, 4, 0, 4], [0, 4, 0, 0], [0, 2, 2.5, 2], [3.5, 2, 6, 2]]

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from mrpbench_core.report.replay.page import write_page
-from mrpbench_core.testing.building import building
+from mrpbench_core.testing.fixtures.building import building
 
 webdriver = pytest.importorskip("selenium.webdriver", reason="the tests of the page in a browser need selenium")
 from selenium.webdriver.common.by import By  # noqa: E402

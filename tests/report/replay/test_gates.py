@@ -13,7 +13,7 @@ from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.world import Door, Level, World
 from mrpbench_core.report.replay.gates import pack_facilities
 from mrpbench_core.report.replay.packing import Packing
-from mrpbench_core.testing.building import building
+from mrpbench_core.testing.fixtures.building import building
 
 MOTIONS = ("hinged", "double_hinged", "sliding", "double_sliding", "telescope", "double_telescope")
 

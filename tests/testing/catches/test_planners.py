@@ -10,9 +10,9 @@ from mrpbench_core.api import (
 )
 from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Feature
-from mrpbench_core.testing.asking import ask
 from mrpbench_core.testing.drawing import problem
-from mrpbench_core.testing.outcome import Fault
+from mrpbench_core.testing.faults import Fault
+from mrpbench_core.testing.oracles.planner_call import ask
 
 
 @frozen
@@ -120,8 +120,8 @@ def test_a_planner_that_changes_its_mind():
 
 
 def test_a_planner_that_ignores_its_budget(monkeypatch):
-    monkeypatch.setattr("mrpbench_core.testing.asking.MARGIN", 0.05)
-    monkeypatch.setattr("mrpbench_core.testing.asking.PATIENCE", 0.1)
+    monkeypatch.setattr("mrpbench_core.testing.oracles.planner_call.MARGIN", 0.05)
+    monkeypatch.setattr("mrpbench_core.testing.oracles.planner_call.PATIENCE", 0.1)
     from threading import Event
 
     woken = Event()

@@ -7,7 +7,7 @@ from faults import changed, failures
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.builtin.worlds.shipped import Office
-from mrpbench_core.testing.room import fleet
+from mrpbench_core.testing.fixtures.room import fleet
 
 
 def simulator(**methods):

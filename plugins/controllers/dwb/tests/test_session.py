@@ -10,7 +10,7 @@ from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.execution import Observations, ScanBatch
 from mrpbench_core.model.fleet import Lidar, RobotModel
 from mrpbench_core.model.world import World
-from mrpbench_core.testing.room import PERIOD, driven
+from mrpbench_core.testing.fixtures.room import PERIOD, driven
 
 BURGER = load_robot("turtlebot3_burger")
 WAFFLE = load_robot("turtlebot3_waffle")

@@ -17,7 +17,7 @@ from mrpbench_core.api.executor import WorkerLost
 from mrpbench_core.engine.progress import Progress
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.invocation import write_document
-from mrpbench_core.testing.executor import ExecutorConformance
+from mrpbench_core.testing.suites.executor import ExecutorConformance
 
 WORLD = "type octile\nheight 4\nwidth 4\nmap\n....\n....\n....\n....\n"
 PLANNER = '''

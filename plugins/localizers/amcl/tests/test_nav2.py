@@ -6,7 +6,7 @@ from mrpbench_localizers_amcl import Amcl
 
 from mrpbench_core.api.nav2 import settle
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.testing.room import fleet, room
+from mrpbench_core.testing.fixtures.room import fleet, room
 
 NAV2 = """\
 amcl:

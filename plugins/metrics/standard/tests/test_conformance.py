@@ -3,8 +3,8 @@
 import mrpbench_metrics_standard as ours
 import pytest
 
-from mrpbench_core.testing.metric import MetricConformance
-from mrpbench_core.testing.outcome import Skip
+from mrpbench_core.testing.faults import Skip
+from mrpbench_core.testing.suites.metric import MetricConformance
 
 CHECKS = [name for name in dir(MetricConformance) if name.startswith("test_")]
 

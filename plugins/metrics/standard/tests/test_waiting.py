@@ -7,7 +7,7 @@ from mrpbench_metrics_standard import Waiting
 
 from mrpbench_core.model.roadmap import Resource
 from mrpbench_core.model.run import FinishedRun
-from mrpbench_core.testing.building import CABIN, building
+from mrpbench_core.testing.fixtures.building import CABIN, building
 
 DOOR, LIFT, MUTEX = 0, 1, 2
 

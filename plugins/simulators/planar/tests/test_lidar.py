@@ -13,7 +13,7 @@ from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.builtin.simulators.lidar import scan
 from mrpbench_core.model.fleet import Lidar
 from mrpbench_core.model.solids import segments, wall_boxes
-from mrpbench_core.testing.drives import EMPTY, FURNISHED, RASTER, drive
+from mrpbench_core.testing.fixtures.drive import EMPTY, FURNISHED, RASTER, drive
 
 
 def both(world, robots, starts, periods=8, **options):

@@ -11,8 +11,8 @@ from planar_robots import BURGER, STARTS, WAFFLE
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.model.geometry import point_segment_distance
 from mrpbench_core.model.solids import segments
-from mrpbench_core.testing.drives import EMPTY, FURNISHED, drive
-from mrpbench_core.testing.room import PERIOD
+from mrpbench_core.testing.fixtures.drive import EMPTY, FURNISHED, drive
+from mrpbench_core.testing.fixtures.room import PERIOD
 
 TOLERANCE = 1e-4
 """metres: the overlap that contacts may leave."""

@@ -14,8 +14,8 @@ from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.execution import Inputs
 from mrpbench_core.model.fleet import Fleet, Lidar
 from mrpbench_core.model.world import Door, Level, World
-from mrpbench_core.testing.drives import EMPTY, FURNISHED, RASTER, drive
-from mrpbench_core.testing.room import PERIOD
+from mrpbench_core.testing.fixtures.drive import EMPTY, FURNISHED, RASTER, drive
+from mrpbench_core.testing.fixtures.room import PERIOD
 
 pytest.importorskip("pybullet", reason="PyBullet has no wheel for this Python")
 

@@ -8,12 +8,12 @@ from mrpbench_core.checking.assignment import check_choice
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.plan import PlanResult, PlanStatus
 from mrpbench_core.model.problem import Feature, Problem
-from mrpbench_core.testing.asking import ask
-from mrpbench_core.testing.component import ComponentConformance
 from mrpbench_core.testing.drawing import complete, grid
-from mrpbench_core.testing.instances import choices, solvable, unsolvable
-from mrpbench_core.testing.optimum import UNKNOWN, least_sum_of_costs
-from mrpbench_core.testing.outcome import Fault, Skip, require
+from mrpbench_core.testing.faults import Fault, Skip, require
+from mrpbench_core.testing.instances.named import choices, solvable, unsolvable
+from mrpbench_core.testing.oracles.optimum import UNKNOWN, least_sum_of_costs
+from mrpbench_core.testing.oracles.planner_call import ask
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 UNCHECKED = frozenset({Feature.RESOURCES, Feature.HEADINGS})
 """Features that `check_plan` does not know yet."""
@@ -24,7 +24,7 @@ SHORT = 1.0
 class PlannerConformance(ComponentConformance):
     """Checks of planners: `class TestMine(PlannerConformance)`.
 
-    The problems are those of `mrpbench_core.testing.instances`; the planner is asked those that it does not skip.
+    The problems are those of `mrpbench_core.testing.instances.named`; the planner is asked those that it does not skip.
     """
 
     def make(self) -> Planner:

@@ -5,7 +5,7 @@ import numpy as np
 from mrpbench_core.model.execution import FleetView, Mode
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
-from mrpbench_core.testing.outcome import require
+from mrpbench_core.testing.faults import require
 
 
 class Floor:

@@ -7,10 +7,10 @@ from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.world import World
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.office import office
-from mrpbench_core.testing.outcome import require
-from mrpbench_core.testing.room import ROBOT, fleet
+from mrpbench_core.testing.faults import require
+from mrpbench_core.testing.fixtures.office import office
+from mrpbench_core.testing.fixtures.room import ROBOT, fleet
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 
 class RoadmapConformance(ComponentConformance):

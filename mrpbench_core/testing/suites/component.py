@@ -16,7 +16,7 @@ from mrpbench_core.config.structure import structure_component
 from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.plugins.contract import breach
 from mrpbench_core.plugins.provenance import kind_class
-from mrpbench_core.testing.outcome import Fault, Skip, require
+from mrpbench_core.testing.faults import Fault, Skip, require
 
 
 class ComponentConformance:

@@ -5,8 +5,8 @@ from tempfile import TemporaryDirectory
 
 from mrpbench_core.api.importer import Importer
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import Fault, require
+from mrpbench_core.testing.faults import Fault, require
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 
 class ImporterConformance(ComponentConformance):

@@ -4,8 +4,8 @@ from concurrent.futures import Executor
 
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import Fault, Skip, require
+from mrpbench_core.testing.faults import Fault, Skip, require
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 
 class ExecutorConformance(ComponentConformance):

@@ -10,11 +10,11 @@ from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.execution import Orders
 from mrpbench_core.model.plan import Path, Plan
 from mrpbench_core.model.problem import Problem
-from mrpbench_core.testing.component import ComponentConformance
 from mrpbench_core.testing.drawing import problem, unit_path
-from mrpbench_core.testing.floor import Floor, requires_released
-from mrpbench_core.testing.instances import BAY, CONVOY, CROSSING
-from mrpbench_core.testing.outcome import Fault, Skip, require
+from mrpbench_core.testing.execution.floor import Floor, requires_released
+from mrpbench_core.testing.faults import Fault, Skip, require
+from mrpbench_core.testing.instances.named import BAY, CONVOY, CROSSING
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 SEEDS = range(12)
 MOST_STEPS = 5000

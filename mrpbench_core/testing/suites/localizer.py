@@ -6,9 +6,9 @@ from mrpbench_core.api.localizer import Localizer
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.execution import Estimate, Inputs, Odometry
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import Skip, require
-from mrpbench_core.testing.room import PERIOD, fleet, room
+from mrpbench_core.testing.faults import Skip, require
+from mrpbench_core.testing.fixtures.room import PERIOD, fleet, room
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 PLACES = np.array([(1.0, 1.0, 0.0), (3.0, 2.0, 3.0)])
 TWISTS = np.array([(0.15, 0.15), (0.1, 0.1)])

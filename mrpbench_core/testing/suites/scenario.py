@@ -7,10 +7,10 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.scenario import Scenario
 from mrpbench_core.model.world import World
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.office import office, office_roadmap
-from mrpbench_core.testing.outcome import Skip, require
-from mrpbench_core.testing.room import fleet
+from mrpbench_core.testing.faults import Skip, require
+from mrpbench_core.testing.fixtures.office import office, office_roadmap
+from mrpbench_core.testing.fixtures.room import fleet
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 
 class ScenarioConformance(ComponentConformance):

@@ -6,9 +6,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mrpbench_core.api.exporter import Exporter
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.finished import chunks, context
-from mrpbench_core.testing.outcome import require
+from mrpbench_core.testing.faults import require
+from mrpbench_core.testing.fixtures.finished_run import chunks, context
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 NAME = "run"
 

@@ -6,7 +6,7 @@ import time
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
-from mrpbench_core.testing.outcome import Fault, require
+from mrpbench_core.testing.faults import Fault, require
 
 AMPLE = 10.0
 """seconds for problems that a pen solves."""

@@ -23,9 +23,9 @@ from mrpbench_core.model.execution import (
 )
 from mrpbench_core.model.fleet import RobotModel
 from mrpbench_core.model.world import World
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import require
-from mrpbench_core.testing.room import PERIOD, fleet, room, route
+from mrpbench_core.testing.faults import require
+from mrpbench_core.testing.fixtures.room import PERIOD, fleet, room, route
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 ROUTES = (
     route((0.6, 0.6), (1.2, 0.6), (1.8, 0.6), (1.8, 1.2)),

@@ -4,8 +4,8 @@ import numpy as np
 
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.model.world import World
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import require
+from mrpbench_core.testing.faults import require
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 
 class WorldConformance(ComponentConformance):

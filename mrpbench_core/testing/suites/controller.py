@@ -9,9 +9,9 @@ import numpy as np
 from mrpbench_core.api.controller import Controller, ControllerSession
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.execution import Observation, Observations
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import require
-from mrpbench_core.testing.room import PERIOD, ROBOT, driven, room
+from mrpbench_core.testing.faults import require
+from mrpbench_core.testing.fixtures.room import PERIOD, ROBOT, driven, room
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 Point = tuple[float, float]
 START = np.array([1.0, 1.0, 0.0])

@@ -5,9 +5,9 @@ import numpy as np
 from mrpbench_core.api.crowd import Crowd
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.execution import State
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import require
-from mrpbench_core.testing.room import PERIOD, room
+from mrpbench_core.testing.faults import require
+from mrpbench_core.testing.fixtures.room import PERIOD, room
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 
 class CrowdConformance(ComponentConformance):

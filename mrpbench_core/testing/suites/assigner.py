@@ -10,8 +10,8 @@ from mrpbench_core.checking.assignment import check_assignment
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.assignment import Assignment, AssignmentProblem
 from mrpbench_core.model.scenario import Task
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import Fault, Skip, require
+from mrpbench_core.testing.faults import Fault, Skip, require
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 SHAPES = ((1, 1), (2, 2), (4, 4), (5, 5), (3, 5), (5, 3), (1, 4), (4, 1))
 INF = float("inf")

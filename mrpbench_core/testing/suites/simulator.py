@@ -11,10 +11,10 @@ from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.doors import opening_time
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
 from mrpbench_core.model.geometry import point_segment_distance
-from mrpbench_core.testing.building import CABIN, DOOR, RISE, building
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import Skip, require
-from mrpbench_core.testing.room import HALF_WALL, PERIOD, ROBOT, WIDTH, fleet, room
+from mrpbench_core.testing.faults import Skip, require
+from mrpbench_core.testing.fixtures.building import CABIN, DOOR, RISE, building
+from mrpbench_core.testing.fixtures.room import HALF_WALL, PERIOD, ROBOT, WIDTH, fleet, room
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 PLACES = ((1.0, 1.0, 0.0), (1.0, 2.0, 0.0))
 CRUISE = 0.8 * ROBOT.max_speed

@@ -3,8 +3,8 @@
 import numpy as np
 
 from mrpbench_core.api.plan_filter import PlanFilter
-from mrpbench_core.testing.component import ComponentConformance
-from mrpbench_core.testing.outcome import require
+from mrpbench_core.testing.faults import require
+from mrpbench_core.testing.suites.component import ComponentConformance
 
 
 class PlanFilterConformance(ComponentConformance):

@@ -1,0 +1,1 @@
+"""Executes plans on the roadmap alone, with delays."""

@@ -1,0 +1,1 @@
+"""Problems to plan: named ones, and ones drawn at random."""

@@ -1,0 +1,1 @@
+"""What is true of a problem, and whether a planner's answer agrees."""
