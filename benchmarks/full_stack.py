@@ -20,6 +20,7 @@ import attrs
 
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import Observers, execute
+from mrpbench_core.model.status import RunStatus
 from mrpbench_core.store.paths import RunPaths
 
 PARTS = {
@@ -124,7 +125,7 @@ def run(case: Case, profile: cProfile.Profile | None = None) -> Clock:
         record = execute(point.config, "speed", paths, lambda *_: None, watching)
         if profile is not None:
             profile.disable()
-    if record["status"] not in ("succeeded", "goals_missed"):
+    if record["status"] not in (RunStatus.SUCCEEDED, RunStatus.GOALS_MISSED):
         raise SystemExit(f"{case}: {record['status']}: {record.get('error')}")
     return clock
 

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from mrpbench_core import load, run
+from mrpbench_core.model.status import RunStatus
 
 CELLS = 45
 
@@ -49,7 +50,7 @@ def durations(repeats: int, simulator: str, folder: Path) -> list[float]:
     }
     run(study, out=folder / "results")
     records = list(load(folder / "results"))
-    if any(record["status"] != "succeeded" for record in records):
+    if any(record["status"] != RunStatus.SUCCEEDED for record in records):
         raise SystemExit(f"not all arrived: {[record['status'] for record in records]}")
     return [float(record["metrics"]["execution.duration_s"]) for record in records]
 

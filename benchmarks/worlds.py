@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import mrpbench_core
+from mrpbench_core.model.status import RunStatus
 
 WORLDS: dict[str, dict[str, Any]] = {
     "office": {},
@@ -52,7 +53,7 @@ def study(name: str, options: argparse.Namespace) -> dict[str, Any]:
 def touches(record: dict[str, Any], kind: str) -> int:
     """How often robots touched one another, or something solid; 0 if they did not drive, which is a failure anyway."""
     counted = record["metrics"].get(f"execution.{kind}_contacts")
-    if counted is None and record["status"] == "succeeded":
+    if counted is None and record["status"] == RunStatus.SUCCEEDED:
         raise SystemExit(f"the simulator reports no contacts: {record['run_id']}")
     return int(counted or 0)
 
@@ -62,7 +63,9 @@ def drive(name: str, options: argparse.Namespace) -> bool:
     with tempfile.TemporaryDirectory() as out:
         records = list(mrpbench_core.run(study(name, options), out=Path(out)))
     robots, walls = (sum(touches(record, kind) for record in records) for kind in ("robot", "wall"))
-    others = [f"seed {record['seed']}: {record['status']}" for record in records if record["status"] != "succeeded"]
+    others = [
+        f"seed {record['seed']}: {record['status']}" for record in records if record["status"] != RunStatus.SUCCEEDED
+    ]
     arrived = f"{len(records) - len(others)}/{len(records)} arrived"
     contacts = f"{robots} contacts with robots, {walls} with walls"
     print(f"{name:22}", "; ".join([arrived, contacts, *others]), flush=True)

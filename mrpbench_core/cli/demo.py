@@ -13,6 +13,7 @@ from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.invoke import prepare
 from mrpbench_core.engine.study import run_study
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.status import RunStatus
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.kinds import group_of
 from mrpbench_core.report.analysis import analyse
@@ -45,7 +46,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(next(iter(done.mistakes.values())))
     print_summary(done.results)
     _show(done.results)
-    return int("crashed" in done.results.statuses())
+    return int(RunStatus.CRASHED in done.results.statuses())
 
 
 def _configuration() -> dict[str, Any]:

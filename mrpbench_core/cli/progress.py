@@ -10,6 +10,7 @@ from mrpbench_core.config.study import RunPoint
 from mrpbench_core.engine.progress import Progress
 from mrpbench_core.engine.selection import Selection
 from mrpbench_core.files.text import counted
+from mrpbench_core.model.status import RunStatus
 from mrpbench_core.report.axes import word
 from mrpbench_core.store.results import Results
 
@@ -74,7 +75,7 @@ class Printed(Progress):
     def _end(self, point: RunPoint, status: str, message: str) -> None:
         self._going.pop(point.run_id)
         self._counts[status] += 1
-        if not self._live or status in ("crashed", "out_of_memory", "wall_timeout"):
+        if not self._live or status in (RunStatus.CRASHED, RunStatus.OUT_OF_MEMORY, RunStatus.WALL_TIMEOUT):
             done = f"[{self._counts.total()}/{self._total}]"
             axes = " ".join(f"{key}={word(value)}" for key, value in point.axes.items())
             line = " ".join(filter(None, (done, point.run_id[:SHORT], status, axes)))

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from mrpbench_core.cli.view import replay_file, write_replay
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.status import RunStatus
 from mrpbench_core.report.analysis import Analysis
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
@@ -43,11 +44,11 @@ def _order(analysis: Analysis) -> Sequence[int]:
     runs = analysis.runs
     groups = [group for setting in analysis.settings for group in setting.groups]
     turns = [
-        (status == "succeeded", turn, number, index)
+        (succeeded, turn, number, index)
         for number, group in enumerate(groups)
-        for status in ("failed", "succeeded")
+        for succeeded in (False, True)
         for turn, index in enumerate(
-            i for i in group.members.tolist() if (runs.status[i] == "succeeded") == (status == "succeeded")
+            i for i in group.members.tolist() if (runs.status[i] == RunStatus.SUCCEEDED) == succeeded
         )
     ]
     return [index for *_, index in sorted(turns)]

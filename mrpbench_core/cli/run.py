@@ -17,6 +17,7 @@ from mrpbench_core.engine.invoke import prepare
 from mrpbench_core.engine.record import code_of
 from mrpbench_core.engine.study import Done, Request, choose, run_study
 from mrpbench_core.files.text import counted
+from mrpbench_core.model.status import RunStatus
 from mrpbench_core.report.axes import word
 from mrpbench_core.store.results import Results
 
@@ -112,7 +113,7 @@ def _run_one(study: Study, request: Request, progress: Printed) -> tuple[int, Re
     if done.mistakes and not len(done.results):
         return 2, done.results
     _summarize(done, request)
-    return int("crashed" in done.results.statuses() or bool(done.mistakes or study.errors)), done.results
+    return int(RunStatus.CRASHED in done.results.statuses() or bool(done.mistakes or study.errors)), done.results
 
 
 def _list(studies: Sequence[Study], requests: Sequence[Request], as_json: bool) -> None:
@@ -159,5 +160,5 @@ def _summarize(done: Done, request: Request) -> None:
     counts = ", ".join(f"{count} {status}" for status, count in statuses)
     print(f"{counted(len(results), 'run')}: {counts}; results in {request.out}")
     print(f"intervals, comparisons and a page: `mrpbench report {request.out}`")
-    if results.statuses().get("crashed"):
+    if results.statuses().get(RunStatus.CRASHED):
         print(f"why runs crashed is in {request.out}/logs; `--rerun failed` does them again")

@@ -7,10 +7,10 @@ import numpy as np
 
 from mrpbench_core.cli.table import print_table
 from mrpbench_core.files.text import counted
+from mrpbench_core.model.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.axes import word
 from mrpbench_core.report.columns import MAIN
 from mrpbench_core.report.groups import Group, group_runs
-from mrpbench_core.report.outcome import LEFT_OUT
 from mrpbench_core.report.runs import PAR2, Runs, read_runs
 from mrpbench_core.store.results import Results
 
@@ -32,10 +32,10 @@ def print_summary(results: Results, limit: int | None = None) -> None:
     }
     table["runs"] = [len(found.members) for found in groups]
     table["succeeded"] = [
-        f"{counts['succeeded']}/{len(found.counted)}" if len(found.counted) else "n/a"
+        f"{counts[RunStatus.SUCCEEDED]}/{len(found.counted)}" if len(found.counted) else "n/a"
         for counts, found in zip(statuses, groups, strict=True)
     ]
-    others = dict.fromkeys(status for counts in statuses for status in counts if status != "succeeded")
+    others = dict.fromkeys(status for counts in statuses for status in counts if status != RunStatus.SUCCEEDED)
     table |= {status: [counts[status] for counts in statuses] for status in sorted(others, key=LEFT_OUT.__contains__)}
     table |= {key: [_mean(runs, found, key) for found in groups] for key in SHOWN if key in runs.values}
     if len(groups) <= ABREAST:

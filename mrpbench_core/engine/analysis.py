@@ -27,6 +27,7 @@ from mrpbench_core.files.scenario import read_scenario
 from mrpbench_core.model.execution import Mode
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.run import FinishedRun, RunContext, with_latest_routes
+from mrpbench_core.model.status import RunStatus, Stage
 from mrpbench_core.plugins.provenance import provenance
 from mrpbench_core.store.folder import ResultsFolder, new_invocation
 from mrpbench_core.store.invocation import write_document
@@ -144,16 +145,16 @@ def _status(found: Observation, context: RunContext) -> dict[str, Any]:
     last = found.channels["reached"][-1]
     arrived = last >= np.array([len(route.speed) for route in context.routes])
     if arrived.all():
-        return {"status": "succeeded"}
+        return {"status": RunStatus.SUCCEEDED}
     mode = found.channels.get("mode")
     if mode is not None and (mode[-1] == Mode.ABORTED).any():
-        return {"status": "execution_aborted", "error": _error("a robot gave up before all had arrived")}
+        return {"status": RunStatus.EXECUTION_ABORTED, "error": _error("a robot gave up before all had arrived")}
     missed = f"{np.count_nonzero(~arrived)} of {len(arrived)} robots are not seen to arrive"
-    return {"status": "goals_missed", "error": _error("; ".join((missed, *found.gaps)))}
+    return {"status": RunStatus.GOALS_MISSED, "error": _error("; ".join((missed, *found.gaps)))}
 
 
 def _error(message: str) -> dict[str, str]:
-    return {"stage": "analysis", "message": message}
+    return {"stage": Stage.ANALYSIS, "message": message}
 
 
 def _config(analysis: Analysis, fleet: Fleet) -> dict[str, Any]:

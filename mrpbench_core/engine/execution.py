@@ -24,6 +24,7 @@ from mrpbench_core.model.plan import PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import FinishedRun, RunContext
+from mrpbench_core.model.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording, RecordingWriter
 
@@ -41,7 +42,7 @@ def drive(
 
     Nothing half-written keeps a final name.
     """
-    announce("execution", {})
+    announce(Stage.EXECUTION, {})
     writer = RecordingWriter(paths.recording, context)
     exports = Exports()
 
@@ -62,7 +63,7 @@ def drive(
         timing["execution_wall_s"] = time.perf_counter() - began
         timing["real_time_factor"] = outcome.simulated_s / timing["execution_wall_s"]
     except (DispatchError, MissionError) as error:
-        ended = Ended("execution_aborted", "execution", str(error))
+        ended = Ended(RunStatus.EXECUTION_ABORTED, Stage.EXECUTION, str(error))
     except BaseException:
         writer.discard()
         exports.abandon()
@@ -71,7 +72,7 @@ def drive(
         observers.executed()
     recorder.flush()
     writer.close()
-    announce("export", {})
+    announce(Stage.EXPORT, {})
     exports.close()
     return ended, exports.failed
 
@@ -92,9 +93,9 @@ def _replans(
     def ask(problem: Problem) -> tuple[PlanResult, str | None]:
         if reason := config.planner.skip(problem):
             return PlanResult(status=PlanStatus.GAVE_UP), f"the planner {reason}"
-        announce("replanning", {"limit_s": config.limits.planning})
+        announce(Stage.REPLANNING, {"limit_s": config.limits.planning})
         result, spent = call_planner(config.planner, problem, budget_of(config))
-        announce("execution", {})
+        announce(Stage.EXECUTION, {})
         timing["replanning_s"] = timing.get("replanning_s", 0.0) + spent["planning_s"]
         timing["clock_bound"] = timing.get("clock_bound", False) or spent["clock_bound"]
         result, fault = judge(config.planner, problem, result)
@@ -130,6 +131,6 @@ def _judge(outcome: Outcome, config: RunConfig) -> Ended | None:
     if outcome.arrived:
         return None
     if outcome.aborted:
-        return Ended("execution_aborted", "execution", "a robot gave up before all had arrived")
+        return Ended(RunStatus.EXECUTION_ABORTED, Stage.EXECUTION, "a robot gave up before all had arrived")
     limit = config.limits.execution
-    return Ended("goals_missed", "execution", f"not all robots arrived within {limit:g} simulated seconds")
+    return Ended(RunStatus.GOALS_MISSED, Stage.EXECUTION, f"not all robots arrived within {limit:g} simulated seconds")

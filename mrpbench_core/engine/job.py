@@ -5,6 +5,7 @@ from typing import Any
 
 import attrs
 
+from mrpbench_core.model.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths
 
 
@@ -38,8 +39,8 @@ class Job:
 class Failure:
     """A run that has no record of its own: it was killed, died, or a plugin raised an exception."""
 
-    status: str
-    stage: str
+    status: RunStatus
+    stage: Stage
     message: str
     seconds: float
     """Wall time in that stage."""

@@ -3,6 +3,7 @@
 import time
 
 from mrpbench_core.engine.job import Failure, Job
+from mrpbench_core.model.status import RunStatus, Stage
 
 GRACE_S = 1.0
 """Wall seconds that a stage may overrun its own limit before it is killed, plus a tenth of the limit.
@@ -18,10 +19,10 @@ class Watch:
         self._job = job
         self._began = self._stage_began = time.monotonic()
         self._limit: float | None = None
-        self.stage = "start"
+        self.stage = Stage.START
         self._scenario_id: str | None = None
 
-    def enter(self, stage: str, limit_s: float | None, scenario_id: str | None) -> None:
+    def enter(self, stage: Stage, limit_s: float | None, scenario_id: str | None) -> None:
         """A stage begins."""
         self.stage = stage
         self._stage_began = time.monotonic()
@@ -40,9 +41,11 @@ class Watch:
         """The failure of a run that has passed a time limit."""
         now = time.monotonic()
         if now - self._began >= self._job.wall_s:
-            return self.failure("wall_timeout", f"the run took longer than limits.wall, {self._job.wall_s:g} s")
+            return self.failure(RunStatus.WALL_TIMEOUT, f"the run took longer than limits.wall, {self._job.wall_s:g} s")
         if self._limit is not None and now - self._stage_began >= self._grace(self._limit):
-            status = "plan_timeout" if self.stage in ("planning", "replanning") else "wall_timeout"
+            status = (
+                RunStatus.PLAN_TIMEOUT if self.stage in (Stage.PLANNING, Stage.REPLANNING) else RunStatus.WALL_TIMEOUT
+            )
             return self.failure(status, f"did not return within {self._limit:g} s and was ended")
         return None
 
@@ -51,9 +54,9 @@ class Watch:
         if memory <= self._job.memory_bytes:
             return None
         held, allowed = memory / 2**20, self._job.memory_bytes / 2**20
-        return self.failure("out_of_memory", f"held {held:.0f} MiB, limits.memory allows {allowed:.0f} MiB")
+        return self.failure(RunStatus.OUT_OF_MEMORY, f"held {held:.0f} MiB, limits.memory allows {allowed:.0f} MiB")
 
-    def failure(self, status: str, message: str) -> Failure:
+    def failure(self, status: RunStatus, message: str) -> Failure:
         """A failure in the present stage."""
         seconds = time.monotonic() - self._stage_began
         return Failure(status=status, stage=self.stage, message=message, seconds=seconds, scenario_id=self._scenario_id)

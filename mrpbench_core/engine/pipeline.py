@@ -26,6 +26,7 @@ from mrpbench_core.engine.routes import Router, speed_limits
 from mrpbench_core.model.plan import PlanResult
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.run import FinishedRun, RunContext
+from mrpbench_core.model.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths
 
 
@@ -54,18 +55,18 @@ def execute(
         context = _context(config, run_id, setting, assigned, problem, result, router)
         if ended is None and config.simulator is not None:
             ended, record["unexported"] = drive(config, context, router, paths, announce, record["timing"], observers)
-            announce("metrics", {})
+            announce(Stage.METRICS, {})
             record["executed"] = True
             record["metrics"], record["unmeasured"] = measure_recording(config, paths.recording)
             if config.recording.keep == "none" or (config.recording.keep == "failed" and ended is None):
                 paths.recording.unlink()
         else:
-            announce("metrics", {})
+            announce(Stage.METRICS, {})
             run = FinishedRun(context=context, executed=False)
             record["metrics"], record["unmeasured"] = measure(config.metrics, run)
     except Ended as error:
         ended = error
-    record["status"] = "succeeded" if ended is None else ended.status
+    record["status"] = RunStatus.SUCCEEDED if ended is None else ended.status
     if ended is not None:
         record["error"] = {"stage": ended.stage, "message": readable(str(ended))}
     return record
@@ -76,17 +77,17 @@ def _plan(
 ) -> tuple[PlanResult, Ended | None]:
     """Plan; the second value says how the run ended if there is nothing to execute."""
     if reason := config.planner.skip(problem) or replanning_fault(config):
-        raise Ended("skipped", "planning", reason)
-    announce("planning", {"limit_s": config.limits.planning})
+        raise Ended(RunStatus.SKIPPED, Stage.PLANNING, reason)
+    announce(Stage.PLANNING, {"limit_s": config.limits.planning})
     result, spent = call_planner(config.planner, problem, budget_of(config))
     timing |= spent
-    announce("checking", {})  # which is no part of the planner's time
+    announce(Stage.CHECKING, {})  # which is no part of the planner's time
     result, fault = judge(config.planner, problem, result)
     observers.planned(problem=problem, result=result)
     if fault is not None:
-        return attrs.evolve(result, plan=None), Ended("plan_invalid", "planning", fault)
+        return attrs.evolve(result, plan=None), Ended(RunStatus.PLAN_INVALID, Stage.PLANNING, fault)
     if result.plan is None:
-        return result, Ended(STATUS[result.status], "planning", f"the planner ended with {result.status}")
+        return result, Ended(STATUS[result.status], Stage.PLANNING, f"the planner ended with {result.status}")
     return result, None
 
 

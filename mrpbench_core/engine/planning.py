@@ -17,12 +17,13 @@ from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.status import RunStatus
 
 STATUS = {
-    PlanStatus.TIMEOUT: "plan_timeout",
-    PlanStatus.OUT_OF_MEMORY: "out_of_memory",
-    PlanStatus.UNSOLVABLE: "plan_unsolvable",
-    PlanStatus.GAVE_UP: "plan_not_found",
+    PlanStatus.TIMEOUT: RunStatus.PLAN_TIMEOUT,
+    PlanStatus.OUT_OF_MEMORY: RunStatus.OUT_OF_MEMORY,
+    PlanStatus.UNSOLVABLE: RunStatus.PLAN_UNSOLVABLE,
+    PlanStatus.GAVE_UP: RunStatus.PLAN_NOT_FOUND,
 }
 """A run's status for each way of having no plan."""
 

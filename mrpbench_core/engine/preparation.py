@@ -23,16 +23,17 @@ from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import GoalSet, Problem
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.status import RunStatus, Stage
 from mrpbench_core.model.world import World
 
-Announce = Callable[[str, dict[str, Any]], None]
+Announce = Callable[[Stage, dict[str, Any]], None]
 """Told the name of each stage before it begins, with facts about the run so far."""
 
 
 class Ended(Exception):  # noqa: N818 - it is no error
     """The run is over before its last stage, with a definite status."""
 
-    def __init__(self, status: str, stage: str, message: str) -> None:
+    def __init__(self, status: RunStatus, stage: Stage, message: str) -> None:
         super().__init__(message)
         self.status = status
         self.stage = stage
@@ -59,12 +60,12 @@ def set_scene(config: RunConfig, announce: Announce) -> Setting:
         InputError: something the user wrote does not fit.
         Ended: the scenario cannot be solved by any planner.
     """
-    announce("world", {})
+    announce(Stage.WORLD, {})
     world = config.world.load()
     fleet = build_fleet(config, config.scenario.size())
-    announce("roadmap", {})
+    announce(Stage.ROADMAP, {})
     roadmap = config.roadmap.build(world, fleet)
-    announce("scenario", {})
+    announce(Stage.SCENARIO, {})
     scenario = check_drawn(config.scenario.draw(world, roadmap, fleet, config.seed), len(fleet))
     if any(task.release > 0 for task in scenario.tasks) or len(scenario.tasks) > len(fleet):
         raise InputError("scenario: tasks released over time, or more tasks than robots, cannot be executed yet")
@@ -85,13 +86,13 @@ def assign(config: RunConfig, setting: Setting, announce: Announce, timing: dict
     Raises:
         Ended: no assignment was found, or the assigner returned a wrong one.
     """
-    announce("assignment", {"scenario_id": setting.scenario.id})
+    announce(Stage.ASSIGNMENT, {"scenario_id": setting.scenario.id})
     assigner = config.assigner
     began = time.perf_counter()
     if assigner.reads_costs:
         costs = cost_matrix(assigner.cost, setting.roadmap, setting.fleet, setting.scenario)
         if faults := check_travel(costs, setting.scenario.start_names, _task_names(setting)):
-            raise Ended("scenario_infeasible", "scenario", summary(faults))
+            raise Ended(RunStatus.SCENARIO_INFEASIBLE, Stage.SCENARIO, summary(faults))
     else:
         costs = np.zeros((len(setting.fleet), len(setting.scenario.tasks)))
     timing["cost_matrix_s"] = time.perf_counter() - began
@@ -100,10 +101,10 @@ def assign(config: RunConfig, setting: Setting, announce: Announce, timing: dict
     try:
         assignment = assigner.assign(question)
     except AssignmentError as error:
-        raise Ended("assignment_failed", "assignment", str(error)) from error
+        raise Ended(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, str(error)) from error
     timing["assignment_s"] = time.perf_counter() - began
     if faults := check_assignment(question, assignment):
-        raise Ended("assignment_failed", "assignment", f"{type(assigner).__name__} {faults[0]}")
+        raise Ended(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, f"{type(assigner).__name__} {faults[0]}")
     return tuple(int(task) for task in assignment.task)
 
 
@@ -117,7 +118,7 @@ def pose_problem(setting: Setting, assigned: tuple[int, ...] | None, assigner: A
     if assigned is None:
         problem = build_problem(setting.roadmap, setting.fleet, setting.start, candidates(setting))
         if faults := check_scenario(problem, setting.scenario.start_names):
-            raise Ended("scenario_infeasible", "scenario", summary(faults))
+            raise Ended(RunStatus.SCENARIO_INFEASIBLE, Stage.SCENARIO, summary(faults))
         return problem
     anywhere = (tuple(range(len(setting.roadmap.position))),)  # for a robot without a task, which may have to make way
     goals = tuple(tuple((vertex,) for vertex in setting.goals[task]) if task >= 0 else anywhere for task in assigned)
@@ -128,11 +129,11 @@ def pose_problem(setting: Setting, assigned: tuple[int, ...] | None, assigner: A
         lost = check_reach(problem, setting.scenario.start_names, goal_names)
         if faults == lost and assigner.reads_costs and assigner.cost != "roadmap" and _could_be_assigned(setting):
             raise Ended(
-                "assignment_failed",
-                "assignment",
+                RunStatus.ASSIGNMENT_FAILED,
+                Stage.ASSIGNMENT,
                 f"{summary(lost)}: {assigner.cost} costs know nothing of ways; cost: roadmap does",
             )
-        raise Ended("scenario_infeasible", "scenario", summary(faults))
+        raise Ended(RunStatus.SCENARIO_INFEASIBLE, Stage.SCENARIO, summary(faults))
     return problem
 
 
@@ -144,7 +145,7 @@ def keep_off_doors(setting: Setting) -> None:
     """
     radii, names = setting.fleet.radii, setting.scenario.start_names
     if faults := check_doorways(setting.world, setting.roadmap, setting.start, radii, names):
-        raise Ended("scenario_infeasible", "scenario", summary(faults))
+        raise Ended(RunStatus.SCENARIO_INFEASIBLE, Stage.SCENARIO, summary(faults))
 
 
 def _could_be_assigned(setting: Setting) -> bool:
@@ -166,7 +167,9 @@ def candidates(setting: Setting) -> tuple[tuple[GoalSet, ...], ...]:
     known = tuple(sorted({sequence[0] for sequence in setting.goals} - {-1}))
     if len(known) < robots:
         raise Ended(
-            "scenario_infeasible", "scenario", f"{len(known)} different goals on the roadmap for {robots} robots"
+            RunStatus.SCENARIO_INFEASIBLE,
+            Stage.SCENARIO,
+            f"{len(known)} different goals on the roadmap for {robots} robots",
         )
     return ((known,),) * robots
 

@@ -9,6 +9,7 @@ from mrpbench_core.config.study import RunPoint
 from mrpbench_core.engine.job import Failure, Outcome
 from mrpbench_core.engine.machine import machine
 from mrpbench_core.engine.versions import versions
+from mrpbench_core.model.status import RunStatus, Stage
 from mrpbench_core.plugins.provenance import components_in, origin
 
 
@@ -49,11 +50,13 @@ def _code(classes: tuple[type[Component], ...], folder: Path) -> dict[str, Any]:
 
 def _of_failure(failure: Failure | None) -> dict[str, Any]:
     assert failure is not None
-    planning = failure.stage == "planning"
+    planning = failure.stage == Stage.PLANNING
     return {
         "scenario_id": failure.scenario_id,
         "status": failure.status,
         "metrics": {},
-        "timing": {"planning_s": failure.seconds, "clock_bound": failure.status == "plan_timeout"} if planning else {},
+        "timing": {"planning_s": failure.seconds, "clock_bound": failure.status == RunStatus.PLAN_TIMEOUT}
+        if planning
+        else {},
         "error": {"stage": failure.stage, "message": failure.message},
     }

@@ -15,6 +15,7 @@ from mrpbench_core.engine.record import complete
 from mrpbench_core.engine.slots import close_slots, run_in_slot
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import Writer
+from mrpbench_core.model.status import RunStatus, Stage
 from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.store.folder import ResultsFolder
 
@@ -115,12 +116,12 @@ class Schedule:
 
 def _lost(point: RunPoint, loss: WorkerLost) -> Outcome:
     """What is known of a run whose remote worker was lost."""
-    failure = Failure(status="crashed", stage="worker", message=str(loss), seconds=0.0)
+    failure = Failure(status=RunStatus.CRASHED, stage=Stage.WORKER, message=str(loss), seconds=0.0)
     return Outcome(run_id=point.run_id, failure=failure, lost=True)
 
 
 def _left_a_recording(outcome: Outcome) -> bool:
     """Tell whether the run was executed to its end; also where a metric failed afterwards."""
     if outcome.record is None:
-        return outcome.failure is not None and outcome.failure.stage == "metrics"
+        return outcome.failure is not None and outcome.failure.stage == Stage.METRICS
     return bool(outcome.record.get("executed"))

@@ -8,15 +8,10 @@ import attrs
 
 from mrpbench_core.config.study import RunPoint
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.status import FAILED
 from mrpbench_core.store.results import Results
 
 Rerun = Literal["failed", "changed", "all"]
-
-FAILED = frozenset({"crashed", "out_of_memory", "wall_timeout", "plan_invalid", "assignment_failed"})
-"""What `--rerun failed` does again: runs that say more about a defect or the machine than about the method.
-
-A plan timeout or a missed goal is a result; doing only those again would favour luck.
-"""
 
 
 @attrs.frozen(kw_only=True)

@@ -14,6 +14,7 @@ from mrpbench_core.engine.child import SAMPLING_S, Child, Died
 from mrpbench_core.engine.job import Job, Outcome
 from mrpbench_core.engine.limits import Watch
 from mrpbench_core.engine.machine import oom_kills
+from mrpbench_core.model.status import RunStatus, Stage
 
 START_S = 120.0
 """Seconds a child may take to import the core."""
@@ -56,9 +57,11 @@ class Slot:
         except Died as death:
             self._discard()
             if death.signal == signal.SIGKILL and oom_kills() > oom_before:
-                failure = watch.failure("out_of_memory", "the machine ran out of memory, and the kernel ended the run")
+                failure = watch.failure(
+                    RunStatus.OUT_OF_MEMORY, "the machine ran out of memory, and the kernel ended the run"
+                )
                 return Outcome(run_id=job.run_id, failure=failure)
-            failure = watch.failure("crashed", str(death))
+            failure = watch.failure(RunStatus.CRASHED, str(death))
             return Outcome(run_id=job.run_id, failure=failure, lost=death.signal in OUTSIDE)
         except OSError as error:
             return Outcome(run_id=job.run_id, mistake=f"no worker can be started: {error}")
@@ -89,13 +92,15 @@ class Slot:
                     self._discard()
                     return Outcome(run_id=job.run_id, failure=failure)
             elif "stage" in message:
-                watch.enter(message["stage"], message.get("limit_s"), message.get("scenario_id"))
+                watch.enter(Stage(message["stage"]), message.get("limit_s"), message.get("scenario_id"))
             elif "record" in message:
                 return Outcome(run_id=job.run_id, record=message["record"])
             elif "mistake" in message:
                 return Outcome(run_id=job.run_id, mistake=message["mistake"])
             else:
-                return Outcome(run_id=job.run_id, failure=watch.failure(message["status"], message["message"]))
+                return Outcome(
+                    run_id=job.run_id, failure=watch.failure(RunStatus(message["status"]), message["message"])
+                )
 
     def _ready(self, job: Job) -> Child:
         """An idle child: the one at hand, or a new one."""

@@ -27,6 +27,7 @@ from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.plain import plain, readable
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.model.status import RunStatus, Stage
 from mrpbench_core.plugins.hooks import Hooks, load_hooks
 from mrpbench_core.store.paths import RunPaths
 
@@ -71,7 +72,7 @@ def _answer(job: dict[str, Any], say: Say, hooks: Hooks) -> dict[str, Any]:
 
 
 def _execute(job: dict[str, Any], say: Say, hooks: Hooks) -> dict[str, Any]:
-    def announce(name: str, facts: dict[str, Any]) -> None:
+    def announce(name: Stage, facts: dict[str, Any]) -> None:
         say({"stage": name, **plain(facts)})
 
     paths = RunPaths(
@@ -91,12 +92,12 @@ def _execute(job: dict[str, Any], say: Say, hooks: Hooks) -> dict[str, Any]:
         return {"mistake": plain(str(error))}
     except MemoryError as error:
         traceback.print_exc()
-        return {"status": "out_of_memory", "message": readable(str(error)) or "no memory left"}
+        return {"status": RunStatus.OUT_OF_MEMORY, "message": readable(str(error)) or "no memory left"}
     except BaseException as error:  # noqa: BLE001 - a plugin may raise anything, even SystemExit
         if is_full(error):  # the run is to be done again
             return {"mistake": f"{job['recording']}: cannot be written: {plain(readable(str(error)))}"}
         traceback.print_exc()
-        return {"status": "crashed", "message": describe(error)}
+        return {"status": RunStatus.CRASHED, "message": describe(error)}
     return {"record": record}
 
 

@@ -1,18 +1,15 @@
-"""What a status says about the method: the one place for which runs count, and which planned."""
+"""Whether a run had a plan, and what counts as its planning time if it had none."""
 
 from collections.abc import Mapping
 from typing import Any
 
-LEFT_OUT = frozenset({"scenario_infeasible", "skipped"})
-"""Statuses that say nothing about the method: they leave every denominator and are shown as such."""
-PLANNED = frozenset({"succeeded", "goals_missed", "execution_aborted"})
-_AFTER_PLANNING = frozenset({"execution", "export", "metrics"})
-"""Stages in which a run that was ended had a plan."""
+from mrpbench_core.model.status import AFTER_PLANNING, PLANNED
+
 PENALTY = 2.0
 """PAR2: without a plan, planning counts as this many times its limit."""
 
 
 def has_plan(record: Mapping[str, Any]) -> bool:
-    """Whether a run had a plan that keeps its planner's promises, whatever came of it."""
+    """Tell whether a run had a valid plan, however the run ended."""
     stage = (record.get("error") or {}).get("stage")
-    return record["status"] in PLANNED or stage in _AFTER_PLANNING
+    return record["status"] in PLANNED or stage in AFTER_PLANNING

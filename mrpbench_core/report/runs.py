@@ -9,8 +9,9 @@ import numpy as np
 
 from mrpbench_core.files.jsonl import line
 from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.model.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.axes import NO_AXES, Axes, find_axes
-from mrpbench_core.report.outcome import LEFT_OUT, PENALTY, has_plan
+from mrpbench_core.report.outcome import PENALTY, has_plan
 from mrpbench_core.store.results import Results
 
 PAR2 = "timing.planning_par2_s"
@@ -166,7 +167,7 @@ class _Reader:
             if self._wanted is not None and "timing.planning_s" not in self._wanted:
                 del values["timing.planning_s"]
         outcome = {
-            "succeeded": np.array([status == "succeeded" for status in self._status], float),
+            "succeeded": np.array([status == RunStatus.SUCCEEDED for status in self._status], float),
             "planned": planned.astype(float),
         }
         return Runs(

@@ -8,12 +8,12 @@ from pathlib import Path
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
+from mrpbench_core.model.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.analysis import Analysis
 from mrpbench_core.report.comparison import SIGNIFICANT, Comparison
 from mrpbench_core.report.html.figures import figures
 from mrpbench_core.report.html.listing import packed_runs
 from mrpbench_core.report.html.origin import origin
-from mrpbench_core.report.outcome import LEFT_OUT
 from mrpbench_core.report.rules import RULES
 from mrpbench_core.report.tables.table import Shown, Table, p_value, text
 
@@ -59,7 +59,7 @@ def _summary(analysis: Analysis) -> str:
     counts: dict[str, int] = {}
     for status in runs.status:
         counts[status] = counts.get(status, 0) + 1
-    ordered = sorted(counts.items(), key=lambda item: (item[0] != "succeeded", item[0] in LEFT_OUT, -item[1]))
+    ordered = sorted(counts.items(), key=lambda item: (item[0] != RunStatus.SUCCEEDED, item[0] in LEFT_OUT, -item[1]))
     bar = "".join(
         f'<span class="part {_tone(status)}" style="flex-grow:{count}" title="{count} {status}"></span>'
         for status, count in ordered
@@ -77,7 +77,7 @@ def _summary(analysis: Analysis) -> str:
 
 
 def _tone(status: str) -> str:
-    return "good" if status == "succeeded" else "out" if status in LEFT_OUT else "bad"
+    return "good" if status == RunStatus.SUCCEEDED else "out" if status in LEFT_OUT else "bad"
 
 
 def _findings(comparisons: tuple[Comparison, ...]) -> str:

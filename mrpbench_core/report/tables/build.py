@@ -4,12 +4,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mrpbench_core.model.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.axes import word
 from mrpbench_core.report.columns import Column
 from mrpbench_core.report.comparison import SIGNIFICANT, Comparison
 from mrpbench_core.report.estimates import Numbers
 from mrpbench_core.report.groups import Group, Setting
-from mrpbench_core.report.outcome import LEFT_OUT
 from mrpbench_core.report.runs import Runs
 from mrpbench_core.report.spans import spans
 from mrpbench_core.report.statistics.estimate import Estimate
@@ -24,14 +24,16 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
     rows: list[tuple[Cell, ...]] = []
     for setting, group, found in _groups(settings, numbers):
         statuses = group.statuses(runs)
-        failed = [f"{count} {status}" for status, count in statuses.items() if status not in {"succeeded", *LEFT_OUT}]
+        failed = [
+            f"{count} {status}" for status, count in statuses.items() if status not in {RunStatus.SUCCEEDED, *LEFT_OUT}
+        ]
         left_out = [f"{count} {status}" for status, count in statuses.items() if status in LEFT_OUT]
         rows.append(
             (
                 *_axes_cells(group, axes),
                 len(group.members),
                 len(np.unique(setting.units[group.counted])),
-                f"{statuses['succeeded']}/{len(group.counted)}",
+                f"{statuses[RunStatus.SUCCEEDED]}/{len(group.counted)}",
                 _rate(found.overall["succeeded"]) or "n/a",
                 _rate(found.overall["planned"]),
                 ", ".join(failed) or None,
