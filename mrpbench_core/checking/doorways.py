@@ -6,8 +6,8 @@ import numpy as np
 
 from mrpbench_core.checking.clearance import touches
 from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.model.doors import leaves, swept
-from mrpbench_core.model.facilities import Facilities, Gate
+from mrpbench_core.model.doors import leaf_segments, swept_areas
+from mrpbench_core.model.facilities import Facilities, OperatedDoor
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.solids import wall_boxes
 from mrpbench_core.model.world import World
@@ -40,16 +40,16 @@ def check_doorways(
 
 def _troubles(world: World, roadmap: Roadmap, level: int, place: Float, radius: float) -> Iterator[str]:
     used = {resource.name for resource in roadmap.resources}
-    for gate in Facilities(world).gates:
-        if level in gate.levels:
-            if _meets(_shut_leaves(gate), place, radius):
-                yield f"in the shut door {gate.name}"
-            elif gate.name in used and _meets(swept(gate.door), place, radius):
-                yield f"where the leaf of door {gate.name} opens"
+    for operated in Facilities(world).doors:
+        if level in operated.levels:
+            if _meets(_shut_leaves(operated), place, radius):
+                yield f"in the shut door {operated.name}"
+            elif operated.name in used and _meets(swept_areas(operated.door), place, radius):
+                yield f"where the leaf of door {operated.name} opens"
 
 
-def _shut_leaves(gate: Gate) -> Sequence[Float]:
-    return list(wall_boxes(leaves(gate.door, 0.0), gate.door.thickness).reshape(-1, 4, 4)[:, :, :2])
+def _shut_leaves(operated: OperatedDoor) -> Sequence[Float]:
+    return list(wall_boxes(leaf_segments(operated.door, 0.0), operated.door.thickness).reshape(-1, 4, 4)[:, :, :2])
 
 
 def _meets(outlines: Sequence[Float], place: Float, radius: float) -> bool:

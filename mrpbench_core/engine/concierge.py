@@ -29,7 +29,7 @@ class Concierge:
         self._resources = {resource.name: resource for resource in problem.roadmap.resources}
         self._number = {name: index for index, name in enumerate(self._resources)}
         self._lifts = {lift.name: lift for lift in world.lifts}
-        self._entrances = {lift.name: [g for g in self.facilities.gates if g.lift is lift] for lift in world.lifts}
+        self._entrances = {lift.name: [g for g in self.facilities.doors if g.lift is lift] for lift in world.lifts}
         self._level = problem.roadmap.level
         self._held: dict[str, list[int]] = {name: [] for name in self._resources}
         self._ready: tuple[tuple[int, str], ...] = ()
@@ -109,7 +109,7 @@ class Concierge:
             return state[name] == float(self._passes(robot, name, reached))
         if kind == "lift" and name in state:
             lift, level = self._lifts[name], int(self._level[self._vertices[robot][reached]])
-            here = self.facilities.stands_at(lift, level, state)
+            here = self.facilities.is_at(lift, level, state)
             return here and all(state[gate.name] == 1 for gate in self._entrances[name] if level in gate.opens_on)
         return kind == "mutex"
 
@@ -121,7 +121,7 @@ class Concierge:
     def _drive(self, lift: Lift, stop: int | None, state: Mapping[str, float]) -> dict[str, float]:
         """Shut the doors, go there, open; without a `stop`, shut the doors."""
         gates = self._entrances[lift.name]
-        if stop is not None and self.facilities.stands_at(lift, stop, state):
+        if stop is not None and self.facilities.is_at(lift, stop, state):
             return {gate.name: float(stop in gate.opens_on) for gate in gates}
         commands = dict.fromkeys((gate.name for gate in gates), 0.0)
         if stop is not None and all(state[gate.name] == 0 for gate in gates):

@@ -1,6 +1,6 @@
-"""How doors move: where their leaves are, what these sweep on their way, and how long it takes.
+"""How doors move: the position of each leaf, the area that it sweeps, and the time that it takes.
 
-The map says of what kind a door is and how wide; how fast doors move is our estimate, that of an automatic door.
+The map gives the kind and the width of a door. Maps do not give its speed; ours is that of a common automatic door.
 """
 
 import math
@@ -10,24 +10,24 @@ import numpy as np
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.world import Door
 
-SLIDE = 0.5
-"""m/s of a sliding leaf; of telescope doors, whose leading leaf runs twice as fast, the trailing one's."""
-SWING = 0.5
+SLIDING_SPEED = 0.5
+"""m/s of a sliding leaf. In a telescope door, the trailing leaf has it and the leading leaf twice of it."""
+SWING_SPEED = 0.5
 """rad/s of a hinged leaf."""
 _STEPS = 9
-"""Corners by which the arc of a hinged leaf is drawn."""
+"""Corners that approximate the arc of a hinged leaf."""
 
 
 def opening_time(door: Door) -> float:
-    """Seconds from shut to open, or back."""
+    """Return the seconds that a door takes from closed to open, which is also the time back."""
     if "hinged" in door.motion:
-        return max(abs(math.radians(door.motion_degrees)) / SWING, 0.1)
+        return max(abs(math.radians(door.motion_degrees)) / SWING_SPEED, 0.1)
     longest = max(_lengths(door))
-    return max((longest / 2 if "telescope" in door.motion else longest) / SLIDE, 0.1)
+    return max((longest / 2 if "telescope" in door.motion else longest) / SLIDING_SPEED, 0.1)
 
 
-def leaves(door: Door, opening: float) -> Float:
-    """Centre lines f8[k,4] x1, y1, x2, y2 of the leaves of a door that is open by a share `opening` 0..1."""
+def leaf_segments(door: Door, opening: float) -> Float:
+    """Return the centre lines f8[k,4] (x1, y1, x2, y2 in metres) of the leaves; `opening` is 0 if closed, 1 if open."""
     start, end = np.array(door.start), np.array(door.end)
     along = (end - start) / door.width
     first, second = _lengths(door)
@@ -51,13 +51,13 @@ def leaves(door: Door, opening: float) -> Float:
     return np.array(lines).reshape(-1, 4)
 
 
-def swept(door: Door) -> list[Float]:
-    """Polygons f8[k,2] (flat ones for leaves that slide) that together hold the leaves at every opening."""
-    shut, open_ = leaves(door, 0.0), leaves(door, 1.0)
+def swept_areas(door: Door) -> list[Float]:
+    """Return polygons f8[k,2] in metres that together cover the leaves at every opening; flat for sliding leaves."""
+    shut, open_ = leaf_segments(door, 0.0), leaf_segments(door, 1.0)
     if "hinged" not in door.motion:
         return [np.concatenate([a, b]).reshape(-1, 2) for a, b in zip(shut, open_, strict=True)]
-    arcs = np.stack([leaves(door, share)[:, 2:] for share in np.linspace(0, 1, _STEPS)], axis=1)
-    # Farther out, so that no straight piece cuts the arc.
+    arcs = np.stack([leaf_segments(door, share)[:, 2:] for share in np.linspace(0, 1, _STEPS)], axis=1)
+    # The corners lie outside the arc, so that no chord cuts it.
     outside = 1 / math.cos(math.radians(door.motion_degrees) / (_STEPS - 1) / 2)
     return [
         np.concatenate([line[None, :2], line[:2] + outside * (arc - line[:2])])
@@ -66,7 +66,7 @@ def swept(door: Door) -> list[Float]:
 
 
 def _lengths(door: Door) -> tuple[float, float]:
-    """Metres of the leaf that moves at `start` and of that at `end`, 0 = none."""
+    """Return the metres of the leaf at `start` and of the leaf at `end`; 0 means that there is none."""
     if door.motion.startswith("double"):
         first = door.width / (1 + door.right_left_ratio)
         return first, door.width - first

@@ -10,26 +10,26 @@ from mrpbench_core.model.arrays import Float, Int16, Int32, array
 class Resource:
     """A door, lift or mutex that at most `capacity` robots use at a time (rule 6 of `mrpbench_core.model.conflicts`).
 
-    A robot uses it while it is at one of its vertices or on one of its edges. To a dispatcher it is something to ask
-    for before the first of them, see `Orders.requests`.
+    A robot uses it while it is at one of its vertices or on one of its edges. A dispatcher requests it before the robot
+    enters the first of them; see `Orders.requests`.
     """
 
     name: str
-    """Unique on a roadmap; of a door or lift its name in `mrpbench_core.model.facilities.Facilities`."""
+    """Unique on a roadmap. A door or lift has its name in `mrpbench_core.model.facilities.Facilities`."""
     kind: str
     """door | lift | mutex."""
     capacity: int = 1
     vertices: tuple[int, ...] = ()
     edges: tuple[int, ...] = ()
     setup_ticks: int = 0
-    """Ticks for which it stays in use after a robot has left it: what it takes to be ready for another."""
+    """Ticks for which it stays in use after a robot has left it, until it is ready for the next one."""
     passage: tuple[int, ...] = ()
-    """Of a door: its edges that lead through the doorway. On the others, which its leaves sweep, it is to be shut."""
+    """The edges that lead through a doorway. On its other edges, which the leaves sweep, the door must be closed."""
 
 
 @attrs.frozen(kw_only=True)
 class Grid:
-    """That a roadmap's vertices are cells of a raster, and which."""
+    """The raster whose cells are the vertices of a roadmap."""
 
     shape: tuple[int, int]
     """rows, columns."""
@@ -61,10 +61,10 @@ class Roadmap:
     place: Int32 = array("i4", factory=list)
     """i4[len(World.vertices)]: the roadmap vertex that stands for each world vertex, -1 = none."""
     notes: tuple[str, ...] = ()
-    """What was left out and why (edges that hit a wall, places that are blocked), one sentence each."""
+    """What the builder left out and why, such as edges that hit a wall or blocked places; one sentence each."""
 
     def nearest(self, x: float, y: float, level: int = 0) -> tuple[int, float]:
-        """The vertex nearest to a point on a level, and its distance in metres (-1, inf if the level has none)."""
+        """Return the vertex nearest to a point on a level and its distance in metres; -1 and inf if there is none."""
         squared = ((self.position - (x, y)) ** 2).sum(axis=1)
         squared = np.where(self.level == level, squared, np.inf)
         best = int(squared.argmin()) if len(squared) else -1
@@ -73,9 +73,9 @@ class Roadmap:
         return best, float(np.sqrt(squared[best]))
 
     def locate(self, points: Float, levels: Int16) -> Int32:
-        """The vertex that stands for each of `points` f8[n,2] on `levels` i2[n]; -1 = none.
+        """Return the vertex i4[n] that represents each of `points` f8[n,2] on `levels` i2[n]; -1 means none.
 
-        On a raster it is the vertex of the cell that holds the point, otherwise the nearest vertex within 1 m.
+        On a raster it is the vertex of the cell that contains the point, otherwise the nearest vertex within 1 m.
         """
         if self.grid is None:
             found = [self.nearest(x, y, level) for (x, y), level in zip(points, levels, strict=True)]

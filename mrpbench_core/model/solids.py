@@ -1,4 +1,4 @@
-"""What is solid on a level of a world, as line segments: the one place that every simulator and ray caster reads."""
+"""Everything solid on a level of a world as line segments. Every simulator and ray caster reads it from here."""
 
 import numpy as np
 
@@ -8,10 +8,11 @@ from mrpbench_core.model.world import World
 
 
 def segments(world: World, level: int = 0) -> Float:
-    """The outlines of everything solid on a level: segments f8[S,4] x1, y1, x2, y2 in metres, solid on their left.
+    """Return the outlines of everything solid on a level: x1, y1, x2, y2 f8[S,4] in metres, solid on their left.
 
-    Walls are the four sides of their box, obstacles their polygon, an occupancy raster the borders between blocked and
-    free cells; beyond its edge a raster is solid. Outlines of different solids may overlap. Doors are open.
+    A wall gives the sides of its box, an obstacle the sides of its polygon, an occupancy raster the borders between
+    blocked and free cells. A raster is solid outside its edge. Outlines of different solids may overlap. Doors are not
+    included.
     """
     here = world.levels[level]
     parts = [wall_boxes(here.walls, here.wall_thickness)]
@@ -22,7 +23,7 @@ def segments(world: World, level: int = 0) -> Float:
 
 
 def wall_boxes(walls: Float, thickness: float) -> Float:
-    """Sides f8[4W,4] of the boxes around centre lines f8[W,4], extended by half the thickness at both ends."""
+    """Return the sides f8[4W,4] of boxes around centre lines f8[W,4], longer by half the thickness at both ends."""
     start, end = walls[:, :2], walls[:, 2:]
     length = np.hypot(*(end - start).T)[:, None]
     along = np.where(length > 0, (end - start) / np.where(length > 0, length, 1.0), (1.0, 0.0)) * thickness / 2
@@ -32,7 +33,7 @@ def wall_boxes(walls: Float, thickness: float) -> Float:
 
 
 def polygon_outline(polygon: Float) -> Float:
-    """Sides f8[k,4] of a polygon f8[k,2], counter-clockwise whichever way it was given."""
+    """Return the sides f8[k,4] of a polygon f8[k,2] in counter-clockwise order."""
     ahead = np.roll(polygon, -1, axis=0)
     sides = np.concatenate([polygon, ahead], axis=1)
     if (polygon[:, 0] * ahead[:, 1] - polygon[:, 1] * ahead[:, 0]).sum() < 0:
@@ -41,14 +42,14 @@ def polygon_outline(polygon: Float) -> Float:
 
 
 def raster_outline(occupancy: Occupancy) -> Float:
-    """Borders f8[S,4] between blocked and free cells, joined into the longest straight runs."""
+    """Return the borders f8[S,4] between blocked and free cells, joined into the longest straight segments."""
     rows, columns = occupancy.shape
     solid = np.ones((rows + 2, columns + 2), bool)
     solid[1:-1, 1:-1] = occupancy.blocked
     parts = []
     for grid, across in ((solid, False), (solid.T, True)):
         below, above = grid[:-1, 1:-1], grid[1:, 1:-1]
-        # Along +x (of `grid`) the left is above; transposed, left and right change places.
+        # Along +x of `grid` the left side is above; transposing swaps left and right.
         for border, forward in ((above & ~below, not across), (below & ~above, across)):
             line, first, last = _runs(border)
             ends = [first, line, last, line] if forward else [last, line, first, line]
@@ -59,7 +60,7 @@ def raster_outline(occupancy: Occupancy) -> Float:
 
 
 def _runs(mask: Bool) -> tuple[Int, Int, Int]:
-    """Row, first column and last column + 1 of each maximal run of True in the rows of `mask`."""
+    """Return row, first column and last column + 1 of each maximal run of True in the rows of `mask`."""
     padded = np.zeros((mask.shape[0], mask.shape[1] + 2), np.int8)
     padded[:, 1:-1] = mask
     change = np.diff(padded, axis=1)

@@ -1,4 +1,4 @@
-"""A place robots live in: walls, doors, obstacles, lifts and the navigation graph.
+"""A building: walls, doors, obstacles, lifts and the navigation graph.
 
 Metres, radians, x right, y up (ROS REP 103).
 """
@@ -24,13 +24,13 @@ class Door:
     motion: str = "sliding"
     """hinged, double_hinged, sliding, double_sliding, telescope or double_telescope."""
     motion_axis: str = "start"
-    """start | end: where a single leaf is hinged, or the side that it slides towards."""
+    """start | end: the end at which a single leaf is hinged, or towards which it slides."""
     motion_direction: int = 1
     """1 | -1: a hinged leaf turns counter-clockwise or clockwise as it opens."""
     motion_degrees: float = 90.0
-    """How far a hinged leaf turns."""
+    """The angle between a closed and an open hinged leaf."""
     right_left_ratio: float = 1.0
-    """Length of the leaf at `end` over that of the leaf at `start`, for doors of two leaves."""
+    """Length of the leaf at `end` divided by that of the leaf at `start`, for doors with two leaves."""
     thickness: float = 0.03
     height: float = 2.2
 
@@ -42,13 +42,13 @@ class Door:
 
 @attrs.frozen(kw_only=True)
 class Obstacle:
-    """Something solid that is not a wall: a polygon f8[k,2] in metres, counter-clockwise."""
+    """A solid that is not a wall: a polygon f8[k,2] in metres, counter-clockwise."""
 
     name: str
     polygon: Float = array("f8", 2)
     height: float = 1.0
     estimated: bool = False
-    """True when the footprint is our estimate, not a fact of the map."""
+    """True if the footprint is an estimate and not given by the map."""
 
 
 @attrs.frozen(kw_only=True)
@@ -72,11 +72,11 @@ class Level:
     doors: tuple[Door, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
     occupancy: Occupancy | None = None
-    """The raster of a map that is one by nature (MovingAI, ROS map_server); its blocked cells are solid."""
+    """The raster of a raster map (MovingAI, ROS map_server). Its blocked cells are solid."""
     floors: tuple[Area, ...] = ()
-    """Where the floor is drawn; () = everywhere."""
+    """The drawn floor; () means that there is floor everywhere."""
     holes: tuple[Area, ...] = ()
-    """Where it has holes: nothing solid, but robots keep clear of them. Lift shafts are not among them."""
+    """Holes in the floor. They are not solid, but robots keep clear of them. Lift shafts are not holes."""
 
 
 @attrs.frozen(kw_only=True)
@@ -92,10 +92,10 @@ class Lift:
     depth: float
     """metres along its y axis."""
     levels: tuple[int, ...]
-    """Indices into `World.levels` where it stops, in the order of its file."""
+    """Indices into `World.levels` of the levels that it serves, in the order of the file."""
     initial_level: int
     doors: tuple[Door, ...] = ()
-    """In the frame `map`; each opens cabin and shaft together."""
+    """Doors in the frame `map`. A door closes the cabin and the shaft together."""
     door_levels: tuple[tuple[int, ...], ...] = ()
     """For each door, the levels on which it opens."""
 
@@ -124,7 +124,7 @@ class Vertex:
     level: int = 0
     parameters: Mapping[str, Any] = attrs.field(factory=dict)
     lift: str = ""
-    """The lift whose cabin it lies in."""
+    """The name of the lift whose cabin contains it; '' if there is none."""
 
 
 @attrs.frozen(kw_only=True)
@@ -135,12 +135,11 @@ class Lane:
     end: int
     bidirectional: bool = True
     graph: int = 0
-    """RMF graph index: which fleet's graph the lane belongs to."""
+    """The RMF graph index (`graph_idx`), which says to which fleet's navigation graph the lane belongs."""
     speed_limit: float = 0.0
     """m/s; 0 means none."""
     orientation: str = ""
-    """'' | forward | backward: how a robot should face along the lane, the other way on the way back. Robots here
-    always face where they drive."""
+    """'' | forward | backward: how an RMF robot faces on the lane. Our robots always drive forward."""
     mutex: str = ""
     door: str = ""
 
@@ -154,5 +153,5 @@ class World:
     vertices: tuple[Vertex, ...] = ()
     lanes: tuple[Lane, ...] = ()
     notes: tuple[str, ...] = ()
-    """What the loader did not understand or had to assume, one sentence each."""
+    """What the loader does not support or had to assume, one sentence each."""
     lifts: tuple[Lift, ...] = ()

@@ -9,7 +9,7 @@ import numpy as np
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.doors import leaves, swept
+from mrpbench_core.model.doors import leaf_segments, swept_areas
 from mrpbench_core.model.execution import Route
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.roadmap import Roadmap
@@ -127,7 +127,7 @@ def _bounds(world: World, truth: Float | None, level: int) -> tuple[Float, Float
     """Lower left and upper right corner of what is drawn, with a margin."""
     places = [(v.x, v.y) for v in world.vertices if v.level == level]
     points = [segments(world, level).reshape(-1, 2), np.array(places).reshape(-1, 2)]
-    points += [part for door in world.levels[level].doors for part in swept(door)]
+    points += [part for door in world.levels[level].doors for part in swept_areas(door)]
     if truth is not None:
         points.append(truth[..., :2].reshape(-1, 2))
     everything = np.concatenate(points)
@@ -208,10 +208,10 @@ def _doors(axes: Any, doors: Sequence[Door], colour: str, *, shut: bool) -> None
     """Leaves where they are when shut and, thin, when open; what they sweep on hinges is tinted."""
     from matplotlib.collections import LineCollection, PolyCollection
 
-    swings = [part for door in doors if "hinged" in door.motion for part in swept(door)]
+    swings = [part for door in doors if "hinged" in door.motion for part in swept_areas(door)]
     axes.add_collection(PolyCollection(swings, facecolor=colour, alpha=0.15, linewidth=0, zorder=1))
     for opening, width in ((0.0, 1.8), (1.0, 0.6)) if shut else ((1.0, 0.6),):
-        lines = [line for door in doors for line in leaves(door, opening).reshape(-1, 2, 2)]
+        lines = [line for door in doors for line in leaf_segments(door, opening).reshape(-1, 2, 2)]
         axes.add_collection(LineCollection(lines, colors=colour, linewidths=width, capstyle="butt", zorder=3))
 
 

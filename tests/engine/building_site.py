@@ -86,7 +86,7 @@ class Site:
         self.reached, self.released = np.zeros(robots, "i4"), np.zeros(robots, "i4")
         self.driven = np.zeros(robots)
         self.level = problem.roadmap.level[problem.start].copy()
-        self.doing = self.facilities.initial()
+        self.doing = self.facilities.initial_state()
         self.waited = np.zeros(robots, int)
         self.orders = Orders(released=self.released)
 
@@ -143,7 +143,7 @@ class Site:
         doing = self.facilities.advance(
             self.doing, commands, PERIOD, self.pose, self.level, np.asarray(self.problem.radius)
         )
-        self.level = self.facilities.carried(self.doing, doing, self.pose, self.level)
+        self.level = self.facilities.carry(self.doing, doing, self.pose, self.level)
         self.doing = doing
         for robot in range(robots):
             self._drive(robot)

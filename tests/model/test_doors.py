@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mrpbench_core.model.doors import leaves, opening_time, swept
+from mrpbench_core.model.doors import leaf_segments, opening_time, swept_areas
 from mrpbench_core.model.geometry import inside, point_segment_distance
 from mrpbench_core.model.world import Door
 
@@ -17,12 +17,12 @@ KINDS = ("hinged", "double_hinged", "sliding", "double_sliding", "telescope", "d
 
 
 def where(opening, **changes):
-    return np.round(leaves(attrs.evolve(DOOR, **changes), opening), 9).tolist()
+    return np.round(leaf_segments(attrs.evolve(DOOR, **changes), opening), 9).tolist()
 
 
 @pytest.mark.parametrize("motion", KINDS)
 def test_shut_leaves_fill_the_doorway(motion):
-    lines = leaves(attrs.evolve(DOOR, motion=motion, right_left_ratio=1.5), 0.0)
+    lines = leaf_segments(attrs.evolve(DOOR, motion=motion, right_left_ratio=1.5), 0.0)
     gap = [point_segment_distance(np.array([x, 0.0]), lines[:, :2], lines[:, 2:]).min() for x in np.linspace(0, 2, 41)]
     assert max(gap) < 1e-9
     assert np.abs(lines[:, [1, 3]]).max() < 1e-9
@@ -75,8 +75,8 @@ def test_what_is_swept_holds_the_leaves_at_every_opening(motion, axis, direction
         motion_degrees=degrees,
         right_left_ratio=ratio,
     )
-    polygons = swept(door)
-    for line in leaves(door, opening):
+    polygons = swept_areas(door)
+    for line in leaf_segments(door, opening):
         for share in (0.0, 0.5, 1.0):
             point = line[:2] + share * (line[2:] - line[:2])
             gap = [

@@ -4,7 +4,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.builtin.roadmaps.facilities import with_facilities
-from mrpbench_core.builtin.roadmaps.open_doors import clear_of_open_doors
+from mrpbench_core.builtin.roadmaps.open_doors import clears_open_doors
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import called
@@ -86,7 +86,7 @@ def without_contacts(cells: Cells, world: World, radius: float) -> Cells:
 
     def clear(start: Float, end: Float) -> Bool:
         solid = keeps_clear(world.levels[0], start, end, radius)
-        return solid & clear_of_open_doors(world, 0, start, end, radius)
+        return solid & clears_open_doors(world, 0, start, end, radius)
 
     cells = cells.only(clear(cells.centre, cells.centre))
     centre = cells.centre

@@ -11,11 +11,11 @@ import math
 import attrs
 import numpy as np
 
-from mrpbench_core.builtin.roadmaps.open_doors import round_open_doors
-from mrpbench_core.builtin.roadmaps.reach import MARGIN, in_reach, with_edges
+from mrpbench_core.builtin.roadmaps.open_doors import avoid_open_doors
+from mrpbench_core.builtin.roadmaps.proximity import MARGIN, elements_near, select_edges
 from mrpbench_core.model.arrays import Int
-from mrpbench_core.model.doors import opening_time, swept
-from mrpbench_core.model.facilities import Facilities, Gate, ride_time
+from mrpbench_core.model.doors import opening_time, swept_areas
+from mrpbench_core.model.facilities import Facilities, OperatedDoor, ride_time
 from mrpbench_core.model.roadmap import Resource, Roadmap
 from mrpbench_core.model.world import Lift, World
 
@@ -24,9 +24,9 @@ def with_facilities(roadmap: Roadmap, world: World, radius: float) -> Roadmap:
     """The roadmap with edges for lifts and a resource for each door and lift; `radius` in metres is the largest."""
     if not any(level.doors for level in world.levels) and not world.lifts:
         return roadmap
-    roadmap, notes = round_open_doors(_with_lift_edges(roadmap, world), world, radius)
+    roadmap, notes = avoid_open_doors(_with_lift_edges(roadmap, world), world, radius)
     facilities = Facilities(world)
-    found = [_door(gate, roadmap, radius) for gate in facilities.gates if gate.lift is None]
+    found = [_door(operated, roadmap, radius) for operated in facilities.doors if operated.lift is None]
     found += [_lift(lift, world, roadmap, radius) for lift in world.lifts]
     clashing = [
         attrs.evolve(mutex, name=f"mutex {mutex.name}") if mutex.name in facilities.names else mutex
@@ -39,18 +39,18 @@ def with_facilities(roadmap: Roadmap, world: World, radius: float) -> Roadmap:
     )
 
 
-def _door(gate: Gate, roadmap: Roadmap, radius: float) -> Resource | None:
-    doorway = np.array([gate.door.start, gate.door.end])
-    _, edges = in_reach([doorway], roadmap, gate.levels, radius)
+def _door(operated: OperatedDoor, roadmap: Roadmap, radius: float) -> Resource | None:
+    doorway = np.array([operated.door.start, operated.door.end])
+    _, edges = elements_near([doorway], roadmap, operated.levels, radius)
     if not len(edges):
         return None
-    around = in_reach([doorway, *swept(gate.door)], roadmap, gate.levels, radius + MARGIN)
+    around = elements_near([doorway, *swept_areas(operated.door)], roadmap, operated.levels, radius + MARGIN)
     return Resource(
-        name=gate.name,
+        name=operated.name,
         kind="door",
         vertices=tuple(around[0].tolist()),
         edges=tuple(around[1].tolist()),
-        setup_ticks=math.ceil(opening_time(gate.door) / roadmap.tick),
+        setup_ticks=math.ceil(opening_time(operated.door) / roadmap.tick),
         passage=tuple(edges.tolist()),
     )
 
@@ -60,7 +60,7 @@ def _lift(lift: Lift, world: World, roadmap: Roadmap, radius: float) -> Resource
     if not len(rides):
         return None
     entrances = [np.array([door.start, door.end]) for door in lift.doors]
-    vertices, edges = in_reach([lift.corners, *entrances], roadmap, lift.levels, radius + MARGIN)
+    vertices, edges = elements_near([lift.corners, *entrances], roadmap, lift.levels, radius + MARGIN)
     longest = max(ride_time(world, lift, start, end) for start in lift.levels for end in lift.levels)
     return Resource(
         name=lift.name,
@@ -87,7 +87,7 @@ def _with_lift_edges(roadmap: Roadmap, world: World) -> Roadmap:
     all_edges = np.concatenate([roadmap.edges, np.array(edges, np.int32)])
     duration = np.concatenate([roadmap.duration, rides], axis=1)
     longer = attrs.evolve(roadmap, edges=all_edges, duration=duration)
-    return with_edges(longer, np.lexsort((all_edges[:, 1], all_edges[:, 0])))
+    return select_edges(longer, np.lexsort((all_edges[:, 1], all_edges[:, 0])))
 
 
 def _stop(lift: Lift, level: int, world: World, roadmap: Roadmap) -> int:

@@ -6,8 +6,8 @@ import numpy as np
 from mrpbench_core.api.component import option
 from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.builtin.roadmaps.facilities import with_facilities
-from mrpbench_core.builtin.roadmaps.junctions import Pieces, cut_at_junctions
-from mrpbench_core.builtin.roadmaps.open_doors import clear_of_open_doors
+from mrpbench_core.builtin.roadmaps.junctions import LaneSegments, cut_at_junctions
+from mrpbench_core.builtin.roadmaps.open_doors import clears_open_doors
 from mrpbench_core.checking.clearance import keeps_clear
 from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
@@ -62,7 +62,7 @@ class Graph(RoadmapBuilder):
         return with_facilities(roadmap, world, float(fleet.radii.max()))
 
 
-def _cut(world: World, tolerance: float) -> tuple[Pieces, Int]:
+def _cut(world: World, tolerance: float) -> tuple[LaneSegments, Int]:
     """The pieces of the lanes of all levels, and the level i8[V] of each of their vertices."""
     point = np.array([(vertex.x, vertex.y) for vertex in world.vertices])
     storey = np.array([vertex.level for vertex in world.vertices])
@@ -82,7 +82,7 @@ def _cut(world: World, tolerance: float) -> tuple[Pieces, Int]:
         ends.append(first + pieces.ends)
         lanes.append(ours[pieces.lane])
         levels.append(np.full(len(pieces.position), level))
-    whole = Pieces(
+    whole = LaneSegments(
         position=np.concatenate(positions), vertex=vertex, ends=np.concatenate(ends), lane=np.concatenate(lanes)
     )
     return whole, np.concatenate(levels)
@@ -94,11 +94,11 @@ def _clear(world: World, level: Int, start: Float, end: Float, radius: float) ->
     for index in np.unique(level):
         here = level == index
         clear[here] = keeps_clear(world.levels[index], start[here], end[here], radius)
-        clear[here] &= clear_of_open_doors(world, int(index), start[here], end[here], radius)
+        clear[here] &= clears_open_doors(world, int(index), start[here], end[here], radius)
     return clear
 
 
-def _ticks(world: World, pieces: Pieces, level: Int, robot: RobotModel, tick: float) -> Int:
+def _ticks(world: World, pieces: LaneSegments, level: Int, robot: RobotModel, tick: float) -> Int:
     """Duration i8[m] of each piece for one kind of robot, -1 where it would touch something solid."""
     start, end = pieces.position[pieces.ends[:, 0]], pieces.position[pieces.ends[:, 1]]
     limit = np.array([lane.speed_limit or np.inf for lane in world.lanes])[pieces.lane]
@@ -108,7 +108,7 @@ def _ticks(world: World, pieces: Pieces, level: Int, robot: RobotModel, tick: fl
     return np.where(clear, ticks, -1)
 
 
-def _directed(pieces: Pieces, lanes: tuple[Lane, ...], duration: Int, drivable: Bool) -> tuple[Int, Int]:
+def _directed(pieces: LaneSegments, lanes: tuple[Lane, ...], duration: Int, drivable: Bool) -> tuple[Int, Int]:
     """Edges i8[E,2] sorted by start, two per two-way piece, and their durations; of parallel edges the fastest."""
     both = np.array([lane.bidirectional for lane in lanes])[pieces.lane] & drivable
     edges = np.concatenate([pieces.ends[drivable], pieces.ends[both][:, ::-1]])
@@ -121,7 +121,7 @@ def _directed(pieces: Pieces, lanes: tuple[Lane, ...], duration: Int, drivable: 
     return unique, np.where(fastest == np.iinfo(np.int64).max, -1, fastest)
 
 
-def _notes(world: World, pieces: Pieces, drivable: Bool) -> list[str]:
+def _notes(world: World, pieces: LaneSegments, drivable: Bool) -> list[str]:
     notes = []
     cut = int((np.bincount(pieces.lane, minlength=1) > 1).sum())
     if cut:
@@ -134,7 +134,7 @@ def _notes(world: World, pieces: Pieces, drivable: Bool) -> list[str]:
     return notes
 
 
-def _mutexes(world: World, pieces: Pieces, number: Int, edges: Int) -> tuple[Resource, ...]:
+def _mutexes(world: World, pieces: LaneSegments, number: Int, edges: Int) -> tuple[Resource, ...]:
     """A resource for each mutex of lanes and places; between two of its lanes alone a robot keeps it."""
     names = [lane.mutex for lane in world.lanes]
     named = [str(vertex.parameters.get("mutex", "")) for vertex in world.vertices]

@@ -16,7 +16,7 @@ ROUNDS = 20
 
 
 @attrs.frozen
-class Pieces:
+class LaneSegments:
     """Lanes cut at their junctions."""
 
     position: Float
@@ -29,13 +29,14 @@ class Pieces:
     """i8[m]: the lane that each piece is part of, ascending."""
 
 
-def cut_at_junctions(points: Float, lanes: Int, tolerance: float) -> Pieces:
+def cut_at_junctions(points: Float, lanes: Int, tolerance: float) -> LaneSegments:
     """Cut `lanes` i8[m,2] between `points` f8[k,2] where they meet.
 
     Points closer than `tolerance` metres are one vertex (the first of them), and a lane that passes a vertex closer
-    than `tolerance` leads through it. Pieces keep their lane's direction; those that shrink to a point are dropped.
+    than `tolerance` leads through it. Segments keep the direction of their lane; a segment that shrinks to a point is
+    dropped.
     """
-    pieces = Pieces(points, np.arange(len(points)), lanes, np.arange(len(lanes)))
+    pieces = LaneSegments(points, np.arange(len(points)), lanes, np.arange(len(lanes)))
     for _ in range(ROUNDS):
         cut = _cut_once(pieces, tolerance)
         if len(cut.position) == len(pieces.position) and len(cut.ends) == len(pieces.ends):
@@ -44,7 +45,7 @@ def cut_at_junctions(points: Float, lanes: Int, tolerance: float) -> Pieces:
     return pieces
 
 
-def _cut_once(pieces: Pieces, tolerance: float) -> Pieces:
+def _cut_once(pieces: LaneSegments, tolerance: float) -> LaneSegments:
     position, number = _merge(pieces.position, tolerance)
     vertex, ends = number[pieces.vertex], number[pieces.ends]
     crossing = _crossings(position[ends[:, 0]], position[ends[:, 1]], tolerance)
@@ -52,7 +53,7 @@ def _cut_once(pieces: Pieces, tolerance: float) -> Pieces:
     vertex, ends = number[vertex], number[ends]
     passed = np.split(ends, np.searchsorted(pieces.lane, np.arange(1, pieces.lane.max(initial=0) + 1)))
     stops = [_stops(position, a, b, passed[lane], tolerance) for (a, b), lane in zip(ends, pieces.lane, strict=True)]
-    return Pieces(
+    return LaneSegments(
         position=position,
         vertex=vertex,
         ends=np.concatenate([np.empty((0, 2), np.int64), *(np.stack([s[:-1], s[1:]], axis=1) for s in stops)]),

@@ -7,18 +7,18 @@ open leaf stands: either the edges through the leaf are left out or, where that 
 
 import numpy as np
 
-from mrpbench_core.builtin.roadmaps.reach import MARGIN, in_reach, with_edges
+from mrpbench_core.builtin.roadmaps.proximity import MARGIN, elements_near, select_edges
 from mrpbench_core.checking.clearance import touches
 from mrpbench_core.checking.components import components
 from mrpbench_core.model.arrays import Bool, Float, Int
-from mrpbench_core.model.doors import leaves, swept
-from mrpbench_core.model.facilities import Facilities, Gate
+from mrpbench_core.model.doors import leaf_segments, swept_areas
+from mrpbench_core.model.facilities import Facilities, OperatedDoor
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.solids import wall_boxes
 from mrpbench_core.model.world import Door, World
 
 
-def clear_of_open_doors(world: World, level: int, start: Float, end: Float, radius: float) -> Bool:
+def clears_open_doors(world: World, level: int, start: Float, end: Float, radius: float) -> Bool:
     """Tell bool[k] whether a disc that moves from `start` to `end` f8[k,2] through doors touches no open leaf."""
     clear = np.ones(len(start), bool)
     for door in world.levels[level].doors:
@@ -28,34 +28,34 @@ def clear_of_open_doors(world: World, level: int, start: Float, end: Float, radi
     return clear
 
 
-def round_open_doors(roadmap: Roadmap, world: World, radius: float) -> tuple[Roadmap, list[str]]:
+def avoid_open_doors(roadmap: Roadmap, world: World, radius: float) -> tuple[Roadmap, list[str]]:
     """The roadmap without edges by which an open leaf would come to bar a robot, and what was left out."""
     notes = []
-    for gate in Facilities(world).gates:
-        if gate.lift is None:
-            through, barred = _barred(gate, roadmap, radius)
+    for operated in Facilities(world).doors:
+        if operated.lift is None:
+            through, barred = _barred(operated, roadmap, radius)
             if len(barred):
                 without = [np.delete(np.arange(len(roadmap.edges)), out) for out in (barred, through)]
                 pairs = [_pairs(roadmap, kept) for kept in without]
                 shut = pairs[1] > pairs[0]
-                notes.append(_note(gate, roadmap, barred, shut=shut))
-                roadmap = with_edges(roadmap, without[shut])
+                notes.append(_note(operated, roadmap, barred, shut=shut))
+                roadmap = select_edges(roadmap, without[shut])
     return roadmap, notes
 
 
 def _open_leaves(door: Door) -> list[Float]:
-    return list(wall_boxes(leaves(door, 1.0), door.thickness).reshape(-1, 4, 4)[:, :, :2])
+    return list(wall_boxes(leaf_segments(door, 1.0), door.thickness).reshape(-1, 4, 4)[:, :, :2])
 
 
-def _barred(gate: Gate, roadmap: Roadmap, radius: float) -> tuple[Int, Int]:
+def _barred(operated: OperatedDoor, roadmap: Roadmap, radius: float) -> tuple[Int, Int]:
     """The edges through a doorway, and those an open leaf bars that a robot could drive on before the door shuts."""
-    doorway = np.array([gate.door.start, gate.door.end])
-    _, through = in_reach([doorway], roadmap, gate.levels, radius)
-    _, barred = in_reach(_open_leaves(gate.door), roadmap, gate.levels, radius)
+    doorway = np.array([operated.door.start, operated.door.end])
+    _, through = elements_near([doorway], roadmap, operated.levels, radius)
+    _, barred = elements_near(_open_leaves(operated.door), roadmap, operated.levels, radius)
     barred = np.setdiff1d(barred, through)
     if not len(through) or not len(barred):
         return through, barred[:0]
-    stands, drives = in_reach([doorway, *swept(gate.door)], roadmap, gate.levels, radius + MARGIN)
+    stands, drives = elements_near([doorway, *swept_areas(operated.door)], roadmap, operated.levels, radius + MARGIN)
     # A robot keeps the door as long as it is on these: edges, linked by the vertices among them.
     count = len(roadmap.position)
     edge, end = np.repeat(drives, 2), roadmap.edges[drives].ravel()
@@ -73,11 +73,11 @@ def _pairs(roadmap: Roadmap, kept: Int) -> int:
     return int((sizes**2).sum())
 
 
-def _note(gate: Gate, roadmap: Roadmap, barred: Int, *, shut: bool) -> str:
+def _note(operated: OperatedDoor, roadmap: Roadmap, barred: Int, *, shut: bool) -> str:
     ends = np.unique(np.sort(roadmap.edges[barred], axis=1), axis=0)
     x, y = roadmap.position[ends[0]].mean(axis=0)
     there = f"at ({x:.2f}, {y:.2f})"
     if shut:
-        return f"Door {gate.name} stays shut: open, it would bar the way of who comes through, {there}."
+        return f"Door {operated.name} stays shut: open, it would bar the way of who comes through, {there}."
     count = "1 way is" if len(ends) == 1 else f"{len(ends)} ways are"
-    return f"Door {gate.name}: {count} left out, {there}, where the open leaf would bar who comes through."
+    return f"Door {operated.name}: {count} left out, {there}, where the open leaf would bar who comes through."

@@ -18,9 +18,9 @@ from mrpbench_core.model.arrays import Float, Int16, Int32
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
 from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.fleet import Fleet, Lidar
+from mrpbench_core.model.level_layout import LevelLayout
 from mrpbench_core.model.poses import wrapped
 from mrpbench_core.model.scan_schedule import ScanSchedule
-from mrpbench_core.model.storeys import Storeys
 from mrpbench_core.model.world import World
 
 
@@ -64,15 +64,15 @@ class _Plane(Simulation):
         self._period, self._periods = period, 0
         self._schedule = ScanSchedule(fleet, period)
         reach = {lidar: lidar.range + math.hypot(*lidar.mount[:2]) for lidar in self._schedule.lidars}
-        self._storeys = Storeys(world, max(reach.values(), default=0.0))
-        self._discs = Discs(self._radii, len(robots), self._storeys.segments, stride)
-        self._visible = {lidar: Nearby(self._storeys.segments, far) for lidar, far in reach.items()}
+        self._layout = LevelLayout(world, max(reach.values(), default=0.0))
+        self._discs = Discs(self._radii, len(robots), self._layout.segments, stride)
+        self._visible = {lidar: Nearby(self._layout.segments, far) for lidar, far in reach.items()}
         self._facilities = Facilities(world)
-        self._doing = self._facilities.initial()
-        self._leaves = self._storeys.leaves(self._facilities, self._doing)
+        self._doing = self._facilities.initial_state()
+        self._leaves = self._layout.door_outlines(self._facilities, self._doing)
         self._movers = np.full((len(movers), 2), np.inf)
         self._level: Int16 = np.zeros(len(robots), np.int16) if levels is None else np.array(levels, np.int16)
-        self._pose = self._storeys.spread(np.array(placements, float).reshape(-1, 3), self._level)
+        self._pose = self._layout.to_plane(np.array(placements, float).reshape(-1, 3), self._level)
         self._twist = np.zeros((len(robots), 2))
         self._scans = self._take_scans()
         self._state = self._observe(np.empty((0, 2), np.int32))
@@ -95,7 +95,7 @@ class _Plane(Simulation):
         return self._state
 
     def _observe(self, contacts: Int32) -> State:
-        pose = self._storeys.gather(self._pose, self._level)
+        pose = self._layout.to_levels(self._pose, self._level)
         return State(pose=pose, twist=self._twist, level=self._level, contacts=contacts, facilities=self._doing)
 
     def _operate(self, commands: Mapping[str, float]) -> None:
@@ -105,9 +105,9 @@ class _Plane(Simulation):
         if after == before:
             return
         self._doing = after
-        self._level = self._facilities.carried(before, after, pose, self._level)
-        self._pose = self._storeys.spread(pose, self._level)
-        self._leaves = self._storeys.leaves(self._facilities, after)
+        self._level = self._facilities.carry(before, after, pose, self._level)
+        self._pose = self._layout.to_plane(pose, self._level)
+        self._leaves = self._layout.door_outlines(self._facilities, after)
 
     def _advance(self, command: Float, dt: float) -> set[tuple[int, int]]:
         change = command - self._twist

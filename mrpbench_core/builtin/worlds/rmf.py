@@ -11,12 +11,12 @@ from mrpbench_core.builtin.worlds.building.coordinates import Frame, read_frames
 from mrpbench_core.builtin.worlds.building.doors import read_doors
 from mrpbench_core.builtin.worlds.building.floors import read_areas
 from mrpbench_core.builtin.worlds.building.footprints import Footprints
-from mrpbench_core.builtin.worlds.building.lanes import Storey, read_graph
-from mrpbench_core.builtin.worlds.building.leftovers import note_leftovers
+from mrpbench_core.builtin.worlds.building.lanes import LevelDrawing, read_graph
 from mrpbench_core.builtin.worlds.building.lifts import read_lifts
 from mrpbench_core.builtin.worlds.building.models import read_models
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
+from mrpbench_core.builtin.worlds.building.unsupported import note_unsupported
 from mrpbench_core.builtin.worlds.building.walls import read_walls
 from mrpbench_core.files import yaml
 from mrpbench_core.model.world import Area, Lane, Level, Lift, Vertex, World
@@ -63,19 +63,19 @@ class Rmf(WorldSource):
         nodes = self._levels(building)
         notes = Notes()
         frames = read_frames(building, nodes, notes)
-        storeys = {name: _storey(node, frames[name], notes) for name, node in nodes.items()}
+        drawings = {name: _drawing(node, frames[name], notes) for name, node in nodes.items()}
         if self.doors == "open":
-            storeys = {name: attrs.evolve(storey, doors=()) for name, storey in storeys.items()}
+            drawings = {name: attrs.evolve(drawing, doors=()) for name, drawing in drawings.items()}
         lifts = read_lifts(building, frames, notes)
-        vertices, lanes = read_graph(tuple(storeys.values()), lifts, notes)
+        vertices, lanes = read_graph(tuple(drawings.values()), lifts, notes)
         footprints = Footprints(self.footprints)
         levels = []
-        for index, (name, storey) in enumerate(storeys.items()):
-            bare = _bare_level(name, storey, index, lifts, notes)
+        for index, (name, drawing) in enumerate(drawings.items()):
+            bare = _bare_level(name, drawing, index, lifts, notes)
             drawn = _named_lanes(index, vertices, lanes)
-            models = read_models(storey.node, frames[name], footprints, drawn, self.clearance, notes)
+            models = read_models(drawing.node, frames[name], footprints, drawn, self.clearance, notes)
             levels.append(attrs.evolve(bare, obstacles=models))
-        note_leftovers(building, nodes, notes)
+        note_unsupported(building, nodes, notes)
         return World(
             name=self._world_name(building),
             levels=tuple(levels),
@@ -108,21 +108,21 @@ class Rmf(WorldSource):
         return stated or self.file.name.split(".")[0]
 
 
-def _storey(node: Node, frame: Frame, notes: Notes) -> Storey:
+def _drawing(node: Node, frame: Frame, notes: Notes) -> LevelDrawing:
     positions = frame(read_vertices(node))
-    return Storey(node, positions, read_doors(node, positions, notes))
+    return LevelDrawing(node, positions, read_doors(node, positions, notes))
 
 
-def _bare_level(name: str, storey: Storey, index: int, lifts: tuple[Lift, ...], notes: Notes) -> Level:
-    elevation = storey.node.fields().get("elevation")
+def _bare_level(name: str, drawing: LevelDrawing, index: int, lifts: tuple[Lift, ...], notes: Notes) -> Level:
+    elevation = drawing.node.fields().get("elevation")
     shafts = [lift for lift in lifts if index in lift.levels]
-    holes = read_areas(storey.node, "holes", storey.positions, notes)
+    holes = read_areas(drawing.node, "holes", drawing.positions, notes)
     return Level(
         name=name,
         elevation=0.0 if elevation is None else elevation.number(),
-        walls=read_walls(storey.node, storey.positions, notes),
-        doors=tuple(storey.doors),
-        floors=read_areas(storey.node, "floors", storey.positions, notes),
+        walls=read_walls(drawing.node, drawing.positions, notes),
+        doors=tuple(drawing.doors),
+        floors=read_areas(drawing.node, "floors", drawing.positions, notes),
         holes=tuple(hole for hole in holes if not any(_is_shaft(hole, lift) for lift in shafts)),
     )
 

@@ -12,8 +12,8 @@ import numpy as np
 from mrpbench_core.api.component import Path, option
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.builtin.worlds.building.node import Node
-from mrpbench_core.builtin.worlds.grey import Grey, read_grey
-from mrpbench_core.builtin.worlds.turned import turned
+from mrpbench_core.builtin.worlds.image import GreyscaleImage, read_image
+from mrpbench_core.builtin.worlds.rotation import rotate
 from mrpbench_core.files import yaml
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Bool
@@ -64,16 +64,16 @@ class RosMap(WorldSource):
             raise fields["resolution"].error("resolution should be positive")
         x, y, *yaw = (value.number() for value in fields["origin"].items(least=2))
         image = self.image or self.file.parent / fields["image"].text()
-        blocked = self._blocked(fields, read_grey(image, fields.get("image", top)))
+        blocked = self._blocked(fields, read_image(image, fields.get("image", top)))
         occupancy = Occupancy(blocked=blocked[::-1], cell_size=size, origin=(x, y))
         notes = [f"key {key!r} is not known and has no effect." for key in fields if key not in KEYS]
         angle = math.remainder(yaw[0] if yaw else 0.0, 2 * math.pi)
         if not math.isclose(angle, round(angle / (math.pi / 2)) * math.pi / 2, abs_tol=1e-6):
             notes.append(f"the map is turned by {math.degrees(angle):.2f}° and sampled anew.")
-        level = Level(name="L1", occupancy=turned(occupancy, angle))
+        level = Level(name="L1", occupancy=rotate(occupancy, angle))
         return World(name=self.file.name.split(".")[0], levels=(level,), notes=tuple(notes))
 
-    def _blocked(self, fields: dict[str, Node], grey: Grey) -> Bool:
+    def _blocked(self, fields: dict[str, Node], image: GreyscaleImage) -> Bool:
         """bool[rows, columns], row 0 at the top."""
         high, low = _share(fields, "occupied_thresh", 0.65), _share(fields, "free_thresh", 0.25)
         if low > high:
@@ -84,13 +84,13 @@ class RosMap(WorldSource):
         if mode not in MODES:
             raise fields["mode"].error(f"mode {mode!r} is not known", f"modes: {', '.join(MODES)}")
         if mode == "raw":
-            percent = np.rint(grey.lightness * 255)
+            percent = np.rint(image.lightness * 255)
             occupied, unknown = (percent >= high * 100) & (percent <= 100), percent > 100
         else:
-            occupancy = grey.lightness if _flag(fields, "negate") else 1 - grey.lightness
+            occupancy = image.lightness if _flag(fields, "negate") else 1 - image.lightness
             occupied = occupancy > high
             unknown = (occupancy >= low) & ~occupied if mode == "trinary" else np.zeros_like(occupied)
-        unknown |= grey.transparent
+        unknown |= image.transparent
         blocked: Bool = occupied & ~unknown if self.unknown == "free" else occupied | unknown
         return blocked
 

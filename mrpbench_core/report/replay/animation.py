@@ -8,7 +8,7 @@ import numpy as np
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.doors import leaves
+from mrpbench_core.model.doors import leaf_segments
 from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.report.picture import COLOURS, WALL, world_figure
@@ -62,11 +62,11 @@ def _doors(recording: Recording, level: int) -> Callable[[int], list[Float]]:
     if "facility" not in recording.channels:
         return lambda sample: []  # noqa: ARG005 - nobody knows
     doing = recording.channel("facility")
-    here = [gate for gate in facilities.gates if level in gate.levels]
+    here = [gate for gate in facilities.doors if level in gate.levels]
 
     def at(sample: int) -> list[Float]:
         state = dict(zip(facilities.names, doing[sample].tolist(), strict=True))
-        lines = [leaves(gate.door, facilities.opening(gate, state, level)) for gate in here]
+        lines = [leaf_segments(gate.door, facilities.opening(gate, state, level)) for gate in here]
         return list(np.concatenate([np.empty((0, 4)), *lines]).reshape(-1, 2, 2))
 
     return at

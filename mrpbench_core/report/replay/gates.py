@@ -3,8 +3,8 @@
 import math
 from typing import Any
 
-from mrpbench_core.model.doors import leaves
-from mrpbench_core.model.facilities import Facilities, Gate
+from mrpbench_core.model.doors import leaf_segments
+from mrpbench_core.model.facilities import Facilities, OperatedDoor
 from mrpbench_core.model.world import Door, Lift, World
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording
@@ -24,12 +24,12 @@ def pack_facilities(recording: Recording, world: World, packing: Packing) -> dic
         packing.add_metres("facility", recording.channel("facility").T, OPENING)
     lifts = [lift.name for lift in world.lifts]
     return {
-        "gates": [_gate(gate, lifts) for gate in facilities.gates],
+        "gates": [_gate(gate, lifts) for gate in facilities.doors],
         "cabins": [_cabin(lift, facilities.heights[lift.name]) for lift in world.lifts],
     }
 
 
-def _gate(gate: Gate, lifts: list[str]) -> dict[str, Any]:
+def _gate(gate: OperatedDoor, lifts: list[str]) -> dict[str, Any]:
     return {
         "name": gate.name,
         "levels": list(gate.levels),
@@ -43,7 +43,7 @@ def _leaves(door: Door) -> list[list[float]]:
     """How each leaf lies and moves; hinged ones turn at their first point, the others slide."""
     found = []
     hinged = "hinged" in door.motion
-    for index, (shut, open_) in enumerate(zip(leaves(door, 0.0), leaves(door, 1.0), strict=True)):
+    for index, (shut, open_) in enumerate(zip(leaf_segments(door, 0.0), leaf_segments(door, 1.0), strict=True)):
         way = [0.0, 0.0] if hinged else (open_ - shut)[:2].tolist()
         opposite = door.motion == "double_hinged" and index == 1
         turn = math.radians(door.motion_degrees) * door.motion_direction * (-1 if opposite else 1) if hinged else 0.0

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
-from mrpbench_core.model.doors import leaves, opening_time
+from mrpbench_core.model.doors import leaf_segments, opening_time
 from mrpbench_core.model.facilities import Facilities, ride_time
 from mrpbench_core.model.geometry import segment_distance
 from mrpbench_core.model.roadmap import Roadmap
@@ -56,7 +56,7 @@ def tower() -> World:
 
 def gap_to_leaves(door: Door, opening: float, start, end) -> np.ndarray:
     """Metres f8[k] from straight ways to the leaves."""
-    lines = leaves(door, opening)
+    lines = leaf_segments(door, opening)
     gap = segment_distance(lines[None, :, :2], lines[None, :, 2:], start[:, None], end[:, None])
     return gap.min(axis=1) - door.thickness / 2
 

@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mrpbench_core.model.doors import leaves
+from mrpbench_core.model.doors import leaf_segments
 from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.world import Door, Level, World
 from mrpbench_core.report.replay.gates import pack_facilities
@@ -52,7 +52,9 @@ def test_leaves_move_on_the_page_as_in_the_world(motion, axis, direction, degree
     )
     world = World(name="w", levels=(Level(name="L1", doors=(door,)),))
     (gate,) = pack_facilities(SILENT, world, Packing())["gates"]
-    np.testing.assert_allclose([moved(leaf, opening) for leaf in gate["leaves"]], leaves(door, opening), atol=1e-3)
+    np.testing.assert_allclose(
+        [moved(leaf, opening) for leaf in gate["leaves"]], leaf_segments(door, opening), atol=1e-3
+    )
 
 
 def test_lifts_know_their_doors_stops_and_levels():

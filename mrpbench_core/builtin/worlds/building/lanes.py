@@ -38,7 +38,7 @@ LANE: dict[str, Kind] = {
 
 
 @attrs.frozen
-class Storey:
+class LevelDrawing:
     """What lanes of a level may lead through."""
 
     node: Node
@@ -48,11 +48,11 @@ class Storey:
 
 
 def read_graph(
-    storeys: Sequence[Storey], lifts: Sequence[Lift], notes: Notes
+    drawings: Sequence[LevelDrawing], lifts: Sequence[Lift], notes: Notes
 ) -> tuple[tuple[Vertex, ...], tuple[Lane, ...]]:
     """The places that lanes use, and the lanes, both by graph index."""
-    places = [_places(storey, level, lifts, notes) for level, storey in enumerate(storeys)]
-    drawn = [_lanes(storey, notes) for storey in storeys]
+    places = [_places(drawing, level, lifts, notes) for level, drawing in enumerate(drawings)]
+    drawn = [_lanes(drawing, notes) for drawing in drawings]
     vertices: list[Vertex] = []
     lanes: list[Lane] = []
     for graph in GRAPHS:
@@ -69,9 +69,9 @@ def read_graph(
     return tuple(vertices), tuple(lanes)
 
 
-def _places(storey: Storey, level: int, lifts: Sequence[Lift], notes: Notes) -> list[Vertex]:
-    nodes = storey.node.section("vertices")
-    return [_place(node, xy, level, lifts, notes) for node, xy in zip(nodes, storey.positions, strict=True)]
+def _places(drawing: LevelDrawing, level: int, lifts: Sequence[Lift], notes: Notes) -> list[Vertex]:
+    nodes = drawing.node.section("vertices")
+    return [_place(node, xy, level, lifts, notes) for node, xy in zip(nodes, drawing.positions, strict=True)]
 
 
 def _place(node: Node, position: Float, level: int, lifts: Sequence[Lift], notes: Notes) -> Vertex:
@@ -87,14 +87,14 @@ def _place(node: Node, position: Float, level: int, lifts: Sequence[Lift], notes
     return Vertex(name=name, x=x, y=y, level=level, parameters=parameters, lift=cabin or (inside[0] if inside else ""))
 
 
-def _lanes(storey: Storey, notes: Notes) -> list[Lane]:
-    return [lane for node in storey.node.section("lanes") if (lane := _lane(node, storey, notes)) is not None]
+def _lanes(drawing: LevelDrawing, notes: Notes) -> list[Lane]:
+    return [lane for node in drawing.node.section("lanes") if (lane := _lane(node, drawing, notes)) is not None]
 
 
-def _lane(node: Node, storey: Storey, notes: Notes) -> Lane | None:
+def _lane(node: Node, drawing: LevelDrawing, notes: Notes) -> Lane | None:
     """The lane, with the level's vertex indices."""
     first, second, *rest = node.items(least=2)
-    positions = storey.positions
+    positions = drawing.positions
     start, end = (item.index(len(positions), "lane") for item in (first, second))
     parameters = read_parameters(rest[0], LANE, "lane", notes) if rest else {}
     graph = parameters.get("graph_idx", 0)
@@ -121,7 +121,7 @@ def _lane(node: Node, storey: Storey, notes: Notes) -> Lane | None:
         speed_limit=max(0.0, parameters.get("speed_limit", 0.0)),
         orientation=orientation,
         mutex=parameters.get("mutex", ""),
-        door=_door_on(positions[start], positions[end], storey.doors),
+        door=_door_on(positions[start], positions[end], drawing.doors),
     )
 
 

@@ -63,7 +63,7 @@ class Waiting(Metric):
         values["riding_s"] = math.fsum(np.where(riding, spent, 0.0).ravel())
         values["openings"] = None
         if run.has("facility"):
-            doors = len(Facilities(run.context.world).gates)
+            doors = len(Facilities(run.context.world).doors)
             values["openings"] = _openings(run.channel("facility")[:, :doors])
         return values
 

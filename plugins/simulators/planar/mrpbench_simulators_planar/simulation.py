@@ -11,8 +11,8 @@ from mrpbench_core.model.arrays import Float, Int16
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
 from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.level_layout import LevelLayout
 from mrpbench_core.model.scan_schedule import ScanSchedule
-from mrpbench_core.model.storeys import Storeys
 from mrpbench_core.model.world import World
 
 
@@ -34,11 +34,11 @@ class PlanarSimulation(Simulation):
         robots = fleet.robots
         self._schedule = ScanSchedule(fleet, period)
         reach = max((lidar.range + math.hypot(*lidar.mount[:2]) for lidar in self._schedule.lidars), default=0.0)
-        self._storeys, self._facilities = Storeys(world, reach), Facilities(world)
-        self._doing = self._facilities.initial()
-        self._leaves = self._storeys.leaves(self._facilities, self._doing)
+        self._layout, self._facilities = LevelLayout(world, reach), Facilities(world)
+        self._doing = self._facilities.initial_state()
+        self._leaves = self._layout.door_outlines(self._facilities, self._doing)
         self._level: Int16 = np.zeros(len(robots), np.int16) if levels is None else np.array(levels, np.int16)
-        solids = self._storeys.segments
+        solids = self._layout.segments
         self._robot_radius = fleet.radii
         self._radius = np.concatenate([fleet.radii, np.asarray(movers, float)])
         self._plane = Plane(
@@ -47,7 +47,7 @@ class PlanarSimulation(Simulation):
             limit=_table([(robot.max_speed, robot.max_turn_rate) for robot in robots]),
             acceleration=_table([(robot.acceleration, robot.turn_acceleration) for robot in robots]),
             wheel_separation=np.array([robot.wheel_separation for robot in robots], float),
-            pose=self._storeys.spread(np.array(placements, float).reshape(-1, 3), self._level),
+            pose=self._layout.to_plane(np.array(placements, float).reshape(-1, 3), self._level),
             period=period,
             slip=slip,
             actuation=actuation_noise,
@@ -89,7 +89,7 @@ class PlanarSimulation(Simulation):
 
     def _observe(self) -> State:
         plane = self._plane
-        pose = self._storeys.gather(plane.pose, self._level)
+        pose = self._layout.to_levels(plane.pose, self._level)
         return State(pose=pose, twist=plane.twist, level=self._level, contacts=plane.contacts, facilities=self._doing)
 
     def _operate(self, commands: Mapping[str, float]) -> None:
@@ -98,10 +98,10 @@ class PlanarSimulation(Simulation):
         after = self._facilities.advance(before, commands, self._period, pose, level, self._robot_radius)
         if after == before:
             return
-        self._doing, self._level = after, self._facilities.carried(before, after, pose, level)
-        self._leaves = self._storeys.leaves(self._facilities, after)
+        self._doing, self._level = after, self._facilities.carry(before, after, pose, level)
+        self._leaves = self._layout.door_outlines(self._facilities, after)
         self._plane.set_leaves(self._leaves)
-        spread = self._storeys.spread(pose, self._level)
+        spread = self._layout.to_plane(pose, self._level)
         for robot in np.flatnonzero(self._level != level).tolist():
             self._plane.place(robot, *spread[robot, :2].tolist())
 

@@ -6,17 +6,17 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.doors import leaves
-from mrpbench_core.model.facilities import Facilities, Gate
-from mrpbench_core.model.storeys import Storeys
+from mrpbench_core.model.doors import leaf_segments
+from mrpbench_core.model.facilities import Facilities, OperatedDoor
+from mrpbench_core.model.level_layout import LevelLayout
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 
 
 class Leaves:
     """All leaves on all levels."""
 
-    def __init__(self, bullet: Bullet, facilities: Facilities, storeys: Storeys, state: Mapping[str, float]) -> None:
-        self._bullet, self._facilities, self._storeys = bullet, facilities, storeys
+    def __init__(self, bullet: Bullet, facilities: Facilities, layout: LevelLayout, state: Mapping[str, float]) -> None:
+        self._bullet, self._facilities, self._layout = bullet, facilities, layout
         lines, self._height = self._lines(state)
         self._reach = np.hypot(*(lines[:, 2:] - lines[:, :2]).T) / 2
         self._bodies = []
@@ -46,17 +46,17 @@ class Leaves:
         gap = np.hypot(*(self._centre[:, None] - place).transpose(2, 0, 1)).min(axis=1) - self._reach
         return [self._bodies[index] for index in np.flatnonzero(gap <= reach).tolist()]
 
-    def _parts(self, state: Mapping[str, float]) -> Iterator[tuple[Gate, int, Float]]:
-        for gate in self._facilities.gates:
+    def _parts(self, state: Mapping[str, float]) -> Iterator[tuple[OperatedDoor, int, Float]]:
+        for gate in self._facilities.doors:
             for level in gate.levels:
-                yield gate, level, leaves(gate.door, self._facilities.opening(gate, state, level))
+                yield gate, level, leaf_segments(gate.door, self._facilities.opening(gate, state, level))
 
     def _lines(self, state: Mapping[str, float]) -> tuple[Float, list[float]]:
         """Centre lines f8[k,4] in the plane of all leaves, and their heights."""
         lines, heights = [np.empty((0, 4))], []
         for gate, level, line in self._parts(state):
             lines.append(
-                self._storeys.spread(line.reshape(-1, 2), np.full(2 * len(line), level, np.int16)).reshape(-1, 4)
+                self._layout.to_plane(line.reshape(-1, 2), np.full(2 * len(line), level, np.int16)).reshape(-1, 4)
             )
             heights += [gate.door.height] * len(line)
         return np.concatenate(lines), heights

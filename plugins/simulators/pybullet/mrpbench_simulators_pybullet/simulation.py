@@ -11,8 +11,8 @@ from mrpbench_core.model.arrays import Float, Int16
 from mrpbench_core.model.execution import Inputs, ScanBatch, State
 from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.fleet import Fleet, Lidar
+from mrpbench_core.model.level_layout import LevelLayout
 from mrpbench_core.model.scan_schedule import ScanSchedule
-from mrpbench_core.model.storeys import Storeys
 from mrpbench_core.model.world import World
 from mrpbench_simulators_pybullet.bodies import Bodies
 from mrpbench_simulators_pybullet.bullet import Bullet, Group, quiet
@@ -49,9 +49,9 @@ class BulletSimulation(Simulation):
         self._timestep = period / self._substeps
         self._schedule = ScanSchedule(fleet, period)
         reach = max((lidar.range + math.hypot(*lidar.mount[:2]) for lidar in self._schedule.lidars), default=0.0)
-        self._storeys, self._facilities = Storeys(world, reach), Facilities(world)
-        self._doing = self._facilities.initial()
-        self._outlines = self._storeys.leaves(self._facilities, self._doing)
+        self._layout, self._facilities = LevelLayout(world, reach), Facilities(world)
+        self._doing = self._facilities.initial_state()
+        self._outlines = self._layout.door_outlines(self._facilities, self._doing)
         self._level: Int16 = np.zeros(len(fleet), np.int16) if levels is None else np.array(levels, np.int16)
         self._limit = np.array([(robot.max_speed, robot.max_turn_rate) for robot in fleet.robots]).reshape(-1, 2)
         self._mover_places = np.full((len(movers), 2), np.inf)
@@ -62,9 +62,9 @@ class BulletSimulation(Simulation):
                 numSolverIterations=options.iterations,
                 deterministicOverlappingPairs=1,
             )
-            self._walls = build_walls(bullet, self._storeys.segments)
-            self._leaves = Leaves(bullet, self._facilities, self._storeys, self._doing)
-            poses = self._storeys.spread(np.asarray(placements, float).reshape(-1, 3), self._level)
+            self._walls = build_walls(bullet, self._layout.segments)
+            self._leaves = Leaves(bullet, self._facilities, self._layout, self._doing)
+            poses = self._layout.to_plane(np.asarray(placements, float).reshape(-1, 3), self._level)
             self._robots: Wheels | Bodies
             if options.model == "wheels":
                 self._robots = Wheels(bullet, fleet, poses, self._timestep)
@@ -73,7 +73,7 @@ class BulletSimulation(Simulation):
             self._movers = [self._build_mover(radius) for radius in movers]
             self._rays = RayTests(bullet, fleet) if options.lidar == "pybullet" else None
         radius = np.concatenate([fleet.radii, np.asarray(movers, float)])
-        self._casters = Casters(self._schedule.lidars, self._storeys.segments, radius)
+        self._casters = Casters(self._schedule.lidars, self._layout.segments, radius)
         self._contacts = Contacts(bullet, self._robots.bodies, self._radius + 2 * self._limit[:, 0] * period)
         self._state = self._observe(set())
         self._scans = self._take_scans()
@@ -109,10 +109,10 @@ class BulletSimulation(Simulation):
         after = self._facilities.advance(before, commands, self._period, pose, level, self._radius)
         if after == before:
             return
-        self._doing, self._level = after, self._facilities.carried(before, after, pose, level)
+        self._doing, self._level = after, self._facilities.carry(before, after, pose, level)
         self._leaves.move(after)
-        self._outlines = self._storeys.leaves(self._facilities, after)
-        spread = self._storeys.spread(pose, self._level)
+        self._outlines = self._layout.door_outlines(self._facilities, after)
+        spread = self._layout.to_plane(pose, self._level)
         for robot in np.flatnonzero(self._level != level).tolist():
             self._robots.place(robot, *spread[robot, :2].tolist())
 
@@ -133,7 +133,7 @@ class BulletSimulation(Simulation):
     def _observe(self, contacts: Pairs) -> State:
         self._plane, twist = self._robots.observe()
         return State(
-            pose=self._storeys.gather(self._plane, self._level),
+            pose=self._layout.to_levels(self._plane, self._level),
             twist=twist,
             level=self._level,
             contacts=np.array(sorted(contacts), np.int32),

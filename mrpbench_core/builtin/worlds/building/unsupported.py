@@ -14,7 +14,7 @@ _LEVEL_LOOKS = (  # background, and what the editor uses to align it
 )
 
 
-def note_leftovers(building: Node, levels: Mapping[str, Node], notes: Notes) -> None:
+def note_unsupported(building: Node, levels: Mapping[str, Node], notes: Notes) -> None:
     """Remark on every part of the file that has no effect on the world."""
     top = building.fields()
     others = [name for name in top["levels"].fields() if name not in levels]

@@ -10,7 +10,7 @@ TOLERANCE = 1e-6
 """radians."""
 
 
-def turned(occupancy: Occupancy, angle: float) -> Occupancy:
+def rotate(occupancy: Occupancy, angle: float) -> Occupancy:
     """The raster turned counter-clockwise about its origin by `angle` radians, on axes parallel to x and y.
 
     Quarter turns are exact. Else each new cell takes the value at its centre; what lies beyond the raster is blocked.

@@ -11,7 +11,7 @@ MARGIN = 0.1
 """metres by which a robot may be off its place: the tolerance of navigators."""
 
 
-def in_reach(outlines: list[Float], roadmap: Roadmap, levels: tuple[int, ...], radius: float) -> tuple[Int, Int]:
+def elements_near(outlines: list[Float], roadmap: Roadmap, levels: tuple[int, ...], radius: float) -> tuple[Int, Int]:
     """Vertices and edges on some levels at which a disc of `radius` metres touches any of `outlines` f8[k,2]."""
     here = np.isin(roadmap.level, levels)
     start, end = roadmap.edges[:, 0], roadmap.edges[:, 1]
@@ -25,7 +25,7 @@ def in_reach(outlines: list[Float], roadmap: Roadmap, levels: tuple[int, ...], r
     return vertices[stands], edges[drives]
 
 
-def with_edges(roadmap: Roadmap, chosen: Int) -> Roadmap:
+def select_edges(roadmap: Roadmap, chosen: Int) -> Roadmap:
     """The roadmap with its edges `chosen` i8[k], in that order; its resources keep what is left of them."""
     number = np.full(len(roadmap.edges), -1)
     number[chosen] = np.arange(len(chosen))

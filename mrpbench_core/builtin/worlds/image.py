@@ -12,7 +12,7 @@ from mrpbench_core.model.arrays import Bool, Float
 
 
 @attrs.frozen(eq=False)
-class Grey:
+class GreyscaleImage:
     """An image; row 0 is its top."""
 
     lightness: Float
@@ -21,7 +21,7 @@ class Grey:
     """bool[rows, columns]."""
 
 
-def read_grey(file: Path, named: Node) -> Grey:
+def read_image(file: Path, named: Node) -> GreyscaleImage:
     """Read an image, named by the value `named`.
 
     Raises:
@@ -37,7 +37,7 @@ def read_grey(file: Path, named: Node) -> Grey:
             with Image.open(file) as image:
                 if image.mode.startswith("I"):  # 16 bits
                     values = np.asarray(image, float)
-                    return Grey(np.clip(values / 65535, 0, 1), np.zeros(values.shape, bool))
+                    return GreyscaleImage(np.clip(values / 65535, 0, 1), np.zeros(values.shape, bool))
                 colours = np.asarray(image.convert("RGBA"), float)
     except FileNotFoundError:
         raise named.error(f"there is no image {file}") from None
@@ -45,4 +45,4 @@ def read_grey(file: Path, named: Node) -> Grey:
         raise named.error(f"image {file} is too large") from None
     except (OSError, ValueError, SyntaxError) as error:  # what Pillow raises at broken files
         raise InputError(f"is no image that Pillow reads: {' '.join(str(error).split())}", file=file) from None
-    return Grey(colours[..., :3].mean(axis=2) / 255, colours[..., 3] == 0)
+    return GreyscaleImage(colours[..., :3].mean(axis=2) / 255, colours[..., 3] == 0)
