@@ -15,7 +15,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from movingai import PATIENCE, algorithm_of
-from posing import MEMORY, pose
+from problem_building import MEMORY, problem_of
 
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.study import load_study
@@ -44,7 +44,7 @@ def measure(world: str, planner: str, arguments: argparse.Namespace) -> str:
     """Plan for all seeds; a line of the table."""
     seconds, bounds = [], []
     for config in runs(world, arguments.robots, planner, arguments.seeds):
-        problem = pose(config)
+        problem = problem_of(config)
         if problem is None:
             continue
         budget = Budget(wall_s=PATIENCE * arguments.time_limit, memory_bytes=MEMORY)

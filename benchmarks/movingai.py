@@ -32,7 +32,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from mrpbench_native import ALGORITHMS, Solution, solve
 from numpy.typing import NDArray
-from posing import ask, pose_cells
+from problem_building import grid_problem, solve_by_planner
 
 from mrpbench_core.files.errors import InputError, InputErrors
 
@@ -113,8 +113,8 @@ def attempt(data: Path, instance: Instance, solver: str, limit: float) -> Soluti
     name, options = algorithm_of(solver)
     if name in ALGORITHMS:
         return solve(*read_instance(data, instance), algorithm=name, time_limit=limit, **options)
-    problem = pose_cells(*files(data, instance), instance.agents)
-    return Solution(status="unsolvable") if problem is None else ask(name, options, problem, limit)
+    problem = grid_problem(*files(data, instance), instance.agents)
+    return Solution(status="unsolvable") if problem is None else solve_by_planner(name, options, problem, limit)
 
 
 def run(data: Path, instance: Instance, solver: str, limit: float, repeat: int) -> tuple[Outcome, Solution] | None:

@@ -98,10 +98,10 @@ def _names(text: str) -> tuple[str, ...]:
 
 
 def _component(kind: Any, options: dict[str, Any], key: str) -> Any:
-    from mrpbench_core.config.items import Where, from_data
+    from mrpbench_core.config.items import Location, from_data
     from mrpbench_core.config.structure import structure_component
 
-    return structure_component(kind, from_data(options, Where()), key, Path.cwd())
+    return structure_component(kind, from_data(options, Location()), key, Path.cwd())
 
 
 def _print(record: dict[str, Any], out: Path) -> None:

@@ -9,7 +9,7 @@ from mrpbench_core.api.component import Component
 from mrpbench_core.cli.arguments import read_options
 from mrpbench_core.cli.resolve import resolve
 from mrpbench_core.cli.table import print_json
-from mrpbench_core.config.items import Where, from_data
+from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
 from mrpbench_core.plugins.kinds import kind_of
 
@@ -60,4 +60,4 @@ def make(name: str, words: list[str]) -> Component:
     """
     base, plugin = resolve(name)
     written = {"plugin": plugin, **read_options(words, "check")}
-    return structure_component(base, from_data(written, Where()), name, Path.cwd())
+    return structure_component(base, from_data(written, Location()), name, Path.cwd())

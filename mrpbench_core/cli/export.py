@@ -6,7 +6,7 @@ from pathlib import Path
 from mrpbench_core.api.exporter import Exporter
 from mrpbench_core.cli.arguments import read_options
 from mrpbench_core.cli.reference import HELP, find_run
-from mrpbench_core.config.items import Where, from_data
+from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
 from mrpbench_core.store.recording import Recording
 
@@ -22,7 +22,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Write the run's recording in another format."""
     results, record = find_run(arguments.run)
-    block = from_data({"plugin": arguments.to, **read_options(arguments.option, "--option")}, Where())
+    block = from_data({"plugin": arguments.to, **read_options(arguments.option, "--option")}, Location())
     exporter = structure_component(Exporter, block, "--to", Path.cwd())  # type: ignore[type-abstract]
     paths = results.folder.run(record["run_id"])
     recording = Recording(paths.recording)

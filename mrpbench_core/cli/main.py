@@ -56,9 +56,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         code = _dispatch(words)
         sys.stdout.flush()
     except InputErrors as several:
-        code = _mistakes(several.errors)
+        code = _input_errors(several.errors)
     except InputError as error:
-        code = _mistakes([error])
+        code = _input_errors([error])
     except KeyboardInterrupt:
         sys.stderr.write("mrpbench: interrupted\n")
         code = INTERRUPTED
@@ -70,7 +70,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             code = _defect(error)
         else:  # of what was printed, or of a file that was being written
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-            code = _mistakes([InputError(f"cannot write: {error.strerror}", file=error.filename)])
+            code = _input_errors([InputError(f"cannot write: {error.strerror}", file=error.filename)])
     except Exception as error:  # noqa: BLE001 - the last resort: one line, and the rest where it can be found
         code = _defect(error)
     return code
@@ -93,12 +93,9 @@ def _dispatch(words: list[str]) -> int:
         return 0 if words else 2
     name = words[0]
     if name not in COMMANDS:
-        import difflib
+        from mrpbench_core.files.suggestions import did_you_mean
 
-        close = difflib.get_close_matches(name, COMMANDS, n=1)
-        raise InputError(
-            f"no command is called {name!r}", hint=f"did you mean {close[0]!r}?" if close else "see --help"
-        )
+        raise InputError(f"no command is called {name!r}", hint=did_you_mean(name, COMMANDS, "see --help"))
     command = importlib.import_module(f"mrpbench_core.cli.{name.replace('-', '_')}")
     parser = Parser(prog=f"mrpbench {name}", description=COMMANDS[name][0].upper() + COMMANDS[name][1:] + ".")
     command.configure(parser)
@@ -106,7 +103,7 @@ def _dispatch(words: list[str]) -> int:
     return code
 
 
-def _mistakes(errors: Sequence[InputError]) -> int:
+def _input_errors(errors: Sequence[InputError]) -> int:
     for line in dict.fromkeys(str(error) for error in errors):
         sys.stderr.write(f"{line}\n")
     return 2

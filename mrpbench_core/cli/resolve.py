@@ -4,8 +4,8 @@ from pathlib import Path
 
 from mrpbench_core.api import KINDS
 from mrpbench_core.api.component import Component
-from mrpbench_core.config.mistakes import did_you_mean
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.suggestions import suggest
 from mrpbench_core.plugins.installed import installed, load
 from mrpbench_core.plugins.kinds import HOOKS, singular
 from mrpbench_core.plugins.local import is_local, load_local
@@ -32,7 +32,7 @@ def resolve(name: str) -> tuple[type[Component], str]:
             f"{name!r} is a plugin of several kinds", hint="write " + " or ".join(f"{each}:{name}" for each in kinds)
         )
     if not kinds:
-        hint = did_you_mean(name, {provider.name for provider in offers}, "`mrpbench plugins` lists what is installed:")
+        hint = suggest(name, {provider.name for provider in offers}, "`mrpbench plugins` lists what is installed:")
         raise InputError(f"no plugin is called {name!r}", hint=hint)
     (found,) = kinds
     return KINDS.get(found) or _own_kind(found, name), name

@@ -8,7 +8,7 @@ import attrs
 
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.cli.reference import HELP, find_run
-from mrpbench_core.config.canonical import scalar
+from mrpbench_core.config.canonical import json_scalar
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import load as load_yaml
 from mrpbench_core.plugins.local import is_local
@@ -79,7 +79,7 @@ def _planner(block: Any) -> str:
         planner: Any = Registry(Planner).get(name)  # type: ignore[type-abstract]
     except InputError:
         return name
-    defaults = {field.alias: scalar(field.default) for field in attrs.fields(planner)}
+    defaults = {field.alias: json_scalar(field.default) for field in attrs.fields(planner)}
     plain = {key: value for key, value in block.items() if isinstance(value, str | int | float)}
     chosen = [f"{key}={value}" for key, value in plain.items() if key in defaults and value != defaults[key]]
     return " ".join([name, *chosen])

@@ -67,7 +67,7 @@ def _plain(value: Any, folder: Path) -> Any:
         return sorted((_plain(inner, folder) for inner in value), key=repr)
     if isinstance(value, tuple | list):
         return [_plain(inner, folder) for inner in value]
-    return scalar(value)
+    return json_scalar(value)
 
 
 def _field(owner: Any, field: Any, folder: Path) -> Any:
@@ -80,7 +80,7 @@ def _field(owner: Any, field: Any, folder: Path) -> Any:
     return _plain(value, folder)
 
 
-def scalar(value: Any) -> Any:
+def json_scalar(value: Any) -> Any:
     """A scalar as JSON can say it."""
     if isinstance(value, enum.Enum):
         return value.value

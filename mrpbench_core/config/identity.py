@@ -13,7 +13,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.config.canonical import plugin_name, scalar
+from mrpbench_core.config.canonical import json_scalar, plugin_name
 from mrpbench_core.config.content import content_hash
 from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING, ONLY_EXECUTION, FleetEntry, RunConfig
 from mrpbench_core.config.validation import default_of
@@ -78,7 +78,7 @@ def _chosen(value: Any, folder: Path, key: str, ignored: Set[str]) -> Any:
         return sorted((_chosen(inner, folder, key, ignored) for inner in value), key=repr)
     if isinstance(value, tuple | list):
         return [_chosen(inner, folder, key, ignored) for inner in value]
-    return scalar(value)
+    return json_scalar(value)
 
 
 def _differs(owner: Any, field: Any) -> bool:

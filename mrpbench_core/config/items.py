@@ -18,7 +18,7 @@ COMMAND_LINE = Path("command line")
 
 
 @attrs.frozen
-class Where:
+class Location:
     """A place in a file, or on the command line, or (no file) in a Python call."""
 
     file: Path | None = None
@@ -36,10 +36,10 @@ class Item:
     """A scalar, a dict of items or a list of items."""
 
     value: Any
-    where: Where
+    location: Location
     """Of the value."""
-    key: Where
-    """Of its key; the same as `where` for values without one."""
+    key: Location
+    """Of its key; the same as `location` for values without one."""
 
     @property
     def data(self) -> Any:
@@ -55,25 +55,25 @@ def from_document(document: Document) -> Item:
     """Items with the marks of a file."""
 
     def build(data: Any, steps: Steps) -> Item:
-        where = Where(document.file, *document.mark(steps))
+        location = Location(document.file, *document.mark(steps))
         value: Any = data
         if isinstance(data, dict):
             value = {key: build(inner, (*steps, key)) for key, inner in data.items()}
         elif isinstance(data, list):
             value = [build(inner, (*steps, index)) for index, inner in enumerate(data)]
-        return Item(value, where, Where(document.file, *document.mark(steps, key=True)))
+        return Item(value, location, Location(document.file, *document.mark(steps, key=True)))
 
     return build(document.data, ())
 
 
-def from_data(data: Any, where: Where) -> Item:
+def from_data(data: Any, location: Location) -> Item:
     """Items that all stand in one place."""
     value = os.fspath(data) if isinstance(data, os.PathLike) else data
     if isinstance(data, Mapping):
-        value = {str(key): from_data(inner, where) for key, inner in data.items()}
+        value = {str(key): from_data(inner, location) for key, inner in data.items()}
     elif isinstance(data, list | tuple):
-        value = [from_data(inner, where) for inner in data]
-    return Item(value, where, where)
+        value = [from_data(inner, location) for inner in data]
+    return Item(value, location, location)
 
 
 def steps_of(key: str) -> tuple[str, ...]:
@@ -114,7 +114,7 @@ def main_key(steps: tuple[str, ...]) -> str:
 
 def _as_block(item: Item, steps: tuple[str, ...]) -> Item:
     if steps and isinstance(item.value, str):
-        return Item({main_key(steps): item}, item.where, item.key)
+        return Item({main_key(steps): item}, item.location, item.key)
     return item
 
 
@@ -124,7 +124,7 @@ def _patch(item: Item, steps: tuple[str, ...], depth: int, new: Item) -> Item:
     key, step = ".".join(steps), steps[depth]
     item = _as_block(item, steps[:depth])
     if isinstance(item.value, dict):
-        inner = item.value.get(step) or Item({}, new.where, new.key)
+        inner = item.value.get(step) or Item({}, new.location, new.key)
         return attrs.evolve(item, value={**item.value, step: _patch(inner, steps, depth + 1, new)})
     if isinstance(item.value, list):
         if not _is_index(step):

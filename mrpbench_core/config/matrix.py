@@ -21,9 +21,9 @@ from typing import Any
 import attrs
 
 from mrpbench_core.config.items import Item, look_up, main_key, patch, steps_of
-from mrpbench_core.config.mistakes import Mistakes, did_you_mean
 from mrpbench_core.config.settings import NOT_IDENTIFYING, RunConfig
-from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.suggestions import suggest
 
 POINT_LIMIT = 1_000_000
 _RANGE = re.compile(r"(-?[0-9]{1,18})\.\.(-?[0-9]{1,18})")
@@ -72,14 +72,16 @@ class Matrix:
         """Every point of the matrix over the configuration `root`, with `overrides` as further axes.
 
         Raises:
-            Mistakes: there are too many.
+            InputErrors: there are too many.
         """
         matrix = self.replaced(overrides)
         blocks = [matrix.axes] if self.axes or not self.include else []
         blocks += matrix.include
         size = sum(math.prod(len(axis.rows) for axis in (*block, *overrides)) for block in blocks)
         if size > POINT_LIMIT:
-            raise Mistakes(root.where.error("matrix", f"describes {size} runs; at most {POINT_LIMIT} are allowed"))
+            raise InputErrors(
+                root.location.error("matrix", f"describes {size} runs; at most {POINT_LIMIT} are allowed")
+            )
         varying = _varying([(*block, *overrides) for block in blocks])
         for block in blocks:
             for point in _product(root, (*block, *overrides), varying):
@@ -91,10 +93,10 @@ def parse_matrix(item: Item) -> Matrix:
     """Read a `matrix` block.
 
     Raises:
-        Mistakes: all that is wrong with it.
+        InputErrors: all that is wrong with it.
     """
     if not isinstance(item.value, dict):
-        raise Mistakes(item.where.error("matrix", "expected a block of keys and lists of their values"))
+        raise InputErrors(item.location.error("matrix", "expected a block of keys and lists of their values"))
     axes: list[Axis] = []
     include: list[tuple[Axis, ...]] = []
     exclude: list[Item] = []
@@ -107,10 +109,10 @@ def parse_matrix(item: Item) -> Matrix:
                 exclude = _entries(inner, name)
             else:
                 axes.append(_axis(name, inner, {known for axis in axes for known in axis.names}))
-        except Mistakes as mistakes:
-            errors += mistakes.errors
+        except InputErrors as several:
+            errors += several.errors
     if errors:
-        raise Mistakes(*errors)
+        raise InputErrors(*errors)
     return Matrix(tuple(axes), tuple(include), tuple(exclude))
 
 
@@ -124,15 +126,15 @@ def rows_of(item: Item, name: str) -> Sequence[tuple[Item, ...]] | None:
     """The values that a range gives to one key, or None if `item` is no range.
 
     Raises:
-        Mistakes: the range is empty or too long.
+        InputErrors: the range is empty or too long.
     """
     numbers = integers(item.value)
     if numbers is None:
         return None
     if not numbers:
-        raise Mistakes(item.where.error(name, f"the range {item.value} is empty"))
+        raise InputErrors(item.location.error(name, f"the range {item.value} is empty"))
     if len(numbers) > POINT_LIMIT:
-        raise Mistakes(item.where.error(name, f"the range {item.value} has more than {POINT_LIMIT} values"))
+        raise InputErrors(item.location.error(name, f"the range {item.value} has more than {POINT_LIMIT} values"))
     return [(attrs.evolve(item, value=number),) for number in numbers]
 
 
@@ -140,13 +142,13 @@ def check_name(item: Item, name: str) -> None:
     """Refuse to vary what does not tell runs apart, or does not exist.
 
     Raises:
-        Mistakes: located at the key.
+        InputErrors: located at the key.
     """
     first = steps_of(name)[0]
     if first not in attrs.fields_dict(RunConfig):
-        raise Mistakes(item.key.error(name, "unknown key", did_you_mean(first, attrs.fields_dict(RunConfig))))
+        raise InputErrors(item.key.error(name, "unknown key", suggest(first, attrs.fields_dict(RunConfig))))
     if any(name == fixed or name.startswith(fixed + ".") for fixed in NOT_IDENTIFYING):
-        raise Mistakes(item.key.error(name, "cannot vary: it does not change what a run does"))
+        raise InputErrors(item.key.error(name, "cannot vary: it does not change what a run does"))
 
 
 def matches(root: Item, entry: Item) -> bool:
@@ -159,16 +161,16 @@ def _axis(name: str, item: Item, taken: set[str]) -> Axis:
     for part in names:
         check_name(item, part)
         if part in taken or names.count(part) > 1:
-            raise Mistakes(item.key.error(part, "varies twice"))
+            raise InputErrors(item.key.error(part, "varies twice"))
     if len(names) == 1 and (rows := rows_of(item, name)) is not None:
         return Axis(names, rows)
     if not isinstance(item.value, list) or not item.value:
-        raise Mistakes(item.where.error(name, "expected a list of values, or a range a..b of integers"))
+        raise InputErrors(item.location.error(name, "expected a list of values, or a range a..b of integers"))
     if len(names) == 1:
         return Axis(names, [(_keyed(value, item),) for value in item.value])
     for row in item.value:
         if not isinstance(row.value, list) or len(row.value) != len(names):
-            raise Mistakes(row.where.error(name, f"expected a list of {len(names)} values, one for each name"))
+            raise InputErrors(row.location.error(name, f"expected a list of {len(names)} values, one for each name"))
     return Axis(names, [tuple(_keyed(value, item) for value in row.value) for row in item.value])
 
 
@@ -177,15 +179,15 @@ def _entries(item: Item, name: str) -> list[Item]:
     errors = []
     for entry in entries:
         if not isinstance(entry.value, dict) or not entry.value:
-            errors.append(entry.where.error(f"matrix.{name}", "expected a list of blocks of keys and values"))
+            errors.append(entry.location.error(f"matrix.{name}", "expected a list of blocks of keys and values"))
             continue
         for key, inner in entry.value.items():
             try:
                 check_name(inner, key)
-            except Mistakes as mistakes:
-                errors += mistakes.errors
+            except InputErrors as several:
+                errors += several.errors
     if errors:
-        raise Mistakes(*errors)
+        raise InputErrors(*errors)
     return list(entries)
 
 

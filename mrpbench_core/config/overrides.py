@@ -4,11 +4,10 @@ from collections.abc import Sequence
 
 import attrs
 
-from mrpbench_core.config.items import COMMAND_LINE, Where, from_data
+from mrpbench_core.config.items import COMMAND_LINE, Location, from_data
 from mrpbench_core.config.matrix import Axis, Matrix, check_name, rows_of
-from mrpbench_core.config.mistakes import Mistakes
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.files.yaml import loads
 
 LISTS = {"fleet", "metrics", "export"}
@@ -22,7 +21,7 @@ def parse_overrides(texts: Sequence[str], matrix: Matrix) -> tuple[Axis, ...]:
     `planner=[cbs, ecbs]`; anywhere else it is the value.
 
     Raises:
-        Mistakes: all that is wrong with them, located `command line`.
+        InputErrors: all that is wrong with them, located `command line`.
     """
     varied = {name for axis in matrix.axes for name in axis.names}
     axes: list[Axis] = []
@@ -31,27 +30,27 @@ def parse_overrides(texts: Sequence[str], matrix: Matrix) -> tuple[Axis, ...]:
         try:
             axis = _parse(text, varied)
             if any(axis.names == other.names for other in axes):
-                raise Mistakes(Where(COMMAND_LINE).error(axis.names[0], "given twice"))
+                raise InputErrors(Location(COMMAND_LINE).error(axis.names[0], "given twice"))
             axes.append(axis)
-        except Mistakes as mistakes:
-            errors += mistakes.errors
+        except InputErrors as several:
+            errors += several.errors
     if errors:
-        raise Mistakes(*errors)
+        raise InputErrors(*errors)
     return tuple(axes)
 
 
 def _parse(text: str, varied: set[str]) -> Axis:
-    where = Where(COMMAND_LINE)
+    location = Location(COMMAND_LINE)
     name, equals, written = text.partition("=")
     name = name.strip()
     if not equals or not name:
-        raise Mistakes(where.error("", f"expected key=value, got {text!r}"))
+        raise InputErrors(location.error("", f"expected key=value, got {text!r}"))
     try:
-        item = from_data(loads(written).data if written.strip() else "", where)
+        item = from_data(loads(written).data if written.strip() else "", location)
     except InputError as error:
-        raise Mistakes(where.error(name, error.message, error.hint)) from None
+        raise InputErrors(location.error(name, error.message, error.hint)) from None
     if name.partition(".")[0] == "matrix":
-        raise Mistakes(where.error(name, "cannot be overridden", "override the keys that it varies"))
+        raise InputErrors(location.error(name, "cannot be overridden", "override the keys that it varies"))
     rows = rows_of(item, name)
     if rows is None and isinstance(item.value, list) and item.value and (name in varied or _takes_no_list(name)):
         rows = [(value,) for value in item.value]

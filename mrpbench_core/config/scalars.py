@@ -1,10 +1,10 @@
 """Strict scalars: a number is a number, text is text, and neither becomes the other."""
 
-import difflib
 import enum
 import math
 from typing import Any, get_args
 
+from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.model.units import quantity, sizes, whole_quantity
 
 
@@ -87,5 +87,4 @@ def _with_unit(read: Any, text: str, unit: str) -> Any:
 
 
 def _not_among(value: Any, choices: list[str]) -> Unfit:
-    close = difflib.get_close_matches(str(value), choices, n=1)
-    return Unfit(f"{show(value)} is not one of {', '.join(choices)}", f"did you mean {close[0]!r}?" if close else None)
+    return Unfit(f"{show(value)} is not one of {', '.join(choices)}", did_you_mean(str(value), choices))

@@ -13,7 +13,7 @@ from typing import Any, Literal
 import attrs
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.config.canonical import scalar
+from mrpbench_core.config.canonical import json_scalar
 from mrpbench_core.config.settings import FleetEntry, RunConfig
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import robot_names
@@ -71,7 +71,7 @@ class _Schema:
             found = {**found, "description": field.metadata["help"]}
         default = written if written is not attrs.NOTHING else field.default
         if default is not attrs.NOTHING and isinstance(default, bool | int | float | str | enum.Enum):
-            found = {**found, "default": scalar(default)}
+            found = {**found, "default": json_scalar(default)}
         return found
 
     def value(self, kind: Any, unit: str | None = None, default: str | None = None) -> dict[str, Any]:

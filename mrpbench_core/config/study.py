@@ -9,13 +9,12 @@ import attrs
 
 from mrpbench_core.config.canonical import canonical, sources
 from mrpbench_core.config.identity import run_id
-from mrpbench_core.config.items import COMMAND_LINE, Item, Where, from_data, from_document
+from mrpbench_core.config.items import COMMAND_LINE, Item, Location, from_data, from_document
 from mrpbench_core.config.matrix import Matrix, Point, parse_matrix
-from mrpbench_core.config.mistakes import Mistakes, in_reading_order
 from mrpbench_core.config.overrides import parse_overrides
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.structure import Structure, structure
-from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order
 from mrpbench_core.files.yaml import load
 
 NAMED_POINTS = 5
@@ -68,18 +67,18 @@ def load_study(source: Path | str | Mapping[str, Any], overrides: Sequence[str] 
     Raises:
         InputError: the file cannot be read.
         InputErrors: everything that is wrong, in reading order: with the file as a whole, with an override, or with
-            every single point. Where some points are right, what is wrong with the others is in `Study.errors`.
+            every single point. Location some points are right, what is wrong with the others is in `Study.errors`.
     """
     if isinstance(source, Mapping):
-        file, folder, root = None, Path.cwd(), from_data(source, Where())
+        file, folder, root = None, Path.cwd(), from_data(source, Location())
     else:
         file = Path(source)
         folder = Path(os.path.abspath(file.parent))  # noqa: PTH100 - a link in it stays a link
         root = from_document(load(file))
     try:
         return _study(root, file, folder, overrides)
-    except Mistakes as mistakes:
-        raise InputErrors(in_reading_order(mistakes.errors)) from None
+    except InputErrors as several:
+        raise InputErrors(*in_reading_order(several.errors)) from None
 
 
 def load_studies(files: Iterable[Path | str], overrides: Sequence[str] = ()) -> list[Study]:
@@ -93,7 +92,7 @@ def load_studies(files: Iterable[Path | str], overrides: Sequence[str] = ()) -> 
         except InputErrors as several:
             errors += several.errors
     if errors:
-        raise InputErrors(list({str(error): error for error in errors}.values()))
+        raise InputErrors(*{str(error): error for error in errors}.values())
     return studies
 
 
@@ -108,18 +107,18 @@ def unpack(parcel: Mapping[str, Any], *, verify: bool = True) -> RunConfig:
 
 def _study(root: Item, file: Path | None, folder: Path, overrides: Sequence[str]) -> Study:
     if not isinstance(root.value, dict):
-        raise Mistakes(root.where.error("", "expected a block of settings such as `planner: cbs`"))
+        raise InputErrors(root.location.error("", "expected a block of settings such as `planner: cbs`"))
     settings = {key: inner for key, inner in root.value.items() if key != "matrix"}
     name = file.stem if file else "study"
-    settings.setdefault("name", from_data(name, attrs.evolve(root.where, line=None, column=None)))
+    settings.setdefault("name", from_data(name, attrs.evolve(root.location, line=None, column=None)))
     matrix = parse_matrix(root.value["matrix"]) if "matrix" in root.value else Matrix()
     points = list(matrix.points(attrs.evolve(root, value=settings), parse_overrides(overrides, matrix)))
     if not points:
-        raise Mistakes(root.value["matrix"].where.error("matrix", "excludes every point"))
+        raise InputErrors(root.value["matrix"].location.error("matrix", "excludes every point"))
     runs, faults = _structure(points, folder)
     errors = _explain(faults, len(points))
     if not runs or any(error.file == COMMAND_LINE for error in errors):
-        raise Mistakes(*errors)
+        raise InputErrors(*errors)
     return Study(
         name=next(iter(runs.values())).config.name,
         file=file,
@@ -141,10 +140,10 @@ def _structure(
     for point in points:
         try:
             if point.fault:
-                raise Mistakes(point.fault)
+                raise InputErrors(point.fault)
             config = structurer.run(point.root)
-        except Mistakes as mistakes:
-            for error in mistakes.errors:
+        except InputErrors as several:
+            for error in several.errors:
                 faults.setdefault(str(error), (error, []))[1].append(point)
             continue
         identity = run_id(config, folder)

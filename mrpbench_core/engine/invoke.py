@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.api.executor import ExecutorSource
-from mrpbench_core.config.items import Where, from_data
+from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
 from mrpbench_core.config.study import Study, load_study
 from mrpbench_core.engine.progress import Progress
@@ -58,7 +58,7 @@ def run(
     done = run_study(study, request)
     mistakes = [InputError(mistake) for mistake in dict.fromkeys(done.mistakes.values())]
     if study.errors or mistakes:
-        raise InputErrors([*study.errors, *mistakes])
+        raise InputErrors(*study.errors, *mistakes)
     return done.results
 
 
@@ -81,7 +81,7 @@ def prepare(
     """
     if workers < 1:
         raise InputError(f"workers: at least 1, got {workers}")
-    block = from_data({"plugin": executor, **(executor_options or {})}, Where())
+    block = from_data({"plugin": executor, **(executor_options or {})}, Location())
     return Request(
         out=Path("results") / study.name if out is None else Path(out),
         executor=structure_component(ExecutorSource, block, "executor", Path.cwd()),  # type: ignore[type-abstract]

@@ -1,5 +1,6 @@
 """The one exception for a user's mistake: what is wrong, where, and what to do."""
 
+from collections.abc import Iterable
 from pathlib import Path
 
 
@@ -36,11 +37,21 @@ class InputError(Exception):
 
 
 class InputErrors(Exception):  # noqa: N818 - it is several of them
-    """Several mistakes found at once, in reading order."""
+    """Several errors of the user that were found together.
 
-    def __init__(self, errors: list[InputError]) -> None:
-        self.errors = errors
+    Attributes:
+        errors: each of them.
+    """
+
+    def __init__(self, *errors: InputError) -> None:
+        self.errors = list(errors)
         super().__init__("\n".join(str(error) for error in errors))
+
+
+def in_reading_order(errors: Iterable[InputError]) -> list[InputError]:
+    """Return each error once, by file, line and column; errors without a location come first."""
+    once = {str(error): error for error in errors}
+    return sorted(once.values(), key=lambda error: (str(error.file or ""), error.line or 0, error.column or 0))
 
 
 def one_line(error: BaseException) -> str:

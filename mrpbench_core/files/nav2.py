@@ -3,13 +3,13 @@
 A parameter `scale` of the critic `PathAlign` is written `PathAlign.scale: 32.0`, or nested, which means the same.
 """
 
-import difflib
 import math
 from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.files.yaml import Document, Steps, load
 
 PARAMETERS = "ros__parameters"
@@ -65,10 +65,9 @@ class Nav2Block:
         unknown = [name for name in self._values if name not in self._taken]
         if not unknown:
             return
-        close = difflib.get_close_matches(unknown[0], [*self._taken, *known], n=1)
         several = len(unknown) > 1
         names = ", ".join(repr(name) for name in unknown)
-        hint = f"did you mean {close[0]!r}?" if close and not several else None
+        hint = None if several else did_you_mean(unknown[0], [*self._taken, *known])
         raise self.error(f"unknown parameter{'s' * several} {names}", unknown[0], hint=hint)
 
     def error(self, message: str, name: str, hint: str | None = None) -> InputError:

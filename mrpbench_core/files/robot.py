@@ -1,6 +1,5 @@
 """Robots as data: `robots/*.yaml` of this package, or a file of the user's own in the same form."""
 
-import difflib
 import math
 from importlib import resources
 from pathlib import Path
@@ -10,6 +9,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.files.urdf import drive_of, mesh_files, read_urdf
 from mrpbench_core.files.yaml import Document, Steps, load
 from mrpbench_core.model.fleet import Lidar, RobotModel, Urdf
@@ -32,8 +32,8 @@ def robot_file(name_or_path: str, folder: Path | None = None) -> Path:
     if name_or_path.endswith((".yaml", ".yml")):
         return (folder or Path()) / name_or_path
     if name_or_path not in robot_names():
-        close = difflib.get_close_matches(name_or_path, robot_names(), n=1)
-        hint = f"did you mean {close[0]!r}?" if close else f"there are {', '.join(robot_names())}; or name a .yaml file"
+        listed = f"there are {', '.join(robot_names())}; or name a .yaml file"
+        hint = did_you_mean(name_or_path, robot_names(), listed)
         raise InputError(f"no robot is named {name_or_path!r}", hint=hint)
     return _ROBOTS / f"{name_or_path}.yaml"
 
@@ -119,8 +119,7 @@ def _fields(document: Document, kind: type[attrs.AttrsInstance], steps: Steps) -
     known = {field.name: field for field in attrs.fields(kind)}
     for key, value in data.items():
         if key not in known:
-            close = difflib.get_close_matches(key, known, n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"known keys: {', '.join(known)}"
+            hint = did_you_mean(key, known, f"known keys: {', '.join(known)}")
             raise document.error(f"unknown key {key!r}", (*steps, key), key=True, hint=hint)
         if known[key].type not in (float, int):
             continue

@@ -11,7 +11,6 @@ tasks:                        # task i is robot i's own under the assigner `iden
 Numbers are written with as many digits as give back the same double, so that `Scenario.id` survives.
 """
 
-import difflib
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -20,6 +19,7 @@ from typing import Any
 import numpy as np
 import yaml
 
+from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.files.yaml import Document, Steps, load
 from mrpbench_core.model.scenario import Scenario, Task
 
@@ -59,7 +59,7 @@ def read_scenario(path: Path) -> Scenario:
     Raises:
         InputError: it cannot be read or is malformed; names file, line and column.
     """
-    reader = _Reader(load(path))
+    reader = _ScenarioReader(load(path))
     top = reader.mapping((), {"mrpbench_scenario", "robots", "tasks"}, {"mrpbench_scenario", "robots", "tasks"})
     if top["mrpbench_scenario"] != VERSION:
         raise reader.document.error(
@@ -75,7 +75,7 @@ def read_scenario(path: Path) -> Scenario:
     )
 
 
-class _Reader:
+class _ScenarioReader:
     """Takes a document apart, with the place of every mistake."""
 
     def __init__(self, document: Document) -> None:
@@ -145,8 +145,7 @@ class _Reader:
             raise self.document.error(f"must be a mapping with {', '.join(sorted(required))}", steps)
         for key in value:
             if key not in known:
-                close = difflib.get_close_matches(key, known, 1)
-                hint = f"did you mean {close[0]!r}?" if close else f"keys are {', '.join(sorted(known))}"
+                hint = did_you_mean(key, known, f"keys are {', '.join(sorted(known))}")
                 raise self.document.error(f"unknown key {key!r}", (*steps, key), key=True, hint=hint)
         for key in sorted(required - set(value)):
             raise self.document.error(f"lacks {key!r}", steps)

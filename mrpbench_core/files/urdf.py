@@ -3,7 +3,6 @@
 Of the format (wiki.ros.org/urdf/XML) this reads what drives and what collides; sensors and looks do not matter here.
 """
 
-import difflib
 import math
 import re
 import xml.etree.ElementTree as ET
@@ -13,6 +12,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.files.text import position, read_text
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.fleet import Urdf
@@ -24,7 +24,7 @@ _SAME = 1e-3
 
 
 @attrs.frozen(kw_only=True)
-class Drive:
+class DifferentialDrive:
     """The driven wheels, in the frame of the root link: x forward, y left, z up."""
 
     axle: tuple[float, float, float]
@@ -87,7 +87,7 @@ def _places(name: str, file: Path) -> list[Path]:
     return [folder / package / rest for folder in above] + [folder / rest for folder in above if folder.name == package]
 
 
-def drive_of(robot: ET.Element, urdf: Urdf) -> Drive:
+def drive_of(robot: ET.Element, urdf: Urdf) -> DifferentialDrive:
     """The driven wheels that `urdf` names.
 
     Raises:
@@ -99,9 +99,8 @@ def drive_of(robot: ET.Element, urdf: Urdf) -> Drive:
     places, signs, radii = [], [], []
     for name in urdf.wheels:
         if name not in joints:
-            close = difflib.get_close_matches(name, joints, n=1)
             turning = [other for other, joint in joints.items() if joint.get("type") == "continuous"]
-            hint = f"did you mean {close[0]!r}?" if close else f"continuous joints: {', '.join(turning) or 'none'}"
+            hint = did_you_mean(name, joints, f"continuous joints: {', '.join(turning) or 'none'}")
             raise InputError(f"has no joint {name!r}", file=file, hint=hint)
         joint = joints[name]
         if joint.get("type") != "continuous":
@@ -127,7 +126,7 @@ def drive_of(robot: ET.Element, urdf: Urdf) -> Drive:
     if mass <= 0:
         raise InputError("its links have no mass", file=file)
     middle = ((left + right) / 2).tolist()
-    return Drive(
+    return DifferentialDrive(
         axle=(middle[0], middle[1], middle[2]),
         separation=float(left[1] - right[1]),
         radius=radii[0],

@@ -93,10 +93,10 @@ def load(path: Path | str) -> Document:
 def loads(text: str, *, file: Path | str | None = None) -> Document:
     """Read a text; `file` is named in errors."""
     refuse_control_characters(text, file)
-    return _Reader(None if file is None else Path(file)).read(text)
+    return _DocumentReader(None if file is None else Path(file)).read(text)
 
 
-def scalar(text: str) -> Any:
+def plain_scalar(text: str) -> Any:
     """Return what a plain (unquoted) scalar means.
 
     Raises:
@@ -128,7 +128,7 @@ class _Frame:
         self.height = 1 if self.open else 0
 
 
-class _Reader:
+class _DocumentReader:
     def __init__(self, file: Path | None) -> None:
         self.file = file
         self.anchors: dict[str, _Frame] = {}
@@ -185,7 +185,7 @@ class _Reader:
         value = text
         if event.implicit[0]:
             try:
-                value = scalar(text)
+                value = plain_scalar(text)
             except ValueError:
                 raise self._error("this number is too large", event.start_mark) from None
         leaf = _Frame(value, _Place(event.start_mark))

@@ -9,7 +9,7 @@ import attrs
 from mrpbench_core.api.component import Component
 
 
-def breach(cls: Any, base: type[Component]) -> str | None:
+def violation(cls: Any, base: type[Component]) -> str | None:
     """Why `cls` is no component of the kind `base`, as the end of a sentence that begins with its name; or None."""
     if not isinstance(cls, type) or not issubclass(cls, base):
         return f"is not a subclass of {base.__name__}"

@@ -1,7 +1,6 @@
 """Lifecycle hooks behind a guard: one that raises is logged once and dropped; no result can depend on it."""
 
 import copy
-import difflib
 import logging
 import os
 from collections.abc import Callable, Iterable, Mapping
@@ -13,6 +12,7 @@ from packaging.utils import canonicalize_name
 
 from mrpbench_core.api import hooks as specifications
 from mrpbench_core.files.errors import InputError, one_line
+from mrpbench_core.files.suggestions import closest
 from mrpbench_core.plugins.installed import Provider, load, providers
 from mrpbench_core.plugins.kinds import HOOKS
 
@@ -61,8 +61,8 @@ class Hooks:
             return
         for caller in callers:
             if not caller.has_spec():
-                close = difflib.get_close_matches(caller.name, _SPECIFIED, n=1)
-                self._refuse(name, f"there is no hook {caller.name}" + (f"; did you mean {close[0]}?" if close else ""))
+                near = closest(caller.name, _SPECIFIED)
+                self._refuse(name, f"there is no hook {caller.name}" + (f"; did you mean {near}?" if near else ""))
                 return
             if any(found.hookwrapper or found.wrapper for found in caller.get_hookimpls()):
                 self._refuse(name, f"{caller.name} is a wrapper; hooks only watch")

@@ -16,29 +16,29 @@ import attrs
 
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.files.text import read_text
-from mrpbench_core.plugins.beside import imported_beside, importing
+from mrpbench_core.plugins.siblings import importing, sibling_imports
 
 _PREFIX = "mrpbench_local_"
 
 
 @attrs.frozen
-class Source:
+class LocalSource:
     """The text of a local plugin, and those of the modules beside it that it imports, and that these import."""
 
     path: Path
     text: str
-    beside: Mapping[str, str] = attrs.field(factory=dict)
+    siblings: Mapping[str, str] = attrs.field(factory=dict)
     """Texts by name of module."""
 
     @property
     def sha256(self) -> str:
         """Hash of the texts."""
-        return hashlib.sha256("\0".join([self.text, *chain(*sorted(self.beside.items()))]).encode()).hexdigest()
+        return hashlib.sha256("\0".join([self.text, *chain(*sorted(self.siblings.items()))]).encode()).hexdigest()
 
     @property
     def files(self) -> dict[Path, str]:
         """All texts by file."""
-        return {self.path: self.text} | {self.path.with_name(f"{name}.py"): it for name, it in self.beside.items()}
+        return {self.path: self.text} | {self.path.with_name(f"{name}.py"): it for name, it in self.siblings.items()}
 
 
 def is_local(name: str) -> bool:
@@ -64,7 +64,7 @@ def load_local(name: str, folder: Path, sources: Mapping[str, str] | None = None
         path = Path(os.path.normpath(folder / where))
         known = {Path(os.path.normpath(folder / name)): text for name, text in (sources or {}).items()}
         text = known[path] if path in known else read_text(path)
-        module = _import_source(Source(path, text, imported_beside(path, text, known)))
+        module = _import_source(LocalSource(path, text, sibling_imports(path, text, known)))
     else:
         module = _import_module(where)
     found = getattr(module, attribute, None)
@@ -73,7 +73,7 @@ def load_local(name: str, folder: Path, sources: Mapping[str, str] | None = None
     return found
 
 
-def source_of(cls: type) -> Source | None:
+def source_of(cls: type) -> LocalSource | None:
     """The source of a class that came from a local file, or None."""
     module = sys.modules.get(cls.__module__)
     return getattr(module, "__mrpbench_source__", None) if cls.__module__.startswith(_PREFIX) else None
@@ -86,7 +86,7 @@ def _import_module(name: str) -> ModuleType:
         raise InputError(f"{name} cannot be imported: {one_line(error)}") from error
 
 
-def _import_source(source: Source) -> ModuleType:
+def _import_source(source: LocalSource) -> ModuleType:
     # The name holds path and contents, so that an edited file is another module and an unedited one the same.
     name = _PREFIX + hashlib.sha256(f"{source.path}\0{source.sha256}".encode()).hexdigest()[:24]
     if name in sys.modules:
@@ -95,11 +95,11 @@ def _import_source(source: Source) -> ModuleType:
     module.__file__ = str(source.path)
     module.__mrpbench_source__ = source  # type: ignore[attr-defined]
 
-    def find(beside: str) -> ModuleType:
-        path, text = source.path.with_name(f"{beside}.py"), source.beside[beside]
-        return _import_source(Source(path, text, imported_beside(path, text, source.files)))
+    def find(sibling: str) -> ModuleType:
+        path, text = source.path.with_name(f"{sibling}.py"), source.siblings[sibling]
+        return _import_source(LocalSource(path, text, sibling_imports(path, text, source.files)))
 
-    vars(module)["__builtins__"] = vars(builtins) | {"__import__": importing(source.beside, find)}
+    vars(module)["__builtins__"] = vars(builtins) | {"__import__": importing(source.siblings, find)}
     sys.modules[name] = module  # attrs and pickle look classes up there
     linecache.cache[module.__file__] = (len(source.text), None, source.text.splitlines(keepends=True), module.__file__)
     try:

@@ -1,6 +1,5 @@
 """Finds components by name; imports only the one that is chosen."""
 
-import difflib
 import functools
 import os
 from collections.abc import Iterator, Mapping
@@ -12,7 +11,8 @@ from packaging.utils import canonicalize_name
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.contract import breach
+from mrpbench_core.files.suggestions import closest
+from mrpbench_core.plugins.contract import violation
 from mrpbench_core.plugins.installed import Provider, load, providers
 from mrpbench_core.plugins.kinds import kind_of
 from mrpbench_core.plugins.local import is_local, load_local, source_of
@@ -89,13 +89,13 @@ class Registry(Generic[C]):
         return next((provider for provider in self if _offers(provider, cls)), None)
 
     def _accept(self, cls: Any, who: str) -> type[C]:
-        if fault := breach(cls, self.base):
+        if fault := violation(cls, self.base):
             raise InputError(f"{who}: {getattr(cls, '__name__', cls)} {fault}")
         return cast("type[C]", cls)
 
     def _unknown(self, name: str, part: str, known: list[str]) -> InputError:
-        close = difflib.get_close_matches(part, known, n=1)
-        hint = f"did you mean {name.replace(part, close[0])!r}? " if close else ""
+        found = closest(part, known)
+        hint = f"did you mean {name.replace(part, found)!r}? " if found else ""
         listed = f"`mrpbench plugins` lists what is installed: {', '.join(sorted(set(known))) or 'none'}"
         return InputError(f"no {self.kind} is called {name!r}", hint=hint + listed)
 

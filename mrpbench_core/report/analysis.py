@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import attrs
 
-from mrpbench_core.config.mistakes import did_you_mean
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.suggestions import suggest
 from mrpbench_core.report.columns import MAIN, Column, read_columns
 from mrpbench_core.report.comparison import Comparison, compare_settings
 from mrpbench_core.report.estimates import Numbers, numbers_of
@@ -85,7 +85,7 @@ def choose_columns(known: Sequence[str], metrics: Sequence[str] | None) -> list[
         return offered
     for name in metrics:
         if name not in known:
-            raise InputError(f"no run has a value of {name!r}", hint=did_you_mean(name, known))
+            raise InputError(f"no run has a value of {name!r}", hint=suggest(name, known))
     return [name for name in metrics if name in offered]
 
 

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from typing import Any
 
-from mrpbench_core.config.mistakes import did_you_mean
 from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.suggestions import suggest
 from mrpbench_core.store.results import flatten
 
 SAMPLES = ("seed", "repeat")
@@ -33,7 +33,7 @@ def find_axes(configs: Sequence[dict[str, Any]], by: Sequence[str] | None = None
         known = {part for entry in flat for key in entry for part in _with_blocks(key)}
         for name in by:
             if name not in known:
-                raise InputError(f"--by: no run has the option {name!r}", hint=did_you_mean(name, sorted(known)))
+                raise InputError(f"--by: no run has the option {name!r}", hint=suggest(name, sorted(known)))
     varying = [key for key in _varying(flat) if by is None or _is_below(key, by)]
     kept = _without_implied(varying, flat)
     return [{key: entry[key] for key in kept if key in entry} for entry in flat]

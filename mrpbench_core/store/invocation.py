@@ -7,7 +7,7 @@ from typing import Any
 
 import yaml
 
-from mrpbench_core.files.yaml import scalar
+from mrpbench_core.files.yaml import plain_scalar
 
 
 class _Dumper(yaml.SafeDumper):
@@ -19,7 +19,7 @@ class _Dumper(yaml.SafeDumper):
 
 def _text(dumper: yaml.SafeDumper, text: str) -> yaml.ScalarNode:
     try:
-        bare = scalar(text) == text
+        bare = plain_scalar(text) == text
     except ValueError:
         bare = False
     return dumper.represent_scalar("tag:yaml.org,2002:str", text, style=None if bare else '"')

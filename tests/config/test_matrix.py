@@ -6,16 +6,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.config.items import Where, from_data
+from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.matrix import integers, parse_matrix
-from mrpbench_core.config.mistakes import Mistakes
+from mrpbench_core.files.errors import InputErrors
 
 SMALL = "world: office\nscenario: {robots: 5}\nplanner: ecbs\n"
 
 
 def expand(matrix, base=None):
-    root = from_data({"world": "office"} if base is None else base, Where())
-    return [point.root.data for point in parse_matrix(from_data(matrix, Where())).points(root)]
+    root = from_data({"world": "office"} if base is None else base, Location())
+    return [point.root.data for point in parse_matrix(from_data(matrix, Location())).points(root)]
 
 
 def axes(study, matrix, *overrides):
@@ -183,5 +183,5 @@ trees = st.recursive(
 def test_any_matrix_is_expanded_or_refused(matrix):
     try:
         expand(matrix)
-    except Mistakes as mistakes:
-        assert mistakes.errors  # noqa: PT017 - what is asserted is the rare case
+    except InputErrors as several:
+        assert several.errors  # noqa: PT017 - what is asserted is the rare case

@@ -9,12 +9,12 @@ import attrs
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.canonical import canonical
-from mrpbench_core.config.items import Where, from_data
+from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.schema import options_schema
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.structure import structure_component
 from mrpbench_core.files.errors import InputErrors
-from mrpbench_core.plugins.contract import breach
+from mrpbench_core.plugins.contract import violation
 from mrpbench_core.plugins.provenance import kind_class
 from mrpbench_core.testing.faults import Fault, Skip, require
 
@@ -28,7 +28,7 @@ class ComponentConformance:
 
     def test_keeps_the_contract_of_components(self) -> None:
         cls = type(self.make())
-        fault = breach(cls, kind_class(cls))
+        fault = violation(cls, kind_class(cls))
         require(fault is None, f"{cls.__name__} {fault}")
 
     def test_is_documented_with_all_its_options(self) -> None:
@@ -72,9 +72,9 @@ class ComponentConformance:
         written: Any = canonical(cast("RunConfig", made), folder)
         json.dumps(written, allow_nan=False)
         try:
-            read = structure_component(kind_class(cls), from_data(written, Where()), "", folder)
-        except InputErrors as mistakes:
-            raise Fault(f"a configuration cannot say {written}: {mistakes.errors[0].message}") from None
+            read = structure_component(kind_class(cls), from_data(written, Location()), "", folder)
+        except InputErrors as several:
+            raise Fault(f"a configuration cannot say {written}: {several.errors[0].message}") from None
         require(read == made, f"read back from a configuration it is another: {read!r} instead of {made!r}")
 
     def test_has_a_schema_for_editors(self) -> None:

@@ -11,7 +11,7 @@ from mrpbench_core.files.errors import InputError
 
 
 def drive(index, t):
-    """Where robot `index` is at t seconds: along x, 1 m apart."""
+    """Location robot `index` is at t seconds: along x, 1 m apart."""
     return 1.0 + 0.2 * t, 1.0 + index, 0.1 * t
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.urdf import Drive, drive_of, mesh_files, read_urdf
+from mrpbench_core.files.urdf import DifferentialDrive, drive_of, mesh_files, read_urdf
 from mrpbench_core.model.fleet import RobotModel, Urdf
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 from mrpbench_simulators_pybullet.driven import Driven, Place
@@ -111,7 +111,7 @@ def _set_contacts(bullet: Bullet, body: int, links: dict[str, int], wheels: tupl
         bullet.changeDynamics(body, link, lateralFriction=0, contactProcessingThreshold=0, **common)
 
 
-def _base(bullet: Bullet, body: int, robot: RobotModel, drive: Drive) -> Place:
+def _base(bullet: Bullet, body: int, robot: RobotModel, drive: DifferentialDrive) -> Place:
     """The robot's base frame, on the floor below the middle of the axle, seen from the root link's centre of mass."""
     x, y, z = drive.axle
     centre = bullet.getDynamicsInfo(body, -1)[3:5]

@@ -16,7 +16,7 @@ from mrpbench_core.model.problem import Problem
 MEMORY = 4 << 30
 
 
-def pose(config: RunConfig) -> Problem | None:
+def problem_of(config: RunConfig) -> Problem | None:
     """The problem of a run; None where there cannot be a plan."""
     try:
         setting = set_scene(config, lambda *_: None)
@@ -26,7 +26,7 @@ def pose(config: RunConfig) -> Problem | None:
 
 
 @lru_cache(maxsize=1)  # the next run of the median asks the same
-def pose_cells(world: Path, scen: Path, robots: int) -> Problem | None:
+def grid_problem(world: Path, scen: Path, robots: int) -> Problem | None:
     """The problem of the first `robots` rows of a MovingAI scenario."""
     block = {
         "name": "cells",
@@ -37,10 +37,10 @@ def pose_cells(world: Path, scen: Path, robots: int) -> Problem | None:
         "planner": "astar",
         "simulator": "none",
     }
-    return pose(load_study(block).runs[0].config)
+    return problem_of(load_study(block).runs[0].config)
 
 
-def ask(name: str, options: dict[str, Any], problem: Problem, wall_s: float) -> Solution:
+def solve_by_planner(name: str, options: dict[str, Any], problem: Problem, wall_s: float) -> Solution:
     """What a planner makes of `problem`; `failed` if it does not know such problems or its plan does not hold.
 
     Of a planner that runs a program (`external`) the time of that program counts.

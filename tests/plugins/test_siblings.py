@@ -9,9 +9,9 @@ from mrpbench_core.api.planner import Planner
 from mrpbench_core.config.canonical import sources
 from mrpbench_core.config.study import load_study
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.beside import imported_beside
 from mrpbench_core.plugins.provenance import provenance
 from mrpbench_core.plugins.registry import Registry
+from mrpbench_core.plugins.siblings import sibling_imports
 
 PLANNER = """
 import attrs
@@ -105,7 +105,7 @@ def test_modules_that_import_one_another_are_read_once(tmp_path):
     for name, text in texts.items():
         (tmp_path / f"{name}.py").write_text(text)
     (tmp_path / "json.py").write_text("")
-    assert imported_beside(tmp_path / "a.py", texts["a"], {}) == {"b": texts["b"], "c": texts["c"]}
+    assert sibling_imports(tmp_path / "a.py", texts["a"], {}) == {"b": texts["b"], "c": texts["c"]}
 
 
 @pytest.mark.parametrize(

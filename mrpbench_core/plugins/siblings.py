@@ -15,7 +15,7 @@ from typing import Any
 from mrpbench_core.files.text import read_text
 
 
-def imported_beside(path: Path, text: str, known: Mapping[Path, str]) -> dict[str, str]:
+def sibling_imports(path: Path, text: str, known: Mapping[Path, str]) -> dict[str, str]:
     """Texts by name of the modules in the folder of `path` that its `text`, and theirs, import anywhere.
 
     Args:
