@@ -1,4 +1,4 @@
-"""Facts of a world and of a roadmap built on it, and what is wrong with them."""
+"""Facts and faults of a world and of a roadmap built on it."""
 
 from collections.abc import Iterator
 
@@ -15,8 +15,8 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class WorldFacts:
-    """What a person wants to know before planning on a map. Vertices and edges count as in Table I of the original
-    benchmark: a vertex per place and RMF graph, an edge per pair of positions.
+    """Size, contents and faults of a world. Vertices and edges count as in Table I of the original benchmark: a vertex
+    per place and RMF graph, an edge per pair of positions.
     """
 
     name: str
@@ -32,7 +32,7 @@ class WorldFacts:
     vertices: int
     edges: int
     components: int
-    """Pieces of the navigation graph as drawn."""
+    """Connected components of the navigation graph as drawn."""
     cells: int | None
     """Cells of the roadmap's raster; None without one."""
     free: int | None
@@ -42,15 +42,15 @@ class WorldFacts:
     """One-way edges."""
     roadmap_components: int
     faults: tuple[str, ...]
-    """What is wrong with the map, one sentence each."""
+    """Faults of the map, one sentence each."""
     narrow: tuple[str, ...]
     """Passages narrower than the robot, one sentence each."""
     notes: tuple[str, ...]
-    """What loader and roadmap left out or assumed."""
+    """What the loader and the roadmap left out or assumed, one sentence each."""
 
 
 def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
-    """Examine all levels of `world`, and `roadmap`, for robots of `radius` metres."""
+    """Return the facts of all levels of `world` and of `roadmap`, for robots of `radius` metres."""
     edges = unique_edges(world)
     label = components(len(world.vertices), edges)
     merged = sum(len(group) - 1 for group in duplicates(world))
@@ -78,7 +78,7 @@ def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
             *_graph_faults(world),
             *_clearance_faults(world, radius),
             *_roadmap_faults(world, roadmap),
-            *_duplicates(world),  # last, as maps of several graphs have many
+            *_duplicates(world),  # last, because maps with several graphs have many
         ),
         narrow=tuple(_narrow(world, 2 * radius)),
         notes=(*world.notes, *roadmap.notes),
@@ -86,7 +86,7 @@ def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
 
 
 def size(world: World) -> tuple[float, float]:
-    """Width and height in metres of everything solid on all levels, of the places if nothing is."""
+    """Return width and height in metres of everything solid on all levels, or of the places if nothing is solid."""
     corners = [outline for level in world.levels for outline in solids(level)]
     for level in world.levels:
         if level.occupancy is not None:
@@ -157,7 +157,7 @@ def _on(world: World, level: int) -> str:
 
 
 def _roadmap_faults(world: World, roadmap: Roadmap) -> list[str]:
-    """Places that most others of their level cannot reach on the roadmap; it may cover some levels only."""
+    """Return the places that are not in the main component of their level; the roadmap may cover some levels only."""
     label = components(len(roadmap.position), roadmap.edges)
     storey = np.array([vertex.level for vertex in world.vertices], np.int64)
     faults = []

@@ -1,4 +1,4 @@
-"""`mrpbench world FILE|NAME`: facts and checks of a map, and its picture."""
+"""`mrpbench world FILE|NAME`: facts, faults and picture of a map."""
 
 import argparse
 import sys
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from mrpbench_core.model.world import World
 
 SHOWN = 20
-"""Faults and notes that a table lists."""
+"""Largest number of faults or notes that are printed."""
 RESOLUTION = 0.05
 """metres per pixel of a converted map."""
 
@@ -28,29 +28,32 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "world", metavar="FILE|NAME", help="a .building.yaml, .map or map_server .yaml file, or a built-in world"
     )
-    parser.add_argument("--level", help="the one level of a building to load; default: all")
+    parser.add_argument("--level", help="the only level of a building to load; default: all levels")
     parser.add_argument(
         "--roadmap",
         metavar="NAME",
         help="lanes (default where there are lanes), grid or graph (default for several levels)",
     )
-    parser.add_argument("--cell-size", type=float, metavar="M", help="of lanes and grid; default: 0.4 m")
+    parser.add_argument("--cell-size", type=float, metavar="M", help="cell size of lanes and grid; default: 0.4 m")
     parser.add_argument("--compatible", choices=["mrp_bench"], help="the raster of the original benchmark")
-    parser.add_argument("--robot", default="turtlebot3_burger", help="the robot to fit in (default: %(default)s)")
+    parser.add_argument("--robot", default="turtlebot3_burger", help="the robot that has to fit (default: %(default)s)")
     parser.add_argument(
-        "--render", type=Path, metavar="PNG", help="draw the world and its roadmap, further levels beside it"
+        "--render",
+        type=Path,
+        metavar="PNG",
+        help="draw the world and its roadmap; further levels become files beside it",
     )
     parser.add_argument(
         "--convert",
         type=Path,
         metavar="FILE",
-        help="write everything solid as a ROS map (.yaml and .pgm), or the roadmap's raster as a MovingAI .map",
+        help="write everything solid as a ROS map (.yaml and .pgm), or the raster of the roadmap as a MovingAI .map",
     )
     parser.add_argument("--json", action="store_true", help="print as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Load, check, print, draw."""
+    """Load and check the world, print its facts, and draw it."""
     from mrpbench_core.checking.world import check_world
     from mrpbench_core.files.robot import load_robot
     from mrpbench_core.model.fleet import Fleet
@@ -79,10 +82,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def world_source(name: str, level: str | None = None) -> "WorldSource":
-    """The source of a world that is named as on the command line.
+    """Return the source of a world that is named as on the command line.
 
     Raises:
-        InputError: there is none of that name.
+        InputError: no world has that name.
     """
     from mrpbench_core.api.world import WorldSource
     from mrpbench_core.plugins.registry import Registry
@@ -96,7 +99,7 @@ def world_source(name: str, level: str | None = None) -> "WorldSource":
 
 
 def _loader(file: Path) -> str | None:
-    """What reads a file; None for the name of a world."""
+    """Return the plugin that reads a file; None for the name of a world."""
     if file.suffix == ".map":
         return "movingai"
     if file.suffix not in (".yaml", ".yml"):
@@ -123,7 +126,7 @@ def _builder(arguments: argparse.Namespace, world: "World") -> "RoadmapBuilder":
 
 
 def _convert(file: Path, world: "World", roadmap: "Roadmap", cell_size: float | None) -> None:
-    """Write level 0 in the form that the file's suffix names."""
+    """Write level 0 in the format of the file's suffix."""
     from mrpbench_core.checking.occupancy import rasterise
     from mrpbench_core.files.raster import write_movingai_map, write_ros_map
 
@@ -134,7 +137,7 @@ def _convert(file: Path, world: "World", roadmap: "Roadmap", cell_size: float | 
     elif file.suffix == ".map":
         write_movingai_map(file, _planned_raster(roadmap))
     else:
-        raise InputError(f"cannot convert to {file.suffix or 'a file without suffix'}", hint="to .yaml or .map")
+        raise InputError(f"cannot convert to {file.suffix or 'a file without suffix'}", hint="choose .yaml or .map")
 
 
 def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
@@ -143,7 +146,7 @@ def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
     from mrpbench_core.model.occupancy import Occupancy
 
     if roadmap.grid is None:
-        raise InputError("this roadmap has no raster to write", hint="take --roadmap lanes or grid")
+        raise InputError("this roadmap has no raster to write", hint="choose --roadmap lanes or grid")
     blocked = np.ones(roadmap.grid.shape, bool)
     row, column = roadmap.grid.cell.T
     blocked[row, column] = False
@@ -151,7 +154,7 @@ def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
     walled = pairs - len(roadmap.edges) // 2
     if walled:
         print(
-            f"{walled} pairs of neighbouring cells have something between them, which a .map cannot say",
+            f"{walled} pairs of neighbouring cells have something solid between them, which a .map cannot express",
             file=sys.stderr,
         )
     return Occupancy(blocked=blocked, cell_size=roadmap.grid.cell_size, origin=roadmap.grid.origin)

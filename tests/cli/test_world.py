@@ -84,7 +84,7 @@ def test_what_a_map_cannot_say_is_said(invoke, tmp_path, capsys):
     command.configure(parser)
     command.run(parser.parse_args(["household", "--cell-size", "0.4", "--roadmap", "grid",
                                    "--convert", str(tmp_path / "a.map")]))  # fmt: skip
-    assert "pairs of neighbouring cells have something between them" in capsys.readouterr().err
+    assert "pairs of neighbouring cells have something solid between them" in capsys.readouterr().err
 
 
 def test_further_levels_are_drawn_beside_the_first(invoke, tmp_path, shared_data):

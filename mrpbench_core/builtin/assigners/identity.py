@@ -1,4 +1,4 @@
-"""The assigner for scenarios that already say which robot goes where."""
+"""The assigner for scenarios that give a goal to each robot."""
 
 from typing import ClassVar
 
@@ -11,12 +11,12 @@ from mrpbench_core.model.assignment import Assignment, AssignmentProblem
 
 @attrs.frozen(kw_only=True)
 class Identity(Assigner):
-    """Gives task i to robot i; where there are fewer tasks than robots, the last robots get none."""
+    """Gives task i to robot i; if there are fewer tasks than robots, the last robots get none."""
 
     reads_costs: ClassVar[bool] = False
 
     def assign(self, problem: AssignmentProblem) -> Assignment:
-        """Return the assignment; its cost is NaN, since nothing was minimised."""
+        """Return the assignment; its cost is NaN because nothing is minimised."""
         robots, tasks = problem.costs.shape
         index = np.arange(robots)
         return Assignment(task=np.where(index < tasks, index, -1), cost=float("nan"))

@@ -1,4 +1,4 @@
-"""A roadmap whose vertices are cells of a raster and whose edges join 4-neighbours; what `grid` and `lanes` share."""
+"""Roadmaps whose vertices are cells of a raster and whose edges join 4-neighbours; shared by `grid` and `lanes`."""
 
 import attrs
 import numpy as np
@@ -16,7 +16,7 @@ from mrpbench_core.model.roadmap import Grid, Roadmap
 from mrpbench_core.model.world import World
 
 LIMIT = 10_000_000
-"""Cells beyond which a raster is refused: the cell size is surely a slip."""
+"""Largest number of cells of a raster; a larger one means that the cell size is a mistake."""
 
 _AROUND = np.array([(0, 0), *((row, column) for row in (-1, 0, 1) for column in (-1, 0, 1) if row or column)])
 
@@ -29,7 +29,7 @@ class Cells:
     cell: Int
     """i8[V,2]: row and column, in row-major order."""
     edges: Int
-    """i8[E,2]: each pair once, lower vertex first."""
+    """i8[E,2]: each pair of neighbours once, the lower vertex first."""
 
     @property
     def centre(self) -> Float:
@@ -37,17 +37,17 @@ class Cells:
         return self.raster.centres(self.cell)
 
     def only(self, kept: Bool) -> "Cells":
-        """Without the vertices that are not `kept` bool[V]."""
+        """Return the cells that are `kept` bool[V] and the edges between them."""
         number = np.cumsum(kept) - 1
         edges = self.edges[kept[self.edges].all(axis=1)]
         return Cells(self.raster, self.cell[kept], number[edges])
 
 
 def empty_raster(low: Float, high: Float, cell_size: float) -> Occupancy:
-    """A raster of blocked cells that covers the box from `low` to `high`, starting at `low`.
+    """Return a raster of blocked cells that covers the box from `low` to `high` and begins at `low`.
 
     Raises:
-        InputError: it would have too many cells.
+        InputError: the raster would have too many cells.
     """
     columns, rows = (int(count) for count in np.maximum(1, np.ceil((high - low) / cell_size - 1e-9)))
     if rows * columns > LIMIT:
@@ -57,7 +57,7 @@ def empty_raster(low: Float, high: Float, cell_size: float) -> Occupancy:
 
 
 def connect(raster: Occupancy) -> Cells:
-    """All free cells of `raster` and the edges between 4-neighbours, walls not considered."""
+    """Return all free cells of `raster` and the edges between 4-neighbours, without regard to walls."""
     free = ~raster.blocked
     number = np.where(free, np.cumsum(free).reshape(free.shape) - 1, -1)
     edges = []
@@ -68,10 +68,10 @@ def connect(raster: Occupancy) -> Cells:
 
 
 def one_level(world: World) -> World:
-    """The world itself.
+    """Return the world itself.
 
     Raises:
-        InputError: it has several levels.
+        InputError: the world has several levels.
     """
     if len(world.levels) > 1:
         raise InputError(
@@ -82,7 +82,7 @@ def one_level(world: World) -> World:
 
 
 def without_contacts(cells: Cells, world: World, radius: float) -> Cells:
-    """Without cells in which, and edges along which, a disc of `radius` metres touches something solid."""
+    """Return the cells and edges on which a disc of `radius` metres touches nothing solid."""
 
     def clear(start: Float, end: Float) -> Bool:
         solid = keeps_clear(world.levels[0], start, end, radius)
@@ -94,12 +94,13 @@ def without_contacts(cells: Cells, world: World, radius: float) -> Cells:
 
 
 def places(cells: Cells, world: World) -> Int:
-    """The cell i8[len(world.vertices)] that stands for each place, -1 = none.
+    """Return the cell i8[len(world.vertices)] that represents each place; -1 means none.
 
-    It is the place's own cell or, failing that, the nearest of the eight around it; and never one behind a wall.
+    It is the cell that contains the place or, if that is not free, the nearest of its eight neighbours. A cell behind a
+    wall is never taken.
     """
     rows, columns = cells.raster.shape
-    number = np.full((rows + 2, columns + 2), -1)  # with a margin, so that neighbours need no bounds check
+    number = np.full((rows + 2, columns + 2), -1)  # the margin saves a bounds check of neighbours
     number[cells.cell[:, 0] + 1, cells.cell[:, 1] + 1] = np.arange(len(cells.cell))
     point = np.array([(vertex.x, vertex.y) for vertex in world.vertices]).reshape(-1, 2)
     around = cells.raster.cells(point)[:, None] + _AROUND
@@ -118,7 +119,10 @@ def places(cells: Cells, world: World) -> Int:
 
 
 def only_reachable(cells: Cells, place: Int) -> tuple[Cells, Int]:
-    """The cells connected with a place (without places: the largest connected part), and the places' new numbers."""
+    """Return the cells that are connected with a place, and the new numbers of the places.
+
+    Without places they are the cells of the largest connected component.
+    """
     label = components(len(cells.cell), cells.edges)
     found = place[place >= 0]
     if len(found):
@@ -130,12 +134,12 @@ def only_reachable(cells: Cells, place: Int) -> tuple[Cells, Int]:
 
 
 def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: list[str]) -> Roadmap:
-    """The roadmap: two directed edges per pair, sorted by start; every edge takes one tick.
+    """Return the roadmap: two directed edges per pair of neighbours, sorted by start. Every edge takes one tick.
 
     A tick is the time in which the slowest robot crosses a cell.
 
     Raises:
-        InputError: there are no cells.
+        InputError: no cell is free.
     """
     if not len(cells.cell):
         raise InputError(f"world {world.name!r} has no cell that a robot fits in", hint="try a smaller cell_size")

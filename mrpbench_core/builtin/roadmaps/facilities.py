@@ -1,9 +1,9 @@
 """Doors and lifts of a world as resources of a roadmap.
 
-A door's resource is all that comes near its doorway or what its leaves sweep, so that a robot waits out of their way;
-what leads through the doorway needs it open, the rest needs it shut. Where an open leaf would be in a robot's way, no
-edge leads. A door that no edge leads through stays shut for ever. A lift's resource is its cabin on every level with
-the ways into it.
+The resource of a door holds every vertex and edge near its doorway or near the area that its leaves sweep, so that a
+robot waits outside of that area. The edges through the doorway need an open door, the others a closed one. Edges that
+an open leaf would block are left out. A door without an edge through its doorway always stays closed. The resource of
+a lift holds its cabin on every level and the edges into it.
 """
 
 import math
@@ -21,7 +21,13 @@ from mrpbench_core.model.world import Lift, World
 
 
 def with_facilities(roadmap: Roadmap, world: World, radius: float) -> Roadmap:
-    """The roadmap with edges for lifts and a resource for each door and lift; `radius` in metres is the largest."""
+    """Return the roadmap with edges for lifts and a resource for each door and lift.
+
+    Args:
+        roadmap: without doors and lifts.
+        world: whose doors and lifts they are.
+        radius: the largest of the robots, metres.
+    """
     if not any(level.doors for level in world.levels) and not world.lifts:
         return roadmap
     roadmap, notes = avoid_open_doors(_with_lift_edges(roadmap, world), world, radius)
@@ -72,7 +78,7 @@ def _lift(lift: Lift, world: World, roadmap: Roadmap, radius: float) -> Resource
 
 
 def _with_lift_edges(roadmap: Roadmap, world: World) -> Roadmap:
-    """With an edge for every ride, from the place in a cabin that is nearest to its middle to that on another level."""
+    """Return the roadmap with an edge for every ride, between the vertices nearest to the middle of the cabin."""
     edges, ticks = [], []
     for lift in world.lifts:
         stops = {level: _stop(lift, level, world, roadmap) for level in lift.levels}
@@ -91,7 +97,7 @@ def _with_lift_edges(roadmap: Roadmap, world: World) -> Roadmap:
 
 
 def _stop(lift: Lift, level: int, world: World, roadmap: Roadmap) -> int:
-    """The vertex in a cabin on a level, -1 = none."""
+    """Return the vertex in a cabin on a level; -1 means that there is none."""
     places = [
         (math.dist((vertex.x, vertex.y), (lift.x, lift.y)), int(roadmap.place[index]))
         for index, vertex in enumerate(world.vertices)
@@ -101,7 +107,7 @@ def _stop(lift: Lift, level: int, world: World, roadmap: Roadmap) -> int:
 
 
 def _rides(lift: Lift, roadmap: Roadmap) -> Int:
-    """The edges of a lift, which lead from one level to another."""
+    """Return the edges of a lift that lead from one level to another."""
     start, end = roadmap.edges[:, 0], roadmap.edges[:, 1]
     between = np.flatnonzero(roadmap.level[start] != roadmap.level[end])
     inside = np.array([lift.holds(x, y) for x, y in roadmap.position[start[between]].tolist()], bool)

@@ -1,4 +1,4 @@
-"""The roadmap `graph`: the navigation graph itself, with durations from length and speed."""
+"""The roadmap `graph`: the navigation graph, with durations from lengths and speeds."""
 
 import attrs
 import numpy as np
@@ -19,11 +19,11 @@ from mrpbench_core.model.world import Lane, World
 
 @attrs.frozen(kw_only=True)
 class Graph(RoadmapBuilder):
-    """Places and junctions of lanes as vertices, lanes as edges; the lanes of all RMF graphs together.
+    """Vertices are places and junctions of lanes, edges are lanes of all RMF navigation graphs.
 
-    An edge takes its length over the lesser of its lane's speed limit and the robot's top speed, rounded up to ticks.
-    Half a second is 0.1 m at the speed of a small robot: fine enough that rounding matters little on lanes of a metre,
-    coarse enough that a plan of minutes has some hundred ticks.
+    The duration of an edge is its length divided by the lower of its lane's speed limit and the robot's top speed,
+    rounded up to ticks. In half a second a small robot drives 0.1 m: rounding matters little on lanes of a metre, and a
+    plan of minutes has a few hundred ticks.
     """
 
     tick: float = option(0.5, help="Time step of durations.", unit="s", validator=attrs.validators.gt(0))
@@ -35,7 +35,7 @@ class Graph(RoadmapBuilder):
     )
 
     def build(self, world: World, fleet: Fleet) -> Roadmap:
-        """Cut the lanes of each level at their junctions and drop what robots cannot drive on."""
+        """Cut the lanes of each level at their junctions and leave out those on which no robot can drive."""
         if not world.lanes:
             raise InputError(f"world {world.name!r} has no lanes", hint="try roadmap: grid")
         pieces, level = _cut(world, self.tolerance)
@@ -63,7 +63,7 @@ class Graph(RoadmapBuilder):
 
 
 def _cut(world: World, tolerance: float) -> tuple[LaneSegments, Int]:
-    """The pieces of the lanes of all levels, and the level i8[V] of each of their vertices."""
+    """Return the segments of the lanes of all levels, and the level i8[V] of each of their vertices."""
     point = np.array([(vertex.x, vertex.y) for vertex in world.vertices])
     storey = np.array([vertex.level for vertex in world.vertices])
     drawn = np.array([(lane.start, lane.end) for lane in world.lanes], np.int64)
@@ -89,7 +89,7 @@ def _cut(world: World, tolerance: float) -> tuple[LaneSegments, Int]:
 
 
 def _clear(world: World, level: Int, start: Float, end: Float, radius: float) -> Bool:
-    """`keeps_clear`, also of open doors, for sweeps on several levels."""
+    """Tell bool[k] whether discs moving from `start` to `end` f8[k,2] on `level` i8[k] clear solids and open doors."""
     clear = np.ones(len(start), bool)
     for index in np.unique(level):
         here = level == index
@@ -99,7 +99,7 @@ def _clear(world: World, level: Int, start: Float, end: Float, radius: float) ->
 
 
 def _ticks(world: World, pieces: LaneSegments, level: Int, robot: RobotModel, tick: float) -> Int:
-    """Duration i8[m] of each piece for one kind of robot, -1 where it would touch something solid."""
+    """Return the duration i8[m] of each segment for one robot model; -1 where it would touch something solid."""
     start, end = pieces.position[pieces.ends[:, 0]], pieces.position[pieces.ends[:, 1]]
     limit = np.array([lane.speed_limit or np.inf for lane in world.lanes])[pieces.lane]
     length = np.hypot(*(end - start).T)
@@ -109,7 +109,7 @@ def _ticks(world: World, pieces: LaneSegments, level: Int, robot: RobotModel, ti
 
 
 def _directed(pieces: LaneSegments, lanes: tuple[Lane, ...], duration: Int, drivable: Bool) -> tuple[Int, Int]:
-    """Edges i8[E,2] sorted by start, two per two-way piece, and their durations; of parallel edges the fastest."""
+    """Return edges i8[E,2] sorted by start, two per two-way segment, and durations; the fastest of parallel edges."""
     both = np.array([lane.bidirectional for lane in lanes])[pieces.lane] & drivable
     edges = np.concatenate([pieces.ends[drivable], pieces.ends[both][:, ::-1]])
     duration = np.concatenate([duration[:, drivable], duration[:, both]], axis=1)
@@ -130,12 +130,12 @@ def _notes(world: World, pieces: LaneSegments, drivable: Bool) -> list[str]:
     for index in np.unique(pieces.lane[~drivable]):
         lane = world.lanes[index]
         ends = " – ".join(called(world, vertex) for vertex in (lane.start, lane.end))
-        notes.append(f"Lane {ends} is left out where a robot on it would touch something.")
+        notes.append(f"Lane {ends} is left out where a robot on it would touch something solid.")
     return notes
 
 
 def _mutexes(world: World, pieces: LaneSegments, number: Int, edges: Int) -> tuple[Resource, ...]:
-    """A resource for each mutex of lanes and places; between two of its lanes alone a robot keeps it."""
+    """Return a resource for each mutex. A robot keeps it at a vertex between two of its lanes and no others."""
     names = [lane.mutex for lane in world.lanes]
     named = [str(vertex.parameters.get("mutex", "")) for vertex in world.vertices]
     found = []

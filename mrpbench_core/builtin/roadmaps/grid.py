@@ -26,16 +26,17 @@ DEFAULT_CELL_SIZE = 0.4
 
 @attrs.frozen(kw_only=True)
 class GridRoadmap(RoadmapBuilder):
-    """Cells in which the largest robot touches nothing, joined where it touches nothing on the way.
+    """Cells in which the largest robot touches nothing, with edges on which it touches nothing.
 
-    Only what can be reached from the world's places is kept, so that robots stay inside the building; in a world
-    without places, the largest connected part. A world that is a raster by nature is taken cell by cell if `cell_size`
-    is its own and the robots fit into a cell: then every free cell is kept, as in the MAPF benchmarks.
+    Only cells that are connected with a place of the world are kept, so that robots stay inside the building; in a
+    world without places, the largest connected component is kept. The cells of a raster map are taken as they are if
+    `cell_size` is that of the map and the robots fit into a cell: every free cell is then kept, as in the MAPF
+    benchmarks.
     """
 
     cell_size: float | None = option(
         None,
-        help="Side of a cell; by default that of the world's own raster if robots fit into one, else 0.4 m.",
+        help="Side of a cell; by default that of the map's own raster if robots fit into its cells, else 0.4 m.",
         unit="m",
         validator=attrs.validators.optional(attrs.validators.gt(0)),
     )
@@ -59,12 +60,12 @@ class GridRoadmap(RoadmapBuilder):
 
 
 def _default(own: Occupancy, radius: float) -> float:
-    """A map from a lidar has cells much smaller than robots: too many to plan on."""
+    """Return the default cell size. A map made by lidar has cells smaller than robots, too many to plan on."""
     return own.cell_size if 2 * radius <= own.cell_size else max(own.cell_size, DEFAULT_CELL_SIZE)
 
 
 def _open_raster(world: World, cell_size: float) -> Occupancy:
-    """A raster of free cells over everything there is on level 0."""
+    """Return a raster of free cells that covers everything on level 0."""
     level = world.levels[0]
     corners = [*solids(level), np.array([(v.x, v.y) for v in world.vertices]).reshape(-1, 2)]
     if level.occupancy is not None:

@@ -1,7 +1,7 @@
-"""Lanes cut where they meet: at vertices that lie on them and where they cross.
+"""Cuts lanes where they meet: at vertices that lie on them and where they cross.
 
-The traffic editor lets one draw a lane through a vertex, or two lanes across one another, without connecting them. On
-the original benchmark's warehouse that leaves 14 pieces.
+The traffic editor allows a lane through a vertex, and two lanes that cross, without a connection between them. The
+warehouse of the original benchmark has 14 components for that reason.
 """
 
 import attrs
@@ -12,28 +12,29 @@ from mrpbench_core.model.arrays import Float, Int
 from mrpbench_core.model.geometry import point_segment_distance, side
 
 ROUNDS = 20
-"""Cutting bends lanes by up to the tolerance, which may make new junctions; in practice two or three rounds settle."""
+"""Largest number of passes. A cut bends lanes by up to the tolerance, which may create new junctions; in practice two
+or three passes suffice."""
 
 
 @attrs.frozen
 class LaneSegments:
-    """Lanes cut at their junctions."""
+    """The segments of lanes cut at their junctions."""
 
     position: Float
     """f8[V,2]: the given points that remain, in their order, then the crossings."""
     vertex: Int
     """i8[k]: the number of each given point."""
     ends: Int
-    """i8[m,2]: start and end of each piece."""
+    """i8[m,2]: start and end of each segment."""
     lane: Int
-    """i8[m]: the lane that each piece is part of, ascending."""
+    """i8[m]: the lane of each segment, ascending."""
 
 
 def cut_at_junctions(points: Float, lanes: Int, tolerance: float) -> LaneSegments:
     """Cut `lanes` i8[m,2] between `points` f8[k,2] where they meet.
 
-    Points closer than `tolerance` metres are one vertex (the first of them), and a lane that passes a vertex closer
-    than `tolerance` leads through it. Segments keep the direction of their lane; a segment that shrinks to a point is
+    Points closer than `tolerance` metres become one vertex, the first of them. A lane that passes a vertex closer than
+    `tolerance` leads through it. Segments keep the direction of their lane; a segment that shrinks to a point is
     dropped.
     """
     pieces = LaneSegments(points, np.arange(len(points)), lanes, np.arange(len(lanes)))
@@ -62,7 +63,7 @@ def _cut_once(pieces: LaneSegments, tolerance: float) -> LaneSegments:
 
 
 def _merge(points: Float, tolerance: float) -> tuple[Float, Int]:
-    """The distinct points in order of first use, and the number of each given point among them."""
+    """Return the distinct points in order of first use, and the number of each given point among them."""
     i, j = _overlapping(points[:, 0] - tolerance / 2, points[:, 0] + tolerance / 2)
     near = np.hypot(*(points[i] - points[j]).T) < tolerance
     first = components(len(points), np.stack([i[near], j[near]], axis=1))
@@ -71,7 +72,7 @@ def _merge(points: Float, tolerance: float) -> tuple[Float, Int]:
 
 
 def _crossings(start: Float, end: Float, tolerance: float) -> Float:
-    """Points f8[c,2] where the interiors of two lanes cross; not where one ends on the other: it is cut there."""
+    """Return points f8[c,2] where the interiors of two lanes cross. A lane that ends on another is cut elsewhere."""
     i, j = _overlapping(np.minimum(start, end)[:, 0], np.maximum(start, end)[:, 0])
     a, b, c, d = start[i], end[i], start[j], end[j]
     proper = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
@@ -84,7 +85,7 @@ def _crossings(start: Float, end: Float, tolerance: float) -> Float:
 
 
 def _overlapping(low: Float, high: Float) -> tuple[Int, Int]:
-    """All pairs of intervals that overlap, each once."""
+    """Return all pairs of overlapping intervals, each once."""
     order = np.argsort(low, kind="stable")
     until = np.searchsorted(low[order], high[order], side="right")
     counts = until - np.arange(len(order)) - 1
@@ -94,9 +95,9 @@ def _overlapping(low: Float, high: Float) -> tuple[Int, Int]:
 
 
 def _stops(position: Float, a: int, b: int, passed: Int, tolerance: float) -> Int:
-    """The vertices on the way from a to b, in order of travel; only a if that is b too.
+    """Return the vertices between a and b in order of travel, with both ends; only a if b is the same vertex.
 
-    What the lane has `passed` already is no stop again, or it would run to and fro between vertices close together.
+    A vertex that the lane has `passed` is not visited again: the lane would alternate between vertices close together.
     """
     if a == b:
         return np.array([a])

@@ -1,4 +1,4 @@
-"""The roadmap `lanes`: a raster of roads, two cells wide, along the lanes of the navigation graph."""
+"""The roadmap `lanes`: a raster of roads two cells wide along the lanes of the navigation graph."""
 
 from typing import Literal
 
@@ -35,13 +35,13 @@ _ROUNDING = 1e-6
 class Lanes(RoadmapBuilder):
     """Roads along the lanes, wide enough for two robots to pass.
 
-    A cell belongs to a road when its centre lies within one cell of a lane: on the lane's right up to, on its left up
-    to and including one cell, so that a straight road is two cells wide however it lies on the raster. Cells and edges
-    on which the largest robot would touch something solid are left out; what that cuts off stands in `Roadmap.notes`.
-    Directions of one-way lanes are ignored, as a raster has room for both.
+    A cell belongs to a road if its centre is less than one cell from a lane; at exactly one cell it belongs to the road
+    on the left of the lane only, so that every straight road is two cells wide. Cells and edges on which the largest
+    robot would touch something solid are left out; `Roadmap.notes` lists what that cuts off. The directions of one-way
+    lanes are ignored because a road has room for both.
 
     `compatible: mrp_bench` is the raster of Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic,
-    Complex and Cluttered Environments", ICRA 2023, with every quirk of its code; it knows no walls.
+    Complex and Cluttered Environments", ICRA 2023, with every quirk of its code; it ignores walls.
     """
 
     cell_size: float = option(0.4, help="Side of a cell.", unit="m", validator=attrs.validators.gt(0))
@@ -73,7 +73,7 @@ class Lanes(RoadmapBuilder):
 
 
 def _roads(world: World, size: float) -> Occupancy:
-    """The cells near lanes. The lowest and leftmost vertices lie in the middle of their cells."""
+    """Return the cells near lanes. The lowest and leftmost vertices lie in the middle of their cells."""
     point = np.array([(vertex.x, vertex.y) for vertex in world.vertices])
     margin = 2.5 * size
     raster = empty_raster(point.min(axis=0) - margin, point.max(axis=0) + margin, size)
@@ -94,13 +94,13 @@ def _open_road(blocked: Bool, raster: Occupancy, a: Float, b: Float) -> None:
     x = (columns[None, :] + 0.5) * size + raster.origin[0] - start[0]
     y = (rows[:, None] + 0.5) * size + raster.origin[1] - start[1]
     along, left = x * ahead[0] + y * ahead[1], y * ahead[0] - x * ahead[1]
-    reach = size / np.sqrt(2) + _ROUNDING  # so that the cell of each end always belongs to the road
+    reach = size / np.sqrt(2) + _ROUNDING  # the cell of each end always belongs to the road
     near = (left > -size + _ROUNDING) & (left <= size + _ROUNDING) & (along >= -reach) & (along <= length + reach)
     blocked[first[0] : last[0] + 1, first[1] : last[1] + 1] &= ~near
 
 
 def _own_cells(cell: Int, raster: Occupancy, world: World) -> Int:
-    """The original's places: a vertex is the cell it lies in, wherever the walls are."""
+    """Return the cell of each place as the original does: the cell that contains it, whatever the walls."""
     number = np.full(raster.shape, -1)
     number[cell[:, 0], cell[:, 1]] = np.arange(len(cell))
     row, column = raster.cells(np.array([(vertex.x, vertex.y) for vertex in world.vertices])).T
@@ -113,7 +113,7 @@ def _contacts(edges: int, fate: str) -> list[str]:
 
 
 def _broken(world: World, place: Int, label: Int, radius: float) -> list[str]:
-    """Name the lanes whose ends are no longer connected."""
+    """Return a sentence for each lane whose ends are no longer connected."""
     notes = []
     for lane in world.lanes:
         start, end = place[lane.start], place[lane.end]
@@ -121,7 +121,9 @@ def _broken(world: World, place: Int, label: Int, radius: float) -> list[str]:
             ends = np.array([(world.vertices[index].x, world.vertices[index].y) for index in (lane.start, lane.end)])
             clear = keeps_clear(world.levels[0], ends[:1], ends[1:], radius)[0]
             reason = (
-                "no two cells of the raster fit through" if clear else f"something solid is nearer than {radius:.3f} m"
+                "the passage is too narrow for cells of the raster"
+                if clear
+                else f"something solid is nearer than {radius:.3f} m"
             )
             notes.append(f"Lane {called(world, lane.start)} – {called(world, lane.end)} is cut: {reason}.")
     return notes

@@ -1,7 +1,7 @@
 """The raster of the original benchmark, quirk by quirk, so that its Table I can be reproduced.
 
 Schaefer, Palmieri, Heuer, Dillmann, Koenig, Kleiner, "A Benchmark for Multi-Robot Planning in Realistic, Complex and
-Cluttered Environments", ICRA 2023. What differs from a clean raster: the walk between two cells compares only the
+Cluttered Environments", ICRA 2023. It differs from a clean raster: the walk between two cells compares only the
 first two of its candidates, and depends on the direction; roads are widened where fewer than three of the *diagonal*
 neighbours are open; and two passes along the lower and left border look at the neighbours of the opposite border.
 """
@@ -22,7 +22,7 @@ _Kinds = NDArray[np.int8]
 
 
 def mrp_bench_raster(world: World, cell_size: float) -> Occupancy:
-    """The original's raster over the vertices of `world`, with two-way roads."""
+    """Return the original's raster over the vertices of `world`, with two-way roads."""
     point = np.array([(vertex.x, vertex.y) for vertex in world.vertices])
     low, high = point.min(axis=0), point.max(axis=0)
     raster = empty_raster(low, low + (np.ceil((high - low) / cell_size) + 1) * cell_size, cell_size)
@@ -38,7 +38,7 @@ def mrp_bench_raster(world: World, cell_size: float) -> Occupancy:
 
 
 def _walk(kind: _Kinds, start: tuple[int, int], end: tuple[int, int]) -> None:
-    """Open cells from `start` to `end` (column, row), by steps that lead no farther away and keep near the line."""
+    """Open cells from `start` to `end` (column, row) by steps that do not lead away and stay near the line."""
     here = start
     while here != end:
         steps = [(here[0] + dx, here[1] + dy) for dx, dy in _STEPS]
@@ -64,7 +64,7 @@ def _widen(kind: _Kinds) -> None:
 
 
 def _widen_borders(kind: _Kinds) -> None:
-    """The original's extra passes, with the loop variables they took over from the scan."""
+    """Repeat the original's extra passes, with the loop variables that they take over from the scan."""
     rows, columns = kind.shape
     for column in range(columns):
         if kind[0, column] == _ROAD and _is_narrow(kind, column, rows - 1):
@@ -75,7 +75,7 @@ def _widen_borders(kind: _Kinds) -> None:
 
 
 def _is_narrow(kind: _Kinds, column: int, row: int) -> bool:
-    """Fewer than three diagonal neighbours are open; beyond the border, the border's own cells count."""
+    """Tell whether fewer than three diagonal neighbours are open; beyond the border, the border's own cells count."""
     rows, columns = kind.shape
     sides = [(row + dy, column + dx) for dy in (-1, 1) for dx in (-1, 1)]
     clamped = [(min(max(y, 0), rows - 1), min(max(x, 0), columns - 1)) for y, x in sides]

@@ -1,8 +1,9 @@
-"""Roadmaps lead round open doors, which would bar the way of whoever came through them.
+"""Removes edges from roadmaps on which an open door leaf would block the robot that opened the door.
 
-A robot keeps a door open until it is out of what the leaves sweep. Where on the way an open leaf stands before it, it
-would wait for ever for a leaf that cannot shut as the robot is in its way. So no way leads from a doorway to where the
-open leaf stands: either the edges through the leaf are left out or, where that would part more, those through the door.
+A robot keeps a door open until it has left the area that the leaves sweep. If an open leaf blocks its way out of that
+area, the robot waits forever: the leaf cannot close because the robot is in its way. Therefore no route leads from a
+doorway to an edge that the open leaf blocks. Either those edges are removed or, if that separates more places, the
+edges through the doorway.
 """
 
 import numpy as np
@@ -19,7 +20,7 @@ from mrpbench_core.model.world import Door, World
 
 
 def clears_open_doors(world: World, level: int, start: Float, end: Float, radius: float) -> Bool:
-    """Tell bool[k] whether a disc that moves from `start` to `end` f8[k,2] through doors touches no open leaf."""
+    """Tell bool[k] whether discs that move from `start` to `end` f8[k,2] through doors clear the open leaves."""
     clear = np.ones(len(start), bool)
     for door in world.levels[level].doors:
         passing = touches(np.array([door.start, door.end]), start, end, radius)
@@ -29,17 +30,17 @@ def clears_open_doors(world: World, level: int, start: Float, end: Float, radius
 
 
 def avoid_open_doors(roadmap: Roadmap, world: World, radius: float) -> tuple[Roadmap, list[str]]:
-    """The roadmap without edges by which an open leaf would come to bar a robot, and what was left out."""
+    """Return the roadmap without edges that lead a robot to an open leaf that blocks it, and what was left out."""
     notes = []
     for operated in Facilities(world).doors:
         if operated.lift is None:
-            through, barred = _barred(operated, roadmap, radius)
-            if len(barred):
-                without = [np.delete(np.arange(len(roadmap.edges)), out) for out in (barred, through)]
+            through, blocked = _blocked(operated, roadmap, radius)
+            if len(blocked):
+                without = [np.delete(np.arange(len(roadmap.edges)), out) for out in (blocked, through)]
                 pairs = [_pairs(roadmap, kept) for kept in without]
-                shut = pairs[1] > pairs[0]
-                notes.append(_note(operated, roadmap, barred, shut=shut))
-                roadmap = select_edges(roadmap, without[shut])
+                closed = pairs[1] > pairs[0]
+                notes.append(_note(operated, roadmap, blocked, closed=closed))
+                roadmap = select_edges(roadmap, without[closed])
     return roadmap, notes
 
 
@@ -47,25 +48,25 @@ def _open_leaves(door: Door) -> list[Float]:
     return list(wall_boxes(leaf_segments(door, 1.0), door.thickness).reshape(-1, 4, 4)[:, :, :2])
 
 
-def _barred(operated: OperatedDoor, roadmap: Roadmap, radius: float) -> tuple[Int, Int]:
-    """The edges through a doorway, and those an open leaf bars that a robot could drive on before the door shuts."""
+def _blocked(operated: OperatedDoor, roadmap: Roadmap, radius: float) -> tuple[Int, Int]:
+    """Return the edges through a doorway, and the blocked ones that a robot could reach before the door closes."""
     doorway = np.array([operated.door.start, operated.door.end])
     _, through = elements_near([doorway], roadmap, operated.levels, radius)
-    _, barred = elements_near(_open_leaves(operated.door), roadmap, operated.levels, radius)
-    barred = np.setdiff1d(barred, through)
-    if not len(through) or not len(barred):
-        return through, barred[:0]
+    _, blocked = elements_near(_open_leaves(operated.door), roadmap, operated.levels, radius)
+    blocked = np.setdiff1d(blocked, through)
+    if not len(through) or not len(blocked):
+        return through, blocked[:0]
     stands, drives = elements_near([doorway, *swept_areas(operated.door)], roadmap, operated.levels, radius + MARGIN)
-    # A robot keeps the door as long as it is on these: edges, linked by the vertices among them.
+    # A robot holds the door while it is on these edges, which are joined by the vertices among them.
     count = len(roadmap.position)
     edge, end = np.repeat(drives, 2), roadmap.edges[drives].ravel()
     kept = np.isin(end, stands)
     label = components(count + len(roadmap.edges), np.stack([count + edge[kept], end[kept]], axis=1))
-    return through, barred[np.isin(label[count + barred], label[count + through])]
+    return through, blocked[np.isin(label[count + blocked], label[count + through])]
 
 
 def _pairs(roadmap: Roadmap, kept: Int) -> int:
-    """How many pairs of places (without places: of vertices) some way joins, on the edges `kept`."""
+    """Count the connected pairs of places (without places: of vertices) on the edges `kept`."""
     label = components(len(roadmap.position), roadmap.edges[kept])
     if (roadmap.place >= 0).any():
         label = label[np.unique(roadmap.place[roadmap.place >= 0])]
@@ -73,11 +74,11 @@ def _pairs(roadmap: Roadmap, kept: Int) -> int:
     return int((sizes**2).sum())
 
 
-def _note(operated: OperatedDoor, roadmap: Roadmap, barred: Int, *, shut: bool) -> str:
-    ends = np.unique(np.sort(roadmap.edges[barred], axis=1), axis=0)
+def _note(operated: OperatedDoor, roadmap: Roadmap, blocked: Int, *, closed: bool) -> str:
+    ends = np.unique(np.sort(roadmap.edges[blocked], axis=1), axis=0)
     x, y = roadmap.position[ends[0]].mean(axis=0)
     there = f"at ({x:.2f}, {y:.2f})"
-    if shut:
-        return f"Door {operated.name} stays shut: open, it would bar the way of who comes through, {there}."
-    count = "1 way is" if len(ends) == 1 else f"{len(ends)} ways are"
-    return f"Door {operated.name}: {count} left out, {there}, where the open leaf would bar who comes through."
+    if closed:
+        return f"Door {operated.name} stays closed: its open leaf would block a robot that passes through it, {there}."
+    count = "1 edge is" if len(ends) == 1 else f"{len(ends)} edges are"
+    return f"Door {operated.name}: {count} left out, {there}, where the open leaf would block a robot."

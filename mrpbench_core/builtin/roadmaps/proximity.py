@@ -1,4 +1,4 @@
-"""Which parts of a roadmap lie within a robot's reach of something drawn, and roadmaps with other edges."""
+"""Finds the vertices and edges of a roadmap near polygons, and selects edges of a roadmap."""
 
 import attrs
 import numpy as np
@@ -8,11 +8,11 @@ from mrpbench_core.model.arrays import Float, Int
 from mrpbench_core.model.roadmap import Roadmap
 
 MARGIN = 0.1
-"""metres by which a robot may be off its place: the tolerance of navigators."""
+"""metres by which a robot may deviate from its position: the tolerance of navigators."""
 
 
 def elements_near(outlines: list[Float], roadmap: Roadmap, levels: tuple[int, ...], radius: float) -> tuple[Int, Int]:
-    """Vertices and edges on some levels at which a disc of `radius` metres touches any of `outlines` f8[k,2]."""
+    """Return the vertices and edges on some levels at which a disc of `radius` metres touches a polygon f8[k,2]."""
     here = np.isin(roadmap.level, levels)
     start, end = roadmap.edges[:, 0], roadmap.edges[:, 1]
     flat = here[start] & here[end] & (roadmap.level[start] == roadmap.level[end])
@@ -26,11 +26,11 @@ def elements_near(outlines: list[Float], roadmap: Roadmap, levels: tuple[int, ..
 
 
 def select_edges(roadmap: Roadmap, chosen: Int) -> Roadmap:
-    """The roadmap with its edges `chosen` i8[k], in that order; its resources keep what is left of them."""
+    """Return the roadmap with only its edges `chosen` i8[k], in that order; its resources keep those edges."""
     number = np.full(len(roadmap.edges), -1)
     number[chosen] = np.arange(len(chosen))
 
-    def left(edges: tuple[int, ...]) -> tuple[int, ...]:
+    def renumbered(edges: tuple[int, ...]) -> tuple[int, ...]:
         return tuple(sorted(set(number[list(edges)].tolist()) - {-1}))
 
     return attrs.evolve(
@@ -38,7 +38,7 @@ def select_edges(roadmap: Roadmap, chosen: Int) -> Roadmap:
         edges=roadmap.edges[chosen],
         duration=roadmap.duration[:, chosen],
         resources=tuple(
-            attrs.evolve(resource, edges=left(resource.edges), passage=left(resource.passage))
+            attrs.evolve(resource, edges=renumbered(resource.edges), passage=renumbered(resource.passage))
             for resource in roadmap.resources
         ),
     )

@@ -1,4 +1,4 @@
-"""Scenarios written out: frozen instances that anyone can run again."""
+"""Scenarios from files."""
 
 from pathlib import Path
 
@@ -15,7 +15,7 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class FromFile(ScenarioSource):
-    """Reads a scenario in mrpbench's own format, as `mrpbench scenario CONFIG --write FILE` writes it."""
+    """A scenario file in the format that `mrpbench scenario CONFIG --write FILE` writes."""
 
     file: Path = option(help="the scenario file")
 

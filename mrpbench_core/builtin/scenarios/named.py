@@ -1,4 +1,4 @@
-"""Starts and goals by the names of places."""
+"""Starts and goals given by the names of places."""
 
 import difflib
 from collections import defaultdict
@@ -39,7 +39,7 @@ class Named(ScenarioSource):
 def _find(world: World, option_name: str, wanted: tuple[str, ...]) -> Int:
     """Indices of the vertices with the `wanted` names.
 
-    Several vertices may share a name only where they share a position: one place of several lane graphs.
+    Several vertices may share a name only if they share a position: one place in several navigation graphs.
     """
     indices: dict[str, list[int]] = defaultdict(list)
     for index, vertex in enumerate(world.vertices):

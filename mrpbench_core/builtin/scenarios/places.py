@@ -11,15 +11,15 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class Places:
-    """Named positions, and the roadmap vertex of each."""
+    """Named positions and their roadmap vertices."""
 
     position: Float
     """f8[k,2] metres."""
     level: Int16
     vertex: Int
-    """i8[k]; empty where no roadmap was asked for."""
+    """i8[k]; empty without a roadmap."""
     names: tuple[str, ...]
-    """() = none has a name."""
+    """() if the places have no names."""
 
     def __len__(self) -> int:
         return len(self.position)
@@ -33,7 +33,7 @@ class Places:
         )
 
     def scenario(self, starts: Int, goals: Int) -> Scenario:
-        """The scenario of robots at places `starts` with one task at each of places `goals`, any yaw."""
+        """Return the scenario with robots at the places `starts` and a task at each of the places `goals`, any yaw."""
         pose = np.column_stack([self.position, np.full(len(self), np.nan)])
         names = self.names or ("",) * len(self)
         return Scenario(
@@ -45,7 +45,7 @@ class Places:
 
 
 def places_of_world(world: World, roadmap: Roadmap | None = None) -> Places:
-    """The world's vertices in order; with a roadmap only those on it, the first on each roadmap vertex."""
+    """Return the vertices of the world in order; with a roadmap, the first vertex on each roadmap vertex."""
     places = Places(
         position=np.array([(vertex.x, vertex.y) for vertex in world.vertices]).reshape(-1, 2),
         level=np.array([vertex.level for vertex in world.vertices], np.int16),
@@ -55,12 +55,12 @@ def places_of_world(world: World, roadmap: Roadmap | None = None) -> Places:
     if roadmap is None:
         return places
     vertex = roadmap.locate(places.position, places.level).astype(np.int64)
-    if len(roadmap.place) == len(vertex):  # a place that a builder left out must not be moved to its nearest vertex
+    if len(roadmap.place) == len(vertex):  # a place that the builder left out must not move to its nearest vertex
         vertex = np.where(roadmap.place == vertex, vertex, -1)
     found, first = np.unique(vertex, return_index=True)
     return attrs.evolve(places, vertex=vertex)[np.sort(first[found >= 0])]
 
 
 def places_of_roadmap(roadmap: Roadmap) -> Places:
-    """Every vertex of the roadmap, nameless."""
+    """Return every vertex of the roadmap, without names."""
     return Places(position=roadmap.position, level=roadmap.level, vertex=np.arange(len(roadmap.position)), names=())

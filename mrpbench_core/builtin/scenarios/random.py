@@ -24,11 +24,11 @@ STARTS, GOALS = 0, 1
 
 @attrs.frozen(kw_only=True)
 class Random(ScenarioSource):
-    """Draws starts, and independently goals, without replacement: from the world's named places if it has any, else
-    from all vertices of the roadmap.
+    """Draws starts and, independently, goals without replacement: from the named places of the world if there are any,
+    else from all vertices of the roadmap.
 
-    Only places that are on the roadmap, on distinct vertices, in no door, lift or mutex, far enough apart for the
-    robots to stand side by side, and among which every robot can drive there and back, are drawn. The order of the
+    Drawn places are on the roadmap, on distinct vertices, outside of doors, lifts and mutexes, and far enough apart for
+    the robots to stand there; every robot can drive between any two of them. The order of the
     places is that of `Generator(PCG64(SeedSequence([seed modulo 2**64, 0]))).random(places)` for starts (key 1 for
     goals), sorted; so the first of more robots of one kind start and end, on the same seed, where fewer do.
     """
@@ -73,7 +73,7 @@ class Random(ScenarioSource):
 
 
 def _connected(roadmap: Roadmap, places: Places) -> Int:
-    """Indices of the largest group of places among which every motion profile can drive there and back."""
+    """Return the indices of the largest group of places between which every motion profile can drive both ways."""
     labels = [round_trips(roadmap, profile)[places.vertex] for profile in range(len(roadmap.duration))]
     if not labels or not len(places):
         return np.arange(len(places))
@@ -82,19 +82,19 @@ def _connected(roadmap: Roadmap, places: Places) -> Int:
 
 
 def _parking(roadmap: Roadmap, places: Places) -> Int:
-    """Indices of places where a robot that stays keeps no others from a door, a lift or a mutex."""
+    """Return the indices of the places outside of doors, lifts and mutexes."""
     used = [vertex for resource in roadmap.resources for vertex in resource.vertices]
     return np.flatnonzero(~np.isin(places.vertex, used))
 
 
 def _shuffled(count: int, seed: int, stream: int) -> Int:
-    """Indices of places in random order; doubles keep their value across NumPy versions, `permutation` need not."""
+    """Return indices in random order. Unlike `permutation`, random doubles are the same in all NumPy versions."""
     generator = np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed % 2**64, stream])))
     return np.argsort(generator.random(count), kind="stable")
 
 
 def _separate(position: Float, level: Int16, order: Int, room: float, wanted: int, verb: str) -> Int:
-    """The first `wanted` places of `order` that lie at least `room` metres from those already taken."""
+    """Return the first `wanted` places of `order` that lie at least `room` metres from those already taken."""
     taken = np.empty(wanted, np.int64)
     count = 0
     for index in order:

@@ -1,4 +1,4 @@
-"""Images as grey values; needs the extra `images`."""
+"""Reads images as greyscale; needs the extra `images`."""
 
 import warnings
 from pathlib import Path
@@ -13,7 +13,7 @@ from mrpbench_core.model.arrays import Bool, Float
 
 @attrs.frozen(eq=False)
 class GreyscaleImage:
-    """An image; row 0 is its top."""
+    """An image; row 0 is the top."""
 
     lightness: Float
     """f8[rows, columns], 0 black to 1 white; the mean of the colours."""
@@ -22,10 +22,10 @@ class GreyscaleImage:
 
 
 def read_image(file: Path, named: Node) -> GreyscaleImage:
-    """Read an image, named by the value `named`.
+    """Read the image that the value `named` names.
 
     Raises:
-        InputError: Pillow is missing, or the file is missing or no image.
+        InputError: Pillow is not installed, or the file is missing or not an image.
     """
     try:
         from PIL import Image
@@ -44,5 +44,5 @@ def read_image(file: Path, named: Node) -> GreyscaleImage:
     except (Image.DecompressionBombWarning, Image.DecompressionBombError):
         raise named.error(f"image {file} is too large") from None
     except (OSError, ValueError, SyntaxError) as error:  # what Pillow raises at broken files
-        raise InputError(f"is no image that Pillow reads: {' '.join(str(error).split())}", file=file) from None
+        raise InputError(f"is not an image that Pillow reads: {' '.join(str(error).split())}", file=file) from None
     return GreyscaleImage(colours[..., :3].mean(axis=2) / 255, colours[..., 3] == 0)

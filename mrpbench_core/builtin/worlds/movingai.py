@@ -18,7 +18,7 @@ from mrpbench_core.model.world import Level, World
 PASSABLE = ".GS"
 """Ground and swamp."""
 BLOCKED = "@OTW"
-"""Out of bounds, trees and water: multi-robot planners do not swim."""
+"""Out of bounds, trees and water."""
 
 
 @attrs.frozen(kw_only=True)

@@ -25,11 +25,11 @@ DoorState = Literal["operated", "open"]
 
 
 def doors_option() -> Any:
-    """The option of worlds with doors."""
+    """Return the option of worlds with doors."""
     return option(
         "operated",
         help="`operated`: doors are shut until a robot is granted one, which takes planners that support resources; "
-        "`open`: every doorway is free, for comparing all planners.",
+        "`open`: every doorway is free, to compare all planners.",
         validator=attrs.validators.in_(("operated", "open")),
     )
 
@@ -39,7 +39,7 @@ class Rmf(WorldSource):
     """A `building.yaml` of the RMF traffic editor, all its levels in the frame of the reference level.
 
     The reference level (`reference_level_name`, else the first) becomes level 0. Models become obstacles by a table of
-    estimated footprints, which `footprints` extends; what is not understood stands in `World.notes`.
+    estimated footprints, which `footprints` extends. `World.notes` lists what is not supported.
     """
 
     file: Path = option(help="The building.yaml file.")
@@ -49,7 +49,7 @@ class Rmf(WorldSource):
     )
     clearance: float = option(
         0.35,
-        help="An estimated footprint nearer than this to a lane is left out: the lane is surely free.",
+        help="An estimated footprint closer than this to a lane is left out, because lanes are free.",
         unit="m",
         validator=attrs.validators.ge(0),
     )

@@ -1,4 +1,4 @@
-"""Worlds of the ROS `map_server`: an image and a YAML file that says what its grey values mean.
+"""Worlds of the ROS `map_server`: an image, and a YAML file that defines its grey values.
 
 Facts: the documentation of `nav2_map_server` (docs.nav2.org) and of ROS 1's `map_server` (wiki.ros.org/map_server).
 """
@@ -26,29 +26,31 @@ MODES = ("trinary", "scale", "raw")
 
 @attrs.frozen(kw_only=True)
 class RosMap(WorldSource):
-    """A `map_server` map. Blocked is what is occupied, and, unless `unknown` is free, what is unknown.
+    """A `map_server` map. Occupied cells are blocked, and so are unknown ones unless `unknown` is `free`.
 
-    A pixel is occupied when its darkness (with `negate`: lightness) is above `occupied_thresh` and free below
-    `free_thresh`. Between them it is unknown in the mode `trinary`; free in `scale`, as only certain obstacles stop
-    Nav2's planners. In the mode `raw` the grey value itself is the occupancy in percent, above 100 unknown. Pixels that
-    are transparent are unknown. Where the origin has a yaw, the map is turned about the lower left corner of the image;
-    by other than quarter turns it is sampled anew.
+    A pixel is occupied if its darkness (with `negate`: its lightness) is above `occupied_thresh`, and free if it is
+    below `free_thresh`. Between the thresholds it is unknown in the mode `trinary`, and free in the mode `scale`,
+    because only certain obstacles stop Nav2's planners. In the mode `raw` the grey value is the occupancy in percent;
+    above 100 it is unknown. Transparent pixels are unknown. If the origin has a yaw, the map is rotated about the lower
+    left corner of the image; it is resampled unless the yaw is a quarter turn.
     """
 
     file: Path = option(help="The .yaml file.")
-    image: Path | None = option(None, help="The image, instead of the one that the file names.")
+    image: Path | None = option(None, help="The image to read instead of the one that the file names.")
     unknown: Literal["blocked", "free"] = option(
-        "blocked", help="What unknown cells are.", validator=attrs.validators.in_(["blocked", "free"])
+        "blocked",
+        help="Whether unknown cells are blocked or free.",
+        validator=attrs.validators.in_(["blocked", "free"]),
     )
 
     def reads(self) -> tuple[Path, ...]:
-        """The image that the file names."""
+        """Return the image that the file names."""
         if self.image is not None:
             return ()
         try:
             document = yaml.load(self.file)
             return (self.file.parent / Node(document, document.data).fields()["image"].text(),)
-        except (InputError, KeyError):  # `load` says what is wrong
+        except (InputError, KeyError):  # `load` reports the error
             return ()
 
     def load(self) -> World:
@@ -69,7 +71,7 @@ class RosMap(WorldSource):
         notes = [f"key {key!r} is not known and has no effect." for key in fields if key not in KEYS]
         angle = math.remainder(yaw[0] if yaw else 0.0, 2 * math.pi)
         if not math.isclose(angle, round(angle / (math.pi / 2)) * math.pi / 2, abs_tol=1e-6):
-            notes.append(f"the map is turned by {math.degrees(angle):.2f}° and sampled anew.")
+            notes.append(f"the map is rotated by {math.degrees(angle):.2f}° and resampled.")
         level = Level(name="L1", occupancy=rotate(occupancy, angle))
         return World(name=self.file.name.split(".")[0], levels=(level,), notes=tuple(notes))
 

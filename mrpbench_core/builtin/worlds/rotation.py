@@ -1,4 +1,4 @@
-"""Rasters turned about their lower left corner."""
+"""Rotates rasters about their lower left corner."""
 
 import math
 
@@ -11,9 +11,10 @@ TOLERANCE = 1e-6
 
 
 def rotate(occupancy: Occupancy, angle: float) -> Occupancy:
-    """The raster turned counter-clockwise about its origin by `angle` radians, on axes parallel to x and y.
+    """Return the raster rotated counter-clockwise by `angle` radians about its origin, with axes parallel to x and y.
 
-    Quarter turns are exact. Else each new cell takes the value at its centre; what lies beyond the raster is blocked.
+    Quarter turns are exact. Otherwise each new cell takes the value at its centre, and cells outside the raster are
+    blocked.
     """
     (rows, columns), size = occupancy.shape, occupancy.cell_size
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -24,7 +25,7 @@ def rotate(occupancy: Occupancy, angle: float) -> Occupancy:
     x, y = occupancy.origin
     origin = (x + float(low[0]), y + float(low[1]))
     if abs(angle - quarters * math.pi / 2) <= TOLERANCE:
-        # row 0 is the lowest: seen from above, `rot90` turns the other way
+        # row 0 is the lowest, so `rot90` rotates in the opposite direction
         blocked = np.rot90(occupancy.blocked, -quarters)
         return Occupancy(blocked=blocked, cell_size=size, origin=origin)
     shape = np.ceil((high - low) / size - 1e-9).astype(int)

@@ -16,7 +16,7 @@ CASES = ("corridor", "swap", "roundabout", "alcove", "door")
 
 @attrs.frozen(kw_only=True)
 class Office(WorldSource):
-    """Ten rooms on both sides of a corridor, 21.5 × 12 m, 29 places."""
+    """An office of 21.5 × 12 m: ten rooms on both sides of a corridor, 29 places."""
 
     def load(self) -> World:
         """Read the packaged file."""
@@ -25,7 +25,7 @@ class Office(WorldSource):
 
 @attrs.frozen(kw_only=True)
 class Warehouse(WorldSource):
-    """Shelves, aisles, docks and pick stations, 22 × 27 m, 54 places."""
+    """A warehouse of 22 × 27 m: shelves, aisles, docks and pick stations, 54 places."""
 
     def load(self) -> World:
         """Read the packaged file."""
@@ -34,7 +34,7 @@ class Warehouse(WorldSource):
 
 @attrs.frozen(kw_only=True)
 class Airport(WorldSource):
-    """A terminal with two concourses, 56 gates, shops and lounges, 282 × 64 m, 210 places."""
+    """An airport terminal of 282 × 64 m: two concourses, 56 gates, shops and lounges, 210 places."""
 
     def load(self) -> World:
         """Read the packaged file."""
@@ -43,7 +43,7 @@ class Airport(WorldSource):
 
 @attrs.frozen(kw_only=True)
 class Household(WorldSource):
-    """A furnished flat of five rooms on a hall, 12.4 × 9.2 m, 28 places; doors and passages are 0.7 m wide."""
+    """A furnished flat of 12.4 × 9.2 m: five rooms on a hall, 28 places. Doors and passages are 0.7 m wide."""
 
     doors: DoorState = doors_option()
 
@@ -54,7 +54,7 @@ class Household(WorldSource):
 
 @attrs.frozen(kw_only=True)
 class Bottlenecks(WorldSource):
-    """Minimal hard cases in which robots must give way to one another; passages are 0.7 m wide.
+    """Minimal hard cases in which robots have to give way to one another. Passages are 0.7 m wide.
 
     `corridor`: two rooms, 4.8 m apart, joined by a corridor for one robot. `swap`: a room two robots wide.
     `roundabout`: a one-way ring with four arms. `alcove`: a corridor with one place to let another robot pass.

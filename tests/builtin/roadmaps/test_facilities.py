@@ -135,7 +135,9 @@ def test_a_leaf_across_the_only_hall_leaves_the_door_shut_rather_than_the_hall_p
     roadmap = Graph().build(world, make_fleet(RADIUS))
     assert roadmap.resources == ()
     (note,) = [note for note in roadmap.notes if "room door" in note]
-    assert note.startswith("Door room door stays shut: open, it would bar the way of who comes through, at (")
+    assert note.startswith(
+        "Door room door stays closed: its open leaf would block a robot that passes through it, at ("
+    )
     joined = {tuple(sorted(edge)) for edge in roadmap.edges.tolist()}
     west, front, east, room = roadmap.place[:4].tolist()
     assert {tuple(sorted(pair)) for pair in ((west, front), (front, east))} <= joined
@@ -152,7 +154,7 @@ def test_a_leaf_that_bars_a_way_with_a_way_round_keeps_that_way_out(make_fleet):
     west, front = roadmap.place[:2].tolist()
     assert [resource.name for resource in roadmap.resources] == ["door"]
     assert not {(west, front), (front, west)} & {tuple(edge) for edge in roadmap.edges.tolist()}
-    assert any(note.startswith("Door door: 1 way is left out, at (2.00, 1.40)") for note in roadmap.notes)
+    assert any(note.startswith("Door door: 1 edge is left out, at (2.00, 1.40)") for note in roadmap.notes)
 
 
 def test_a_leaf_that_opens_into_the_room_bars_nothing_in_the_hall(make_fleet):

@@ -48,7 +48,7 @@ def test_a_lane_that_no_robot_fits_on_is_left_out_and_named(make_fleet):
     lanes = [Lane(start=0, end=1), Lane(start=1, end=2)]
     roadmap = Graph().build(world_of([(0, 0), (4, 0), (8, 0)], lanes, [[6, -1, 6, 1]]), make_fleet(0.1))
     assert roadmap.edges.tolist() == [[0, 1], [1, 0]]
-    assert roadmap.notes == ("Lane v1 – v2 is left out where a robot on it would touch something.",)
+    assert roadmap.notes == ("Lane v1 – v2 is left out where a robot on it would touch something solid.",)
 
 
 def test_a_place_in_a_wall_is_no_vertex(make_fleet):

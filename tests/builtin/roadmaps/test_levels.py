@@ -48,7 +48,7 @@ def test_walls_block_lanes_of_their_own_level_only(tower, make_fleet):
     closed = attrs.evolve(tower.levels[1], walls=[[3, 2, 5, 2]])
     roadmap = Graph().build(attrs.evolve(tower, levels=(tower.levels[0], closed)), make_fleet(0.12))
     assert len(roadmap.edges) == 2
-    assert roadmap.notes == ("Lane south – north is left out where a robot on it would touch something.",)
+    assert roadmap.notes == ("Lane south – north is left out where a robot on it would touch something solid.",)
 
 
 def test_random_scenarios_take_the_largest_connected_part_whatever_its_level(tower, make_fleet):

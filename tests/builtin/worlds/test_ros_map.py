@@ -105,7 +105,7 @@ def test_other_turns_are_sampled_anew_and_said_so(load):
     angle = math.radians(30)
     world = load(values, YAML.replace("2, 0]", f"2, {angle!r}]"))
     occupancy = world.levels[0].occupancy
-    assert world.notes == ("the map is turned by 30.00° and sampled anew.",)
+    assert world.notes == ("the map is rotated by 30.00° and resampled.",)
     x, y = 42 * 0.05, 38 * 0.05
     middle = np.array([-1 + x * math.cos(angle) - y * math.sin(angle), 2 + x * math.sin(angle) + y * math.cos(angle)])
     row, column = occupancy.cells(middle)[0]
@@ -148,7 +148,7 @@ def test_a_roadmap_on_a_fine_map_has_cells_for_robots(load):
     ("old", "new", "message"),
     [
         ("image: map.png", "image: no.png", "map.yaml:1:8: there is no image"),
-        ("image: map.png", "image: map.yaml", "map.yaml: is no image that Pillow reads"),
+        ("image: map.png", "image: map.yaml", "map.yaml: is not an image that Pillow reads"),
         ("image: map.png\n", "", "map.yaml:1:1: has no 'image' (a ROS map_server file?)"),
         ("0.05", "0", "map.yaml:2:13: resolution should be positive"),
         ("[-1, 2, 0]", "[1]", "map.yaml:3:9: should have at least 2 values"),

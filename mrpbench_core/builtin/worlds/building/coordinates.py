@@ -15,7 +15,7 @@ from mrpbench_core.model.arrays import Float
 
 KNOWN = ("reference_image", "cartesian_meters", "wgs84")
 BLANK = 0.05
-"""metres per pixel of the empty sheet on which the editor draws a level that has no drawing"""
+"""metres per pixel of a level without a drawing, as in the editor."""
 PARAMETERS: dict[str, Kind] = {
     "generate_crs": str,
     "generate_origin_vertex": str,
@@ -25,7 +25,7 @@ PARAMETERS: dict[str, Kind] = {
 
 @attrs.frozen(kw_only=True)
 class Frame:
-    """How the coordinates of one level become metres: projected or flipped, then scaled, turned and shifted."""
+    """The transform from the coordinates of a level to metres: project or flip, scale, rotate, translate."""
 
     scale: float = 1.0
     rotation: float = 0.0
@@ -43,10 +43,10 @@ def read_frames(building: Node, levels: Mapping[str, Node], notes: Notes) -> dic
     """The frame of each level, the first of which is the reference.
 
     `reference_image`: pixels, y down. The reference level's scale is the mean of metres per pixel over its
-    measurements, or that of the editor's empty sheet if it has neither these nor a drawing; the others are laid upon it
-    by the fiducials of the same name.
-    `cartesian_meters`: as they stand, less the suggested offset.
-    `wgs84`: longitude and latitude, in the coordinate reference system `generate_crs`, less the suggested offset.
+    measurements, or the editor's default if it has neither measurements nor a drawing. The other levels are aligned
+    with it by the fiducials of the same name.
+    `cartesian_meters`: metres, minus the suggested offset.
+    `wgs84`: longitude and latitude, in the coordinate reference system `generate_crs`, minus the suggested offset.
     """
     system = building.fields().get("coordinate_system")
     name = "reference_image" if system is None else system.text()
@@ -76,7 +76,7 @@ def _flip(raw: Float) -> Float:
 
 
 def _turn(angle: float) -> Float:
-    """Rotates row vectors counter-clockwise when multiplied from the right."""
+    """Return the matrix that rotates row vectors counter-clockwise when multiplied from the right."""
     cosine, sine = math.cos(angle), math.sin(angle)
     return np.array([(cosine, sine), (-sine, cosine)])
 
@@ -102,7 +102,7 @@ def _image_frames(levels: Mapping[str, Node], notes: Notes) -> dict[str, Frame]:
 
 
 def _fiducials(level: Node) -> dict[str, tuple[float, float]]:
-    """Pixels, y up, of the named marks."""
+    """Return the pixels, y up, of the named fiducials."""
     marks = {}
     for node in level.section("fiducials"):
         x, y, name, *_ = node.items(least=3)
@@ -112,8 +112,9 @@ def _fiducials(level: Node) -> dict[str, tuple[float, float]]:
 
 
 def _align(own: list[tuple[float, float]], target: list[tuple[float, float]], scale: float) -> Frame:
-    """The frame that lays marks upon those of the reference level, as `rmf_building_map_tools` does: mean turn and mean
-    ratio of distances over all pairs of marks, then the mean shift.
+    """Return the frame that aligns fiducials with those of the reference level, as `rmf_building_map_tools` does.
+
+    It is the mean rotation and the mean ratio of distances over all pairs of fiducials, then the mean translation.
     """
     turns, ratios = [], []
     for (p, q), (s, t) in zip(itertools.combinations(own, 2), itertools.combinations(target, 2), strict=True):
@@ -144,15 +145,15 @@ def _metres_per_pixel(level: Node, notes: Notes) -> float:
         if distance is None or distance <= 0:
             raise measurement.error("measurement without a positive distance")
         if length == 0:
-            raise measurement.error("measurement of zero length: its two vertices are one point")
+            raise measurement.error("measurement of zero length: its two vertices coincide")
         scales.append(distance / length)
     if not scales and "drawing" not in level.fields():
-        notes.add(f"a level without drawing and measurements: {BLANK} m per pixel, as the editor shows it")
+        notes.add(f"a level has neither a drawing nor measurements and gets {BLANK} m per pixel, as in the editor")
         return BLANK
     if not scales:
         raise level.error(
-            "the level has no measurements, so that pixels cannot become metres",
-            "measure a wall in the traffic editor",
+            "the level has no measurements, so its scale is unknown",
+            "add a measurement in the traffic editor",
             key=True,
         )
     scale = float(np.mean(scales))

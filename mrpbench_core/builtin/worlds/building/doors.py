@@ -25,12 +25,12 @@ MOTIONS = {
     "telescope": ("telescope", "single_telescope"),
     "double_telescope": ("double_telescope",),
 }
-"""Our six kinds, and the words that editor and messages of RMF have for them."""
+"""The six kinds of doors, and the words of RMF's editor and messages for them."""
 _MOTION = {word: motion for motion, words in MOTIONS.items() for word in words}
 
 
 def read_doors(level: Node, positions: Float, notes: Notes) -> tuple[Door, ...]:
-    """The doors, in the order of the file."""
+    """Return the doors in the order of the file."""
     doors = []
     for node in level.section("doors"):
         start, end, *rest = node.items(least=2)
@@ -46,7 +46,7 @@ def read_doors(level: Node, positions: Float, notes: Notes) -> tuple[Door, ...]:
 def _motion(parameters: dict[str, Any], node: Node, notes: Notes) -> dict[str, Any]:
     kind = parameters.get("type", "sliding")
     if kind not in _MOTION:
-        notes.add(f"door type {kind!r} is not known and taken for sliding")
+        notes.add(f"door type {kind!r} is not known and is treated as sliding")
     axis = parameters.get("motion_axis", "start")
     if axis not in ("start", "end"):
         raise node.error(f"door parameter 'motion_axis' should be start or end, not {axis!r}")

@@ -7,7 +7,7 @@ from mrpbench_core.model.world import Area
 
 
 def read_areas(level: Node, key: str, positions: Float, notes: Notes) -> tuple[Area, ...]:
-    """The polygons under `floors` or `holes`; how they look does not matter to us."""
+    """Return the polygons of the section `key`, `floors` or `holes`; textures are ignored."""
     areas = []
     for node in level.section(key):
         corners = node.section("vertices")

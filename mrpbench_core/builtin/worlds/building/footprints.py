@@ -1,4 +1,4 @@
-"""Footprints of furniture by model name: a table of ours, and the user's own."""
+"""Footprints of models by name: our table and the user's."""
 
 from pathlib import Path
 
@@ -11,24 +11,24 @@ from mrpbench_core.model.arrays import Float, array
 
 SHIPPED = Path(__file__).parents[1] / "data" / "footprints.yaml"
 SIDES = 12
-"""of the polygon that stands for a disc."""
+"""Number of sides of the polygon that represents a disc."""
 _KEYS = ("size", "radius", "centre", "height", "origin")
 
 
 @attrs.frozen(kw_only=True)
 class Footprint:
-    """What a model covers of the floor, in its own frame."""
+    """The area of the floor that a model covers, in the model's frame."""
 
     polygon: Float = array("f8", 2)
-    """f8[k,2] metres, counter-clockwise; k = 0 for what is no obstacle."""
+    """f8[k,2] metres, counter-clockwise; k = 0 if the model is not an obstacle."""
     height: float = 1.0
     origin: float = 0.0
-    """How high the model's origin lies above its foot."""
+    """Height of the model's origin above its base, metres."""
     estimated: bool = True
 
 
 class Footprints:
-    """Looks footprints up by a model's name, with or without its owner (`OpenRobotics/Desk`, `Desk`)."""
+    """Finds footprints by the name of a model, with or without its owner (`OpenRobotics/Desk`, `Desk`)."""
 
     def __init__(self, own: Path | None = None) -> None:
         self._table = _read(SHIPPED, estimated=True)
@@ -36,7 +36,7 @@ class Footprints:
             self._table |= _read(own, estimated=False)
 
     def get(self, model: str) -> Footprint | None:
-        """The footprint, or None where no table names the model."""
+        """Return the footprint, or None if no table has the model."""
         return self._table.get(model, self._table.get(model.rpartition("/")[2]))
 
 

@@ -17,7 +17,7 @@ from mrpbench_core.model.geometry import segment_distance
 from mrpbench_core.model.world import Door, Lane, Lift, Vertex
 
 GRAPHS = range(9)
-"""The graphs that RMF exports; the editor also lets one draw a tenth, which nobody reads."""
+"""The graph indices that RMF exports. The editor has a tenth, which RMF does not export."""
 VERTEX: dict[str, Kind] = {
     **dict.fromkeys(
         ("is_parking_spot", "is_charger", "is_cleaning_zone", "is_holding_point", "is_passthrough_point"), bool
@@ -39,7 +39,7 @@ LANE: dict[str, Kind] = {
 
 @attrs.frozen
 class LevelDrawing:
-    """What lanes of a level may lead through."""
+    """The vertices and doors of a level, as drawn."""
 
     node: Node
     positions: Float
@@ -50,7 +50,7 @@ class LevelDrawing:
 def read_graph(
     drawings: Sequence[LevelDrawing], lifts: Sequence[Lift], notes: Notes
 ) -> tuple[tuple[Vertex, ...], tuple[Lane, ...]]:
-    """The places that lanes use, and the lanes, both by graph index."""
+    """Return the places that lanes use and the lanes, both sorted by graph index."""
     places = [_places(drawing, level, lifts, notes) for level, drawing in enumerate(drawings)]
     drawn = [_lanes(drawing, notes) for drawing in drawings]
     vertices: list[Vertex] = []
@@ -81,7 +81,7 @@ def _place(node: Node, position: Float, level: int, lifts: Sequence[Lift], notes
     x, y = position.tolist()
     cabin = parameters.get("lift_cabin", "")
     if cabin and cabin not in [lift.name for lift in lifts]:
-        notes.add(f"vertex inside the lift {cabin!r}, which there is not")
+        notes.add(f"vertex names the lift_cabin {cabin!r}, which does not exist")
         cabin = ""
     inside = [lift.name for lift in lifts if level in lift.levels and lift.holds(x, y)]
     return Vertex(name=name, x=x, y=y, level=level, parameters=parameters, lift=cabin or (inside[0] if inside else ""))
@@ -92,7 +92,7 @@ def _lanes(drawing: LevelDrawing, notes: Notes) -> list[Lane]:
 
 
 def _lane(node: Node, drawing: LevelDrawing, notes: Notes) -> Lane | None:
-    """The lane, with the level's vertex indices."""
+    """Return the lane with the vertex indices of its level; None if it has no length."""
     first, second, *rest = node.items(least=2)
     positions = drawing.positions
     start, end = (item.index(len(positions), "lane") for item in (first, second))
@@ -109,10 +109,10 @@ def _lane(node: Node, drawing: LevelDrawing, notes: Notes) -> Lane | None:
         orientation = ""
     if orientation == "backward" or (
         orientation and parameters.get("bidirectional")
-    ):  # on the way back it is the other
-        notes.add("lane to be driven backward is driven forward, as all lanes are")
+    ):  # a two-way lane is driven backward in one direction
+        notes.add("lane with orientation backward is driven forward, like all lanes")
     if parameters.get("demo_mock_floor_name") or parameters.get("demo_mock_lift_name"):
-        notes.add("lane through a mock lift is taken for an ordinary lane")
+        notes.add("lane through a mock lift is treated as an ordinary lane")
     return Lane(
         start=start,
         end=end,
@@ -126,7 +126,7 @@ def _lane(node: Node, drawing: LevelDrawing, notes: Notes) -> Lane | None:
 
 
 def _door_on(start: Float, end: Float, doors: Sequence[Door]) -> str:
-    """The name of the first door that the lane passes."""
+    """Return the name of the first door that the lane passes."""
     if not doors:
         return ""
     a, b = (np.array(list(sides)) for sides in ([d.start for d in doors], [d.end for d in doors]))

@@ -12,7 +12,7 @@ from mrpbench_core.model.world import Door, Lift
 
 
 def read_lifts(building: Node, frames: Mapping[str, Frame], notes: Notes) -> tuple[Lift, ...]:
-    """The lifts that stop at a level of `frames`, in the order of the file. All their doors slide to both sides."""
+    """Return the lifts that serve a level of `frames`, in the order of the file. All their doors are double sliding."""
     section = building.fields().get("lifts")
     lifts = []
     for name, node in ({} if section is None else section.fields()).items():
@@ -59,7 +59,7 @@ def _lift(name: str, node: Node, frames: Mapping[str, Frame], levels: Node, note
 
 
 def _stops(node: Node, levels: Node) -> dict[str, list[str]]:
-    """The doors that open on each level."""
+    """Return the doors that open on each level."""
     section = node.fields().get("level_doors")
     stops = {}
     for level, names in ({} if section is None else section.fields()).items():
@@ -70,7 +70,7 @@ def _stops(node: Node, levels: Node) -> dict[str, list[str]]:
 
 
 def _door(name: str, x: float, y: float, yaw: float, node: Node) -> Door:
-    """A door from its centre in metres from the cabin's, its direction and its width."""
+    """Return a door; the file gives its centre in metres from that of the cabin, its direction and its width."""
     dx, dy = _number(node, "x"), _number(node, "y")
     middle = (x + dx * math.cos(yaw) - dy * math.sin(yaw), y + dx * math.sin(yaw) + dy * math.cos(yaw))
     along = yaw + _number(node, "motion_axis_orientation", 0.0)

@@ -15,18 +15,18 @@ from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.world import Level, Obstacle
 
 OUT_OF_REACH = 0.5
-"""metres: what hangs or stands on something higher than this is in no robot's way."""
+"""metres: models whose base is higher than this are in no robot's way."""
 SHOWN = 3
 _FIELDS = ("model_name", "name", "x", "y", "z", "yaw", "static", "dispensable")
 
 NamedLanes = Sequence[tuple[str, Float]]
-"""Name and ends f8[2,2] of each lane of a level."""
+"""The name and the ends f8[2,2] of each lane of a level."""
 
 
 def read_models(
     level: Node, frame: Frame, footprints: Footprints, lanes: NamedLanes, clearance: float, notes: Notes
 ) -> tuple[Obstacle, ...]:
-    """The obstacles of a level. An estimated footprint nearer than `clearance` to a lane is left out and noted."""
+    """Return the obstacles of a level; an estimated footprint within `clearance` of a lane is left out."""
     found: list[tuple[str, Obstacle]] = []
     for node in level.section("models"):
         fields = node.fields()
@@ -38,11 +38,11 @@ def read_models(
         model = fields["model_name"].text()
         footprint = footprints.get(model)
         if footprint is None:
-            notes.add(f"model {model!r} has no known footprint and is no obstacle (option footprints)")
+            notes.add(f"model {model!r} has no known footprint and is not an obstacle (option footprints)")
         elif not len(footprint.polygon):
-            notes.add(f"model {model!r} is taken for no obstacle")
+            notes.add(f"model {model!r} is not an obstacle")
         elif _number(fields, "z") - footprint.origin > OUT_OF_REACH:
-            notes.add(f"model {model!r} stands or hangs higher than {OUT_OF_REACH} m and is no obstacle")
+            notes.add(f"model {model!r} is higher than {OUT_OF_REACH} m above the floor and is not an obstacle")
         else:
             found.append((model, _obstacle(fields, frame, footprint)))
     return _off_lanes(found, lanes, clearance, notes)
@@ -82,7 +82,7 @@ def _off_lanes(
     for model, names in blocked.items():
         listed = ", ".join(dict.fromkeys(names[:SHOWN])) + (", …" if len(names) > SHOWN else "")
         notes.add(
-            f"model {model!r}: its estimated footprint reaches within {clearance:g} m of a lane and is left out there "
+            f"model {model!r}: its estimated footprint is within {clearance:g} m of a lane and is left out there "
             f"({listed}; {len(names)} in all)"
         )
     return tuple(kept)

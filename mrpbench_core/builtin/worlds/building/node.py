@@ -1,4 +1,4 @@
-"""A value of a building file that knows where it stands, so that every mistake is reported with its line."""
+"""A value of a YAML file with its position, so that every error names its line."""
 
 from typing import Any
 
@@ -13,14 +13,14 @@ LIMIT = 1e9
 
 @attrs.frozen
 class Node:
-    """One value of the document. The readers raise `InputError` with file and line when it is of another type."""
+    """One value of the document. Its methods raise `InputError` with file and line if it has another type."""
 
     document: Document
     value: Any
     steps: Steps = ()
 
     def fields(self) -> "dict[str, Node]":
-        """The values of a mapping (none for an absent or empty one)."""
+        """Return the values of a mapping; an absent one has none."""
         if self.value is None:
             return {}
         if not isinstance(self.value, dict):
@@ -28,7 +28,7 @@ class Node:
         return {key: Node(self.document, value, (*self.steps, key)) for key, value in self.value.items()}
 
     def items(self, least: int = 0) -> "list[Node]":
-        """The values of a sequence of at least `least` values (none for an absent or empty one)."""
+        """Return the values of a sequence, which has at least `least`; an absent one has none."""
         value = [] if self.value is None else self.value
         if not isinstance(value, list):
             raise self.error(f"should be a sequence, not {_kind(value)}")
@@ -37,24 +37,24 @@ class Node:
         return [Node(self.document, item, (*self.steps, index)) for index, item in enumerate(value)]
 
     def section(self, key: str) -> "list[Node]":
-        """The items under `key` of this mapping; none if it is absent."""
+        """Return the items of the sequence `key` of this mapping; none if it is absent."""
         inner = self.fields().get(key)
         return [] if inner is None else inner.items()
 
     def number(self) -> float:
-        """A finite number; no building is larger than `LIMIT`."""
+        """Return a finite number, at most `LIMIT`."""
         if isinstance(self.value, bool) or not isinstance(self.value, int | float) or not abs(self.value) <= LIMIT:
             raise self.error(f"should be a number within ±{LIMIT:g}, not {_kind(self.value)}")
         return float(self.value)
 
     def integer(self) -> int:
-        """A whole number."""
+        """Return a whole number."""
         if isinstance(self.value, bool) or not isinstance(self.value, int):
             raise self.error(f"should be a whole number, not {_kind(self.value)}")
         return self.value
 
     def text(self) -> str:
-        """A name; the editor writes names that look like numbers without quotes."""
+        """Return a text. The editor writes names that look like numbers without quotes."""
         if self.value is None:
             return ""
         if isinstance(self.value, bool):
@@ -64,7 +64,7 @@ class Node:
         return str(self.value)
 
     def index(self, count: int, what: str) -> int:
-        """The index of a vertex of a level with `count` vertices, named by a `what`."""
+        """Return the index of a vertex, which a `what` (a lane, a wall) names, on a level with `count` vertices."""
         index = self.integer()
         if not 0 <= index < count:
             known = f"the level's vertices are 0 to {count - 1}" if count else "the level has no vertices"
@@ -72,7 +72,7 @@ class Node:
         return index
 
     def error(self, message: str, hint: str | None = None, *, key: bool = False) -> InputError:
-        """An error at this value (at its key, with `key`)."""
+        """Return an error at this value; with `key`, at its key."""
         return self.document.error(message, self.steps, key=key, hint=hint)
 
 

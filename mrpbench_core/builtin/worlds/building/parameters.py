@@ -13,13 +13,13 @@ _WORDS = {str: "text [1, …]", int: "an int [2, …]", float: "a double [3, …
 
 
 def read_parameters(node: Node, known: Mapping[str, Kind], owner: str, notes: Notes) -> dict[str, Any]:
-    """Return the values by name. Parameters and types unknown to us are noted; the latter are left out.
+    """Return the values by name. Unknown parameters and types are noted; a parameter of unknown type is left out.
 
     Args:
         node: the mapping.
         known: the parameters of this kind of thing and their types.
-        owner: what has these parameters, for notes: `lane`, `vertex`, ...
-        notes: where to remark.
+        owner: the kind of thing that has the parameters, for notes: `lane`, `vertex`, ...
+        notes: receives the notes.
 
     Raises:
         InputError: a parameter is not a pair, or its value is not of its type.

@@ -1,4 +1,4 @@
-"""What a building file holds that we do not understand: named, with counts, never dropped in silence."""
+"""Lists the parts of a building file that are not supported, with counts; nothing is dropped silently."""
 
 from collections.abc import Mapping
 
@@ -6,16 +6,16 @@ from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
 
 _BUILDING_READ = ("name", "building_name", "levels", "lifts", "coordinate_system", "parameters", "reference_level_name")
-_BUILDING_LOOKS = ("map_version", "graphs")
+_BUILDING_IGNORED = ("map_version", "graphs")
 _LEVEL_READ = ("vertices", "lanes", "walls", "doors", "models", "floors", "holes", "measurements", "fiducials")
-_LEVEL_LOOKS = (  # background, and what the editor uses to align it
+_LEVEL_IGNORED = (  # background, and what the editor uses to align it
     *("elevation", "drawing", "x_meters", "y_meters", "flattened_x_offset", "flattened_y_offset"),
     *("layers", "features", "constraints"),
 )
 
 
 def note_unsupported(building: Node, levels: Mapping[str, Node], notes: Notes) -> None:
-    """Remark on every part of the file that has no effect on the world."""
+    """Add a note for every part of the file that has no effect on the world."""
     top = building.fields()
     others = [name for name in top["levels"].fields() if name not in levels]
     if others:
@@ -23,13 +23,13 @@ def note_unsupported(building: Node, levels: Mapping[str, Node], notes: Notes) -
         notes.add(f"only level {chosen} is loaded, not {', '.join(map(repr, others))}")
     crowd = top["crowd_sim"].value if "crowd_sim" in top else None
     if isinstance(crowd, dict) and crowd.get("enable"):
-        notes.add("crowd_sim is not understood yet: no people")
-    _note_unknown(top, (*_BUILDING_READ, *_BUILDING_LOOKS, "crowd_sim"), "building", notes)
+        notes.add("crowd_sim is not supported and has no effect")
+    _note_unknown(top, (*_BUILDING_READ, *_BUILDING_IGNORED, "crowd_sim"), "building", notes)
     for level in levels.values():
         parts = level.fields()
         if "human_lanes" in parts and parts["human_lanes"].value:
-            notes.add(f"human lanes are not understood yet: {len(parts['human_lanes'].items())} left out")
-        _note_unknown(parts, (*_LEVEL_READ, *_LEVEL_LOOKS, "human_lanes"), "level", notes)
+            notes.add(f"human lanes are not supported: {len(parts['human_lanes'].items())} left out")
+        _note_unknown(parts, (*_LEVEL_READ, *_LEVEL_IGNORED, "human_lanes"), "level", notes)
 
 
 def _note_unknown(parts: dict[str, Node], known: tuple[str, ...], owner: str, notes: Notes) -> None:

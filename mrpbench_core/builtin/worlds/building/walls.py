@@ -1,4 +1,4 @@
-"""Walls of a building file, as drawn: the editor leaves gaps at doors."""
+"""Walls of a building file. They have gaps at doors."""
 
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
@@ -15,7 +15,7 @@ WALL: dict[str, Kind] = {
 
 
 def read_walls(level: Node, positions: Float, notes: Notes) -> Float:
-    """Centre lines f8[W,4] of the walls in metres."""
+    """Return the centre lines f8[W,4] of the walls in metres."""
     walls = []
     for wall in level.section("walls"):
         start, end, *rest = wall.items(least=2)

@@ -9,7 +9,7 @@ from mrpbench_core.model.arrays import Float
 
 
 def projection(system: Node, target: str) -> Callable[[Float], Float]:
-    """A function from (longitude, latitude) f8[k,2] in degrees to (easting, northing) f8[k,2] in metres.
+    """Return a function from (longitude, latitude) f8[k,2] in degrees to (easting, northing) f8[k,2] in metres.
 
     Args:
         system: the value `wgs84` of the file, for errors.
@@ -25,13 +25,13 @@ def projection(system: Node, target: str) -> Callable[[Float], Float]:
     try:
         transformer = Transformer.from_crs("EPSG:4326", target, always_xy=True)
     except ProjError:
-        raise system.error(f"generate_crs {target!r} is no coordinate reference system that pyproj knows") from None
+        raise system.error(f"generate_crs {target!r} is not a coordinate reference system that pyproj knows") from None
 
     def project(raw: Float) -> Float:
         easting, northing = transformer.transform(raw[:, 0], raw[:, 1])
         metres: Float = np.stack([easting, northing], axis=1)
         if not np.isfinite(metres).all():
-            raise system.error(f"a vertex is no longitude and latitude that {target} covers")
+            raise system.error(f"a vertex is not a longitude and latitude that {target} covers")
         return metres
 
     return project

@@ -1,1 +1,1 @@
-"""Worlds made from a few numbers and a seed, for studies of scaling up to a million cells and beyond."""
+"""Worlds generated from a few parameters and a seed, for studies of scaling up to ten million cells."""

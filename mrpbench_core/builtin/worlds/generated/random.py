@@ -13,21 +13,21 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class GeneratedRandom(WorldSource):
-    """A rectangle in which each cell is blocked by chance; what the largest connected part cannot reach is blocked too.
+    """A rectangle in which each cell is blocked at random; cells outside the largest component are blocked too.
 
     Like the `random-*` maps of Stern et al., "Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks", SoCS
-    2019. Beyond four blocked cells in ten, free space falls to pieces.
+    2019. With more than four blocked cells in ten, the free space splits into small components.
     """
 
     columns: int = option(32, help="Cells along x.", validator=attrs.validators.ge(1))
     rows: int = option(32, help="Cells along y.", validator=attrs.validators.ge(1))
     blocked: float = option(
         0.1,
-        help="Chance of a cell to be blocked.",
+        help="Probability that a cell is blocked.",
         validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(0.4)),
     )
     cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=attrs.validators.gt(0))
-    seed: int = option(0, help="Which of the worlds with these numbers.")
+    seed: int = option(0, help="Seed of the blocked cells.")
 
     def load(self) -> World:
         """Draw the cells."""
@@ -37,7 +37,7 @@ class GeneratedRandom(WorldSource):
 
 
 def _largest_part(blocked: Bool) -> Bool:
-    """The raster with only the largest connected part of its free cells; of equal ones the first."""
+    """Return the raster with only the largest component of its free cells, the first of equally large ones."""
     number = np.arange(blocked.size).reshape(blocked.shape)
     edges = []
     for here, there in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):

@@ -1,4 +1,4 @@
-"""What generated worlds share: a raster is the whole world."""
+"""Rasters and random numbers of generated worlds."""
 
 import numpy as np
 
@@ -10,14 +10,14 @@ from mrpbench_core.model.world import Level, World
 CELL_SIZE = 0.4
 """metres; wide enough for one small robot."""
 LIMIT = 10_000_000
-"""Cells beyond which a world is refused: surely a slip."""
+"""Largest number of cells of a world."""
 
 
 def free_raster(rows: int, columns: int) -> Bool:
-    """A raster bool[rows, columns] without a blocked cell.
+    """Return a raster bool[rows, columns] without a blocked cell.
 
     Raises:
-        InputError: it would have too many cells.
+        InputError: the raster would have too many cells.
     """
     if rows * columns > LIMIT:
         raise InputError(f"the world would have {rows} × {columns} cells; the limit is {LIMIT}")
@@ -25,11 +25,11 @@ def free_raster(rows: int, columns: int) -> Bool:
 
 
 def raster_world(name: str, blocked: Bool, cell_size: float) -> World:
-    """A world of one level, no places: scenarios draw from all cells."""
+    """Return a world of one level without places; scenarios draw from all cells."""
     return World(name=name, levels=(Level(name="L1", occupancy=Occupancy(blocked=blocked, cell_size=cell_size)),))
 
 
 def chances(seed: int, count: int) -> Float:
-    """Random numbers f8[count] in [0, 1), the same in every version of NumPy."""
+    """Return random numbers f8[count] in [0, 1) that are the same in every version of NumPy."""
     drawn: Float = np.random.Generator(np.random.PCG64(np.random.SeedSequence(seed % 2**64))).random(count)
     return drawn

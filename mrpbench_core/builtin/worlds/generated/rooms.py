@@ -12,7 +12,7 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class GeneratedRooms(WorldSource):
-    """A rectangle of square rooms with walls one cell thick; a random tree of doors joins them all, then come more.
+    """A rectangle of square rooms with walls one cell thick; a random tree of doors and further doors join them.
 
     Like the `room-*` maps of Stern et al., "Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks", SoCS 2019.
     """
@@ -27,7 +27,7 @@ class GeneratedRooms(WorldSource):
         validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(1)),
     )
     cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=attrs.validators.gt(0))
-    seed: int = option(0, help="Which of the buildings with these numbers.")
+    seed: int = option(0, help="Seed of the random doors.")
 
     def __attrs_post_init__(self) -> None:
         if self.door > self.room:
@@ -53,14 +53,14 @@ class GeneratedRooms(WorldSource):
         return raster_world(f"rooms_{columns}x{rows}_{self.seed}", blocked, self.cell_size)
 
     def _walls(self) -> Int:
-        """Pairs i8[k,2] of neighbouring rooms, counted row by row: right neighbours, then upper ones."""
+        """Return the pairs i8[k,2] of neighbouring rooms, numbered row by row: right neighbours, then upper ones."""
         number = np.arange(self.across * self.up).reshape(self.up, self.across)
         pairs = [(number[:, :-1], number[:, 1:]), (number[:-1], number[1:])]
         return np.concatenate([np.stack([a.ravel(), b.ravel()], axis=1) for a, b in pairs])
 
 
 def _tree(walls: Int, order: Float, rooms: int) -> Bool:
-    """Which walls need a door so that all rooms are joined and no door is in vain, taken by `order`.
+    """Return the walls bool[k] that get a door in the minimum spanning tree of the rooms with weights `order` f8[k].
 
     Kruskal, "On the shortest spanning subtree of a graph", Proceedings of the AMS, 1956.
     """

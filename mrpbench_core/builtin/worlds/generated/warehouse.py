@@ -10,7 +10,7 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class GeneratedWarehouse(WorldSource):
-    """Shelves as blocks of cells in rows and columns, aisles between them, and free floor all around.
+    """Shelves as blocks of cells in rows and columns, with aisles between them and free floor all around.
 
     The defaults are the proportions of the `warehouse-10-20-10-2-*` maps of Stern et al., "Multi-Agent Pathfinding:
     Definitions, Variants, and Benchmarks", SoCS 2019: shelves 10 × 2 cells.
@@ -25,14 +25,14 @@ class GeneratedWarehouse(WorldSource):
     margin: int = option(5, help="Cells of free floor all around, for stations.", validator=attrs.validators.ge(1))
     missing: float = option(
         0.0,
-        help="Chance of a shelf to be missing.",
+        help="Probability that a shelf is missing.",
         validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(1)),
     )
     cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=attrs.validators.gt(0))
-    seed: int = option(0, help="Which of the warehouses with these numbers.")
+    seed: int = option(0, help="Seed of the missing shelves.")
 
     def load(self) -> World:
-        """Set up the shelves."""
+        """Place the shelves."""
         across, up = self.shelf_length + self.cross_aisle, self.shelf_depth + self.aisle
         columns = 2 * self.margin + self.shelf_columns * across - self.cross_aisle
         rows = 2 * self.margin + self.shelf_rows * up - self.aisle

@@ -114,9 +114,9 @@ def test_longitude_and_latitude_become_metres_less_the_offset(load):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("EPSG:3414", "EPSG:nonsense", "1:20: generate_crs 'EPSG:nonsense' is no coordinate reference system"),
+        ("EPSG:3414", "EPSG:nonsense", "1:20: generate_crs 'EPSG:nonsense' is not a coordinate reference system"),
         ("generate_crs", "offset_x: [3, 1], crs", "needs the building parameter generate_crs"),
-        ("103.7867, 1.3006", "500, 500", "no longitude and latitude"),
+        ("103.7867, 1.3006", "500, 500", "is not a longitude and latitude"),
     ],
 )
 def test_a_mistake_in_geographic_coordinates_is_one_line(load, old, new, message):

@@ -31,7 +31,7 @@ def test_every_kind_of_door_is_known(load, word, motion):
 def test_an_unknown_kind_is_noted(load):
     world = load(DOOR % "type: [1, portcullis]")
     assert world.levels[0].doors[0].motion == "sliding"
-    assert world.notes == ("door type 'portcullis' is not known and taken for sliding.",)
+    assert world.notes == ("door type 'portcullis' is not known and is treated as sliding.",)
 
 
 def test_how_a_door_moves_is_kept(load):

@@ -48,11 +48,11 @@ def test_every_part_is_read(fleet):
     assert [vertex.lift for vertex in world.vertices] == ["", "", "", "hoist", "hoist", "", "", ""]
     assert len(world.levels[0].holes) == len(world.levels[0].floors) == len(world.levels[0].obstacles) == 1
     assert sorted(world.notes) == [
-        "crowd_sim is not understood yet: no people.",
-        "human lanes are not understood yet: 1 left out.",
+        "crowd_sim is not supported and has no effect.",
+        "human lanes are not supported: 1 left out.",
         "lane of a graph above 8 is left out, as RMF does.",
-        "lane to be driven backward is driven forward, as all lanes are.",
-        "model 'Nobody/KnowsThis' has no known footprint and is no obstacle (option footprints).",
+        "lane with orientation backward is driven forward, like all lanes.",
+        "model 'Nobody/KnowsThis' has no known footprint and is not an obstacle (option footprints).",
     ]
     roadmap = Graph().build(world, fleet)
     kinds = {resource.name: resource.kind for resource in roadmap.resources}
