@@ -32,13 +32,12 @@ def leaf_segments(door: Door, opening: float) -> Float:
     along = (end - start) / door.width
     first, second = _lengths(door)
     lines = []
-    for post, inward, length, turn in ((start, along, first, 1), (end, -along, second, -1)):
+    turns = swing_angles(door)
+    for post, inward, length, turn in ((start, along, first, turns[0]), (end, -along, second, turns[1])):
         if not length:
             continue
         if "hinged" in door.motion:
-            two = door.motion == "double_hinged"
-            angle = math.radians(door.motion_degrees) * door.motion_direction * opening * (turn if two else 1)
-            cosine, sine = math.cos(angle), math.sin(angle)
+            cosine, sine = math.cos(opening * turn), math.sin(opening * turn)
             turned = np.array([cosine * inward[0] - sine * inward[1], sine * inward[0] + cosine * inward[1]])
             lines.append((post, post + length * turned))
         elif "telescope" in door.motion:
@@ -49,6 +48,17 @@ def leaf_segments(door: Door, opening: float) -> Float:
             slid = post - opening * length * inward
             lines.append((slid, slid + length * inward))
     return np.array(lines).reshape(-1, 4)
+
+
+def swing_angles(door: Door) -> tuple[float, float]:
+    """Return the radians, counter-clockwise, by which a hinged leaf at `start` and one at `end` turn to open.
+
+    The sense is that of the RMF traffic editor and of its Gazebo worlds. The editor adds `motion_direction` times
+    `motion_degrees` to the angle of the leaf in the image, whose y axis points down, so that with y up a positive
+    direction is clockwise. The second leaf of a double door is the mirror image of the first.
+    """
+    angle = -math.copysign(math.radians(abs(door.motion_degrees)), door.motion_direction)
+    return angle, -angle if door.motion == "double_hinged" else angle
 
 
 def swept_areas(door: Door) -> list[Float]:

@@ -26,7 +26,8 @@ class Door:
     motion_axis: str = "start"
     """start | end: the end at which a single leaf is hinged, or towards which it slides."""
     motion_direction: int = 1
-    """1 | -1: a hinged leaf turns counter-clockwise or clockwise as it opens."""
+    """1 | -1: a hinged leaf opens clockwise or counter-clockwise. Seen from `start` to `end`, a leaf hinged at `start`
+    opens to the right with 1 and to the left with -1; the leaves of a double door open to the same side."""
     motion_degrees: float = 90.0
     """The angle between a closed and an open hinged leaf."""
     right_left_ratio: float = 1.0

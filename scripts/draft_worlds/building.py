@@ -57,9 +57,11 @@ class Level:
             if b - a > 1e-6:
                 self.wall(*(((a, fixed), (b, fixed)) if axis == "x" else ((fixed, a), (fixed, b))))
 
-    def door(self, name: str, start: tuple[float, float], end: tuple[float, float], kind: str = "hinged") -> None:
-        """A door between two points, in a gap of the walls."""
-        options = f"name: [1, {name}], type: [1, {kind}], motion_axis: [1, start], motion_direction: [2, 1]"
+    def door(
+        self, name: str, start: tuple[float, float], end: tuple[float, float], kind: str = "hinged", direction: int = 1
+    ) -> None:
+        """A door between two points, in a gap of the walls. From start to end, direction 1 opens to the right."""
+        options = f"name: [1, {name}], type: [1, {kind}], motion_axis: [1, start], motion_direction: [2, {direction}]"
         if "hinged" in kind:
             options += ", motion_degrees: [3, 90]"
         self.doors.append(f"- [{{{self.corner(*start)}}}, {{{self.corner(*end)}}}, {{{{{options}}}}}]")

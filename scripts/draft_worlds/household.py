@@ -66,7 +66,7 @@ def walls(level: Level) -> None:
     level.remark("living room | study")
     level.wall((7.8, HIGH), (7.8, top))
     half = GAP / 2
-    level.door("front_door", (left, 4 - half), (left, 4 + half))
+    level.door("front_door", (left, 4 - half), (left, 4 + half), direction=-1)  # opens outwards
     for name, x, y in (("bedroom", 2, LOW), ("bathroom", 5.2, LOW), ("nursery", 9.2, LOW),
                        ("living_room", 4, HIGH), ("study", 9.2, HIGH)):  # fmt: skip
         level.door(f"{name}_door", (x - half, y), (x + half, y), "sliding")  # an open leaf would bar the hall

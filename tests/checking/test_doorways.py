@@ -8,7 +8,7 @@ from mrpbench_core.checking.doorways import check_doorways
 from mrpbench_core.model.roadmap import Resource, Roadmap
 from mrpbench_core.model.world import Door, Level, World
 
-HINGED = Door(name="ward", start=(0, 0), end=(1, 0), motion="hinged")
+HINGED = Door(name="ward", start=(0, 0), end=(1, 0), motion="hinged", motion_direction=-1)
 """Its leaf turns up around (0, 0)."""
 PLACES = {"in it": (0.5, 0.05), "in the swing": (0.5, 0.5), "beyond the swing": (0.9, 0.9), "below": (0.5, -0.5)}
 

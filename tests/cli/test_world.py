@@ -97,7 +97,7 @@ def test_further_levels_are_drawn_beside_the_first(invoke, tmp_path, shared_data
     ("words", "message"),
     [
         (["office", "--convert", "a.yaml", "--roadmap", "grid", "--cell-size", "0.001"], "choose a larger cell_size"),
-        (["office", "--convert", "office.png"], "cannot convert to .png (to .yaml or .map)"),
+        (["office", "--convert", "office.png"], "cannot convert to .png (choose .yaml or .map)"),
         (["office", "--roadmap", "graph", "--convert", "a.map"], "this roadmap has no raster to write"),
         (["office", "--convert", "no/such/a.map"], "no/such/a.map: cannot be written"),
         (["offise"], "did you mean 'office'"),

@@ -35,7 +35,7 @@ levels:
       - name: [1, ward]
         type: [1, hinged]
         motion_axis: [1, start]
-        motion_direction: [2, -1]
+        motion_direction: [2, 1]
         motion_degrees: [3, 90]
     lanes:
     - [8, 9, {bidirectional: [4, true]}]

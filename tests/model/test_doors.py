@@ -28,21 +28,52 @@ def test_shut_leaves_fill_the_doorway(motion):
     assert np.abs(lines[:, [1, 3]]).max() < 1e-9
 
 
-def test_a_hinged_leaf_turns_about_its_post():
-    assert where(1.0, motion="hinged") == [[0, 0, 0, 2]]
-    assert where(0.5, motion="hinged", motion_direction=-1) == [[0, 0, round(math.sqrt(2), 9), -round(math.sqrt(2), 9)]]
-    assert where(1.0, motion="hinged", motion_axis="end") == [[2, 0, 2, -2]]
+SQRT2, SQRT3 = 2**0.5, 3**0.5
+OPEN_LEAVES = [
+    # kind, axis, direction, degrees -> open leaves x1, y1, x2, y2. In the image (y down) the leaf at `start` points to
+    # angle 0 + direction * degrees and the one at `end` to 180 + direction * degrees, mirrored in double doors.
+    ("hinged", "start", 1, 90, [[0, 0, 0, -2]]),
+    ("hinged", "start", -1, 90, [[0, 0, 0, 2]]),
+    ("hinged", "end", 1, 90, [[2, 0, 2, 2]]),
+    ("hinged", "end", -1, 90, [[2, 0, 2, -2]]),
+    ("hinged", "start", 1, 120, [[0, 0, -1, -SQRT3]]),
+    ("hinged", "start", -1, 120, [[0, 0, -1, SQRT3]]),
+    ("hinged", "start", 1, 45, [[0, 0, SQRT2, -SQRT2]]),
+    ("hinged", "end", 1, 45, [[2, 0, 2 - SQRT2, SQRT2]]),
+    ("hinged", "start", 1, -90, [[0, 0, 0, -2]]),
+    ("hinged", "start", -1, -90, [[0, 0, 0, 2]]),
+    ("double_hinged", "start", 1, 90, [[0, 0, 0, -0.5], [2, 0, 2, -1.5]]),
+    ("double_hinged", "start", -1, 90, [[0, 0, 0, 0.5], [2, 0, 2, 1.5]]),
+    ("double_hinged", "end", 1, 90, [[0, 0, 0, -0.5], [2, 0, 2, -1.5]]),
+    ("double_hinged", "start", 1, 180, [[0, 0, -0.5, 0], [2, 0, 3.5, 0]]),
+    ("sliding", "start", 1, 90, [[-2, 0, 0, 0]]),
+    ("sliding", "start", -1, 90, [[-2, 0, 0, 0]]),
+    ("sliding", "end", 1, 90, [[4, 0, 2, 0]]),
+    ("double_sliding", "start", 1, 90, [[-0.5, 0, 0, 0], [3.5, 0, 2, 0]]),
+    ("double_sliding", "start", -1, 90, [[-0.5, 0, 0, 0], [3.5, 0, 2, 0]]),
+    ("telescope", "start", 1, 90, [[-1, 0, 0, 0], [-1, 0, 0, 0]]),
+    ("telescope", "end", -1, 90, [[3, 0, 2, 0], [3, 0, 2, 0]]),
+    ("double_telescope", "start", 1, 90, [[-0.25, 0, 0, 0], [-0.25, 0, 0, 0], [2.75, 0, 2, 0], [2.75, 0, 2, 0]]),
+    ("double_telescope", "start", -1, 90, [[-0.25, 0, 0, 0], [-0.25, 0, 0, 0], [2.75, 0, 2, 0], [2.75, 0, 2, 0]]),
+]
 
 
-def test_two_hinged_leaves_open_to_one_side():
-    assert where(1.0, motion="double_hinged", right_left_ratio=3.0) == [[0, 0, 0, 0.5], [2, 0, 2, 1.5]]
+@pytest.mark.parametrize(("motion", "axis", "direction", "degrees", "leaves"), OPEN_LEAVES)
+def test_leaves_open_as_the_traffic_editor_draws_them(motion, axis, direction, degrees, leaves):
+    door = attrs.evolve(
+        DOOR,
+        motion=motion,
+        motion_axis=axis,
+        motion_direction=direction,
+        motion_degrees=degrees,
+        right_left_ratio=3.0,
+    )
+    np.testing.assert_allclose(leaf_segments(door, 1.0), leaves, atol=1e-9)
 
 
-def test_sliding_leaves_go_to_their_posts_and_beyond():
-    assert where(1.0, motion="sliding") == [[-2, 0, 0, 0]]
+def test_half_open_leaves_are_halfway():
+    assert where(0.5, motion="hinged") == [[0, 0, round(SQRT2, 9), -round(SQRT2, 9)]]
     assert where(0.5, motion="sliding", motion_axis="end") == [[3, 0, 1, 0]]
-    assert where(1.0, motion="double_sliding") == [[-1, 0, 0, 0], [3, 0, 2, 0]]
-    assert where(1.0, motion="telescope") == [[-1, 0, 0, 0], [-1, 0, 0, 0]]
 
 
 def test_it_takes_as_long_as_leaves_are_long():

@@ -1,9 +1,8 @@
 """Doors and lifts, as the page moves them."""
 
-import math
 from typing import Any
 
-from mrpbench_core.model.doors import leaf_segments
+from mrpbench_core.model.doors import leaf_segments, swing_angles
 from mrpbench_core.model.facilities import Facilities, OperatedDoor
 from mrpbench_core.model.world import Door, Lift, World
 from mrpbench_core.report.replay.packing import Packing
@@ -45,8 +44,7 @@ def _leaves(door: Door) -> list[list[float]]:
     hinged = "hinged" in door.motion
     for index, (shut, open_) in enumerate(zip(leaf_segments(door, 0.0), leaf_segments(door, 1.0), strict=True)):
         way = [0.0, 0.0] if hinged else (open_ - shut)[:2].tolist()
-        opposite = door.motion == "double_hinged" and index == 1
-        turn = math.radians(door.motion_degrees) * door.motion_direction * (-1 if opposite else 1) if hinged else 0.0
+        turn = swing_angles(door)[index] if hinged else 0.0
         found.append([round(float(value), 4) for value in (*shut.tolist(), *way, turn)])
     return found
 

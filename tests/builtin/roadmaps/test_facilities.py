@@ -127,7 +127,7 @@ def test_who_drives_through_a_doorway_needs_it_open_and_touches_no_open_leaf(mak
 
 
 def test_a_leaf_across_the_only_hall_leaves_the_door_shut_rather_than_the_hall_parted(make_fleet):
-    door = Door(name="room door", start=(2.5, 2.0), end=(3.5, 2.0), motion="hinged", motion_direction=-1)
+    door = Door(name="room door", start=(2.5, 2.0), end=(3.5, 2.0), motion="hinged", motion_direction=1)
     world = hall(door, lane_height=1.4)
     more = [Vertex(name=f"bay_{index}", x=1 + 0.3 * index, y=0.5) for index in range(3)]
     lanes = [Lane(start=0, end=4 + index) for index in range(3)]
@@ -145,7 +145,7 @@ def test_a_leaf_across_the_only_hall_leaves_the_door_shut_rather_than_the_hall_p
 
 
 def test_a_leaf_that_bars_a_way_with_a_way_round_keeps_that_way_out(make_fleet):
-    door = Door(name="door", start=(2.5, 2.0), end=(3.5, 2.0), motion="hinged", motion_direction=-1)
+    door = Door(name="door", start=(2.5, 2.0), end=(3.5, 2.0), motion="hinged", motion_direction=1)
     world = hall(door, lane_height=1.4)
     detour = (Vertex(name="south", x=3, y=0.4),)
     lanes = (*world.lanes, Lane(start=0, end=4), Lane(start=4, end=2), Lane(start=4, end=1))
@@ -158,7 +158,7 @@ def test_a_leaf_that_bars_a_way_with_a_way_round_keeps_that_way_out(make_fleet):
 
 
 def test_a_leaf_that_opens_into_the_room_bars_nothing_in_the_hall(make_fleet):
-    door = Door(name="door", start=(2.5, 2.0), end=(3.5, 2.0), motion="hinged", motion_direction=1)
+    door = Door(name="door", start=(2.5, 2.0), end=(3.5, 2.0), motion="hinged", motion_direction=-1)
     roadmap = Graph().build(hall(door), make_fleet(RADIUS))
     assert roadmap.notes == ()
     assert len(roadmap.edges) == 6

@@ -56,7 +56,7 @@ def test_a_measured_footprint_stays_whatever_it_blocks(load, tmp_path):
 def test_what_is_out_of_reach_or_unknown_is_no_obstacle_and_named(load):
     world = load(ROOM % ", ".join([model("Coke", 3, 3, z=0.9), model("Throne", 4, 4), model("BedSheet", 5, 5)]))
     assert world.levels[0].obstacles == ()
-    for part in ("'Coke' stands or hangs higher", "'Throne' has no known footprint", "'BedSheet' is not an"):
+    for part in ("'Coke' is higher than", "'Throne' has no known footprint", "'BedSheet' is not an"):
         assert any(part in note for note in world.notes), part
 
 
