@@ -61,8 +61,8 @@ python: install ## Python tests, JOBS at a time
 soak: install ## thousands of random instances against brute force, and studies disturbed at random (an hour)
 	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1
 	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
-	$(BIN)/python tests/engine/soak_disturbances.py 20 1
-	$(BIN)/python tests/engine/soak_disturbances.py 20 2
+	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 1
+	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 2
 
 SANITIZED := build/sanitized
 CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python

@@ -8,8 +8,12 @@ from mrpbench_native import Solution
 
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.planning import call_planner, judge
-from mrpbench_core.engine.preparation import Ended, assign, pose_problem, set_scene
+from mrpbench_core.engine.stage import RunEnded
+from mrpbench_core.engine.stages.assign import assign
+from mrpbench_core.engine.stages.judge import judge
+from mrpbench_core.engine.stages.plan import call_planner
+from mrpbench_core.engine.stages.prepare import build_instance
+from mrpbench_core.engine.stages.problem_building import build_problem
 from mrpbench_core.model.plan import Budget
 from mrpbench_core.model.problem import Problem
 
@@ -19,9 +23,9 @@ MEMORY = 4 << 30
 def problem_of(config: RunConfig) -> Problem | None:
     """The problem of a run; None where there cannot be a plan."""
     try:
-        setting = set_scene(config, lambda *_: None)
-        return pose_problem(setting, assign(config, setting, lambda *_: None, {}), config.assigner)
-    except Ended:
+        instance = build_instance(config, lambda *_: None)
+        return build_problem(instance, assign(config, instance, lambda *_: None, {}), config.assigner)
+    except RunEnded:
         return None
 
 

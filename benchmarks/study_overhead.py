@@ -8,9 +8,9 @@ import time
 from pathlib import Path
 
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.invoke import prepare
 from mrpbench_core.engine.pipeline import execute
-from mrpbench_core.engine.study import run_study
+from mrpbench_core.engine.study.invoke import prepare
+from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.store.paths import RunPaths
 
 RUNS = 1000

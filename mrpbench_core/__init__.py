@@ -9,14 +9,14 @@ __version__ = "0.1.0"
 __all__ = ["__version__", "load", "run"]
 
 if TYPE_CHECKING:
-    from mrpbench_core.engine.invoke import run as run
+    from mrpbench_core.engine.study.invoke import run as run
     from mrpbench_core.store.results import load as load
 
 
 def __getattr__(name: str) -> Any:
     """Import the two functions when they are used: plugins and `mrpbench --help` need only the version."""
     if name == "run":
-        from mrpbench_core.engine.invoke import run
+        from mrpbench_core.engine.study.invoke import run
 
         return run
     if name == "load":

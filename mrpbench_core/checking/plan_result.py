@@ -4,7 +4,7 @@ import numbers
 from collections.abc import Mapping
 from typing import Any
 
-from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus, Progress
+from mrpbench_core.model.plan import AnytimePoint, Path, Plan, PlanResult, PlanStatus
 
 RETURNED = tuple(status for status in PlanStatus if status != PlanStatus.UNKNOWN)
 """What a planner may say."""
@@ -22,8 +22,10 @@ def result_fault(result: Any) -> str | None:
         return f"returned {_kind(result.lower_bound)} as lower bound"
     if not isinstance(result.statistics, Mapping):
         return f"returned {_kind(result.statistics)} instead of a mapping as statistics"
-    if not isinstance(result.history, tuple | list) or not all(isinstance(point, Progress) for point in result.history):
-        return "returned a history that is no tuple of Progress"
+    if not isinstance(result.history, tuple | list) or not all(
+        isinstance(point, AnytimePoint) for point in result.history
+    ):
+        return "returned a history that is no tuple of AnytimePoint"
     if result.plan is not None and result.status not in (PlanStatus.SOLVED, PlanStatus.TIMEOUT):
         return f"returned a plan with the status {result.status}"
     return None

@@ -58,8 +58,8 @@ def run(arguments: argparse.Namespace) -> int:
     from mrpbench_core.api.importer import Importer
     from mrpbench_core.api.metric import Metric
     from mrpbench_core.cli.world import world_source
-    from mrpbench_core.engine.analysis import Analysis, analyze
-    from mrpbench_core.engine.observation import Sampling
+    from mrpbench_core.engine.analysis.analysis import Analysis, analyze
+    from mrpbench_core.engine.analysis.observed_run import Sampling
 
     for name in ("rate", "max_gap", "tolerance"):
         if not 0 < getattr(arguments, name) < float("inf"):

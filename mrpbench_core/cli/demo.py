@@ -10,8 +10,8 @@ from mrpbench_core.cli.run import plugins_line
 from mrpbench_core.cli.summary import print_summary
 from mrpbench_core.cli.view import write_replay
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.invoke import prepare
-from mrpbench_core.engine.study import run_study
+from mrpbench_core.engine.study.invoke import prepare
+from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.status import RunStatus
 from mrpbench_core.plugins.installed import providers

@@ -6,7 +6,7 @@ from typing import Any
 
 from mrpbench_core import __version__
 from mrpbench_core.cli.table import print_json, print_table
-from mrpbench_core.engine.machine import machine
+from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.plugins.installed import distribution, installed
 
 

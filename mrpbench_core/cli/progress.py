@@ -7,8 +7,8 @@ from collections import Counter
 from typing import Any
 
 from mrpbench_core.config.study import RunPoint
-from mrpbench_core.engine.progress import Progress
-from mrpbench_core.engine.selection import Selection
+from mrpbench_core.engine.study.progress import StudyProgress
+from mrpbench_core.engine.study.selection import Selection
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.status import RunStatus
 from mrpbench_core.report.axes import word
@@ -19,7 +19,7 @@ SHORT = 12
 REFRESH_S = 0.1
 
 
-class Printed(Progress):
+class Printed(StudyProgress):
     """Prints to standard output."""
 
     def __init__(self, live: bool | None = None) -> None:

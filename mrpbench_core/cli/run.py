@@ -13,9 +13,9 @@ from mrpbench_core.cli.progress import SHORT, Printed
 from mrpbench_core.cli.summary import print_summary
 from mrpbench_core.cli.table import print_json, print_table
 from mrpbench_core.config.study import Study, load_studies
-from mrpbench_core.engine.invoke import prepare
-from mrpbench_core.engine.record import code_of
-from mrpbench_core.engine.study import Done, Request, choose, run_study
+from mrpbench_core.engine.study.invoke import prepare
+from mrpbench_core.engine.study.record import code_of
+from mrpbench_core.engine.study.study import Request, StudyOutcome, choose, run_study
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.status import RunStatus
 from mrpbench_core.report.axes import word
@@ -153,7 +153,7 @@ def plugins_line(studies: Sequence[Study]) -> str:
     return "plugins: " + "; ".join(f"{owner}: {', '.join(names)}" for owner, names in sorted(offered.items()))
 
 
-def _summarize(done: Done, request: Request) -> None:
+def _summarize(done: StudyOutcome, request: Request) -> None:
     results = done.results
     print_summary(results, limit=GROUPS_SHOWN)
     statuses = sorted(results.statuses().items(), key=lambda item: -item[1])

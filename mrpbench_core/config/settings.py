@@ -99,7 +99,7 @@ class Noise:
 
 
 @attrs.frozen(kw_only=True)
-class Recording:
+class RecordingOptions:
     """What is kept of an execution."""
 
     keep: Literal["all", "failed", "none"] = option("all", help="of which runs the recording is kept")
@@ -183,7 +183,7 @@ class RunConfig:
     noise: Noise = option(Noise(), help="errors of sensors, motors and starts")
     metrics: Mapping[str, Metric] = block(("planning", "execution"), help="what is measured")
     export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")
-    recording: Recording = option(Recording(), help="what is kept of an execution")
+    recording: RecordingOptions = option(RecordingOptions(), help="what is kept of an execution")
     limits: Limits = option(Limits(), help="when a stage is ended")
     replanning: Replanning = option(Replanning(), help="when the planner is asked again during execution")
     seed: int = option(

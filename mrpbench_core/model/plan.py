@@ -80,7 +80,7 @@ class PlanStatus(StrEnum):
 
 
 @attrs.frozen(kw_only=True)
-class Progress:
+class AnytimePoint:
     """One point of an anytime curve: what a planner had after some time."""
 
     seconds: float
@@ -103,7 +103,7 @@ class PlanResult:
     """The plan depends on when the clock ended the search (anytime planners)."""
     statistics: Mapping[str, float] = attrs.field(factory=dict)
     """e.g. `expansions`, `generated`, `low_level_expansions`."""
-    history: tuple[Progress, ...] = attrs.field(default=(), eq=False)  # wall times: no two runs have the same
+    history: tuple[AnytimePoint, ...] = attrs.field(default=(), eq=False)  # wall times: no two runs have the same
     """How plan and bound became better, oldest first; () if the planner does not say. In a record: `timing`."""
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mrpbench_core.checking.plan_result import result_fault
-from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus, Progress
+from mrpbench_core.model.plan import AnytimePoint, Path, Plan, PlanResult, PlanStatus
 
 STAY = Path(edge=[], enter=[], leave=[])
 FLAT = Path(edge=np.zeros((1, 1)), enter=np.zeros((1, 1)), leave=np.ones((1, 1)))
@@ -29,7 +29,7 @@ def solved(**values):
         (solved(plan=Plan(paths=(FLAT,))), "robot 0: edge, enter and leave are not all one-dimensional"),
         (solved(lower_bound="low"), "type str as lower bound"),
         (solved(statistics=[1]), "type list instead of a mapping"),
-        (solved(history=[(0.1, 3.0)]), "a history that is no tuple of Progress"),
+        (solved(history=[(0.1, 3.0)]), "a history that is no tuple of AnytimePoint"),
         (solved(status=PlanStatus.UNSOLVABLE), "a plan with the status unsolvable"),
     ],
 )
@@ -44,7 +44,7 @@ def test_the_first_thing_of_a_wrong_type_is_named(returned, said):
     [
         solved(),
         solved(plan=None),
-        solved(history=(Progress(seconds=0.1, cost=3.0),)),
+        solved(history=(AnytimePoint(seconds=0.1, cost=3.0),)),
         solved(status=PlanStatus.TIMEOUT),
         PlanResult(status=PlanStatus.GAVE_UP, lower_bound=np.float64(np.inf)),
     ],

@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.engine.commitments import commitments
+from mrpbench_core.engine.execution.commitments import commitments
 from mrpbench_core.model.plan import Budget, Plan
 from mrpbench_core.model.problem import Feature, Rules, features_of
 

@@ -3,7 +3,7 @@ import pytest
 
 from mrpbench_core.builtin.localizers.odometry import DeadReckoning
 from mrpbench_core.config.settings import Noise
-from mrpbench_core.engine.noise import Disturbances
+from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.model.execution import Odometry, State
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.poses import composed, wrapped

@@ -14,7 +14,7 @@ from mrpbench_executors_dask import Dask
 
 from mrpbench_core import load, run
 from mrpbench_core.api.executor import WorkerLost
-from mrpbench_core.engine.progress import Progress
+from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.invocation import write_document
 from mrpbench_core.testing.suites.executor import ExecutorConformance
@@ -46,7 +46,7 @@ class Slow(Planner):
 '''
 
 
-class Heard(Progress):
+class Heard(StudyProgress):
     """Remembers which runs were lost."""
 
     def __init__(self):

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 
-from mrpbench_core.engine.observation import Sampling, observe
+from mrpbench_core.engine.analysis.observed_run import Sampling, observe
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.scenario import Scenario, Task
 

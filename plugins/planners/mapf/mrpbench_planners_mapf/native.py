@@ -8,7 +8,7 @@ import numpy as np
 from mrpbench_native import mapf
 
 from mrpbench_core.model.conflicts import exclusions
-from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus, Progress
+from mrpbench_core.model.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_core.model.roadmap import Resource, Roadmap
 
@@ -41,7 +41,7 @@ def solve(problem: Problem, budget: Budget, solver: Callable[..., mapf.Answer], 
         clock_bound=answer.clock_bound,
         statistics={name: value for name, value in answer.statistics.items() if name != "failed_robot" or value >= 0},
         history=tuple(
-            Progress(seconds=converted + seconds, cost=cost, lower_bound=bound)
+            AnytimePoint(seconds=converted + seconds, cost=cost, lower_bound=bound)
             for seconds, cost, bound in answer.history.tolist()
         ),
     )

@@ -10,13 +10,13 @@ from mapf_claims import changes, contradictions, faults
 from mapf_instances import grid, problem
 
 from mrpbench_core.api.planner import Planner, Promise
-from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus, Progress
+from mrpbench_core.model.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
 
 BUDGET = Budget(wall_s=1, memory_bytes=1 << 20)
 ASKED = problem(grid(["...", "..."]), [0], [2])  # 0 1 2 above 3 4 5
 SHORTEST = [(0, 1), (1, 2)]
 ROUND = [(0, 3), (3, 4), (4, 5), (5, 2)]
-ROUND_CURVE = (Progress(seconds=0.1, cost=2), Progress(seconds=0.2, cost=4))
+ROUND_CURVE = (AnytimePoint(seconds=0.1, cost=2), AnytimePoint(seconds=0.2, cost=4))
 
 
 @attrs.frozen(kw_only=True)

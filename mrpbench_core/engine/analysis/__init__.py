@@ -1,0 +1,1 @@
+"""Recordings of any fleet, measured as if mrpbench had made them."""

@@ -1,0 +1,231 @@
+"""Measures a recording of a real or otherwise simulated fleet, as a record beside those of runs."""
+
+import hashlib
+import os
+from datetime import UTC, datetime
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any, cast
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.api.importer import Importer, Observed
+from mrpbench_core.api.metric import Metric
+from mrpbench_core.api.world import WorldSource
+from mrpbench_core.config.canonical import canonical
+from mrpbench_core.config.settings import FleetEntry
+from mrpbench_core.engine.analysis.observed_run import ObservedRun, Sampling, observe, observe_own
+from mrpbench_core.engine.processes.machine import machine
+from mrpbench_core.engine.stages.measure import describe, measure
+from mrpbench_core.engine.study.versions import versions
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.jsonl import Writer, line
+from mrpbench_core.files.robot import load_robot
+from mrpbench_core.files.scenario import read_scenario
+from mrpbench_core.model.execution import Mode
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.run import FinishedRun, RunContext, with_latest_routes
+from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.plugins.provenance import provenance
+from mrpbench_core.store.folder import ResultsFolder, new_invocation
+from mrpbench_core.store.invocation import write_document
+from mrpbench_core.store.lock import locked
+from mrpbench_core.store.recording import RecordingWriter
+from mrpbench_core.store.results import Results
+
+BLOCK = 2**20
+UNIDENTIFYING = ("name", "metrics", "simulator")
+LENGTH = 16
+"""Hexadecimal digits of a run id."""
+
+
+@attrs.frozen(kw_only=True)
+class Analysis:
+    """What is to be measured, and how."""
+
+    bag: Path
+    importer: Importer
+    metrics: dict[str, Metric]
+    world: WorldSource | None = None
+    """None = as the recording says, which only those of mrpbench do."""
+    scenario: Path | None = None
+    robot: str = "turtlebot3_burger"
+    """Model of all robots, by name or file."""
+    robots: tuple[str, ...] = ()
+    """Names or shell patterns, in the scenario's order; () = all."""
+    sampling: Sampling = Sampling()
+    label: str = "recorded"
+    """What stands in tables where runs have the name of their simulator."""
+    out: Path = Path("results")
+
+
+def analyze(analysis: Analysis) -> dict[str, Any]:
+    """Measure, keep the record and the recording in the results folder, and return the record.
+
+    Raises:
+        InputError: the recording cannot be read or does not fit the scenario; says what there is.
+    """
+    observed = _in_order(analysis.importer.read(analysis.bag, analysis.robots), analysis.robots)
+    found = _observe(analysis, observed)
+    identity = _identity(analysis, found)
+    first = attrs.evolve(found.context, run_id=identity)
+    known = {name: rows for name, rows in found.channels.items() if not (found.gaps and name == "truth")}
+    channels = {name: _loader(rows) for name, rows in known.items()}
+    context = with_latest_routes(first, channels)
+    run = FinishedRun(context=context, executed=True, channels=channels, alike=found.alike)
+    values, reasons = measure(analysis.metrics, run)
+    if found.gaps:
+        reasons |= {name: "; ".join(found.gaps) for name, reason in reasons.items() if reason == "no truth"}
+    record: dict[str, Any] = {
+        "run_id": identity,
+        "scenario_id": context.scenario.id,
+        "attempt": 1,
+        "config": _config(analysis, context.fleet),
+        "seed": 0,
+        "repeat": 0,
+        **_status(found, context),
+        "metrics": values,
+        "unmeasured": reasons,
+        "timing": {},
+        "provenance": {**_code(analysis), "machine": machine(), "live": False},
+        "analysis": {
+            "bag": analysis.bag.resolve().name,
+            "sources": {track.robot: f"{track.source}: {track.topic}" for track in observed.tracks},
+            "notes": [*found.notes, *found.gaps],
+        },
+    }
+    attempt = _keep(analysis, attrs.evolve(found, context=first), record)
+    return {**record, "attempt": attempt}
+
+
+def _loader(rows: Any) -> Any:
+    return lambda: rows
+
+
+def _in_order(observed: Observed, robots: tuple[str, ...]) -> Observed:
+    """Tracks in the order in which their robots are named; those that one pattern names keep their own."""
+    if not robots:
+        return observed
+    rank = {
+        track.robot: next(index for index, pattern in enumerate(robots) if fnmatchcase(track.robot, pattern))
+        for track in observed.tracks
+    }
+    return attrs.evolve(observed, tracks=tuple(sorted(observed.tracks, key=lambda track: rank[track.robot])))
+
+
+def _observe(analysis: Analysis, observed: Observed) -> ObservedRun:
+    own = observed.context
+    scenario = None if analysis.scenario is None else read_scenario(analysis.scenario)
+    if own is not None and scenario is not None and scenario.id != own.scenario.id:
+        raise InputError(
+            f"is scenario {scenario.id}, the recording was made of {own.scenario.id}", file=analysis.scenario
+        )
+    cut = analysis.sampling.since is not None or analysis.sampling.until is not None
+    names = tuple(track.robot for track in observed.tracks)
+    if own is not None and "time" in observed.channels and names == own.fleet.names and not cut:
+        return observe_own(observed, own)
+    world = None if analysis.world is None else analysis.world.load()
+    if own is not None:
+        world, scenario = world or own.world, own.scenario
+    for value, name in ((world, "--world"), (scenario, "--scenario")):
+        if value is None:
+            raise InputError(f"a recording that mrpbench did not write needs {name}", file=analysis.bag)
+    assert world is not None
+    assert scenario is not None
+    if own is not None:
+        return observe(observed, world, own.fleet, scenario, analysis.sampling, own.assigned)
+    fleet = Fleet(robots=(load_robot(analysis.robot),) * len(scenario.start))
+    return observe(observed, world, fleet, scenario, analysis.sampling)
+
+
+def _status(found: ObservedRun, context: RunContext) -> dict[str, Any]:
+    """How the run ended, as far as can be told."""
+    last = found.channels["reached"][-1]
+    arrived = last >= np.array([len(route.speed) for route in context.routes])
+    if arrived.all():
+        return {"status": RunStatus.SUCCEEDED}
+    mode = found.channels.get("mode")
+    if mode is not None and (mode[-1] == Mode.ABORTED).any():
+        return {"status": RunStatus.EXECUTION_ABORTED, "error": _error("a robot gave up before all had arrived")}
+    missed = f"{np.count_nonzero(~arrived)} of {len(arrived)} robots are not seen to arrive"
+    return {"status": RunStatus.GOALS_MISSED, "error": _error("; ".join((missed, *found.gaps)))}
+
+
+def _error(message: str) -> dict[str, str]:
+    return {"stage": Stage.ANALYSIS, "message": message}
+
+
+def _config(analysis: Analysis, fleet: Fleet) -> dict[str, Any]:
+    """What is known of the run in the words of configurations, so that tables show it beside others."""
+    plain: dict[str, Any] = {"name": analysis.out.name}
+    if analysis.world is not None:
+        plain["world"] = _plain(analysis.world)
+    models = [robot.name for robot in fleet.profiles[0]]
+    return plain | {
+        "fleet": [dict.fromkeys(attrs.fields_dict(FleetEntry)) | {"robot": name} for name in models],
+        "simulator": {"plugin": analysis.label},
+        "metrics": [_plain(metric) for metric in analysis.metrics.values()],
+        "recording": {"rate": analysis.sampling.rate},
+        "analysis": {"importer": _plain(analysis.importer), **attrs.asdict(analysis.sampling)},
+    }
+
+
+def _plain(component: Component) -> dict[str, Any]:
+    return canonical(cast("Any", component), Path.cwd())
+
+
+def _identity(analysis: Analysis, found: ObservedRun) -> str:
+    """Hash of the recording's bytes and of what was asked of it; metrics and places of files do not count."""
+    digest = hashlib.sha256()
+    files = [analysis.bag] if analysis.bag.is_file() else sorted(analysis.bag.iterdir())
+    for file in (file for file in files if file.is_file()):
+        with file.open("rb") as stream:
+            while block := stream.read(BLOCK):
+                digest.update(block)
+    config = {key: value for key, value in _config(analysis, found.context.fleet).items() if key not in UNIDENTIFYING}
+    config["robots"], config["scenario"] = analysis.robots, found.context.scenario.id
+    digest.update(line(config).encode())
+    return digest.hexdigest()[:LENGTH]
+
+
+def _code(analysis: Analysis) -> dict[str, Any]:
+    components = provenance([analysis.importer, analysis.world, *analysis.metrics.values()], Path.cwd())
+    for entry in components:
+        entry.pop("direct_url", None)
+    return {"components": components, "versions": versions(components)}
+
+
+def _keep(analysis: Analysis, found: ObservedRun, record: dict[str, Any]) -> int:
+    """Store recording and record; returns which attempt this is."""
+    folder = ResultsFolder(analysis.out)
+    folder.create()
+    with locked(folder.path):
+        folder.sweep()
+        before = Results(folder, only=[record["run_id"]]).entry(record["run_id"])
+        attempt = 1 if before is None else before.attempt + 1
+        invocation = new_invocation()
+        writer = RecordingWriter(folder.run(record["run_id"]).recording, found.context)
+        try:
+            writer.write(found.channels)
+        except BaseException:
+            writer.discard()
+            raise
+        writer.close()
+        write_document(folder.invocation(invocation), _facts(analysis, record, invocation))
+        with Writer(folder.shard(invocation), exclusive=True) as shard:
+            shard.write({**record, "attempt": attempt})
+    return attempt
+
+
+def _facts(analysis: Analysis, record: dict[str, Any], invocation: str) -> dict[str, Any]:
+    return {
+        "invocation": invocation,
+        "started": datetime.now(UTC).isoformat(timespec="seconds"),
+        "process": os.getpid(),
+        "machine": record["provenance"]["machine"],
+        "versions": record["provenance"]["versions"],
+        "columns": describe(analysis.metrics),
+        "analysis": record["config"] | record["analysis"],
+    }

@@ -1,0 +1,238 @@
+"""From what a recording of any fleet shows to the channels and the context that metrics measure."""
+
+from typing import Any
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from mrpbench_core.api.importer import Observed, Track
+from mrpbench_core.engine.analysis.channels import signal_channels
+from mrpbench_core.engine.analysis.resampling import even_times, resample
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.arrays import Float, Int16, Int32
+from mrpbench_core.model.execution import Route
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.scenario import Scenario, Task
+from mrpbench_core.model.world import World
+
+FAR = 1.0
+"""metres from its start at which a robot is suspected to be another one."""
+MOST_SAMPLES = 5_000_000
+"""Positions that are kept in memory."""
+
+
+@attrs.frozen(kw_only=True)
+class Sampling:
+    """How positions become a recording."""
+
+    rate: float = 10.0
+    """Hz."""
+    max_gap: float = 2.0
+    """seconds."""
+    tolerance: float = 0.25
+    """metres from a goal within which it counts as reached: Nav2's `xy_goal_tolerance` by default."""
+    since: float | None = None
+    """seconds after the first pose; None = from there."""
+    until: float | None = None
+
+
+@attrs.frozen(kw_only=True)
+class ObservedRun:
+    """A run that somebody else may have made."""
+
+    context: RunContext
+    channels: Chunk
+    notes: tuple[str, ...]
+    gaps: tuple[str, ...]
+    """Why not all positions are known."""
+    alike: tuple[frozenset[str], ...] = ()
+    """See `mrpbench_core.model.run.FinishedRun`."""
+
+
+def observe_own(observed: Observed, context: RunContext) -> ObservedRun:
+    """The run of a recording that mrpbench made: samples as they are."""
+    if "truth" in observed.channels:
+        return ObservedRun(context=context, channels=observed.channels, notes=observed.notes, gaps=())
+    time = observed.channels["time"]
+    found = [resample(track, time, np.inf) for track in observed.tracks]
+    truth = np.stack([resampled.pose for resampled in found], axis=1)
+    return ObservedRun(context=context, channels={**observed.channels, "truth": truth}, notes=observed.notes, gaps=())
+
+
+def observe(
+    observed: Observed,
+    world: World,
+    fleet: Fleet,
+    scenario: Scenario,
+    sampling: Sampling,
+    assigned: tuple[int, ...] | None = None,
+) -> ObservedRun:
+    """The run of a recording of any fleet: track i is that of the scenario's robot i.
+
+    `assigned` gives the task of each robot, -1 = none; by default robot i has task i.
+
+    Nothing is known of plans. A robot has reached its goals one after another, each when it is first seen within the
+    tolerance of it (and on its level, where levels are known).
+
+    Raises:
+        InputError: the numbers of robots differ, or no time is left.
+    """
+    _check(observed, scenario)
+    time = _times(observed.tracks, sampling)
+    notes = list(observed.notes)
+    gaps: list[str] = []
+    poses = []
+    for robot, track in enumerate(observed.tracks):
+        track = track if track.placed else _place(track, scenario.start[robot], notes)
+        resampled = resample(track, time, sampling.max_gap)
+        notes += resampled.notes
+        gaps += resampled.gaps
+        away = float(np.hypot(*(track.pose[0, :2] - scenario.start[robot, :2])))
+        if away > FAR:
+            notes.append(f"{track.robot} is first seen {away:.1f} m from the start of the scenario's robot {robot}")
+        poses.append(resampled.pose)
+    truth = np.stack(poses, axis=1)
+    level = _levels(observed.tracks, world, time)
+    channels: dict[str, NDArray[Any]] = {"time": time - time[0], "truth": truth}
+    if level is None:
+        notes.append("the recording does not tell the world's levels apart")
+    else:
+        channels["level"] = level
+    if assigned is None:
+        assigned = tuple(robot if robot < len(scenario.tasks) else -1 for robot in range(len(fleet)))
+    tasks = [scenario.tasks[task] if task >= 0 else None for task in assigned]
+    channels["reached"] = np.stack(
+        [_reached(truth[:, robot], level, robot, task, sampling.tolerance) for robot, task in enumerate(tasks)], axis=1
+    )
+    beside, alike = signal_channels(observed, time, sampling.max_gap, notes)
+    return ObservedRun(
+        context=attrs.evolve(_context(world, fleet, scenario, tasks, 1 / sampling.rate), assigned=assigned),
+        channels=channels | beside,
+        notes=tuple(notes),
+        gaps=tuple(gaps),
+        alike=alike,
+    )
+
+
+def _check(observed: Observed, scenario: Scenario) -> None:
+    names, wanted = [track.robot for track in observed.tracks], len(scenario.start)
+    if len(names) != wanted:
+        raise InputError(
+            f"the scenario has {wanted} robots, the recording shows {len(names)}: {', '.join(names)}",
+            hint="choose and order them with --robots A,B,…",
+        )
+    if len(scenario.tasks) > wanted or any(task.release > 0 for task in scenario.tasks):
+        raise InputError("tasks released over time, or more tasks than robots, cannot be told apart in a recording")
+
+
+def _times(tracks: tuple[Track, ...], sampling: Sampling) -> Float:
+    begin = min(float(track.time[0]) for track in tracks)
+    end = max(float(track.time[-1]) for track in tracks)
+    since = begin if sampling.since is None else sampling.since
+    until = end if sampling.until is None else sampling.until
+    if not begin <= since < until <= end + 1e-6:
+        raise InputError(
+            f"nothing is recorded from {since:g} to {until:g} s: poses begin at {begin:g} and end at {end:g} s"
+        )
+    if (until - since) * sampling.rate * len(tracks) > MOST_SAMPLES:
+        raise InputError(
+            f"{until - since:.0f} s of {len(tracks)} robots at {sampling.rate:g} Hz are too many samples",
+            hint="lower --rate, or cut a part out with --start-time and --end-time",
+        )
+    return even_times(since, until, sampling.rate)
+
+
+def _place(track: Track, start: Float, notes: list[str]) -> Track:
+    """Put a frame of the robot's own where its first pose is the scenario's start."""
+    notes.append(f"{track.robot}: {track.topic} is in no frame of the map, so its first pose was put at the start")
+    x, y, yaw = track.pose[0]
+    turn = 0.0 if np.isnan(start[2]) else start[2] - yaw
+    cos, sin = np.cos(turn), np.sin(turn)
+    dx, dy = track.pose[:, 0] - x, track.pose[:, 1] - y
+    pose = np.stack([start[0] + cos * dx - sin * dy, start[1] + sin * dx + cos * dy, track.pose[:, 2] + turn], axis=-1)
+    return attrs.evolve(track, pose=pose)
+
+
+def _levels(tracks: tuple[Track, ...], world: World, time: Float) -> Int16 | None:
+    """Index of each robot's level i2[T,n], by its name or else the nearest elevation; None where neither is known."""
+    if len(world.levels) == 1:
+        return np.zeros((len(time), len(tracks)), np.int16)
+    names = {level.name: index for index, level in enumerate(world.levels)}
+    elevation = np.array([level.elevation for level in world.levels])
+    columns = []
+    for track in tracks:
+        newest = np.clip(np.searchsorted(track.time, time + 1e-9, side="right") - 1, 0, None)
+        if track.levels:
+            if not set(track.levels) <= set(names):
+                return None
+            own = np.array([names[name] for name in track.levels])
+        elif np.isfinite(track.height).all() and len(np.unique(elevation)) == len(elevation):
+            own = np.abs(track.height[:, None] - elevation).argmin(axis=1)
+        else:
+            return None
+        columns.append(own[newest])
+    return np.stack(columns, axis=1).astype(np.int16)
+
+
+def _reached(pose: Float, level: Int16 | None, robot: int, task: Task | None, tolerance: float) -> Int32:
+    """How many goals the robot has reached i4[T]."""
+    reached = np.zeros(len(pose), np.int32)
+    since = 0
+    for goal, wanted in zip(task.goals, task.levels, strict=True) if task else ():
+        near = np.hypot(*(pose[since:, :2] - goal[:2]).T) <= tolerance
+        if level is not None:
+            near &= level[since:, robot] == wanted
+        if not near.any():
+            break
+        since += int(near.argmax())
+        reached[since:] += 1
+    return reached
+
+
+def _context(world: World, fleet: Fleet, scenario: Scenario, tasks: list[Task | None], period: float) -> RunContext:
+    """What is known of a run whose plans are not: starts, goals, and no roadmap but these places."""
+    places, levels, goals, routes, ends = list(scenario.start[:, :2]), list(scenario.start_level), [], [], []
+    for robot, task in enumerate(tasks):
+        visited = np.concatenate([scenario.start[robot : robot + 1], task.goals]) if task else scenario.start[[robot]]
+        floors = [int(scenario.start_level[robot]), *(task.levels.tolist() if task else ())]
+        goals.append(tuple((len(places) + step,) for step in range(len(visited) - 1)))
+        places += list(visited[1:, :2])
+        levels += floors[1:]
+        routes.append(Route(waypoint=visited, level=np.array(floors, "i2"), speed=np.full(len(visited) - 1, np.inf)))
+        x, y, yaw = visited[-1].tolist()
+        ends.append((x, y, yaw))
+    count = len(fleet)
+    roadmap = Roadmap(
+        position=np.array(places).reshape(-1, 2),
+        level=np.array(levels, "i2"),
+        heading=np.full(len(places), np.nan),
+        edges=np.empty((0, 2), "i4"),
+        duration=np.empty((max(1, len(fleet.profiles[0])), 0), "i4"),
+        tick=1.0,
+        notes=("only starts and goals: the recording does not tell what its planner searched",),
+    )
+    problem = Problem(
+        roadmap=roadmap,
+        profile=np.array(fleet.profiles[1], "i4"),
+        radius=fleet.radii,
+        start=np.arange(count, dtype="i4"),
+        ready=np.zeros(count, "i8"),
+        goals=tuple(goals),
+    )
+    return RunContext(
+        run_id="",
+        world=world,
+        fleet=fleet,
+        scenario=scenario,
+        problem=problem,
+        result=PlanResult(status=PlanStatus.UNKNOWN),
+        routes=tuple(routes),
+        goal=tuple(ends),
+        period=period,
+    )

@@ -1,0 +1,1 @@
+"""The execution of a plan: the loop and what takes part in it."""

@@ -1,0 +1,151 @@
+"""Who may use which door, lift and mutex, and what doors and lifts do for it.
+
+A robot holds a resource from when it asks, as soon as there is room, until it no longer asks. What it holds it may use
+(`FleetView.granted`) once the door is open, or shut where it only drives past, or the cabin is there and open.
+"""
+
+from collections.abc import Mapping
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.arrays import Bool, Int32
+from mrpbench_core.model.execution import FleetView, Orders, State
+from mrpbench_core.model.facilities import Facilities
+from mrpbench_core.model.plan import Plan
+from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.world import Lift, World
+
+
+class ExecutionError(Exception):
+    """The execution cannot go on; says why."""
+
+
+class FacilityManager:
+    """Keeps the keys of one execution."""
+
+    def __init__(self, world: World, problem: Problem, plan: Plan) -> None:
+        self.facilities = Facilities(world)
+        self._resources = {resource.name: resource for resource in problem.roadmap.resources}
+        self._number = {name: index for index, name in enumerate(self._resources)}
+        self._lifts = {lift.name: lift for lift in world.lifts}
+        self._entrances = {lift.name: [g for g in self.facilities.doors if g.lift is lift] for lift in world.lifts}
+        self._level = problem.roadmap.level
+        self._held: dict[str, list[int]] = {name: [] for name in self._resources}
+        self._ready: tuple[tuple[int, str], ...] = ()
+        self.adopt(problem, plan)
+
+    def adopt(self, problem: Problem, plan: Plan) -> None:
+        """Robots follow a new plan."""
+        starts = problem.start.tolist()
+        self._vertices = [path.vertices(problem.roadmap, start) for path, start in zip(plan.paths, starts, strict=True)]
+        self._edges = [path.edge for path in plan.paths]
+        self._shown: dict[tuple[int, str], tuple[Bool, Bool]] = {}
+
+    def granted(self, view: FleetView, state: State) -> FleetView:
+        """What a dispatcher sees, with what robots may use now."""
+        self._ready = tuple(
+            (robot, name)
+            for name, holders in self._held.items()
+            for robot in holders
+            if self._is_ready(robot, name, int(view.reached[robot]), state.facilities)
+        )
+        return attrs.evolve(view, granted=self._ready) if self._ready else view
+
+    def take(self, orders: Orders) -> None:
+        """Let go what is no longer asked for, and give what there is room for, longest wanted first.
+
+        Raises:
+            ExecutionError: a dispatcher asks for what there is not.
+        """
+        self._asked = orders.requests
+        for name, holders in self._held.items():
+            if holders:
+                holders[:] = [robot for robot in holders if (robot, name) in orders.requests]
+        for robot, name in orders.requests:
+            if name not in self._resources:
+                raise ExecutionError(f"the dispatcher asked for {name!r}, which the roadmap does not have")
+            holders = self._held[name]
+            if robot not in holders and len(holders) < self._resources[name].capacity:
+                holders.append(robot)
+
+    def waiting(self, robots: int) -> Int32:
+        """The number i4[n] of the resource that each robot has asked for and may not use yet, -1 = none."""
+        waits: Int32 = np.full(robots, -1, np.int32)
+        for robot, name in self._asked:
+            if waits[robot] < 0 and (robot, name) not in self._ready:
+                waits[robot] = self._number[name]
+        return waits
+
+    def doing(self, state: State) -> list[float]:
+        """What doors and lifts do now, in the order of `Facilities.names`; [] if the simulator knows none."""
+        return [state.facilities.get(name, np.nan) for name in self.facilities.names] if state.facilities else []
+
+    def commands(self, reached: Int32, released: Int32, state: State) -> dict[str, float]:
+        """What doors and lifts are to do, see `Inputs.facilities`.
+
+        Raises:
+            ExecutionError: the simulator knows neither doors nor lifts, and somebody needs one.
+        """
+        if not self._resources or not self.facilities.names:
+            return {}
+        if not state.facilities:
+            if any(holders and self._resources[name].kind != "mutex" for name, holders in self._held.items()):
+                raise ExecutionError("the simulator knows neither doors nor lifts: use kinematic, or planar")
+            return {}
+        commands: dict[str, float] = {}
+        for name, resource in self._resources.items():
+            holders = self._held[name]
+            if resource.kind == "door":
+                commands[name] = float(any(self._passes(robot, name, int(reached[robot])) for robot in holders))
+            elif resource.kind == "lift":
+                stop = self._stop(holders[0], int(reached[holders[0]]), int(released[holders[0]])) if holders else None
+                commands |= self._drive(self._lifts[name], stop, state.facilities)
+        return commands
+
+    def _is_ready(self, robot: int, name: str, reached: int, state: Mapping[str, float]) -> bool:
+        kind = self._resources[name].kind
+        if kind == "door" and name in state:
+            return state[name] == float(self._passes(robot, name, reached))
+        if kind == "lift" and name in state:
+            lift, level = self._lifts[name], int(self._level[self._vertices[robot][reached]])
+            here = self.facilities.is_at(lift, level, state)
+            return here and all(state[gate.name] == 1 for gate in self._entrances[name] if level in gate.opens_on)
+        return kind == "mutex"
+
+    def _stop(self, robot: int, reached: int, released: int) -> int:
+        """The level at which a robot is to get in, or out once it is allowed to ride."""
+        levels = self._level[self._vertices[robot][reached : reached + 2]]
+        return int(levels[-1] if reached < released else levels[0])
+
+    def _drive(self, lift: Lift, stop: int | None, state: Mapping[str, float]) -> dict[str, float]:
+        """Shut the doors, go there, open; without a `stop`, shut the doors."""
+        gates = self._entrances[lift.name]
+        if stop is not None and self.facilities.is_at(lift, stop, state):
+            return {gate.name: float(stop in gate.opens_on) for gate in gates}
+        commands = dict.fromkeys((gate.name for gate in gates), 0.0)
+        if stop is not None and all(state[gate.name] == 0 for gate in gates):
+            commands[lift.name] = self.facilities.heights[lift.name][stop]
+        return commands
+
+    def _passes(self, robot: int, name: str, reached: int) -> bool:
+        """Tell whether the robot's use of a door, the one under way or else the next, leads through the doorway."""
+        inside, passing = self._uses(robot, name)
+        ahead = np.flatnonzero(inside[reached:])
+        if not len(ahead):
+            return False
+        first = last = reached + int(ahead[0])
+        while first > 0 and inside[first - 1]:
+            first -= 1
+        while last < len(inside) and inside[last]:
+            last += 1
+        return bool(passing[first:last].any())
+
+    def _uses(self, robot: int, name: str) -> tuple[Bool, Bool]:
+        """For each segment of a robot's path, whether it is in a door's resource, and whether in its doorway."""
+        if (robot, name) not in self._shown:
+            resource, edge, vertex = self._resources[name], self._edges[robot], self._vertices[robot]
+            waits = (edge < 0) & np.isin(vertex[1:], resource.vertices)
+            inside = np.isin(edge, resource.edges) | waits
+            self._shown[robot, name] = inside, np.isin(edge, resource.passage)
+        return self._shown[robot, name]

@@ -1,0 +1,132 @@
+"""When the plan in force is replaced during execution, and by what."""
+
+import math
+from collections.abc import Callable
+
+import attrs
+import numpy as np
+
+from mrpbench_core.config.settings import Replanning, RunConfig
+from mrpbench_core.engine.execution.commitments import commitments
+from mrpbench_core.engine.execution.routes import Router
+from mrpbench_core.model.arrays import Float, Int, Int32
+from mrpbench_core.model.execution import FleetView, Route
+from mrpbench_core.model.plan import Plan, PlanResult
+from mrpbench_core.model.problem import Feature, Problem
+
+RETRY_S = 1.0
+"""Simulated seconds after which a planner that found no new plan is asked again, unless the settings say more."""
+
+Ask = Callable[[Problem], tuple[PlanResult, str | None]]
+"""Calls the planner; the second value says why there is no plan to use."""
+
+
+@attrs.frozen(kw_only=True)
+class Revision:
+    """A new plan that waits to take effect."""
+
+    due: float
+    """simulated seconds."""
+    reason: str
+    problem: Problem
+    plan: Plan | None
+    routes: tuple[Route, ...] = ()
+    fault: str = ""
+    """Why there is none, or why it must not be used."""
+
+
+class Replanner:
+    """Follows an execution and says when a new plan is wanted; from then until it takes effect nothing is released.
+
+    Args:
+        settings: when to replan, and how long that takes.
+        ask: calls the planner.
+        router: turns plans into routes.
+        problem: of the first plan.
+        plan: the first plan.
+    """
+
+    def __init__(self, settings: Replanning, ask: Ask, router: Router, problem: Problem, plan: Plan) -> None:
+        self._settings = settings
+        self._ask = ask
+        self._router = router
+        self._last = 0.0
+        self._retry = max(RETRY_S, settings.delay or 0.0, settings.period or 0.0)
+        self._not_before = 0.0
+        self.pending: Revision | None = None
+        """Asked for, not in force yet."""
+        self.use(problem, plan)
+
+    def use(self, problem: Problem, plan: Plan) -> None:
+        """Take note that a plan is in force."""
+        self.problem, self.plan = problem, plan
+        self._first: Int = np.cumsum([0, *(len(path) for path in plan.paths)])
+        self._leave: Int = np.concatenate([*(path.leave for path in plan.paths), [0]])  # one more to index at the end
+
+    def reason(self, now: float, view: FleetView, wish: str | None) -> str | None:
+        """Why a new plan is wanted now, or None; `wish` is the dispatcher's."""
+        settings = self._settings
+        if now < self._not_before:
+            return None
+        if wish is not None:
+            return wish
+        if settings.period is not None and now - self._last >= settings.period - 1e-9:
+            return f"{settings.period:g} s have passed"
+        if settings.delay is not None:
+            late = self._late(now, view.reached)
+            robot = int(late.argmax())
+            if late[robot] > settings.delay:
+                return f"robot {robot} is {late[robot]:.1f} s late"
+        return None
+
+    def request(self, now: float, reason: str, view: FleetView, released: Int32) -> None:
+        """Ask for a plan that begins with what is `released` i4[n]; it takes effect after the latency."""
+        tick = self.problem.roadmap.tick
+        due = now + self._settings.latency
+        ready = math.ceil(now / tick - 1e-9) + self._left(view)
+        prefix = commitments(self.problem, self.plan, released, view.reached, ready, math.ceil(due / tick - 1e-9))
+        features = self.problem.features | {Feature.COMMITMENTS}
+        problem = attrs.evolve(self.problem, commitments=prefix, features=features)
+        result, fault = self._ask(problem)
+        self._last, self._not_before = now, due
+        plan = None if fault else result.plan
+        routes = () if plan is None else self._router(plan)
+        self.pending = Revision(due=due, reason=reason, problem=problem, plan=plan, routes=routes, fault=fault or "")
+
+    def take(self, now: float) -> Revision | None:
+        """The new plan, once its time has come."""
+        if self.pending is None or now < self.pending.due - 1e-9:
+            return None
+        revision, self.pending = self.pending, None
+        return revision
+
+    def failed(self, now: float) -> None:
+        """Take note that the new plan could not be used: the next try waits a while."""
+        self._not_before = now + self._retry
+
+    def _late(self, now: float, reached: Int32) -> Float:
+        """Seconds f8[n] by which robots are late with the first segment that they have not reached; 0 = arrived."""
+        under_way = self._first[:-1] + reached < self._first[1:]
+        planned = self._leave[np.minimum(self._first[:-1] + reached, len(self._leave) - 1)]
+        late: Float = np.where(under_way, now - planned * self.problem.roadmap.tick, 0.0)
+        return late
+
+    def _left(self, view: FleetView) -> Int:
+        """Ticks i8[n] that robots need from where they are to the end of the first segment not reached."""
+        left = np.zeros(len(self.problem), np.int64)
+        roadmap = self.problem.roadmap
+        for robot, (path, reached) in enumerate(zip(self.plan.paths, view.reached.tolist(), strict=True)):
+            if reached < len(path) and (edge := int(path.edge[reached])) >= 0:
+                tail, head = roadmap.position[roadmap.edges[edge]]
+                length = float(np.hypot(*(head - tail)))
+                share = min(1.0, float(np.hypot(*(head - view.pose[robot, :2]))) / length) if length > 0 else 1.0
+                left[robot] = math.ceil(share * int(self.problem.duration(robot)[edge]))
+        return left
+
+
+def replanning_fault(config: RunConfig) -> str | None:
+    """Why the planner cannot be asked again during execution as the configuration wants, or None."""
+    wanted = config.replanning.delay is not None or config.replanning.period is not None
+    if config.simulator is not None and wanted and Feature.COMMITMENTS not in config.planner.supports:
+        return "does not support commitments, which replanning during execution needs"
+    return None

@@ -1,0 +1,75 @@
+"""From a plan on the roadmap to routes in metres."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.plan_filter import PlanFilter
+from mrpbench_core.engine.contract_checks import check_kept
+from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.execution import Route
+from mrpbench_core.model.plan import Path, Plan
+from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.world import World
+
+
+@attrs.frozen
+class Router:
+    """Turns plans of one problem into routes, one per robot: the positions and prescribed yaws of its vertices."""
+
+    problem: Problem
+    """Gives the roadmap and the starts."""
+    final_yaw: Float
+    """f8[n] radians wanted at the end, NaN = any."""
+    speed_limits: Float
+    """f8[E] m/s, inf = none."""
+    plan_filter: PlanFilter | None = None
+
+    def __call__(self, plan: Plan) -> tuple[Route, ...]:
+        """The routes of `plan`."""
+        return tuple(self._route(robot, path) for robot, path in enumerate(plan.paths))
+
+    def _route(self, robot: int, path: Path) -> Route:
+        roadmap = self.problem.roadmap
+        vertices = path.vertices(roadmap, int(self.problem.start[robot]))
+        waypoint = np.column_stack([roadmap.position[vertices], roadmap.heading[vertices]])
+        if not np.isnan(self.final_yaw[robot]):
+            waypoint[-1, 2] = self.final_yaw[robot]
+        if self.plan_filter is not None:
+            waypoint = _straightened(waypoint, check_kept(self.plan_filter.keep(waypoint[:, :2].copy()), len(waypoint)))
+        limits = self.speed_limits[path.edge] if len(self.speed_limits) else np.inf
+        return Route(waypoint=waypoint, level=roadmap.level[vertices], speed=np.where(path.edge >= 0, limits, np.inf))
+
+
+def _straightened(waypoint: Float, kept: Bool) -> Float:
+    """Move the waypoints f8[k,3] that are not kept onto the straight line between those that are, at even distances.
+
+    So segments keep their indices, and whoever follows the route passes the lines that were left.
+    """
+    index = np.arange(len(waypoint))
+    moved = waypoint.copy()
+    for axis in (0, 1):
+        moved[:, axis] = np.interp(index, index[kept], waypoint[kept, axis])
+    moved[~kept, 2] = np.nan
+    return moved
+
+
+def speed_limits(world: World, roadmap: Roadmap) -> np.ndarray:
+    """m/s on each edge of the roadmap, f8[E]: what its duration implies where the world has speed limits, else inf."""
+    if not any(lane.speed_limit > 0 for lane in world.lanes) or not len(roadmap.edges):
+        return np.full(len(roadmap.edges), np.inf)
+    start, end = roadmap.edges[:, 0], roadmap.edges[:, 1]
+    span = roadmap.position[end] - roadmap.position[start]
+    ticks = np.where(roadmap.duration > 0, roadmap.duration, np.iinfo("i4").max).min(axis=0)
+    limits: np.ndarray = np.hypot(span[:, 0], span[:, 1]) / (ticks * roadmap.tick)
+    return np.where(roadmap.level[start] == roadmap.level[end], limits, np.inf)  # in a lift it is the lift that drives
+
+
+def placements(routes: tuple[Route, ...], start_yaw: np.ndarray) -> np.ndarray:
+    """Where the simulator puts the robots, f8[n,3]: the first waypoints, facing `start_yaw` (0 where it is NaN).
+
+    The yaw must not depend on the plan, or planners would be compared from different starts.
+    """
+    poses = np.array([route.waypoint[0] for route in routes])
+    poses[:, 2] = np.where(np.isnan(start_yaw), 0.0, start_yaw)
+    return poses

@@ -1,0 +1,33 @@
+"""Turns what plugins return into what JSON can say."""
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+
+def jsonable(value: Any) -> Any:
+    """The same with NumPy's scalars and arrays as Python's, and numbers that are not finite as None."""
+    if isinstance(value, np.generic | np.ndarray):
+        return jsonable(value.tolist())
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    if value is None or isinstance(value, int):
+        return value
+    if isinstance(value, Mapping):
+        return {_storable(str(key)): jsonable(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [jsonable(item) for item in value]
+    return _storable(str(value))
+
+
+def printable(text: str) -> str:
+    """The same in one line that does nothing to a terminal: control characters and the like are escaped."""
+    line = " ".join(text.split())
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
+
+
+def _storable(text: str) -> str:
+    """The same with halves of surrogate pairs, which no file can hold, escaped."""
+    return text.encode(errors="backslashreplace").decode()

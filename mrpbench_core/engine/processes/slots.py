@@ -1,0 +1,63 @@
+"""The worker slots of this process, whichever thread asks: an executor's threads here, or those of a remote worker."""
+
+import threading
+
+from mrpbench_core.engine.processes.job import Job, JobOutcome
+from mrpbench_core.engine.processes.slot import Slot, SlotStopped
+
+_LOCK = threading.Lock()
+_POOLS: dict[str, "Slots"] = {}
+
+
+class Slots:
+    """As many slots as runs are executed at once; an idle one serves the next run."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._idle: list[Slot] = []
+        self._busy: set[Slot] = set()
+        self._closed = False
+
+    def run(self, job: Job) -> JobOutcome:
+        """Execute a run in an idle slot, or in a new one.
+
+        Raises:
+            SlotStopped: the slots were closed.
+        """
+        with self._lock:
+            if self._closed:
+                raise SlotStopped
+            slot = self._idle.pop() if self._idle else Slot()
+            self._busy.add(slot)
+        try:
+            return slot.run(job)
+        finally:
+            with self._lock:
+                self._busy.discard(slot)
+                if not self._closed:
+                    self._idle.append(slot)
+
+    def close(self) -> None:
+        """End every child, and with them the runs in flight."""
+        with self._lock:
+            self._closed = True
+            idle, self._idle = self._idle, []
+            for slot in self._busy:
+                slot.stop()
+        for slot in idle:
+            slot.close()
+
+
+def run_in_slot(invocation: str, job: Job) -> JobOutcome:
+    """Execute a run in one of this process's slots for an invocation; what executors are given to call."""
+    with _LOCK:
+        slots = _POOLS.setdefault(invocation, Slots())
+    return slots.run(job)
+
+
+def close_slots(invocation: str) -> None:
+    """End the children that serve an invocation in this process."""
+    with _LOCK:
+        slots = _POOLS.pop(invocation, None)
+    if slots is not None:
+        slots.close()

@@ -1,0 +1,53 @@
+"""Decides which robot does which task."""
+
+import time
+from typing import Any
+
+import numpy as np
+
+from mrpbench_core.api.assigner import AssignmentError
+from mrpbench_core.checking.assignment import check_assignment
+from mrpbench_core.checking.scenario import check_travel
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.stage import Announce, RunEnded
+from mrpbench_core.engine.stages.costs import cost_matrix
+from mrpbench_core.engine.stages.prepare import Instance, summary
+from mrpbench_core.model.assignment import AssignmentProblem
+from mrpbench_core.model.plan import Plan
+from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.status import RunStatus, Stage
+
+
+def assign(config: RunConfig, instance: Instance, announce: Announce, timing: dict[str, Any]) -> tuple[int, ...]:
+    """The task of each robot, -1 = none.
+
+    Raises:
+        RunEnded: no assignment was found, or the assigner returned a wrong one.
+    """
+    announce(Stage.ASSIGNMENT, {"scenario_id": instance.scenario.id})
+    assigner = config.assigner
+    began = time.perf_counter()
+    if assigner.reads_costs:
+        costs = cost_matrix(assigner.cost, instance.roadmap, instance.fleet, instance.scenario)
+        if faults := check_travel(costs, instance.scenario.start_names, instance.task_names):
+            raise RunEnded(RunStatus.SCENARIO_INFEASIBLE, Stage.SCENARIO, summary(faults))
+    else:
+        costs = np.zeros((len(instance.fleet), len(instance.scenario.tasks)))
+    timing["cost_matrix_s"] = time.perf_counter() - began
+    question = AssignmentProblem(costs=costs, tasks=instance.scenario.tasks)
+    began = time.perf_counter()
+    try:
+        assignment = assigner.assign(question)
+    except AssignmentError as error:
+        raise RunEnded(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, str(error)) from error
+    timing["assignment_s"] = time.perf_counter() - began
+    if faults := check_assignment(question, assignment):
+        raise RunEnded(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, f"{type(assigner).__name__} {faults[0]}")
+    return tuple(int(task) for task in assignment.task)
+
+
+def tasks_of_plan(instance: Instance, problem: Problem, plan: Plan) -> tuple[int, ...]:
+    """The task of each robot when the planner has chosen: the one whose goal is where its path ends."""
+    task = {sequence[0]: index for index, sequence in reversed(list(enumerate(instance.goals)))}
+    starts = problem.start.tolist()
+    return tuple(task[path.end(problem.roadmap, start)] for path, start in zip(plan.paths, starts, strict=True))

@@ -1,0 +1,59 @@
+"""The cost matrix an assigner is given."""
+
+import numpy as np
+
+from mrpbench_core.api.assigner import Cost
+from mrpbench_core.engine.stages.travel import travel_ticks
+from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.scenario import Scenario
+
+
+def cost_matrix(kind: Cost, roadmap: Roadmap, fleet: Fleet, scenario: Scenario) -> Float:
+    """What it costs each robot to do each task, f8[n,m]: from its start through all goals of the task, in order.
+
+    `euclidean` and `manhattan` are metres between the places of the scenario in the plane, whatever lies between;
+    `roadmap` is the shortest travel time in seconds on the roadmap with the robot's motion profile, without other
+    robots, inf where there is no way.
+    """
+    if kind == "roadmap":
+        return _travel_times(roadmap, fleet, scenario)
+    robots, tasks = len(scenario.start), len(scenario.tasks)
+    first = np.array([task.goals[0, :2] for task in scenario.tasks]).reshape(tasks, 2)
+    legs = [_length(np.diff(task.goals[:, :2], axis=0), kind).sum() for task in scenario.tasks]
+    approach = _length(first[None, :] - scenario.start[:, None, :2], kind)
+    costs: Float = (approach + np.array(legs)).reshape(robots, tasks)
+    return costs
+
+
+def _length(span: Float, kind: Cost) -> Float:
+    length: Float = np.abs(span).sum(-1) if kind == "manhattan" else np.hypot(span[..., 0], span[..., 1])
+    return length
+
+
+def _travel_times(roadmap: Roadmap, fleet: Fleet, scenario: Scenario) -> Float:
+    start = roadmap.locate(scenario.start[:, :2], scenario.start_level)
+    goals = [roadmap.locate(task.goals[:, :2], task.levels).tolist() for task in scenario.tasks]
+    profile = np.array(fleet.profiles[1], np.int64)
+    costs = np.empty((len(start), len(goals)))
+    for row in np.unique(profile):
+        robots = np.flatnonzero(profile == row)
+        costs[robots] = _profile_times(roadmap, int(row), start[robots].astype(np.int64), goals)
+    return costs * roadmap.tick
+
+
+def _profile_times(roadmap: Roadmap, profile: int, start: Int, goals: list[list[int]]) -> Float:
+    """Ticks f8[robots,tasks] for robots of one motion profile; inf where there is no way or a place is off the map."""
+    targets = sorted({goal for sequence in goals for goal in sequence if goal >= 0})
+    sources = sorted({*start.tolist(), *targets} - {-1})
+    ticks = np.full((len(targets) + 1, len(sources) + 1), np.inf)  # last row and column: not on the roadmap
+    ticks[:-1, :-1] = travel_ticks(roadmap, profile, targets, sources)
+    row = {vertex: index for index, vertex in enumerate(targets)}
+    column = {vertex: index for index, vertex in enumerate(sources)}
+    times = np.zeros((len(start), len(goals)))
+    for task, sequence in enumerate(goals):
+        for before, goal in zip([None, *sequence], sequence, strict=False):
+            here = [column.get(vertex, -1) for vertex in (start.tolist() if before is None else [before])]
+            times[:, task] += ticks[row.get(goal, -1), here]
+    return times

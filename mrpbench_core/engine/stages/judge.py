@@ -1,0 +1,44 @@
+"""Judges a plan by what its planner promises."""
+
+import math
+
+import attrs
+
+from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.checking.assignment import check_choice
+from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.checking.plan_result import result_fault
+from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.problem import Problem
+
+
+def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
+    """Count the plan's conflicts, and say which promise it breaks, or None.
+
+    Sound paths are asked of every planner, a task of its own for every robot of those that assign, and freedom from
+    conflicts, bounds and optimality of those that promise them.
+    """
+    if fault := result_fault(result):
+        return PlanResult(status=PlanStatus.GAVE_UP), fault
+    if result.plan is None:
+        return result, None if result.status != PlanStatus.SOLVED else "says it solved the problem but gives no plan"
+    report = check_plan(problem, result.plan)
+    if report.faults:
+        return result, report.faults[0]
+    if planner.assigns and (shared := check_choice(problem, result.plan)):
+        return result, shared[0]
+    if result.status == PlanStatus.TIMEOUT:  # but not without a plan: a success that depends on the clock
+        result = attrs.evolve(result, status=PlanStatus.SOLVED, clock_bound=True)
+    statistics = {**result.statistics, "conflicts": float(len(report.conflicts))}
+    result = attrs.evolve(result, statistics=statistics)
+    if report.conflicts and Promise.CONFLICT_FREE in planner.promises:
+        return result, str(report.conflicts[0])
+    if result.plan is not None and not math.isnan(result.lower_bound):
+        factor = float(getattr(planner, "w", 1.0)) if Promise.BOUNDED in planner.promises else 1.0
+        held = {Promise.BOUNDED, Promise.OPTIMAL} & planner.promises
+        cost = result.plan.sum_of_costs
+        if held and not result.clock_bound and cost > factor * result.lower_bound + 1e-6:
+            return result, f"cost {cost} exceeds {factor:g} times its lower bound {result.lower_bound:g}"
+        if cost < result.lower_bound - 1e-6:
+            return result, f"cost {cost} is below its lower bound {result.lower_bound:g}"
+    return result, None

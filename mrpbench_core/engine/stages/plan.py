@@ -1,0 +1,107 @@
+"""Calls a planner and measures the call."""
+
+import math
+import resource
+import time
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.api.planner import Planner
+from mrpbench_core.checking.plan_result import result_fault
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.seeds import seed_of
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
+from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.status import RunStatus
+
+STATUS = {
+    PlanStatus.TIMEOUT: RunStatus.PLAN_TIMEOUT,
+    PlanStatus.OUT_OF_MEMORY: RunStatus.OUT_OF_MEMORY,
+    PlanStatus.UNSOLVABLE: RunStatus.PLAN_UNSOLVABLE,
+    PlanStatus.GAVE_UP: RunStatus.PLAN_NOT_FOUND,
+}
+"""A run's status for each way of having no plan."""
+
+
+def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[PlanResult, dict[str, Any]]:
+    """What the planner returned, sound or not, and timing of the call alone.
+
+    CPU time counts programs that the planner ran to their end; peak memory is that of this process alone.
+    """
+    _reset_peak()
+    before = _resident()
+    began, cpu = time.perf_counter(), _cpu_s()
+    try:
+        result = planner.plan(problem, budget)
+    except InputError as error:  # no mistake of the user's any more: the problem was sound
+        raise RuntimeError(f"the planner raised InputError: {error}") from error
+    timing: dict[str, Any] = {
+        "planning_s": time.perf_counter() - began,
+        "planning_cpu_s": _cpu_s() - cpu,
+        "planning_peak_bytes": max(0, _peak() - before),
+        "clock_bound": _clock_bound(result),
+    }
+    if history := _history(result):
+        timing["planning_history"] = history
+    return result, timing
+
+
+def _clock_bound(result: Any) -> bool:
+    """The clock, not the search, decided what came out."""
+    return isinstance(result, PlanResult) and (bool(result.clock_bound) or result.status == PlanStatus.TIMEOUT)
+
+
+def _history(result: Any) -> list[list[float | None]]:
+    """The anytime curve as rows [seconds, cost, lower bound]; null for what is not known. [] for what is no curve."""
+    if result_fault(result) is not None:
+        return []
+    return [[value if math.isfinite(value) else None for value in attrs.astuple(point)] for point in result.history]
+
+
+def budget_of(config: RunConfig) -> Budget:
+    """What one call of a planner may use.
+
+    The memory is less than the run's, so that the planner stops by itself before the run is killed. The seed comes from
+    a stream of its own, keyed by the run's seed and repeat.
+    """
+    limits = config.limits
+    return Budget(
+        wall_s=limits.planning,
+        memory_bytes=max(1, int(0.9 * limits.memory) - _resident()),
+        iterations=limits.iterations,
+        seed=seed_of(config.seed, config.repeat, "planner") >> 32,  # 31 bits, which any program reads
+    )
+
+
+def _cpu_s() -> float:
+    """Of this process and of the programs that it has run."""
+    programs = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.process_time() + programs.ru_utime + programs.ru_stime
+
+
+def _reset_peak() -> None:
+    try:
+        Path("/proc/self/clear_refs").write_text("5")
+    except OSError:  # then the peak is that of the whole process so far: an upper bound
+        return
+
+
+def _status_bytes(key: str) -> int | None:
+    try:
+        for line in Path("/proc/self/status").read_text().splitlines():
+            if line.startswith(key):
+                return int(line.split()[1]) * 1024
+    except OSError:
+        pass
+    return None
+
+
+def _resident() -> int:
+    return _status_bytes("VmRSS:") or 0
+
+
+def _peak() -> int:
+    return _status_bytes("VmHWM:") or resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024

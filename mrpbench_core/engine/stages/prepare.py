@@ -1,0 +1,84 @@
+"""Builds the instance of a run: world, fleet, roadmap and scenario."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.checking.doorways import check_doorways
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.contract_checks import check_drawn
+from mrpbench_core.engine.stage import Announce, RunEnded
+from mrpbench_core.engine.stages.fleet import build_fleet
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.world import World
+
+
+@attrs.frozen(kw_only=True)
+class Instance:
+    """Where a run takes place and what is to be done."""
+
+    world: World
+    fleet: Fleet
+    roadmap: Roadmap
+    scenario: Scenario
+    start: np.ndarray
+    """i4[n] roadmap vertices."""
+    goals: list[tuple[int, ...]]
+    """Roadmap vertices of each task."""
+
+    @property
+    def task_names(self) -> list[str]:
+        """The name of each task, which may be empty."""
+        return [task.name for task in self.scenario.tasks]
+
+
+def build_instance(config: RunConfig, announce: Announce) -> Instance:
+    """Load, build and draw.
+
+    Raises:
+        InputError: something the user wrote does not fit.
+        RunEnded: the scenario cannot be solved by any planner.
+    """
+    announce(Stage.WORLD, {})
+    world = config.world.load()
+    fleet = build_fleet(config, config.scenario.size())
+    announce(Stage.ROADMAP, {})
+    roadmap = config.roadmap.build(world, fleet)
+    announce(Stage.SCENARIO, {})
+    scenario = check_drawn(config.scenario.draw(world, roadmap, fleet, config.seed), len(fleet))
+    if any(task.release > 0 for task in scenario.tasks) or len(scenario.tasks) > len(fleet):
+        raise InputError("scenario: tasks released over time, or more tasks than robots, cannot be executed yet")
+    start = roadmap.locate(scenario.start[:, :2], scenario.start_level)
+    return Instance(
+        world=world,
+        fleet=fleet,
+        roadmap=roadmap,
+        scenario=scenario,
+        start=start,
+        goals=goal_vertices(roadmap, scenario),
+    )
+
+
+def require_free_doorways(instance: Instance) -> None:
+    """Make sure that doors can move from the start.
+
+    Raises:
+        RunEnded: a robot stands in the way of one.
+    """
+    radii, names = instance.fleet.radii, instance.scenario.start_names
+    if faults := check_doorways(instance.world, instance.roadmap, instance.start, radii, names):
+        raise RunEnded(RunStatus.SCENARIO_INFEASIBLE, Stage.SCENARIO, summary(faults))
+
+
+def summary(faults: list[str], shown: int = 3) -> str:
+    """The first faults in one line, and how many more there are."""
+    more = f"; and {len(faults) - shown} more" if len(faults) > shown else ""
+    return "; ".join(faults[:shown]) + more
+
+
+def goal_vertices(roadmap: Roadmap, scenario: Scenario) -> list[tuple[int, ...]]:
+    """The roadmap vertices of each task's goals, in order; -1 = not on the roadmap."""
+    return [tuple(int(vertex) for vertex in roadmap.locate(task.goals[:, :2], task.levels)) for task in scenario.tasks]

@@ -1,0 +1,127 @@
+"""Keeps workers busy with the runs of one invocation, and stores each record as soon as it is there."""
+
+from collections import Counter, deque
+from collections.abc import Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
+from contextlib import contextmanager
+
+import attrs
+
+from mrpbench_core.api.executor import RemoteExecutor, WorkerLost
+from mrpbench_core.config.study import RunPoint
+from mrpbench_core.engine.processes.job import Failure, Job, JobOutcome
+from mrpbench_core.engine.processes.slots import close_slots, run_in_slot
+from mrpbench_core.engine.study.progress import StudyProgress
+from mrpbench_core.engine.study.record import complete_record
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.jsonl import Writer
+from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.plugins.hooks import Hooks
+from mrpbench_core.store.folder import ResultsFolder
+
+LOSSES = 3
+"""A run whose worker is ended from outside is done again, as the next attempt; after so many it counts as crashed."""
+
+
+@attrs.define(kw_only=True)
+class RunQueue:
+    """The runs that are left, and those that are going on."""
+
+    invocation: str
+    waiting: deque[tuple[RunPoint, int]]
+    """Runs with their attempts."""
+    workers: int
+    folder: ResultsFolder
+    shard: Writer
+    hooks: Hooks
+    progress: StudyProgress
+    mistakes: dict[str, str] = attrs.field(factory=dict)
+    """What was wrong with runs that were refused, by run id."""
+    _going: dict[Future[JobOutcome], tuple[RunPoint, int]] = attrs.field(factory=dict, init=False)
+    _losses: Counter[str] = attrs.field(factory=Counter, init=False)
+
+    def run_all(self, executor: Executor) -> None:
+        """Do all runs. No more are handed out than there are workers, so that memory does not grow with the study.
+
+        When anything, Ctrl-C included, ends it early, the runs in flight are ended too.
+        """
+        with self._ending(executor):
+            while self._hand_out(executor):
+                done = wait(self._going, return_when=FIRST_COMPLETED).done
+                ended = [(*self._going.pop(future), future) for future in done]
+                self._hand_out(executor)  # before storing, so that no worker waits for the disk
+                for point, attempt, future in ended:
+                    failed = future.exception()
+                    if isinstance(failed, WorkerLost):
+                        self._take(point, attempt, _lost(point, failed))
+                    elif failed is None:
+                        self._take(point, attempt, future.result())
+                for _, _, future in ended:  # an executor's own failure ends the study, after the others were stored
+                    if not isinstance(future.exception(), WorkerLost):
+                        future.result()
+
+    def _hand_out(self, executor: Executor) -> bool:
+        """Tell whether any run is going on."""
+        while self.waiting and len(self._going) < self.workers:
+            point, attempt = self.waiting.popleft()
+            self.hooks.switch_on()
+            self.hooks.call("mrpbench_run_started", run_id=point.run_id, config=point.canonical)
+            self.progress.started(point)
+            self._going[executor.submit(run_in_slot, self.invocation, self._job(point))] = point, attempt
+        return bool(self._going)
+
+    def _take(self, point: RunPoint, attempt: int, outcome: JobOutcome) -> None:
+        if outcome.lost and outcome.failure is not None:
+            self._losses[point.run_id] += 1
+            if self._losses[point.run_id] < LOSSES:  # else it was perhaps the run itself
+                self.progress.lost(point, outcome.failure.message)
+                self.waiting.append((point, attempt + 1))
+                return
+        if outcome.mistake is not None:
+            self.mistakes[point.run_id] = outcome.mistake
+            self.progress.refused(point, outcome.mistake)
+            return
+        record = complete_record(point, attempt, outcome, self.workers)
+        try:
+            if not _left_a_recording(outcome):
+                self.folder.forget(point.run_id)
+            self.shard.write(record)
+        except OSError as error:
+            raise InputError(f"cannot be written: {error.strerror}", file=self.shard.path) from error
+        self.hooks.call("mrpbench_run_finished", record=record)
+        self.progress.finished(point, record)
+
+    def _job(self, point: RunPoint) -> Job:
+        return Job(
+            run_id=point.run_id,
+            parcel=point.parcel,
+            paths=self.folder.run(point.run_id),
+            log=self.folder.log(point.run_id),
+            wall_s=point.config.limits.wall,
+            memory_bytes=point.config.limits.memory,
+        )
+
+    @contextmanager
+    def _ending(self, executor: Executor) -> Iterator[None]:
+        try:
+            yield
+        finally:
+            close_slots(self.invocation)
+            if isinstance(executor, RemoteExecutor):
+                for future in self._going:
+                    future.cancel()
+                executor.everywhere(close_slots, self.invocation)
+            executor.shutdown(wait=True, cancel_futures=True)
+
+
+def _lost(point: RunPoint, loss: WorkerLost) -> JobOutcome:
+    """What is known of a run whose remote worker was lost."""
+    failure = Failure(status=RunStatus.CRASHED, stage=Stage.WORKER, message=str(loss), seconds=0.0)
+    return JobOutcome(run_id=point.run_id, failure=failure, lost=True)
+
+
+def _left_a_recording(outcome: JobOutcome) -> bool:
+    """Tell whether the run was executed to its end; also where a metric failed afterwards."""
+    if outcome.record is None:
+        return outcome.failure is not None and outcome.failure.stage == Stage.METRICS
+    return bool(outcome.record.get("executed"))

@@ -1,0 +1,124 @@
+"""Runs what a study still lacks."""
+
+import os
+from collections import deque
+from contextlib import closing
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.api.executor import ExecutorSource
+from mrpbench_core.config.study import RunPoint, Study
+from mrpbench_core.engine.processes.machine import machine
+from mrpbench_core.engine.stages.measure import describe
+from mrpbench_core.engine.study.progress import StudyProgress
+from mrpbench_core.engine.study.record import code_of
+from mrpbench_core.engine.study.run_queue import RunQueue
+from mrpbench_core.engine.study.selection import Rerun, Selection, select
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.jsonl import Writer
+from mrpbench_core.plugins.hooks import load_hooks
+from mrpbench_core.store.folder import ResultsFolder, new_invocation
+from mrpbench_core.store.invocation import write_document
+from mrpbench_core.store.lock import locked
+from mrpbench_core.store.results import Results, origin
+
+
+@attrs.frozen(kw_only=True)
+class Request:
+    """How a study is to be run."""
+
+    out: Path
+    executor: ExecutorSource
+    workers: int = 1
+    shard: tuple[int, int] | None = None
+    """Part i of n."""
+    rerun: Rerun | None = None
+    overrides: tuple[str, ...] = ()
+    """What of the study came from the command line, to be written down."""
+    progress: StudyProgress = attrs.field(factory=StudyProgress)
+
+
+@attrs.frozen(kw_only=True)
+class StudyOutcome:
+    """What came of it."""
+
+    results: Results
+    """Every record of the chosen runs, new and old."""
+    mistakes: dict[str, str]
+    """What was wrong with each run that was refused, by run id."""
+
+
+def choose(study: Study, request: Request) -> tuple[Selection, Results]:
+    """Which runs would be done now, and the records of the study's runs; changes nothing on disk."""
+    results = Results(ResultsFolder(request.out), only=(point.run_id for point in study.runs))
+    origins: dict[int, str] = {}
+
+    def origin_now(point: RunPoint) -> str:
+        code = code_of(point)  # the same object for the same plugins
+        if id(code) not in origins:
+            origins[id(code)] = origin(code)
+        return origins[id(code)]
+
+    return select(study.runs, results, request.rerun, request.shard, origin_now), results
+
+
+def run_study(study: Study, request: Request) -> StudyOutcome:
+    """Do the runs that `choose` names.
+
+    Raises:
+        InputError: the results folder cannot be used.
+        KeyboardInterrupt: after the runs in flight were ended; everything finished is kept.
+    """
+    folder = ResultsFolder(request.out)
+    folder.create()
+    with locked(folder.path):
+        folder.sweep()
+        selection, results = choose(study, request)
+        request.progress.selected(selection, results)
+        mistakes = _do(study, request, folder, selection) if selection.todo else {}
+        return StudyOutcome(results=Results(folder, only=selection.chosen), mistakes=mistakes)
+
+
+def _do(study: Study, request: Request, folder: ResultsFolder, selection: Selection) -> dict[str, str]:
+    """Do the selected runs; returns what was wrong with those that were refused."""
+    invocation = new_invocation()
+    hooks = load_hooks()
+    try:
+        write_document(folder.invocation(invocation), _facts(study, request, invocation))
+        write_document(folder.study, study.document)
+        shard = Writer(folder.shard(invocation), exclusive=True)
+    except OSError as error:
+        raise InputError(f"cannot be written: {error.strerror}", file=error.filename or folder.path) from error
+    with closing(shard), request.executor.open(request.workers) as executor:
+        schedule = RunQueue(
+            invocation=invocation,
+            waiting=deque(selection.todo),
+            workers=request.workers,
+            folder=folder,
+            shard=shard,
+            hooks=hooks,
+            progress=request.progress,
+        )
+        hooks.call("mrpbench_study_started", study=study.document, runs=len(selection.todo))
+        schedule.run_all(executor)
+        hooks.call("mrpbench_study_finished", records=len(selection.todo) - len(schedule.mistakes))
+    return schedule.mistakes
+
+
+def _facts(study: Study, request: Request, invocation: str) -> dict[str, Any]:
+    """What is needed to do this again, and to read its records."""
+    codes = {id(code): code for code in map(code_of, study.runs)}.values()
+    metrics = {name: metric for point in study.runs for name, metric in point.config.metrics.items()}
+    return {
+        "invocation": invocation,
+        "started": datetime.now(UTC).isoformat(timespec="seconds"),
+        "process": os.getpid(),
+        "machine": machine(),
+        "versions": {name: version for code in codes for name, version in code["versions"].items()},
+        "columns": describe(metrics),
+        "overrides": list(request.overrides),
+        "study": study.document,
+    }

@@ -1,0 +1,189 @@
+"""Who is let through doors and into lifts, and what these do."""
+
+import sys
+from importlib.metadata import entry_points
+from itertools import product
+from pathlib import Path as File
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import event, given, settings
+from hypothesis import strategies as st
+
+from mrpbench_core.api.dispatcher import DispatchError
+from mrpbench_core.engine.execution.facility_manager import ExecutionError, FacilityManager
+from mrpbench_core.model.execution import FleetView, Orders, State
+from mrpbench_core.model.plan import Budget, Plan
+from mrpbench_core.model.roadmap import Resource
+
+sys.path.insert(0, str(File(__file__).parent))
+from building_site import PLACES, Site, path, problem_of, site
+
+ENDS = [f"{name}_{level}" for name, level in product(PLACES, (0, 1)) if name not in ("landing", "cabin")]
+LONGEST = 6000
+"""Periods of ten minutes."""
+
+
+@pytest.fixture(scope="module")
+def planner():
+    found = {point.name: point for point in entry_points(group="mrpbench.planners")}
+    if "prioritized" not in found:
+        pytest.skip("no planner prioritized is installed")
+    return found["prioritized"].load()()
+
+
+@settings(deadline=None, max_examples=12)
+@given(
+    seed=st.integers(0, 2**32 - 1),
+    robots=st.integers(1, 4),
+    motion=st.sampled_from(["sliding", "double_sliding", "hinged", "double_hinged", "telescope"]),
+    direction=st.sampled_from([1, -1]),
+)
+def test_everybody_gets_through_and_no_leaf_ever_touches_anybody(planner, seed, robots, motion, direction):
+    random = np.random.default_rng(seed)
+    world = site(motion, direction)
+    starts, goals = (random.permutation(ENDS)[:robots].tolist() for _ in range(2))
+    problem = problem_of(world, starts, goals)
+    result = planner.plan(problem, Budget(wall_s=2, memory_bytes=1 << 30))
+    event(str(result.status))
+    if result.plan is None:
+        return
+    try:
+        run = Site(world, problem, result.plan, random)
+    except DispatchError:
+        event("robots turn in a ring through the door")
+        return
+    rooms = {resource.name: resource.capacity for resource in problem.roadmap.resources}
+    for _ in range(LONGEST):
+        run.step()
+        assert run.gap().min() > 0, "a leaf touches a robot"
+        for name, capacity in rooms.items():
+            assert sum(pair[1] == name for pair in run.granted) <= capacity
+        assert run.waited.max() < 2000, "somebody waits for ever"
+        if run.done:
+            break
+    assert run.done
+    assert run.level.tolist() == [int(goal[-1]) for goal in goals]
+
+
+def test_a_door_opens_for_who_passes_and_stays_shut_for_who_drives_by():
+    world = site("hinged")
+    through = problem_of(world, ["middle_0"], ["landing_0"])
+    goal = through.goals[0][0][0]
+    run = Site(
+        world, through, Plan(paths=(path(through.roadmap, int(through.start[0]), goal),)), np.random.default_rng(0)
+    )
+    openings = []
+    while not run.done:
+        run.step()
+        openings.append(run.doing["door"])
+        if run.driven[0] > 0:
+            assert run.doing["door"] == 1.0, "it may not start before the door is open"
+    assert max(openings) == 1.0
+
+
+def stand(world, problem, plan, facilities):
+    """A facility_manager, and what it is told of robots that have not begun."""
+    robots = len(problem)
+    state = State(
+        pose=np.zeros((robots, 3)),
+        twist=np.zeros((robots, 2)),
+        level=np.zeros(robots),
+        contacts=np.empty((0, 2)),
+        facilities=facilities,
+    )
+    view = FleetView(
+        revision=0,
+        reached=np.zeros(robots),
+        cleared=np.zeros(robots),
+        pose=np.zeros((robots, 3)),
+        level=np.zeros(robots),
+        mode=np.zeros(robots),
+    )
+    return FacilityManager(world, problem, plan), view, state
+
+
+def two_before_the_door():
+    world = site()
+    problem = problem_of(world, ["middle_0", "window_0"], ["landing_0", "shelf_0"])
+    number = [goal[0][0] for goal in problem.goals]
+    middle = int(problem.start[0])
+    paths = (
+        path(problem.roadmap, middle, number[0]),
+        path(problem.roadmap, int(problem.start[1]), middle, number[0], number[1]),
+    )
+    return world, problem, Plan(paths=paths)
+
+
+def asking(*pairs):
+    return Orders(released=np.zeros(2, "i4"), requests=pairs)
+
+
+def test_keys_go_to_who_asked_first_and_on_when_they_are_given_back():
+    world, problem, plan = two_before_the_door()
+    shut = {"door": 0.0, "lift/entrance": 0.0, "lift": 0.0}
+    facility_manager, view, state = stand(world, problem, plan, shut)
+    facility_manager.take(asking((1, "door"), (0, "door")))
+    assert facility_manager.waiting(2).tolist() == [0, 0], "nobody may use it before it is open"
+    zero = np.zeros(2, "i4")
+    assert facility_manager.commands(zero, zero, state)["door"] == 1.0
+    open_ = attrs.evolve(state, facilities=shut | {"door": 1.0})
+    assert facility_manager.granted(view, open_).granted == ((1, "door"),)
+    assert facility_manager.waiting(2).tolist() == [0, -1]
+    facility_manager.take(asking((0, "door")))
+    assert facility_manager.granted(view, open_).granted == ((0, "door"),)
+    facility_manager.take(asking())
+    assert facility_manager.granted(view, open_).granted == ()
+    assert facility_manager.commands(zero, zero, open_)["door"] == 0.0
+
+
+def test_a_mutex_is_granted_at_once_to_as_many_as_it_has_room_for():
+    world, problem, plan = two_before_the_door()
+    mutex = Resource(name="aisle", kind="mutex", capacity=1, vertices=(0,))
+    roadmap = attrs.evolve(problem.roadmap, resources=(mutex,))
+    facility_manager, view, state = stand(world, attrs.evolve(problem, roadmap=roadmap), plan, {})
+    facility_manager.take(asking((0, "aisle"), (1, "aisle")))
+    assert facility_manager.granted(view, state).granted == ((0, "aisle"),)
+    assert facility_manager.waiting(2).tolist() == [-1, 0]
+    assert facility_manager.commands(np.zeros(2, "i4"), np.zeros(2, "i4"), state) == {}
+    roomy = attrs.evolve(roadmap, resources=(attrs.evolve(mutex, capacity=2),))
+    facility_manager, view, state = stand(world, attrs.evolve(problem, roadmap=roomy), plan, {})
+    facility_manager.take(asking((0, "aisle"), (1, "aisle")))
+    assert facility_manager.granted(view, state).granted == ((0, "aisle"), (1, "aisle"))
+
+
+def test_what_there_is_not_cannot_be_asked_for():
+    world, problem, plan = two_before_the_door()
+    facility_manager, _, _ = stand(world, problem, plan, {})
+    with pytest.raises(ExecutionError, match="the dispatcher asked for 'gate', which the roadmap does not have"):
+        facility_manager.take(asking((0, "gate")))
+
+
+def test_a_simulator_without_doors_cannot_let_anybody_through_one():
+    world, problem, plan = two_before_the_door()
+    facility_manager, _, state = stand(world, problem, plan, {})
+    zero = np.zeros(2, "i4")
+    assert facility_manager.commands(zero, zero, state) == {}
+    facility_manager.take(asking((0, "door")))
+    with pytest.raises(ExecutionError, match="knows neither doors nor lifts"):
+        facility_manager.commands(zero, zero, state)
+
+
+def test_a_lift_shuts_its_doors_comes_and_opens_before_anybody_gets_in():
+    world = site()
+    problem = problem_of(world, ["landing_1"], ["landing_0"])
+    roadmap = problem.roadmap
+    number = {vertex.name: int(roadmap.place[index]) for index, vertex in enumerate(world.vertices)}
+    route = (number["cabin_1"], number["cabin_0"], number["landing_0"])
+    run = Site(world, problem, Plan(paths=(path(roadmap, number["landing_1"], *route),)), np.random.default_rng(1))
+    seen = []
+    while not run.done:
+        before = dict(run.doing)
+        run.step()
+        if run.doing["lift"] != before["lift"]:
+            assert before["lift/entrance"] == run.doing["lift/entrance"] == 0.0, "a cabin moves with shut doors"
+        seen.append((run.doing["lift"], int(run.level[0])))
+        assert len(seen) < LONGEST
+    assert max(height for height, _ in seen) == 3.0
+    assert seen[-1] == (0.0, 0)

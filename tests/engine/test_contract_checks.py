@@ -1,0 +1,129 @@
+"""What components return is held against their contracts before anyone else sees it."""
+
+import attrs
+import numpy as np
+import pytest
+
+from mrpbench_core.engine.contract_checks import BrokenContractError, ContractChecks, check_drawn
+from mrpbench_core.model.execution import Estimate, Motion, Orders, ScanBatch, State
+from mrpbench_core.model.scenario import Scenario, Task
+
+STATE = State(pose=np.zeros((2, 3)), twist=np.zeros((2, 2)), level=[0, 0], contacts=[[0, 1], [1, -1]])
+SCAN = ScanBatch(stamp=0.0, robot=[1], ranges=[[1.0, np.inf]])
+ESTIMATE = Estimate(pose=np.zeros((2, 3)))
+ORDERS = Orders(released=[2, 1])
+MOTION = Motion(twist=np.zeros((2, 2)), reached=[1, 1], cleared=[2, 0], mode=[0, 4])
+
+
+def answers():
+    """Two robots with paths of two segments and one."""
+    return ContractChecks(np.array([2, 1]))
+
+
+def test_what_keeps_the_contract_goes_through():
+    checked = answers()
+    assert checked.state(STATE) is STATE
+    assert checked.scans((SCAN,)) == (SCAN,)
+    assert checked.estimate(ESTIMATE) is ESTIMATE
+    assert checked.orders(ORDERS) is ORDERS
+    assert checked.motion(MOTION) is MOTION
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"pose": np.zeros((1, 3))}, "pose of 1 robots instead of 2"),
+        ({"pose": [[0, 0, 0], [0, np.nan, 0]]}, "for robot 1 the pose"),
+        ({"twist": np.full((2, 2), np.inf)}, "for robot 0 the twist"),
+        ({"level": [0]}, r"level of shape \(1,\) for 2 robots"),
+        ({"contacts": [[0, 2]]}, "contacts"),
+        ({"contacts": [[1, 1]]}, "contacts"),
+    ],
+)
+def test_states_that_are_none_are_refused(changes, message):
+    with pytest.raises(BrokenContractError, match=f"the simulator returned {message}"):
+        answers().state(attrs.evolve(STATE, **changes))
+
+
+@pytest.mark.parametrize(
+    "changes", [{"robot": [2]}, {"robot": [0, 1]}, {"ranges": [1.0]}, {"ranges": [[np.nan]]}, {"ranges": [[-1.0]]}]
+)
+def test_scans_that_are_none_are_refused(changes):
+    with pytest.raises(BrokenContractError, match="the simulator returned"):
+        answers().scans((attrs.evolve(SCAN, **changes),))
+
+
+@pytest.mark.parametrize(
+    "changes", [{"pose": np.zeros((3, 3))}, {"pose": np.full((2, 3), np.nan)}, {"covariance": np.zeros((2, 3))}]
+)
+def test_estimates_that_are_none_are_refused(changes):
+    with pytest.raises(BrokenContractError, match="the localizer returned"):
+        answers().estimate(attrs.evolve(ESTIMATE, **changes))
+
+
+@pytest.mark.parametrize(("released", "message"), [([2], "shape"), ([3, 1], "more segments"), ([-1, 0], "less than")])
+def test_orders_that_are_none_are_refused(released, message):
+    with pytest.raises(BrokenContractError, match=f"the dispatcher returned .*{message}"):
+        answers().orders(Orders(released=released))
+
+
+def test_what_was_released_is_not_taken_back():
+    checked = answers()
+    checked.orders(ORDERS)
+    with pytest.raises(BrokenContractError, match="for robot 0: released less than before"):
+        checked.orders(Orders(released=[1, 1]))
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"twist": np.zeros((1, 2))}, "twist of 1 robots"),
+        ({"twist": np.full((2, 2), np.nan)}, "for robot 0 the twist"),
+        ({"reached": [1]}, "reached of shape"),
+        ({"reached": [1, 2]}, "for robot 1: reached what was not released"),
+        ({"cleared": [2, 3]}, "for robot 1: cleared what it had not come to"),
+        ({"mode": [0, 5]}, "for robot 1: a mode that does not exist"),
+    ],
+)
+def test_motions_that_are_none_are_refused(changes, message):
+    checked = answers()
+    checked.orders(ORDERS)
+    with pytest.raises(BrokenContractError, match=f"the navigator returned {message}"):
+        checked.motion(attrs.evolve(MOTION, **changes))
+
+
+@pytest.mark.parametrize("changes", [{"reached": [0, 1]}, {"cleared": [1, 0]}])
+def test_progress_is_not_taken_back(changes):
+    checked = answers()
+    checked.orders(ORDERS)
+    checked.motion(MOTION)
+    with pytest.raises(BrokenContractError, match="less than before"):
+        checked.motion(attrs.evolve(MOTION, **changes))
+
+
+def test_other_things_than_the_contract_names_are_refused():
+    for check in (answers().state, answers().estimate, answers().orders, answers().motion):
+        with pytest.raises(BrokenContractError, match="returned NoneType instead of"):
+            check(None)
+
+
+@pytest.mark.parametrize(
+    ("start", "goal", "message"),
+    [
+        ([[0, 0, 0]], [1, 1, np.nan], "1 starts for 2 robots"),
+        ([[0, 0, 0], [np.nan, 0, 0]], [1, 1, np.nan], "a start that is nowhere"),
+        ([[0, 0, 0], [1, 0, np.nan]], [np.inf, 1, 0], "a goal of 'dock' that is nowhere"),
+    ],
+)
+def test_scenarios_that_are_none_are_refused(start, goal, message):
+    scenario = Scenario(start=start, start_level=[0] * len(start), tasks=(Task(goals=[goal], name="dock"),))
+    with pytest.raises(BrokenContractError, match=f"the scenario returned {message}"):
+        check_drawn(scenario, 2)
+
+
+def test_what_was_answered_before_is_held_against_a_new_plan():
+    checked = answers()
+    checked.orders(ORDERS)
+    checked.adopt(np.array([1, 1]))
+    with pytest.raises(BrokenContractError, match="for robot 0: released more segments than there are"):
+        checked.orders(ORDERS)

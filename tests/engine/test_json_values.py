@@ -1,0 +1,46 @@
+"""What plugins return becomes what JSON can say."""
+
+import enum
+import json
+
+import numpy as np
+
+from mrpbench_core.engine.json_values import jsonable, printable
+
+
+class Colour(enum.StrEnum):
+    RED = "red"
+
+
+def test_everything_becomes_json():
+    value = {
+        1: np.float64(1.5),
+        "i": np.int32(3),
+        "b": np.bool_(True),
+        "a": np.array([[1.0, np.nan]]),
+        "n": (float("inf"), -float("inf"), None, True),
+        "e": Colour.RED,
+        "o": Ellipsis,
+        "d": {"x": frozenset()},
+    }
+    expected = {
+        "1": 1.5,
+        "i": 3,
+        "b": True,
+        "a": [[1.0, None]],
+        "n": [None, None, None, True],
+        "e": "red",
+        "o": "Ellipsis",
+        "d": {"x": "frozenset()"},
+    }
+    assert json.loads(json.dumps(jsonable(value), allow_nan=False)) == expected
+
+
+def test_text_that_no_file_can_hold_is_escaped():
+    found = jsonable({"\ud800": "Größe \udcff\n"})
+    assert found == {"\\ud800": "Größe \\udcff\n"}
+    json.dumps(found, ensure_ascii=False).encode()
+
+
+def test_a_message_is_one_line_that_does_nothing_to_a_terminal():
+    assert printable("Größe\n is \x1b[31mred\x00 \ud800") == "Größe is \\x1b[31mred\\x00 \\ud800"
