@@ -16,6 +16,7 @@ In records and tables a column is called `<metric>.<column>`. Times are simulate
 that cannot be measured is null, never zero. `Requires` names the data without which a metric, or one of its columns,
 is null: channels of the recording (see [results folder](results-folder.md)), `plan` (a plan exists) or `path` (the
 path that each robot was to follow is known). Samples are taken at `recording.rate`, so times are exact to one sample.
+Tables, figures and replays show the columns marked *primary* unless others are asked for (`--metrics`).
 """
 
 
@@ -33,8 +34,10 @@ def page() -> str:
         parts += ["\n| column | unit | better | definition |\n|---|---|---|---|\n"]
         for column in metric.columns:
             notes = f" (requires {_words(column.requires)})" if column.requires else ""
+            notes += f" (formerly {_words(frozenset(column.aliases))})" if column.aliases else ""
+            better = f"{column.better}, primary" if column.primary else column.better
             source = f" [{column.source}]" if column.source else ""
-            parts += [f"| `{column.name}` | {column.unit} | {column.better} | {column.description}{notes}{source} |\n"]
+            parts += [f"| `{column.name}` | {column.unit} | {better} | {column.description}{notes}{source} |\n"]
     return "".join(parts)
 
 

@@ -10,14 +10,21 @@ from mrpbench_core.api.component import Component
 from mrpbench_core.model.run import FinishedRun
 
 Value = float | int | bool | None
-"""None = not measurable for this run, with the reason in `Measurement.reasons`."""
+"""None means that the run does not allow the measurement; `unmeasured` in its record gives the reason."""
+
+ColumnStage = Literal["planning", "execution"]
+Drawn = Literal["interval", "profile", "cactus"]
 
 
 @attrs.frozen
 class Column:
-    """One number a metric gives."""
+    """One number that a metric gives, and how reports show it.
+
+    Results folders keep these facts (`invocations/<id>.yaml`), so that a report needs no plugin to show its columns.
+    """
 
     name: str
+    """As the metric names it; in records and reports `<metric>.<column>`."""
     unit: str
     """SI unit, or '' for a count or ratio."""
     better: Literal["lower", "higher", "neither"]
@@ -25,8 +32,19 @@ class Column:
     source: str = ""
     """Paper or standard that defines it."""
     requires: frozenset[str] = frozenset()
-    """What this number needs beside `Metric.requires`; where it is missing, only this column is null. Recordings of
-    real fleets lack what only a simulator knows."""
+    """What this number needs in addition to `Metric.requires`. Where it is missing, only this column is null:
+    recordings of real fleets lack what only a simulator knows."""
+    primary: bool = False
+    """Whether tables, figures, summaries and replays show it when nobody asks for particular columns."""
+    stage: ColumnStage = "execution"
+    """What it measures. Figures that count runs without a value as failures use the runs that have a plan, or those
+    that succeeded."""
+    drawn: Drawn = "interval"
+    """The figures of a primary column: its mean with an interval; also a performance profile (Dolan and Moré 2002); or
+    also a profile and a cactus plot, on a logarithmic axis. The last two are for values above 0 of which less is
+    better."""
+    aliases: tuple[str, ...] = ()
+    """Full names (`<metric>.<column>`) under which older records hold the same number; reports read them as this."""
 
 
 class Metric(Component):

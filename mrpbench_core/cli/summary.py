@@ -9,19 +9,19 @@ from mrpbench_core.cli.table import print_table
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.axes import word
-from mrpbench_core.report.columns import MAIN
+from mrpbench_core.report.columns import primary_columns, read_columns
 from mrpbench_core.report.groups import Group, group_runs
 from mrpbench_core.report.runs import PAR2, Runs, read_runs
 from mrpbench_core.store.results import Results
 
-SHOWN = tuple(column for column in MAIN if column != PAR2)
 ABREAST = 4
 """Groups that stand side by side, one row for each column of the table."""
 
 
 def print_summary(results: Results, limit: int | None = None) -> None:
     """Print a column for each group while they are few, else a row for each, at most `limit` of them."""
-    runs = read_runs([results], SHOWN)
+    shown = [column.name for column in primary_columns(read_columns([results])) if column.name != PAR2]
+    runs = read_runs([results], shown)
     if not len(runs):
         return
     groups = group_runs(runs)
@@ -37,7 +37,7 @@ def print_summary(results: Results, limit: int | None = None) -> None:
     ]
     others = dict.fromkeys(status for counts in statuses for status in counts if status != RunStatus.SUCCEEDED)
     table |= {status: [counts[status] for counts in statuses] for status in sorted(others, key=LEFT_OUT.__contains__)}
-    table |= {key: [_mean(runs, found, key) for found in groups] for key in SHOWN if key in runs.values}
+    table |= {key: [_mean(runs, found, key) for found in groups] for key in shown if key in runs.values}
     if len(groups) <= ABREAST:
         numbers = [f"#{number + 1}" for number in range(len(groups))]
         print_table(["", *numbers], [[key, *row] for key, row in table.items()])

@@ -13,6 +13,8 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import load as load_yaml
 from mrpbench_core.plugins.local import is_local
 from mrpbench_core.plugins.registry import Registry
+from mrpbench_core.report.columns import Columns, describe_columns
+from mrpbench_core.report.replay.facts import numbers_of
 from mrpbench_core.report.replay.page import write_page
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
@@ -54,18 +56,19 @@ def replay_file(results: Results, run_id: str) -> Path:
 def write_replay(recording: Recording, results: Results, record: dict[str, Any], page: Path) -> None:
     """Write the page of a recorded run, with its metrics' units and its planner's options."""
     planner = _planner(record["config"].get("planner", "none"))
-    write_page(recording, record, page, columns=_columns(results, record["run_id"]), planner=planner)
+    write_page(recording, record, page, columns=_columns(results, record), planner=planner)
 
 
-def _columns(results: Results, run_id: str) -> dict[str, Any]:
-    """What the invocation that did the run says about its metrics."""
-    entry = results.entry(run_id)
+def _columns(results: Results, record: dict[str, Any]) -> Columns:
+    """The columns of a run's metrics and timing, as declared by the invocation that did the run."""
+    entry = results.entry(record["run_id"])
     assert entry is not None
     try:
-        columns = load_yaml(results.folder.invocation(entry.shard.stem)).data.get("columns")
-    except (InputError, AttributeError):  # merged folders may lack it; figures are then shown without units
-        return {}
-    return columns if isinstance(columns, dict) else {}
+        declared = load_yaml(results.folder.invocation(entry.shard.stem)).data.get("columns")
+    except (InputError, AttributeError):  # merged folders may lack it
+        declared = None
+    names = [name for name, _ in numbers_of(record)]
+    return describe_columns(declared if isinstance(declared, dict) else {}, names)
 
 
 def _planner(block: Any) -> str:

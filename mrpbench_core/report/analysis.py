@@ -4,13 +4,15 @@ from collections.abc import Sequence
 
 import attrs
 
+from mrpbench_core.api.metric import Column
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import suggest
-from mrpbench_core.report.columns import MAIN, Column, read_columns
+from mrpbench_core.report.columns import Columns, direction, primary_columns
 from mrpbench_core.report.comparison import Comparison, compare_settings
 from mrpbench_core.report.estimates import Numbers, numbers_of
 from mrpbench_core.report.groups import Setting, find_settings, group_runs
-from mrpbench_core.report.runs import Runs, read_runs
+from mrpbench_core.report.reading import read_folders
+from mrpbench_core.report.runs import Runs
 from mrpbench_core.report.tables.build import RATES, common_table, means_table, outcome_table, pairs_table
 from mrpbench_core.report.tables.table import Table
 from mrpbench_core.store.results import Results
@@ -27,6 +29,8 @@ class Analysis:
     """Of each group of each setting."""
     columns: tuple[Column, ...]
     """What is shown beside success."""
+    profiled: tuple[Column, ...]
+    """Primary and shown columns that also have a performance profile."""
     comparisons: tuple[Comparison, ...]
 
     def tables(self, brief: bool = False) -> list[Table]:
@@ -55,11 +59,10 @@ def analyse(
     Raises:
         InputError: there are no runs, or none has a column or option that is asked for.
     """
-    runs = read_runs(folders)
+    runs, known = read_folders(folders)
     if not len(runs):
         raise InputError("no run is recorded here yet", file=folders[0].folder.path)
-    known = read_columns(folders, runs.values)
-    columns = tuple(known[name] for name in choose_columns(list(runs.values), metrics))
+    columns = choose_columns(runs, known, metrics)
     settings = tuple(find_settings(runs, group_runs(runs, by)))
     wanted = [*RATES, *(column.name for column in columns)]
     return Analysis(
@@ -68,28 +71,48 @@ def analyse(
         settings=settings,
         numbers=tuple(tuple(numbers_of(runs, setting, wanted)) for setting in settings),
         columns=columns,
+        profiled=profiled_columns(runs, known, columns),
         comparisons=tuple(compare_settings(runs, settings, tested(runs, known, columns))),
     )
 
 
-def choose_columns(known: Sequence[str], metrics: Sequence[str] | None) -> list[str]:
+def choose_columns(runs: Runs, known: Columns, metrics: Sequence[str] | None) -> tuple[Column, ...]:
     """Columns to show, without those that every table has.
+
+    Args:
+        runs: which hold the values.
+        known: all columns.
+        metrics: names, also former ones; None = the primary columns, `["all"]` = all.
 
     Raises:
         InputError: no run has a value of one that is asked for.
     """
-    offered = [name for name in known if name not in RATES]
+    offered = [name for name in runs.values if name not in RATES]
     if metrics is None:
-        return [name for name in MAIN if name in offered]
+        return tuple(column for column in primary_columns(known) if column.name in offered)
     if list(metrics) == ["all"]:
-        return offered
-    for name in metrics:
-        if name not in known:
-            raise InputError(f"no run has a value of {name!r}", hint=suggest(name, known))
-    return [name for name in metrics if name in offered]
+        return tuple(known[name] for name in offered)
+    current = {alias: column.name for column in known.values() for alias in column.aliases}
+    names = [name if name in runs.values else current.get(name, name) for name in metrics]
+    for name in names:
+        if name not in runs.values:
+            raise InputError(f"no run has a value of {name!r}", hint=suggest(name, list(runs.values)))
+    return tuple(known[name] for name in dict.fromkeys(names) if name in offered)
 
 
-def tested(runs: Runs, known: dict[str, Column], columns: Sequence[Column]) -> list[Column]:
+def profiled_columns(runs: Runs, known: Columns, shown: Sequence[Column]) -> tuple[Column, ...]:
+    """Columns with a performance profile, which needs values of which less is better, none below 0."""
+    return tuple(
+        column
+        for column in dict.fromkeys([*primary_columns(known), *shown])
+        if column.drawn != "interval"
+        and column.better == "lower"
+        and column.name in runs.values
+        and not (runs.values[column.name] < 0).any()
+    )
+
+
+def tested(runs: Runs, known: Columns, columns: Sequence[Column]) -> list[Column]:
     """Columns that are compared: success, plans found (where that is not the same), and others that have a direction.
 
     Planning time is compared as PAR2 where that is there: it counts what a limit cut off.
@@ -98,5 +121,5 @@ def tested(runs: Runs, known: dict[str, Column], columns: Sequence[Column]) -> l
     rates = RATES if (runs.values["succeeded"] != runs.values["planned"]).any() else RATES[:1]
     return [
         *(known[name] for name in rates),
-        *(column for column in columns if column.direction and not (penalised and column.name == "timing.planning_s")),
+        *(column for column in columns if direction(column) and not (penalised and column.name == "timing.planning_s")),
     ]

@@ -1,76 +1,118 @@
-"""What is known of each column of numbers: unit, direction, meaning."""
+"""What is known of each column of numbers: unit, direction, meaning, and how reports show it."""
 
-from collections.abc import Iterable
-from typing import Any
+from collections.abc import Iterable, Mapping
+from typing import Any, get_args
 
 import attrs
 
+from mrpbench_core.api.metric import Column, ColumnStage, Drawn, Metric
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.invocations import read_invocations
 from mrpbench_core.report.outcome import PENALTY
 from mrpbench_core.report.runs import PAR2
 from mrpbench_core.store.results import Results
 
-DIRECTIONS = {"lower": -1, "higher": 1}
-MAIN = (
-    "planning.sum_of_costs",
-    "planning.makespan",
-    "timing.planning_s",
-    PAR2,
-    "execution.duration_s",
-    "execution.min_distance_m",
-    "execution.time_blocked_s",
-    "execution.robot_contacts",
-)
-"""Columns shown where no others are asked for and some run has them."""
-
-
-@attrs.frozen
-class Column:
-    """What a number means."""
-
-    name: str
-    unit: str = ""
-    better: str = "neither"
-    text: str = ""
-
-    @property
-    def direction(self) -> int:
-        """1 where more is better, -1 where less is, 0 where neither is known to be."""
-        return DIRECTIONS.get(self.better, 0)
-
-    @property
-    def heading(self) -> str:
-        """Name and unit."""
-        return f"{self.name} [{self.unit}]" if self.unit and not self.name.endswith(f"_{self.unit}") else self.name
-
+Columns = Mapping[str, Column]
+"""Columns by full name, `<metric>.<column>`."""
 
 OUTCOME = (
     Column("succeeded", "", "higher", "share of the runs that planned and arrived, of all that count"),
     Column("planned", "", "higher", "share of the runs whose planner found a plan that keeps its promises"),
 )
+_PLANNING_TIME = "wall time of the planner's call; runs with a plan only"
+_PENALISED = f"the same, where a run without a plan counts {PENALTY:g} times its limit (PAR2)"
+_PLANNING_CPU = "CPU time of the planner's call; runs with a plan only"
+_PLANNING_MEMORY = "memory that planning added; runs with a plan only"
 TIMING = (
-    Column("timing.planning_s", "s", "lower", "wall time of the planner's call; runs with a plan only"),
-    Column(PAR2, "s", "lower", f"the same, where a run without a plan counts {PENALTY:g} times its limit (PAR2)"),
-    Column("timing.planning_cpu_s", "s", "lower", "CPU time of the planner's call; runs with a plan only"),
-    Column("timing.planning_peak_bytes", "B", "lower", "memory that planning added; runs with a plan only"),
+    Column("timing.planning_s", "s", "lower", _PLANNING_TIME, stage="planning", primary=True, drawn="cactus"),
+    Column(PAR2, "s", "lower", _PENALISED, stage="planning", primary=True),
+    Column("timing.planning_cpu_s", "s", "lower", _PLANNING_CPU, stage="planning"),
+    Column("timing.planning_peak_bytes", "B", "lower", _PLANNING_MEMORY, stage="planning"),
     Column("timing.real_time_factor", "", "higher", "simulated time over wall time of the execution"),
-    Column("timing.clock_bound", "", "lower", "planning was ended by a clock"),
+    Column("timing.clock_bound", "", "lower", "a clock ended the planning", stage="planning"),
 )
+"""What the engine itself measures, in wall time. All other columns are declared by the metrics that give them."""
+_KNOWN = {column.name: column for column in (*OUTCOME, *TIMING)}
 
 
-def read_columns(folders: Iterable[Results], names: Iterable[str]) -> dict[str, Column]:
-    """What the folders' invocations say of these columns; merged folders may lack it, and units are then unknown."""
-    told: dict[str, Any] = {}
+def read_columns(folders: Iterable[Results], names: Iterable[str] = ()) -> dict[str, Column]:
+    """The columns that the folders' invocations declare, those of the engine, and the others in `names`, by name."""
+    declared: dict[str, Any] = {}
     for invocation in read_invocations(folders):
-        told |= invocation.get("columns") or {}
-    fixed = {column.name: column for column in (*OUTCOME, *TIMING)}
-    return {name: fixed.get(name) or _column(name, told.get(name)) for name in names}
+        declared |= invocation.get("columns") or {}
+    return describe_columns(declared, names)
 
 
-def _column(name: str, told: Any) -> Column:
-    if isinstance(told, dict):
-        return Column(name, told.get("unit") or "", told.get("better") or "neither", told.get("description") or "")
-    if name.startswith("timing."):
-        unit = {"s": "s", "bytes": "B"}.get(name.rpartition("_")[2], "")
-        return Column(name, unit, "lower" if unit else "neither")
-    return Column(name)
+def describe_columns(declared: Mapping[str, Any], names: Iterable[str] = ()) -> dict[str, Column]:
+    """The columns that one invocation declares, those of the engine, and the others in `names`, by name.
+
+    Invocations of older versions declare less, and merged folders may lack invocations: the installed metric of that
+    name completes them. Where none is installed, a column is not primary, and has no unit if none is declared.
+    """
+    wanted = [name for name in dict.fromkeys([*declared, *names]) if name not in _KNOWN]
+    incomplete = [name for name in wanted if "primary" not in (declared.get(name) or ())]
+    installed = {
+        name: column
+        for metric in dict.fromkeys(map(_metric_of, incomplete))
+        for name, column in _installed(metric).items()
+    }
+    place = {name: number for number, name in enumerate([*declared, *installed])}
+    wanted.sort(key=lambda name: place.get(name, len(place)))  # as declared, not as values happen to come
+    return {name: _column(name, declared.get(name), installed.get(name)) for name in wanted} | _KNOWN
+
+
+def primary_columns(known: Columns) -> list[Column]:
+    """The columns to show where no others are asked for: those of the planning, then those of the execution."""
+    stages = get_args(ColumnStage)
+    return sorted((column for column in known.values() if column.primary), key=lambda c: stages.index(c.stage))
+
+
+def direction(column: Column) -> int:
+    """1 where more is better, -1 where less is, 0 where neither is known to be."""
+    return {"lower": -1, "higher": 1}.get(column.better, 0)
+
+
+def heading(column: Column) -> str:
+    """Name and unit, or the name alone if it ends with the unit."""
+    says_unit = not column.unit or column.name.endswith(f"_{column.unit}")
+    return column.name if says_unit else f"{column.name} [{column.unit}]"
+
+
+def _column(name: str, declared: Any, installed: Column | None) -> Column:
+    column = installed or Column(name, *_timing(name), "")
+    if not isinstance(declared, dict):
+        return column
+    return attrs.evolve(
+        column,
+        unit=declared.get("unit") or "",
+        better=declared.get("better") or "neither",
+        description=declared.get("description") or "",
+        primary=bool(declared.get("primary", column.primary)),
+        stage=_one_of(ColumnStage, declared.get("stage"), column.stage),
+        drawn=_one_of(Drawn, declared.get("drawn"), column.drawn),
+        aliases=tuple(map(str, declared.get("aliases", column.aliases))),
+    )
+
+
+def _timing(name: str) -> tuple[str, Any]:
+    """Unit and direction of a timing that only another version measures, by the end of its name."""
+    unit = {"s": "s", "bytes": "B"}.get(name.rpartition("_")[2], "") if name.startswith("timing.") else ""
+    return unit, "lower" if unit else "neither"
+
+
+def _one_of(options: Any, value: Any, otherwise: str) -> Any:
+    return value if value in get_args(options) else otherwise
+
+
+def _metric_of(name: str) -> str:
+    return name.partition(".")[0]
+
+
+def _installed(metric: str) -> dict[str, Column]:
+    """The columns of the installed metric of this name, by full name; none if there is no such metric."""
+    try:
+        found = Registry(Metric).get(metric)  # type: ignore[type-abstract]
+    except InputError:
+        return {}
+    return {f"{metric}.{column.name}": attrs.evolve(column, name=f"{metric}.{column.name}") for column in found.columns}

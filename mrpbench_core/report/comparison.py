@@ -6,8 +6,9 @@ from itertools import combinations
 import attrs
 import numpy as np
 
+from mrpbench_core.api.metric import Column
 from mrpbench_core.model.arrays import Int
-from mrpbench_core.report.columns import Column
+from mrpbench_core.report.columns import direction
 from mrpbench_core.report.groups import Group, Setting, differing_factors
 from mrpbench_core.report.runs import Runs
 from mrpbench_core.report.statistics.paired import Difference, adjust, compare_rates, compare_values
@@ -41,8 +42,7 @@ class Comparison:
         """Whether the second is better, worse, different (where no direction is known), or not shown to differ."""
         if self.p_adjusted >= SIGNIFICANT:
             return "not shown"
-        direction = self.column.direction * (1 if self.found.effect > 0 else -1)
-        return {1: "better", -1: "worse", 0: "different"}[direction]
+        return {1: "better", -1: "worse", 0: "different"}[direction(self.column) * (1 if self.found.effect > 0 else -1)]
 
 
 def compare_pair(

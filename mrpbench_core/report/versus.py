@@ -9,11 +9,11 @@ import numpy as np
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.report.analysis import choose_columns, tested
 from mrpbench_core.report.axes import Axes, name_axes, word
-from mrpbench_core.report.columns import read_columns
 from mrpbench_core.report.comparison import Comparison, adjusted, compare_pair
 from mrpbench_core.report.groups import Group
 from mrpbench_core.report.invocations import made_with, read_invocations
-from mrpbench_core.report.runs import Runs, read_runs
+from mrpbench_core.report.reading import read_folders
+from mrpbench_core.report.runs import Runs
 from mrpbench_core.store.results import Results
 
 
@@ -51,9 +51,8 @@ def compare_folders(
     for results in folders:
         if not len(results):
             raise InputError("no run is recorded here yet", file=results.folder.path)
-    runs = read_runs(folders, once=False)
-    known = read_columns(folders, runs.values)
-    columns = [known[name] for name in choose_columns(list(runs.values), metrics)]
+    runs, known = read_folders(folders, once=False)
+    columns = choose_columns(runs, known, metrics)
     axes = runs.axes()
     matching = _varying_within(runs, axes) if by is None else list(dict.fromkeys(k for a in runs.axes(by) for k in a))
     sides = [_groups(runs, axes, folder, matching) for folder in (0, 1)]

@@ -48,14 +48,18 @@ def _measured(metric: Metric, run: FinishedRun) -> tuple[Mapping[str, Any], str 
     return measured, None
 
 
-def describe(metrics: Mapping[str, Metric]) -> dict[str, dict[str, str]]:
-    """What is known of each column, by `<metric>.<column>`, for readers of records."""
+def describe(metrics: Mapping[str, Metric]) -> dict[str, dict[str, Any]]:
+    """The declaration of each column, by `<metric>.<column>`, for readers of records."""
     return {
         f"{name}.{column.name}": {
             "unit": column.unit,
             "better": column.better,
             "description": column.description,
             "source": column.source,
+            "primary": column.primary,
+            "stage": column.stage,
+            "drawn": column.drawn,
+            "aliases": list(column.aliases),
         }
         for name, metric in metrics.items()
         for column in metric.columns

@@ -5,16 +5,18 @@ from html import escape
 
 import numpy as np
 
+from mrpbench_core.api.metric import Column
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.report.analysis import Analysis
+from mrpbench_core.report.columns import direction, heading
 from mrpbench_core.report.estimates import Numbers
 from mrpbench_core.report.groups import Group, Setting
 from mrpbench_core.report.html.charts import Curve, intervals, legend, steps
 from mrpbench_core.report.runs import Runs
 from mrpbench_core.report.statistics.profiles import cactus, profiles
 
-PROFILED = ("timing.planning_s", "planning.sum_of_costs", "execution.duration_s")
-"""Columns with performance profiles: of which less is better."""
+_DONE = {"planning": ("planned", "had a plan"), "execution": ("succeeded", "succeeded")}
+"""For each stage the rate that says which runs are done with it, and words for that."""
 
 
 def figures(analysis: Analysis) -> str:
@@ -22,7 +24,7 @@ def figures(analysis: Analysis) -> str:
     parts = []
     for setting, numbers in zip(analysis.settings, analysis.numbers, strict=True):
         title = f"<h3>{escape(setting.name)}</h3>" if setting.name else ""
-        found = [*_rates(setting, numbers), *_means(analysis, setting, numbers), *_curves(analysis.runs, setting)]
+        found = [*_rates(setting, numbers), *_means(analysis, setting, numbers), *_curves(analysis, setting)]
         cards = "".join(
             f"<figure>{chart}<figcaption>{escape(text)}</figcaption></figure>" for chart, text in found if chart
         )
@@ -58,40 +60,34 @@ def _means(analysis: Analysis, setting: Setting, numbers: Sequence[Numbers]) -> 
             continue
         rows = [(name, index, numbers[index].common[column.name]) for index, name in enumerate(setting.names)]
         count = max((entry.n for _, _, entry in rows if entry is not None), default=0)
-        best = {1: " More is better.", -1: " Less is better."}.get(column.direction, "")
+        best = {1: " More is better.", -1: " Less is better."}.get(direction(column), "")
         text = f"Mean over the {count} {setting.unit} that all have in common; bootstrap 95 %.{best}"
-        found.append((intervals(rows, column.heading, percent=False), text))
+        found.append((intervals(rows, heading(column), percent=False), text))
     return found
 
 
-def _curves(runs: Runs, setting: Setting) -> list[tuple[str, str]]:
+def _curves(analysis: Analysis, setting: Setting) -> list[tuple[str, str]]:
     if len(setting.groups) < 2:
         return []
     units = np.unique(np.concatenate([setting.units[group.counted] for group in setting.groups]))
     found = []
-    for column in PROFILED:
-        if column not in runs.values:
-            continue
-        table = [_on(runs, setting, group, column, units) for group in setting.groups]
+    for column in analysis.profiled:
+        table = [_on(analysis.runs, setting, group, column, units) for group in setting.groups]
         if not any(np.isfinite(row).any() for row in table):
             continue
-        if column == "timing.planning_s":
-            chart = steps(
-                [Curve(name, index, *cactus(table[index])) for index, name in enumerate(setting.names)],
-                "planning time [s]",
-                f"{setting.unit} planned",
-                log_x=True,
-                start=0.0,
-                top=float(len(units)),
-            )
-            found.append((chart, f"Cactus plot: of {len(units)} {setting.unit}, how many had a plan within each time."))
+        if column.drawn == "cactus":
+            rate, done = _DONE[column.stage]
+            curves = [Curve(name, index, *cactus(table[index])) for index, name in enumerate(setting.names)]
+            y_label = f"{setting.unit} {rate}"
+            chart = steps(curves, heading(column), y_label, log_x=True, start=0.0, top=float(len(units)))
+            text = f"Cactus plot: of {len(units)} {setting.unit}, how many {done} with at most each {column.name}."
+            found.append((chart, text))
         curves = [
             Curve(name, index, *curve)
             for (index, name), curve in zip(enumerate(setting.names), profiles(table), strict=True)
         ]
-        chart = steps(
-            curves, f"{column}, ratio to the best", f"share of {setting.unit}", log_x=_wide(curves), start=0.0, top=1.0
-        )
+        x_label, y_label = f"{column.name}, ratio to the best", f"share of {setting.unit}"
+        chart = steps(curves, x_label, y_label, log_x=_wide(curves), start=0.0, top=1.0)
         over = f"over {len(units)} {setting.unit}; those without a value count as never"
         found.append((chart, f"Performance profile (Dolan and Moré 2002) {over}."))
     return found
@@ -102,13 +98,11 @@ def _wide(curves: Sequence[Curve]) -> bool:
     return max(finite, default=1.0) > 10
 
 
-def _on(runs: Runs, setting: Setting, group: Group, column: str, units: Float) -> Float:
-    """A group's mean for each unit; NaN where some run has no value, so that the unit is not done."""
-    numbers, values, _ = group.by_unit(runs, setting.units, column)
-    asked, planned, _ = group.by_unit(
-        runs, setting.units, "succeeded" if column.startswith("execution.") else "planned"
-    )
-    whole = np.isin(numbers, asked[planned == 1])
+def _on(runs: Runs, setting: Setting, group: Group, column: Column, units: Float) -> Float:
+    """A group's mean for each unit; NaN where the stage failed in some run, so that the unit is not done."""
+    numbers, values, _ = group.by_unit(runs, setting.units, column.name)
+    asked, done, _ = group.by_unit(runs, setting.units, _DONE[column.stage][0])
+    whole = np.isin(numbers, asked[done == 1])
     row = np.full(len(units), np.nan)
     row[np.searchsorted(units, numbers[whole])] = values[whole]
     return row

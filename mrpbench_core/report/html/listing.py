@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from mrpbench_core.report.analysis import Analysis
+from mrpbench_core.report.columns import heading
 
 SHORT = 12
 """Characters of a run id; enough to name one."""
@@ -42,7 +43,7 @@ def packed_runs(analysis: Analysis, replays: Mapping[str, str]) -> str:
         "repeat": runs.repeat.tolist(),
         "scenario": runs.scenario.tolist(),
         "message": [messages.number(message) for message in runs.message],
-        "columns": [column.heading for column in columns],
+        "columns": [heading(column) for column in columns],
         "values": [[_rounded(value) for value in runs.values[column.name].tolist()] for column in columns],
         "replays": {run_id[:SHORT]: address for run_id, address in replays.items()},
     }

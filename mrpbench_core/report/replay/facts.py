@@ -3,6 +3,9 @@
 from collections.abc import Mapping
 from typing import Any
 
+from mrpbench_core.api.metric import Column
+from mrpbench_core.report.columns import Columns
+
 STAGES = (
     "roadmap",
     "scenario",
@@ -18,12 +21,12 @@ FEW = 2
 """Options of a stage up to which they are shown beside its name."""
 
 
-def facts_of(record: Mapping[str, Any], columns: Mapping[str, Any], planner: str) -> dict[str, Any]:
+def facts_of(record: Mapping[str, Any], columns: Columns, planner: str) -> dict[str, Any]:
     """The parts of a run's record that the page shows.
 
     Args:
         record: as in `mrpbench_core.store.results`.
-        columns: unit, direction and description of metrics, as an invocation keeps them.
+        columns: those of its metrics and timing, as `mrpbench_core.report.columns` describes them.
         planner: what to call the planner.
     """
     config = record.get("config") or {}
@@ -34,27 +37,23 @@ def facts_of(record: Mapping[str, Any], columns: Mapping[str, Any], planner: str
         "error": record.get("error"),
         "planner": planner,
         "choices": [*named.items(), *((key, str(record.get(key, ""))) for key in ("seed", "repeat"))],
-        "metrics": [
-            {"name": name, "value": value, **_column(columns.get(name))}
-            for name, value in (record.get("metrics") or {}).items()
-        ]
-        + [
-            {"name": f"timing.{name}", "value": value, **_timing(name)}
-            for name, value in (record.get("timing") or {}).items()
-            if name != "planning_history"  # a curve, no figure
-        ],
+        "metrics": [{"name": name, "value": value, **_facts(columns.get(name))} for name, value in numbers_of(record)],
         "config": config,
     }
 
 
-def _column(column: Any) -> dict[str, str]:
-    found = column or {}
-    return {"unit": found.get("unit") or "", "text": found.get("description") or ""}
+def numbers_of(record: Mapping[str, Any]) -> list[tuple[str, Any]]:
+    """The metrics and timing of a record, by full name."""
+    timing = {f"timing.{name}": value for name, value in (record.get("timing") or {}).items()}
+    timing.pop("timing.planning_history", None)  # a curve, no number
+    return [*(record.get("metrics") or {}).items(), *timing.items()]
 
 
-def _timing(name: str) -> dict[str, str]:
-    unit = {"s": "s", "bytes": "B"}.get(name.rpartition("_")[2], "")
-    return {"unit": unit, "text": ""}
+def _facts(column: Column | None) -> dict[str, Any]:
+    if column is None:
+        return {"unit": "", "text": ""}
+    shown = {"primary": column.stage} if column.primary else {}
+    return {"unit": column.unit, "text": column.description} | shown
 
 
 def _summary(block: Any) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.run import all_routes
+from mrpbench_core.report.columns import Columns
 from mrpbench_core.report.replay.facts import facts_of
 from mrpbench_core.report.replay.gates import pack_facilities
 from mrpbench_core.report.replay.happenings import read_contacts, read_events
@@ -25,7 +26,7 @@ def write_page(
     record: Mapping[str, Any],
     file: Path,
     *,
-    columns: Mapping[str, Any] | None = None,
+    columns: Columns | None = None,
     planner: str = "",
 ) -> None:
     """Write one run as a self-contained HTML page.
@@ -34,7 +35,7 @@ def write_page(
         recording: with at least `time` and `truth` (or `estimate`).
         record: the run's record.
         file: where to.
-        columns: units and descriptions of metrics.
+        columns: what is known of its metrics and timing.
         planner: what to call the planner.
 
     Raises:

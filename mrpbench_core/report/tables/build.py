@@ -4,9 +4,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mrpbench_core.api.metric import Column
 from mrpbench_core.model.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.axes import word
-from mrpbench_core.report.columns import Column
+from mrpbench_core.report.columns import heading
 from mrpbench_core.report.comparison import SIGNIFICANT, Comparison
 from mrpbench_core.report.estimates import Numbers
 from mrpbench_core.report.groups import Group, Setting
@@ -70,7 +71,7 @@ def means_table(
     return Table(
         key="overall",
         title="Means over all runs that have the value",
-        headings=(*axes, *(column.heading for column in columns)),
+        headings=(*axes, *(heading(column) for column in columns)),
         rows=tuple(rows),
         keys=len(axes),
         note=(
@@ -113,7 +114,7 @@ def common_table(
     return Table(
         key="common",
         title="Normalised: over what all groups of a setting have in common",
-        headings=(*axes, _unit(some), "success rate", *(column.heading for column in columns)),
+        headings=(*axes, _unit(some), "success rate", *(heading(column) for column in columns)),
         rows=tuple(rows),
         keys=len(axes),
         note=note,

@@ -28,6 +28,10 @@ class MetricConformance(ComponentConformance):
                 column.better in ("lower", "higher", "neither"), f"column {column.name}: better is {column.better!r}"
             )
             require(column.description, f"column {column.name} has no description")
+            require(
+                column.drawn == "interval" or column.better == "lower",
+                f"column {column.name}: `drawn` is {column.drawn!r}, which is for columns of which less is better",
+            )
 
     def test_requires_channels_that_exist(self) -> None:
         metric = self.make()

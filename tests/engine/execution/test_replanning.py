@@ -170,7 +170,7 @@ def test_robots_held_up_by_another_arrive_earlier_with_new_plans(tmp_path, monke
     assert stages.count("replanning") == events().count("replan") > 0
     assert without["status"] == record["status"] == "succeeded"
     assert record["metrics"]["delay.mean_s"] < 0.9 * without["metrics"]["delay.mean_s"]
-    assert record["metrics"]["contact.robot_count"] == 0
+    assert record["metrics"]["execution.robot_contacts"] == 0
     assert record["metrics"]["tracking.max_m"] < 0.3, "the routes that were driven are the last plan's"
     assert record["timing"]["replanning_s"] > 0
 

@@ -9,13 +9,14 @@ import pytest
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.world import Area, Door, Lane, Level, Obstacle, World
+from mrpbench_core.report.columns import describe_columns
 from mrpbench_core.report.picture import COLOURS
 from mrpbench_core.report.replay.page import write_page
 
 
 @pytest.fixture
 def page(store, chunk, record, tmp_path):
-    columns = {"execution.duration_s": {"unit": "s", "description": "how long <it> took"}}
+    columns = describe_columns({"execution.duration_s": {"unit": "s", "description": "how long <it> took"}})
     write_page(store(chunk), record, tmp_path / "a.html", columns=columns, planner="eecbs w=1.2")
     return (tmp_path / "a.html").read_text(encoding="utf-8")
 
@@ -64,6 +65,7 @@ def test_the_data_are_the_runs(page, scripts, chunk, unpack):
         "value": 4.0,
         "unit": "s",
         "text": "how long <it> took",
+        "primary": "execution",
     }
     assert metrics["execution.min_distance_m"]["value"] is None
     assert metrics["timing.planning_s"]["unit"] == "s"

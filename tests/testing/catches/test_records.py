@@ -40,6 +40,7 @@ def one(value, *names):
         ({"requires": frozenset()}, "needs no channel that it does not require"),
         ({"columns": ()}, "describes its columns"),
         ({"columns": First.columns * 2}, "describes its columns"),
+        ({"columns": (Column("x", "m", "higher", "far", drawn="profile"),)}, "describes its columns"),
         ({"measure": lambda self, run: {"x": np.random.default_rng().random()}}, "measures the same again"),
         ({"measure": lambda self, run: {"x": run.channel("truth").sort() or 1.0}}, "gives exactly its columns"),
     ],

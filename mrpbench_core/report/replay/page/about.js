@@ -3,15 +3,7 @@
 import { clockText } from "replay/clock.js";
 import { List, make } from "replay/list.js";
 
-const KEY = [
-  ["execution.duration_s", "duration"],
-  ["planning.sum_of_costs", "sum of costs"],
-  ["execution.min_distance_m", "least distance"],
-  ["execution.robot_contacts", "contacts"],
-  ["planning.makespan", "planned makespan"],
-  ["timing.planning_s", "planning time"],
-];
-const FIGURES = 4;
+const STAGES = ["execution", "planning"]; // the order of the key figures
 
 export function fillHeader(run) {
   const { facts, world, count } = run;
@@ -25,13 +17,12 @@ export function fillHeader(run) {
 }
 
 export function fillFigures(run) {
-  const known = new Map(run.facts.metrics.map((metric) => [metric.name, metric]));
-  const chosen = KEY.filter(([name]) => known.get(name)?.value != null).slice(0, FIGURES);
+  const metrics = run.facts.metrics.filter(({ value }) => value != null);
+  const chosen = STAGES.flatMap((stage) => metrics.filter(({ primary }) => primary === stage));
   document.getElementById("figures").append(
-    ...chosen.map(([name, label]) => {
-      const metric = known.get(name);
-      const figure = make("div", "figure", make("b", "", ...withUnit(metric)), make("span", "", label));
-      figure.title = metric.text;
+    ...chosen.map((metric) => {
+      const figure = make("div", "figure", make("b", "", ...withUnit(metric)), make("span", "", label(metric)));
+      figure.title = `${metric.name}: ${metric.text}`;
       return figure;
     }),
   );
@@ -44,13 +35,19 @@ export function fillAbout(run, thinning) {
   page.append(section("choices", facts.choices.map(([name, value]) => [name, [value]]), true));
   for (const [title, metrics] of groups(facts.metrics)) {
     const rows = metrics.map((metric) => [metric.name.slice(title.length + 1).replaceAll("_", " "), withUnit(metric), metric.text]);
-    page.append(section(title, rows, title === "planning" || title === "execution"));
+    page.append(section(title, rows, metrics.some(({ primary }) => primary)));
   }
   if (thinning && (thinning.beam_step > 1 || thinning.scan_step > 1)) {
     page.append(make("p", "note", `Of the lidar scans, one in ${thinning.scan_step} is here, with one beam in ${thinning.beam_step}.`));
   }
   const configuration = make("pre", "", JSON.stringify(facts.config, null, 2));
   page.append(make("details", "", make("summary", "", "configuration"), configuration));
+}
+
+/** The name of a metric's column without the unit, which stands beside the value. */
+function label({ name, unit }) {
+  const words = name.slice(name.lastIndexOf(".") + 1);
+  return (unit && words.endsWith(`_${unit}`) ? words.slice(0, -unit.length - 1) : words).replaceAll("_", " ");
 }
 
 /** Metrics by all but the last part of their name. */

@@ -34,6 +34,8 @@ class Execution(Metric):
             "lower",
             "from the start until the last robot completed its path; null unless all did",
             requires=PROGRESS,
+            primary=True,
+            drawn="profile",
         ),
         Column("goals_reached", "", "higher", "robots that completed their path at some time", requires=PROGRESS),
         Column(
@@ -42,6 +44,7 @@ class Execution(Metric):
             "higher",
             "least distance between the centres of two robots on one level",
             requires=frozenset({"level"}),
+            primary=True,
         ),
         Column(
             "min_clearance_m",
@@ -57,6 +60,7 @@ class Execution(Metric):
             "sum over robots of the time, before they complete their path, at which they have advanced along it by "
             "less than `blocked_distance` during the last `blocked_window`; planned waits count",
             requires=PROGRESS | {"path"},
+            primary=True,
         ),
         Column(
             "time_blocked_max_s",
@@ -69,8 +73,10 @@ class Execution(Metric):
             "robot_contacts",
             "",
             "lower",
-            "episodes of two robots touching; touches of a pair less than `contact_pause` apart are one episode",
+            "episodes of two robots touching; touches of a pair at most `contact_pause` apart are one episode",
             requires=CONTACTS,
+            primary=True,
+            aliases=("contact.robot_count",),
         ),
         Column(
             "wall_contacts",
@@ -78,6 +84,7 @@ class Execution(Metric):
             "lower",
             "episodes of a robot touching a wall or obstacle, counted likewise",
             requires=CONTACTS,
+            aliases=("contact.wall_count",),
         ),
         Column("distance_m", "m", "lower", "length of the ways all robots truly drove, straight between samples"),
         *COLUMNS,

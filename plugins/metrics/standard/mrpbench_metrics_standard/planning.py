@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from typing import ClassVar
 
 import attrs
@@ -11,11 +12,10 @@ from mrpbench_core.api import Column, Metric, Value
 from mrpbench_core.model.plan import Plan, PlanStatus
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.run import FinishedRun
+from mrpbench_metrics_standard.original import SOURCE
 
 STERN = "Stern et al., Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks, SoCS 2019"
-ORIGINAL = (
-    "Schaefer et al., A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered Environments, 2023"
-)
+_column = partial(Column, stage="planning")
 
 
 @attrs.frozen(kw_only=True)
@@ -23,23 +23,33 @@ class Planning(Metric):
     """Measures the first plan of a run."""
 
     columns: ClassVar[tuple[Column, ...]] = (
-        Column("solved", "", "higher", "the planner found a plan that keeps its promises, within its limits"),
-        Column("sum_of_costs", "s", "lower", "sum over robots of the time of the last arrival at its goal", STERN),
-        Column("makespan", "s", "lower", "time at which the last robot arrives at its goal", STERN),
-        Column("sum_of_costs_ticks", "", "lower", "sum_of_costs in ticks of the roadmap", STERN),
-        Column("makespan_ticks", "", "lower", "makespan in ticks of the roadmap", STERN),
-        Column("lower_bound_ticks", "", "neither", "lower bound on sum_of_costs_ticks that the planner proved"),
-        Column(
+        _column("solved", "", "higher", "the planner found a plan that keeps its promises, within its limits"),
+        _column(
+            "sum_of_costs",
+            "s",
+            "lower",
+            "sum over robots of the time of the last arrival at its goal",
+            STERN,
+            primary=True,
+            drawn="profile",
+        ),
+        _column("makespan", "s", "lower", "time at which the last robot arrives at its goal", STERN, primary=True),
+        _column("sum_of_costs_ticks", "", "lower", "sum_of_costs in ticks of the roadmap", STERN),
+        _column("makespan_ticks", "", "lower", "makespan in ticks of the roadmap", STERN),
+        _column("lower_bound_ticks", "", "neither", "lower bound on sum_of_costs_ticks that the planner proved"),
+        _column(
             "suboptimality", "", "lower", "sum_of_costs_ticks / lower_bound_ticks: an upper bound on the true ratio"
         ),
-        Column("conflicts", "", "lower", "pairs of robots in one another's way, counted by the validator", STERN),
-        Column("expansions", "", "lower", "search nodes expanded, as the planner counts them"),
-        Column("generated", "", "neither", "search nodes generated, as the planner counts them"),
-        Column("low_level_expansions", "", "lower", "nodes expanded in single-robot searches, as the planner counts"),
-        Column("moves", "", "lower", "moves along edges, without waits (sum of fuel)", STERN),
-        Column("distance_m", "m", "lower", "length of all planned moves"),
-        Column("mrp_bench.cost", "", "lower", "sum over robots of states in the schedule: arrival tick + 1", ORIGINAL),
-        Column("mrp_bench.makespan", "", "lower", "most states in one robot's schedule: arrival tick + 1", ORIGINAL),
+        _column("conflicts", "", "lower", "pairs of robots that conflict in the plan, counted by the validator", STERN),
+        _column("expansions", "", "lower", "search nodes expanded, as the planner counts them"),
+        _column("generated", "", "neither", "search nodes generated, as the planner counts them"),
+        _column(
+            "low_level_expansions", "", "lower", "nodes expanded in single-robot searches, as the planner counts them"
+        ),
+        _column("moves", "", "lower", "moves along edges, without waits (sum of fuel)", STERN),
+        _column("distance_m", "m", "lower", "length of all planned moves"),
+        _column("mrp_bench.cost", "", "lower", "sum over robots of states in the schedule: arrival tick + 1", SOURCE),
+        _column("mrp_bench.makespan", "", "lower", "most states in one robot's schedule: arrival tick + 1", SOURCE),
     )
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:

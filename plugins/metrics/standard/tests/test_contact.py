@@ -16,14 +16,16 @@ def touching(executed):
 
 def test_touches_are_counted_timed_and_dated(touching):
     values = Contact().measure(touching)
-    assert (values["robot_count"], values["wall_count"], values["robots_touched"]) == (2, 2, 3)
+    assert values["robots_touched"] == 3
     assert values["robot_time_s"] == pytest.approx(0.15)
     assert values["wall_time_s"] == pytest.approx(0.15)
     assert values["first_s"] == 0.5
 
 
-def test_a_longer_pause_joins_episodes(touching):
-    assert Contact(pause=3.0).measure(touching)["robot_count"] == 1
+def test_the_pause_between_contacts_is_an_option_of_execution():
+    assert Contact(pause=1.0) == Contact()
+    with pytest.raises(ValueError, match="`contact_pause`"):
+        Contact(pause=3.0)
 
 
 def test_the_order_of_robots_does_not_matter(touching, permuted):

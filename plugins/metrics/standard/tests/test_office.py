@@ -44,7 +44,7 @@ def test_nobody_is_nearer_than_the_nearest(measured):
     assert (
         measured["execution.min_clearance_m"] <= measured["clearance.robots_min_m"] <= measured["clearance.robots_p5_m"]
     )
-    assert measured["contact.robot_count"] == measured["execution.robot_contacts"] == 0
+    assert measured["contact.robot_time_s"] == measured["execution.robot_contacts"] == 0
     assert 0 < measured["clearance.walls_min_m"] <= measured["clearance.walls_p50_m"]
 
 

@@ -1,0 +1,42 @@
+"""What a report knows of columns: declared by invocations, completed by installed metrics."""
+
+from mrpbench_core.report.columns import describe_columns, heading, primary_columns
+
+OLD = {"unit": "s", "better": "lower", "description": "how long", "source": ""}
+"""As invocations of version 0.1 declare a column."""
+
+
+def names(known):
+    return [column.name for column in primary_columns(known)]
+
+
+def test_columns_of_an_older_version_are_shown_as_before():
+    known = describe_columns(dict.fromkeys(["execution.duration_s", "execution.success", "planning.makespan"], OLD))
+    assert names(known) == [
+        *("planning.makespan", "timing.planning_s", "timing.planning_par2_s"),
+        "execution.duration_s",
+    ]
+    assert known["execution.duration_s"].description == "how long", "what the invocation declares counts"
+    assert (known["execution.duration_s"].drawn, known["execution.duration_s"].stage) == ("profile", "execution")
+
+
+def test_columns_without_an_invocation_are_described_by_the_installed_metric():
+    known = describe_columns({}, ["execution.robot_contacts", "execution.duration_s"])
+    assert list(known)[:2] == ["execution.duration_s", "execution.robot_contacts"], "in the order of the metric"
+    assert heading(known["execution.duration_s"]) == "execution.duration_s"
+    assert known["execution.duration_s"].unit == "s"
+
+
+def test_what_a_folder_declares_goes_before_what_is_installed():
+    own = OLD | {"primary": False, "stage": "planning", "drawn": "interval", "aliases": []}
+    known = describe_columns({"execution.duration_s": own, "execution.success": OLD | {"primary": True}})
+    assert "execution.duration_s" not in names(known)
+    assert known["execution.duration_s"].stage == "planning"
+    assert names(known)[-1] == "execution.success"
+
+
+def test_declarations_that_make_no_sense_do_no_harm():
+    known = describe_columns({"x.a": None, "x.b": OLD | {"stage": 3, "drawn": "pie", "primary": None}, "x.c": "text"})
+    assert {known[name].stage for name in ("x.a", "x.b", "x.c")} == {"execution"}
+    assert {known[name].drawn for name in ("x.a", "x.b", "x.c")} == {"interval"}
+    assert not any(name.startswith("x.") for name in names(known))
