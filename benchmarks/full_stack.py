@@ -28,7 +28,7 @@ PARTS = {
     "scans": ("simulation.py", "_take_scans"),
     "controller": ("session.py", "command"),
     "pure_pursuit": ("pure_pursuit.py", "command"),
-    "navigator": ("waypoints.py", "step"),
+    "navigator": ("session.py", "step"),
     "dispatcher": ("adg.py", "update"),
     "localizer": ("ground_truth.py", "update"),
     "checks": ("answers.py", ""),

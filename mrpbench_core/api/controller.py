@@ -95,7 +95,7 @@ class FleetControllerSession:
         """Return waypoints f8[k,2] to beside the end of the path of one row; see `ControllerSession.approach`."""
         return self.sessions[int(observations.robot[row])].approach(observations.of(row), tolerance)
 
-    def excuse(self, robot: int) -> str:  # noqa: ARG002 - for those that override it
+    def failure_reason(self, robot: int) -> str:  # noqa: ARG002 - for those that override it
         """Return in a few words why there was no admissible command for a robot, for events and logs."""
         return ""
 

@@ -1,140 +1,152 @@
-"""Ways around what blocks the released path, which controllers find on what their sensors show.
+"""Ways around what blocks the released path, which controllers find from what their sensors show.
 
 A detour begins where the robot is and ends on the released path, so it never leads beyond what is released. Where the
-end of the path itself is occupied, it may lead beside it instead, if the navigator's `planner_tolerance` allows that.
+end of the path itself is occupied, a detour may end beside it, if `planner_tolerance` of the navigator allows that.
 """
 
 import attrs
 import numpy as np
 
 from mrpbench_core.api.controller import FleetControllerSession
-from mrpbench_core.builtin.navigators.followers import Followers
+from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.model.arrays import Bool, Float
 from mrpbench_core.model.execution import Event, Observations
 
 _REACHED = 0.1
-"""metres from a point of a detour at which the next one counts."""
+"""metres from a point of a detour at which the robot goes on to the next one."""
 _MOVING = 0.05
-"""metres: a robot that moves so far between two looks is not blocked."""
+"""metres: a robot that moves so far between two requests is not blocked."""
+
+
+@attrs.frozen(kw_only=True)
+class DetourOptions:
+    """When robots ask for detours."""
+
+    every: int
+    """Control periods between two requests of the same robot; 0 = robots never ask."""
+    planner_tolerance: float
+    """Metres from an occupied end of the path that count as reached if the robot gets no nearer. Above zero, robots ask
+    while they drive, too."""
+    waypoint_tolerance: float
+    """Metres from the end of such a detour at which the robot has arrived there."""
 
 
 class Detours:
-    """Detours of all robots. Robots that do not get on are looked at in turn, each once in a while.
+    """The detours of all robots. Robots that are stuck ask for one in turn.
 
     Args:
-        followers: the routes that are detoured from.
-        controllers: find the ways.
-        every: control periods between two looks at the same robot; 0 = never.
-        beside: metres from an occupied end of the path that count as reached if the robot gets no nearer. Above zero,
-            robots look ahead while they drive too.
-        near: metres from there at which it is there.
+        follower: the routes that the detours leave.
+        controllers: find the detours.
+        options: when robots ask.
     """
 
-    def __init__(
-        self, followers: Followers, controllers: FleetControllerSession, every: int, beside: float, near: float
-    ) -> None:
-        self._followers, self._controllers, self._every = followers, controllers, every
-        self._beside, self._near = beside, near
-        self._ways: dict[int, Float] = {}
-        self._instead: set[int] = set()
-        """Robots whose way leads beside the end of the path."""
-        count = len(followers)
-        self._due = np.arange(count) % max(every, 1)
-        """Period from which on each robot is looked at again."""
+    def __init__(self, follower: RouteFollower, controllers: FleetControllerSession, options: DetourOptions) -> None:
+        self._follower, self._controllers, self._options = follower, controllers, options
+        self._detours: dict[int, Float] = {}
+        self._to_beside: set[int] = set()
+        """Robots whose detour ends beside the end of the path."""
+        count = len(follower)
+        self._due = np.arange(count) % max(options.every, 1)
+        """i8[n]: control period from which on each robot may ask again."""
         self._place: Float = np.full((count, 2), np.inf)
+        """f8[n,2] of each robot when it could ask last."""
         self._step = 0
 
     def cancel(self, robot: int) -> None:
-        """Forget the detour of a robot; it may need another at once."""
+        """Forget the detour of a robot; it may ask for another at once."""
         self._drop(robot)
         self._due[robot] = 0
 
     def _drop(self, robot: int) -> None:
-        self._ways.pop(robot, None)
-        self._instead.discard(robot)
+        self._detours.pop(robot, None)
+        self._to_beside.discard(robot)
 
     def cancel_all(self) -> None:
-        """Forget all: there are new routes."""
-        self._ways.clear()
-        self._instead.clear()
+        """Forget all detours: there are new routes."""
+        self._detours.clear()
+        self._to_beside.clear()
 
     def shorten(self, pose: Float) -> None:
         """Drop what robots have passed; at the end of a detour they follow their route again."""
-        for robot, way in list(self._ways.items()):
-            if self._followers.only_turns(robot):
+        for robot, detour in list(self._detours.items()):
+            if self._follower.only_turns(robot):
                 self.cancel(robot)
                 continue
-            left = way
-            while len(left) and np.hypot(*(left[0] - pose[robot, :2])) <= self._reach(robot, left):
+            left = detour
+            while len(left) and np.hypot(*(left[0] - pose[robot, :2])) <= self._tolerance(robot, left):
                 left = left[1:]
             if len(left):
-                self._ways[robot] = left
-            elif robot in self._instead:
-                self._skip(robot)
+                self._detours[robot] = left
+            elif robot in self._to_beside:
+                self._skip_path_end(robot)
             else:
-                del self._ways[robot]
-                self._followers.rejoin(robot, *way[-1].tolist())
+                del self._detours[robot]
+                self._follower.rejoin(robot, *detour[-1].tolist())
 
-    def _reach(self, robot: int, way: Float) -> float:
-        """Metres from the first point of a way at which the next one counts."""
-        return self._near if len(way) == 1 and robot in self._instead else _REACHED
+    def _tolerance(self, robot: int, detour: Float) -> float:
+        """Metres from the first point of a detour at which the robot goes on to the next one."""
+        ends_beside = len(detour) == 1 and robot in self._to_beside
+        return self._options.waypoint_tolerance if ends_beside else _REACHED
 
-    def _skip(self, robot: int) -> None:
-        """The robot is as near to the end of its path as it gets: it looks for a way from here at once."""
+    def _skip_path_end(self, robot: int) -> None:
+        """Count the end of the path as reached, since the robot gets no nearer; the robot may ask again at once."""
         self.cancel(robot)
-        self._followers.skip(robot)
+        self._follower.skip_path_end(robot)
 
-    def look(self, observations: Observations, stopped: Bool) -> list[Event]:
-        """Ask for a way around, for rows whose turn it is and that do not get on or are `stopped` bool[k].
+    def request(self, observations: Observations, stopped: Bool) -> list[Event]:
+        """Ask the controllers for detours of robots whose turn it is and that are blocked, or `stopped` bool[k].
 
         `observations` are of the routes, not of the detours.
         """
         self._step += 1
-        if not self._every:
+        if not self._options.every:
             return []
         due = (self._step >= self._due[observations.robot]).nonzero()[0]
         if not len(due):
             return []
         robots, places = observations.robot[due], observations.pose[due, :2]
         blocked = np.abs(places - self._place[robots]).max(axis=1) <= _MOVING
-        blocked |= stopped[due] | (self._beside > 0)
-        if self._ways:
-            blocked |= np.isin(robots, list(self._ways))
-        self._due[robots] = self._step + self._every
+        blocked |= stopped[due] | (self._options.planner_tolerance > 0)
+        if self._detours:
+            blocked |= np.isin(robots, list(self._detours))
+        self._due[robots] = self._step + self._options.every
         self._place[robots] = places
-        events = []
-        for row in due[blocked].tolist():
-            robot, place = int(observations.robot[row]), observations.pose[row, :2]
-            if self._followers.only_turns(robot):  # no way turns it
-                continue
-            way = self._controllers.reroute(observations, row)
-            if instead := way is None and self._beside > 0:
-                way = self._controllers.approach(observations, row, self._beside)
-            if way is None or not len(way) or np.hypot(*(way[-1] - place)) <= (self._near if instead else _REACHED):
-                self._drop(robot)
-                if instead and way is not None:  # it is there already
-                    self._skip(robot)
-                continue
-            if robot not in self._ways:
-                events.append(Event(stamp=observations.now, kind="detour", robot=robot))
-            self._ways[robot] = np.asarray(way, float)
-            (self._instead.add if instead else self._instead.discard)(robot)
-        return events
+        rows = due[blocked].tolist()
+        return [event for row in rows for event in self._request_one(observations, row)]
 
-    def lay(self, observations: Observations) -> Observations:
-        """The same observations with detours in the place of the paths they go around."""
-        if not self._ways:
+    def _request_one(self, observations: Observations, row: int) -> list[Event]:
+        robot, place = int(observations.robot[row]), observations.pose[row, :2]
+        if self._follower.only_turns(robot):  # a detour would not turn it
+            return []
+        tolerance = self._options.planner_tolerance
+        detour = self._controllers.reroute(observations, row)
+        beside = detour is None and tolerance > 0
+        if beside:
+            detour = self._controllers.approach(observations, row, tolerance)
+        near = self._options.waypoint_tolerance if beside else _REACHED
+        if detour is None or not len(detour) or np.hypot(*(detour[-1] - place)) <= near:
+            self._drop(robot)
+            if beside and detour is not None:  # the robot is there already
+                self._skip_path_end(robot)
+            return []
+        is_new = robot not in self._detours
+        self._detours[robot] = np.asarray(detour, float)
+        (self._to_beside.add if beside else self._to_beside.discard)(robot)
+        return [Event(stamp=observations.now, kind="detour", robot=robot)] if is_new else []
+
+    def apply(self, observations: Observations) -> Observations:
+        """The same observations with detours in the place of the paths that they go around."""
+        if not self._detours:
             return observations
         foot, begin, end = observations.foot.copy(), observations.begin.copy(), observations.end.copy()
         yaw = observations.yaw.copy()
         points, count = [observations.points], len(observations.points)
-        for row in np.flatnonzero(np.isin(observations.robot, list(self._ways))).tolist():
-            way = self._ways[int(observations.robot[row])]
-            whole = bool((way[-1] == observations.points[observations.end[row] - 1]).all())
+        for row in np.flatnonzero(np.isin(observations.robot, list(self._detours))).tolist():
+            detour = self._detours[int(observations.robot[row])]
+            reaches_end = bool((detour[-1] == observations.points[observations.end[row] - 1]).all())
             foot[row] = observations.pose[row, :2]
-            begin[row], end[row] = count, count + len(way)
-            yaw[row] = yaw[row] if whole else np.nan
-            points.append(way)
-            count += len(way)
-        laid = np.concatenate(points)
-        return attrs.evolve(observations, foot=foot, points=laid, begin=begin, end=end, yaw=yaw)
+            begin[row], end[row] = count, count + len(detour)
+            yaw[row] = yaw[row] if reaches_end else np.nan
+            points.append(detour)
+            count += len(detour)
+        return attrs.evolve(observations, foot=foot, points=np.concatenate(points), begin=begin, end=end, yaw=yaw)

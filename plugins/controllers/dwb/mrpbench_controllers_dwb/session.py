@@ -101,7 +101,7 @@ class DwbSession(FleetControllerSession):
         x, y, _ = observations.pose[row].tolist()
         return self._fleet.approach(int(observations.robot[row]), x, y, observations.path(row), tolerance)
 
-    def excuse(self, robot: int) -> str:
+    def failure_reason(self, robot: int) -> str:
         """Why the last trajectories of a robot were dropped, the most frequent reasons first."""
         reasons = Counter(self.explain(robot)["reason"])
         return ", ".join(f"{count} × {reason}" for reason, count in reasons.most_common(3) if reason)

@@ -157,7 +157,7 @@ def test_a_robot_without_an_admissible_command_says_why():
     path = np.array([[(0.0, 0.0), (1.0, 0.0)]])
     command = session.command(look(0.0, np.zeros((1, 3)), np.zeros((1, 2)), path, (scan,)))
     assert np.isnan(command).all()
-    assert session.excuse(0) == "419 × BaseObstacle: Trajectory Hits Obstacle."
+    assert session.failure_reason(0) == "419 × BaseObstacle: Trajectory Hits Obstacle."
 
 
 def test_a_robot_at_the_end_of_its_path_stands():

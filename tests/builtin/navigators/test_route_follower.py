@@ -6,19 +6,19 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.builtin.navigators.followers import Followers
+from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.model.execution import Route
 
-OPTIONS = Waypoints()
+RULES = Waypoints().arrival_rules
 CLEARANCE = 0.25
 
 
 class Follower:
     """A fleet of one, whose pose is asked for only where it matters."""
 
-    def __init__(self, route, options, clearance):
-        self.fleet = Followers([route], options, np.array([clearance]))
+    def __init__(self, route, rules, clearance):
+        self.fleet = RouteFollower([route], rules, np.array([clearance]))
 
     def update(self, x, y, yaw, speed, released):
         self.pose = np.array([[x, y, yaw]])
@@ -48,9 +48,9 @@ def route(points, yaw=math.nan, speed=math.inf):
     return Route(waypoint=waypoint, level=np.zeros(segments + 1), speed=np.full(segments, speed))
 
 
-def follow(points, poses, released=None, navigator=OPTIONS, **options):
+def follow(points, poses, released=None, rules=RULES, **options):
     """The follower after some poses (x, y, yaw), one control period apart, with everything released."""
-    follower = Follower(route(points, **options), navigator, CLEARANCE)
+    follower = Follower(route(points, **options), rules, CLEARANCE)
     for pose in poses:
         follower.update(*pose, 0.2, len(points) - 1 if released is None else released)
     return follower
@@ -135,7 +135,7 @@ def test_the_path_begins_beside_the_robot_and_ends_where_the_release_ends():
 )
 def test_no_path_leads_beyond_what_is_released(steps, data):
     points = [(0.0, 0.0), *np.cumsum(steps, axis=0).tolist()]
-    follower, driven, released = Follower(route(points), OPTIONS, CLEARANCE), 0, 0
+    follower, driven, released = Follower(route(points), RULES, CLEARANCE), 0, 0
     for _ in range(3):
         released = data.draw(st.integers(released, len(steps)))
         for x, y, yaw in along(points[driven : released + 1], step=0.05):
@@ -188,8 +188,8 @@ def test_the_yaw_of_the_goal_is_not_to_be_taken_at_a_bend_before_it():
 
 
 def test_stopping_at_waypoints_means_standing_still_at_each():
-    stop = Waypoints(waypoints="stop")
-    follower = follow(LINE, along([(0, 0), (0.31, 0)]), navigator=stop)
+    stop = Waypoints(waypoints="stop").arrival_rules
+    follower = follow(LINE, along([(0, 0), (0.31, 0)]), rules=stop)
     assert follower.reached == 1
     assert follower.path is None
     follower.update(0.31, 0, 0, 0.005, 3)
@@ -207,7 +207,7 @@ def test_a_longer_route_continues_where_the_old_one_was():
 
 def test_the_speed_limit_is_that_of_the_segment_under_way():
     limits = attrs.evolve(route(LINE), speed=np.array([0.1, 0.2, math.inf]))
-    follower = Follower(limits, OPTIONS, CLEARANCE)
+    follower = Follower(limits, RULES, CLEARANCE)
     seen = []
     for pose in along([(0, 0), (1.2, 0)]):
         follower.update(*pose, 0.2, 3)
@@ -216,7 +216,7 @@ def test_the_speed_limit_is_that_of_the_segment_under_way():
 
 
 def test_a_robot_that_need_not_move_has_arrived():
-    follower = Follower(route([(1, 1)]), OPTIONS, CLEARANCE)
+    follower = Follower(route([(1, 1)]), RULES, CLEARANCE)
     follower.update(1, 1, 0, 0, 0)
     assert not follower.under_way
     assert follower.path is None
@@ -225,7 +225,7 @@ def test_a_robot_that_need_not_move_has_arrived():
 
 
 def test_a_robot_that_need_not_move_still_takes_the_yaw_that_is_wanted():
-    follower = Follower(route([(1, 1)], yaw=2.0), OPTIONS, CLEARANCE)
+    follower = Follower(route([(1, 1)], yaw=2.0), RULES, CLEARANCE)
     follower.update(1, 1, 0, 0, 0)
     assert follower.under_way
     assert np.allclose(follower.path, [(1, 1), (1, 1)])
@@ -249,8 +249,8 @@ def test_a_robot_that_comes_back_to_its_route_farther_on_has_reached_what_lies_b
 def test_robots_in_a_fleet_do_not_disturb_one_another(seed):
     random = np.random.default_rng(seed)
     routes = [route(np.cumsum(random.choice([-0.4, 0, 0.4], (6, 2)), axis=0)) for _ in range(4)]
-    together = Followers(routes, OPTIONS, np.full(4, CLEARANCE))
-    alone = [Followers([each], OPTIONS, np.full(1, CLEARANCE)) for each in routes]
+    together = RouteFollower(routes, RULES, np.full(4, CLEARANCE))
+    alone = [RouteFollower([each], RULES, np.full(1, CLEARANCE)) for each in routes]
     for step in range(40):
         pose = np.column_stack([[each.waypoint[step // 8, :2] for each in routes], np.zeros(4)])
         pose[:, :2] += random.uniform(-0.1, 0.1, (4, 2))
@@ -261,19 +261,19 @@ def test_robots_in_a_fleet_do_not_disturb_one_another(seed):
             assert (single.reached[0], single.cleared[0]) == (together.reached[robot], together.cleared[robot])
 
 
-def test_who_stops_at_waypoints_turns_there_to_the_next():
-    stops = Waypoints(waypoints="stop")
+def test_a_robot_that_stops_at_waypoints_turns_there_to_the_next():
+    stop = Waypoints(waypoints="stop").arrival_rules
     there = (0.4, 0.0, 0.0)
-    follower = follow(CORNER, [there, there], navigator=stops)
+    follower = follow(CORNER, [there, there], rules=stop)
     assert follower.reached == 0
     assert follower.yaw == math.pi / 2
-    turned = follow(CORNER, [there, (0.4, 0.0, math.pi / 2 - 0.2)], navigator=stops)
+    turned = follow(CORNER, [there, (0.4, 0.0, math.pi / 2 - 0.2)], rules=stop)
     assert turned.reached == 1
 
 
 def test_an_occupied_waypoint_can_be_skipped_and_the_route_goes_on_from_beside_it():
-    follower = follow(LINE, [(0.2, 0.0, 0.0)], navigator=Waypoints(waypoints="stop"))
-    follower.fleet.skip(0)
+    follower = follow(LINE, [(0.2, 0.0, 0.0)], rules=Waypoints(waypoints="stop").arrival_rules)
+    follower.fleet.skip_path_end(0)
     follower.update(0.3, 0.2, 0.0, 0.0, 3)
     assert follower.reached == 1
     assert follower.path[-1].tolist() == [0.8, 0.0]
@@ -281,7 +281,7 @@ def test_an_occupied_waypoint_can_be_skipped_and_the_route_goes_on_from_beside_i
 
 def test_the_last_waypoint_can_be_skipped_too():
     follower = follow(LINE, [(0.4, 0.0, 0.0), (0.8, 0.0, 0.0), (1.0, 0.0, 0.0)])
-    follower.fleet.skip(0)
+    follower.fleet.skip_path_end(0)
     follower.update(1.0, 0.1, 0.0, 0.0, 3)
     assert follower.reached == 3
     assert not follower.under_way

@@ -1,17 +1,17 @@
-"""Whether robots make progress, as Nav2's `SimpleProgressChecker` sees it: who turns on the spot makes none."""
+"""Whether robots make progress, as Nav2's `SimpleProgressChecker` sees it: turning on the spot is no progress."""
 
 import numpy as np
 
 from mrpbench_core.model.arrays import Bool, Float
 
 
-class Progress:
+class ProgressChecker:
     """Checks robots under way.
 
     Args:
-        robots: how many there are.
-        radius: metres that a robot must move
-        allowance: within so many simulated seconds.
+        robots: number of robots.
+        radius: a robot makes progress when it has moved this far, metres.
+        allowance: simulated seconds within which it has to.
     """
 
     def __init__(self, robots: int, radius: float, allowance: float) -> None:
@@ -20,7 +20,7 @@ class Progress:
         self._since: Float = np.zeros(robots)
 
     def check(self, now: float, pose: Float, under_way: Bool) -> Bool:
-        """Tell bool[n] which robots under way have not moved far enough for too long; their time begins anew."""
+        """Tell bool[n] which robots under way are stuck; their time begins anew."""
         offset = pose[:, :2] - self._place
         moved = (offset * offset).sum(axis=1) > self._squared
         fresh = moved | ~under_way

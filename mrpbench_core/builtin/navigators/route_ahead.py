@@ -1,0 +1,86 @@
+"""What lies ahead of each robot on its route, as named arrays that are refreshed when its progress changes."""
+
+import numpy as np
+
+from mrpbench_core.builtin.navigators.route_checks import ClearanceCheck, CornerCheck, Legs, WaypointCheck
+from mrpbench_core.builtin.navigators.route_progress import RouteProgress
+from mrpbench_core.model.arrays import Bool, Float, Int
+
+
+class RouteAhead:
+    """What has to be checked for each of n robots until it reaches, rounds or clears something.
+
+    Args:
+        progress: how far the robots are.
+    """
+
+    def __init__(self, progress: RouteProgress) -> None:
+        self._progress = progress
+        count = len(progress.reached)
+        self.waypoint = WaypointCheck.unset(count)
+        """Whether each robot reaches the next waypoint that is released."""
+        self.corner = CornerCheck.unset(count)
+        """Whether each robot rounds the corner at the end of its leg, which it has reached."""
+        self.clearance = ClearanceCheck.unset(count)
+        """Whether each robot clears the next vertex."""
+        self.leg = Legs.unset(count)
+        self.begin: Int = np.zeros(count, np.int64)
+        """i8[n]: the waypoints of the path that a controller gets are `corners[begin[i]:end[i]]`."""
+        self.end: Int = np.zeros(count, np.int64)
+        self.end_x: Float = np.zeros(count)
+        self.end_y: Float = np.zeros(count)
+        self.yaw: Float = np.zeros(count)
+        """f8[n] to take at the end of that path, NaN = any."""
+        self.speed: Float = np.zeros(count)
+        """f8[n] m/s allowed on the segment under way."""
+        self.is_busy: Bool = np.zeros(count, bool)
+        """bool[n]: progress has to be counted in every control period."""
+        self.uses_lift: Bool = np.zeros(count, bool)
+        """bool[n]: a lift carries the robot on its next segment."""
+        self.may_drive: Bool = np.zeros(count, bool)
+        """bool[n]: something is released that the robot may have to drive or turn to."""
+        self.is_finishing: Bool = np.zeros(count, bool)
+        """bool[n]: the robot has reached all that is released, and only drives on to its very end."""
+
+    def refresh(self, robots: Int) -> None:
+        """Read everything but the clearance anew for robots i8[k]."""
+        progress, tables = self._progress, self._progress.tables
+        reached, released = progress.reached[robots], progress.released[robots]
+        leg, last = progress.leg[robots], progress.end[robots]
+        halting = progress.halting[robots]
+        first, first_corner = tables.first[robots], tables.first_corner[robots]
+        here, goal = first + reached, first + np.minimum(reached + 1, tables.last[robots])
+        corner, row = tables.corner[here], first_corner + leg
+        # A path ends at the next bend that is not reached, so that no controller cuts a corner by more than the
+        # tolerance, or at the end of what is released.
+        end = np.minimum(np.maximum(corner, leg) + 1, last)
+        end = np.minimum(tables.bend[first_corner + end], last)
+        is_open = reached < released
+        self.waypoint.copy(robots, tables.arrival, goal, is_open & ~halting)
+        self.corner.copy(robots, tables.rounding, row, (leg + 1 < last) & (corner > leg))
+        self.leg.copy(robots, tables.legs, row)
+        self.begin[robots] = first_corner + np.minimum(leg + 1, end)
+        end_row = first_corner + end
+        self.end[robots] = end_row + 1
+        self.end_x[robots], self.end_y[robots] = tables.corners[end_row].T
+        yaw = tables.yaw[first + released]
+        self.yaw[robots] = np.where(end == last, yaw, np.nan)
+        self.speed[robots] = tables.speed[here]
+        uses_lift = is_open & (tables.level[here] != tables.level[goal])
+        self.uses_lift[robots] = uses_lift
+        self.is_busy[robots] = halting | (progress.at_goal[robots] & is_open) | uses_lift
+        self.may_drive[robots] = ~halting & ((last > 0) | ~np.isnan(yaw))
+        self.is_finishing[robots] = (leg + 1 >= last) & ~is_open
+
+    def refresh_clearance(self, robots: Int) -> None:
+        """Read the vertices that robots i8[k] clear next anew."""
+        progress, tables = self._progress, self._progress.tables
+        first = tables.first[robots]
+        corner = tables.corner[first + progress.cleared[robots]]
+        at = tables.corner[first + progress.reached[robots]]
+        clears = (corner < tables.last_corner[robots]) & (at >= corner)
+        self.clearance.copy(robots, tables.clearing, tables.first_corner[robots] + corner, clears)
+
+    def path_end(self, robot: int) -> int:
+        """The corner of its route at which the path of a robot ends."""
+        return int(self.end[robot] - 1 - self._progress.tables.first_corner[robot])

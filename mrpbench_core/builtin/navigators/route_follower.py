@@ -1,0 +1,153 @@
+"""All robots on their routes: a cheap check of the fleet in every control period, more work only where it holds."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mrpbench_core.builtin.navigators.route_ahead import RouteAhead
+from mrpbench_core.builtin.navigators.route_progress import RouteProgress
+from mrpbench_core.builtin.navigators.route_tables import ArrivalRules
+from mrpbench_core.model.arrays import Bool, Float, Int, Int16, Int32, frozen_array
+from mrpbench_core.model.execution import Route
+
+_SETTLED = 0.02
+"""metres before the end of what is released at which a robot that has reached it need not be driven any more."""
+
+
+class RouteFollower:
+    """Follows one route per robot.
+
+    Args:
+        routes: one per robot.
+        rules: when a waypoint counts as reached.
+        clearances: f8[n] metres at which each robot leaves room for any other.
+    """
+
+    def __init__(self, routes: Sequence[Route], rules: ArrivalRules, clearances: Float) -> None:
+        count = len(routes)
+        self._yaw_goal_tolerance = rules.yaw_goal_tolerance
+        self._progress = RouteProgress(routes, rules, clearances)
+        self._ahead = RouteAhead(self._progress)
+        self._released: Int32 = np.zeros(count, np.int32)
+        self.reached: Int32 = self._released
+        """i4[n], as in `FleetView`."""
+        self.cleared: Int32 = self._released
+        """i4[n], as in `FleetView`."""
+        self.adopt(routes)
+
+    def __len__(self) -> int:
+        return len(self.reached)
+
+    def adopt(self, routes: Sequence[Route]) -> None:
+        """Continue with routes that begin with what was released of the old ones."""
+        self._progress.adopt(routes)
+        self.corners = self._progress.tables.corners
+        self._wants_yaw = any(not np.isnan(route.waypoint[:, 2]).all() for route in routes)
+        self._refresh(np.arange(len(routes)))
+        self._released = np.full(len(routes), -1, np.int32)  # so that the next `update` looks at all robots
+
+    def update(self, pose: Float, speed: Float, released: Int32, level: Int16) -> None:
+        """Count what robots have reached, rounded and cleared.
+
+        Args:
+            pose: f8[n,3] estimated.
+            speed: f8[n] m/s.
+            released: i4[n] number of leading segments released.
+            level: i2[n].
+        """
+        x, y = pose[:, 0], pose[:, 1]
+        due = self._ahead.waypoint.may_hold(x, y)
+        due |= self._ahead.is_busy
+        due |= released != self._released
+        rounded, cleared = self._ahead.corner.holds(x, y), self._ahead.clearance.may_hold(x, y)
+        self._released = released
+        reaching = due.nonzero()[0]
+        if len(reaching):
+            changed = self._progress.count_reached(reaching, pose, speed, released, level)
+            due[:] = False
+            due[changed] = True
+            if len(changed):
+                self.reached = frozen_array(self._progress.reached, "i4")
+        rounding = (due | rounded).nonzero()[0]
+        if len(rounding):
+            self._progress.count_corners(rounding, pose)
+            self._ahead.refresh(rounding)
+        clearing = (due | cleared).nonzero()[0]
+        if len(clearing):
+            self._progress.count_cleared(clearing, pose, released)
+            self._ahead.refresh_clearance(clearing)
+            self.cleared = frozen_array(self._progress.cleared, "i4")
+
+    def rejoin(self, robot: int, x: float, y: float) -> None:
+        """Let a robot continue from a point of its released route."""
+        self._progress.rejoin(robot, x, y)
+        self._refresh(np.array([robot]))
+
+    def skip_path_end(self, robot: int) -> None:
+        """Count the end of a robot's path as reached."""
+        self._progress.skip_to(robot, self._ahead.path_end(robot))
+        self._refresh(np.array([robot]))
+        self._ahead.is_busy[robot] = True  # so that the next `update` looks at it
+
+    def only_turns(self, robot: int) -> bool:
+        """Tell whether a robot is at the place to go to next, and has only to turn there."""
+        return self._progress.only_turns(robot)
+
+    def cleared_vertex(self, robot: int, x: float, y: float) -> tuple[tuple[float, float] | None, float]:
+        """The vertex that a robot cleared last, and the distance that it must keep from there when it is at x, y."""
+        return self._progress.cleared_vertex(robot, x, y)
+
+    def foot(self, pose: Float) -> Float:
+        """The nearest point f8[n,2] of each robot's leg of its route."""
+        return self._ahead.leg.nearest_points(pose[:, 0], pose[:, 1])
+
+    def driven(self, pose: Float, foot: Float) -> Bool:
+        """Tell bool[n] which robots a controller has to drive, or turn, on the way to the end of what is released."""
+        ahead = self._ahead
+        at_end = np.abs(foot[:, 0] - ahead.end_x) <= _SETTLED
+        at_end &= np.abs(foot[:, 1] - ahead.end_y) <= _SETTLED
+        settled = ahead.is_finishing & at_end & ~self._is_turned_away(pose)
+        driven: Bool = ahead.may_drive & ~settled & ~ahead.uses_lift
+        return driven
+
+    def under_way(self, pose: Float) -> Bool:
+        """Tell bool[n] which robots have to drive on, or to take a yaw; a robot in a lift has not."""
+        ahead = self._ahead
+        away: Bool = self.reached < self._released
+        away |= ahead.may_drive & ahead.is_finishing & self._is_turned_away(pose)
+        away &= ~ahead.uses_lift
+        return away
+
+    def _is_turned_away(self, pose: Float) -> Bool:
+        if not self._wants_yaw:
+            return np.zeros(len(pose), bool)
+        error = np.abs(np.remainder(pose[:, 2] - self.yaw + np.pi, 2 * np.pi) - np.pi)
+        away: Bool = error > self._yaw_goal_tolerance  # false for NaN, where any yaw will do
+        return away
+
+    @property
+    def begin(self) -> Int:
+        """i8[n]: the waypoints ahead of robot i are `corners[begin[i]:end[i]]`."""
+        return self._ahead.begin
+
+    @property
+    def end(self) -> Int:
+        """i8[n], see `begin`."""
+        return self._ahead.end
+
+    @property
+    def yaw(self) -> Float:
+        """f8[n] to take at the end of what lies ahead, NaN = any."""
+        return self._ahead.yaw
+
+    @property
+    def speed(self) -> Float:
+        """f8[n] m/s allowed on the segment under way."""
+        return self._ahead.speed
+
+    def _refresh(self, robots: Int) -> None:
+        """Read all about robots whose progress was changed from outside."""
+        self._ahead.refresh(robots)
+        self._ahead.refresh_clearance(robots)
+        self.reached = frozen_array(self._progress.reached, "i4")
+        self.cleared = frozen_array(self._progress.cleared, "i4")

@@ -1,0 +1,115 @@
+"""The routes of a fleet as robots drive them: without waits, and with all that stays the same on the way in tables."""
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from mrpbench_core.builtin.navigators.route_checks import SLACK, ClearanceCheck, CornerCheck, Legs, WaypointCheck
+from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.model.execution import Route
+
+STRAIGHT = 0.3
+"""radians: a corner at which the direction changes by less is no bend."""
+
+
+@attrs.frozen(kw_only=True)
+class ArrivalRules:
+    """When a waypoint counts as reached; the options of the navigator `waypoints`, by their names."""
+
+    stops: bool
+    """Robots stop at every waypoint and turn to the next one."""
+    waypoint_tolerance: float
+    xy_goal_tolerance: float
+    yaw_goal_tolerance: float
+    stateful: bool
+
+
+class RouteTables:
+    """Tables of W waypoints and C corners, robot after robot.
+
+    A robot drives along its corners: the waypoints that differ from the one before. Waits are segments without length,
+    and between two levels the lift drives. Leg i leads from corner i to corner i + 1.
+
+    Args:
+        routes: one per robot.
+        rules: when a waypoint counts as reached.
+        clearances: f8[n] metres at which each robot leaves room for any other.
+    """
+
+    def __init__(self, routes: Sequence[Route], rules: ArrivalRules, clearances: Float) -> None:
+        sizes = np.array([len(route.waypoint) for route in routes], np.int64)
+        waypoint = np.concatenate([np.empty((0, 3)), *(route.waypoint for route in routes)])
+        self.first = np.cumsum(sizes) - sizes
+        """i8[n]: the waypoints of robot i are the rows from `first[i]` on."""
+        self.last = sizes - 1
+        """i8[n]: the last waypoint of robot i is the row `first[i] + last[i]`."""
+        self.level = np.concatenate([np.empty(0, np.int16), *(route.level for route in routes)])
+        """i2[W]."""
+        self.speed: Float = np.concatenate([np.empty(0), *(np.append(route.speed, np.inf) for route in routes)])
+        """f8[W] m/s allowed from each waypoint on."""
+        begins = np.zeros(len(waypoint), bool)
+        begins[self.first] = True
+        moves = np.append(True, (waypoint[1:, :2] != waypoint[:-1, :2]).any(axis=1))[: len(waypoint)]
+        same_level = np.append(True, self.level[1:] == self.level[:-1])[: len(waypoint)]
+        is_corner = begins | (moves & same_level)
+        row = np.cumsum(is_corner) - 1
+        self.corners: Float = waypoint[is_corner, :2]
+        """f8[C,2] x, y."""
+        self.first_corner: Int = row[self.first]
+        """i8[n]: the corners of robot i are the rows from `first_corner[i]` on."""
+        self.last_corner: Int = row[self.first + self.last] - self.first_corner
+        """i8[n]: the last corner of robot i is the row `first_corner[i] + last_corner[i]`."""
+        self.corner: Int = row - np.repeat(self.first_corner, sizes)
+        """i8[W]: the corner of its robot at which each waypoint lies."""
+        self.is_wait: Bool = ~is_corner
+        """bool[W]: the waypoint is at the place of the one before, and is not the last of its route."""
+        self.is_wait[self.first + self.last] = False
+        heading = self._add_legs(np.repeat(clearances, self.last_corner + 1))
+        self.arrival = self._arrival(waypoint, row, heading, rules)
+        """W entries: when each waypoint is reached. Nobody reaches the last one, nor a wait before the first corner, by
+        passing it."""
+        self.yaw: Float = waypoint[:, 2].copy()
+        """f8[W] prescribed at each waypoint, NaN = any. A robot that stops at each turns there to the next one."""
+        if rules.stops:
+            free = np.isnan(self.yaw)
+            self.yaw[free] = np.arctan2(heading[row[free], 1], heading[row[free], 0])  # NaN at the last
+
+    def _add_legs(self, clearance: Float) -> Float:
+        """Fill the tables of the corners, given the clearance f8[C] there; returns the direction f8[C,2] of each leg,
+        NaN after the last corner of a robot.
+        """
+        corners, count = self.corners, len(self.corners)
+        is_last = np.zeros(count, bool)
+        is_last[self.first_corner + self.last_corner] = True
+        step = np.zeros((count, 2))
+        step[:-1] = np.diff(corners, axis=0)
+        step[is_last] = 0
+        length = np.hypot(step[:, 0], step[:, 1])
+        heading: Float = step / np.where(is_last, np.nan, length)[:, None]
+        self.legs = Legs.of(*corners.T, *step.T, np.maximum((step * step).sum(axis=1), 1e-300))
+        """C entries: the leg from each corner; that from a robot's last corner has no length."""
+        after = np.roll(np.arange(count), -1)
+        self.rounding = CornerCheck.of(*corners[after].T, *(heading + heading[after]).T)
+        """C entries: when the corner at the end of each leg is rounded."""
+        self.clearing = ClearanceCheck.of(*corners.T, clearance - SLACK)
+        """C entries: when each corner is cleared."""
+        self.is_short: Bool = length <= clearance + SLACK
+        """bool[C]: the leg is no longer than the clearance."""
+        yaw = np.arctan2(heading[:, 1], heading[:, 0])
+        turn = np.abs(np.remainder(yaw - np.roll(yaw, 1) + np.pi, 2 * np.pi) - np.pi)
+        bends = np.where((turn > STRAIGHT) | is_last, np.arange(count), count)  # no turn is NaN at either end
+        following = np.minimum.accumulate(bends[::-1])[::-1]
+        self.bend: Int = following - np.repeat(self.first_corner, self.last_corner + 1)
+        """i8[C]: the first corner of its robot, from each on, at which the direction changes, or the last."""
+        return heading
+
+    def _arrival(self, waypoint: Float, row: Int, heading: Float, rules: ArrivalRules) -> WaypointCheck:
+        goal = self.first + self.last
+        tolerance = np.full(len(waypoint), rules.waypoint_tolerance)
+        tolerance[goal] = rules.xy_goal_tolerance
+        into = np.concatenate([np.full((1, 2), np.nan), heading[:-1]])[: len(heading)]  # NaN at each first corner
+        along = into[row]
+        lateral = along[:, 0] * 0 + rules.waypoint_tolerance
+        along[goal], lateral[goal] = np.nan, np.nan
+        return WaypointCheck.of(waypoint[:, 0], waypoint[:, 1], tolerance, along[:, 0], along[:, 1], lateral)

@@ -1,0 +1,100 @@
+"""What the navigator `waypoints` does in every control period: check progress, command, detour, recover."""
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.navigator import NavigatorSession
+from mrpbench_core.builtin.navigators.controller_server import ControllerServer
+from mrpbench_core.builtin.navigators.detours import Detours
+from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
+from mrpbench_core.builtin.navigators.recovery_manager import RecoveryManager
+from mrpbench_core.builtin.navigators.route_follower import RouteFollower
+from mrpbench_core.model.arrays import Bool, Byte, Float, Int
+from mrpbench_core.model.execution import Event, FleetObservation, Mode, Motion, Observations, Orders, Route
+
+_FOLLOWING, _WAITING, _RECOVERING, _ABORTED = (
+    np.uint8(mode) for mode in (Mode.FOLLOWING, Mode.WAITING, Mode.RECOVERING, Mode.ABORTED)
+)
+
+
+@attrs.frozen(kw_only=True)
+class WaypointsSession(NavigatorSession):
+    """Drives a fleet along its routes."""
+
+    follower: RouteFollower
+    controllers: ControllerServer
+    progress_checker: ProgressChecker
+    detours: Detours
+    recoveries: RecoveryManager
+    xy_goal_tolerance: float
+
+    def adopt(self, routes: Sequence[Route]) -> None:
+        """Follow new routes; robots that gave up try again."""
+        self.follower.adopt(routes)
+        self.detours.cancel_all()
+        self.recoveries.reset()
+
+    def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
+        """Command all robots for one control period."""
+        pose, measured = observation.estimate.pose, observation.odometry.twist
+        follower, recoveries = self.follower, self.recoveries
+        follower.update(pose, measured[:, 0], orders.released, observation.level)
+        self.detours.shorten(pose)
+        foot = follower.foot(pose)
+        under_way = follower.under_way(pose) & ~recoveries.aborted
+        following = follower.driven(pose, foot) & ~recoveries.aborted & ~recoveries.recovering
+        twist, events = self._drive(now, observation, foot, following.nonzero()[0])
+        stuck = self.progress_checker.check(now, pose, under_way & ~recoveries.recovering)
+        failed = self.controllers.have_failed(now, following)
+        for robot in (stuck | failed).nonzero()[0].tolist():
+            if stuck[robot]:
+                events.append(Event(stamp=now, kind="no_progress", robot=robot))
+            else:
+                reason = self.controllers.failure_reason(robot)
+                events.append(Event(stamp=now, kind="no_command", robot=robot, detail=reason))
+            events += recoveries.begin(robot, now, pose)
+            self.detours.cancel(robot)
+            twist[robot] = 0.0
+        events += recoveries.step(now, pose, measured, twist)
+        return Motion(
+            twist=twist,
+            reached=follower.reached,
+            cleared=follower.cleared,
+            mode=_modes(under_way, recoveries.recovering, recoveries.aborted),
+            events=tuple(events),
+        )
+
+    def _drive(self, now: float, observation: FleetObservation, foot: Float, robots: Int) -> tuple[Float, list[Event]]:
+        """The controllers' commands for the whole fleet f8[n,2], zero where there is none."""
+        twist = np.zeros((len(foot), 2))
+        follower = self.follower
+        rows = slice(None) if len(robots) == len(foot) else robots
+        on_routes = Observations(
+            now=now,
+            robot=robots,
+            pose=observation.estimate.pose[rows],
+            twist=observation.odometry.twist[rows],
+            foot=foot[rows],
+            points=follower.corners,
+            begin=follower.begin[rows],
+            end=follower.end[rows],
+            yaw=follower.yaw[rows],
+            speed=follower.speed[rows],
+            tolerance=self.xy_goal_tolerance,
+            scans=observation.scans,
+            fleet_pose=observation.estimate.pose,
+        )
+        command = self.controllers.command(self.detours.apply(on_routes))
+        missing = np.isnan(command[:, 0])
+        events = self.detours.request(on_routes, missing)
+        twist[robots] = np.where(missing[:, None], 0.0, command)
+        return twist, events
+
+
+def _modes(under_way: Bool, recovering: Bool, aborted: Bool) -> Byte:
+    mode = np.where(under_way, _FOLLOWING, _WAITING)
+    mode[recovering] = _RECOVERING
+    mode[aborted] = _ABORTED
+    return mode
