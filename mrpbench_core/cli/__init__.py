@@ -1,1 +1,1 @@
-"""The command line: one file per command, thin callers of the Python API."""
+"""The command line: one file per command, which calls the Python API; `input` and `output` hold what commands share."""

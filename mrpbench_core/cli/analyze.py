@@ -1,63 +1,76 @@
-"""`mrpbench analyze BAG`: the metrics of runs, on a recording of a real or otherwise simulated fleet."""
+"""`mrpbench analyze BAG`: compute the metrics of runs for a recording of a real fleet or of another simulator."""
 
 import argparse
 from pathlib import Path
 from typing import Any
 
-from mrpbench_core.cli.arguments import read_options
-from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.cli.input.arguments import read_options
+from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
 
 SHOWN = 20
-"""Notes that are printed."""
+"""Notes and robots that are printed."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
-        "World and scenario need not be named where mrpbench itself wrote the bag. Without a plan, a robot has reached"
-        " a goal when it is first seen within --tolerance of it. Topics are found by patterns, which are options of the"
-        " importer: `mrpbench plugins show importer:rosbag2`."
+        "A bag that mrpbench wrote needs neither --world nor --scenario. If there is no plan, a robot reaches a goal"
+        " when it first comes within --tolerance of it. Patterns for topics are options of the importer:"
+        " `mrpbench plugins show importer:rosbag2`."
     )
-    parser.add_argument("bag", type=Path, metavar="BAG", help="a rosbag2: its folder, or one .mcap or .db3 file")
-    parser.add_argument("--world", metavar="FILE|NAME", help="a world's file, or a built-in world")
+    parser.add_argument("bag", type=Path, metavar="BAG", help="a rosbag2: a folder, or one .mcap or .db3 file")
+    parser.add_argument("--world", metavar="FILE|NAME", help="file of a world, or name of a built-in world")
     parser.add_argument(
-        "--scenario", type=Path, metavar="FILE", help="as `mrpbench scenario CONFIG --write FILE` writes"
+        "--scenario",
+        type=Path,
+        metavar="FILE",
+        help="scenario file, as `mrpbench scenario CONFIG --write FILE` writes it",
     )
     parser.add_argument(
-        "--robots", default="", metavar="A,B,…", help="names or patterns of the robots, in the scenario's order"
+        "--robots", default="", metavar="A,B,…", help="names or patterns of the robots, in the order of the scenario"
     )
-    parser.add_argument("--robot", default="turtlebot3_burger", metavar="MODEL", help="model (default: %(default)s)")
-    parser.add_argument("--fleet", metavar="NAME", help="the fleet in /fleet_states, of several")
     parser.add_argument(
-        "--start-time", type=float, metavar="S", help="leave out what is before, seconds from the start"
+        "--robot", default="turtlebot3_burger", metavar="MODEL", help="robot model (default: %(default)s)"
     )
-    parser.add_argument("--end-time", type=float, metavar="S", help="leave out what is after")
-    parser.add_argument("--rate", type=float, default=10.0, metavar="HZ", help="of samples (default: %(default)g)")
+    parser.add_argument("--fleet", metavar="NAME", help="which fleet of /fleet_states, if there are several")
+    parser.add_argument(
+        "--start-time", type=float, metavar="S", help="ignore everything before this time, in seconds from the start"
+    )
+    parser.add_argument("--end-time", type=float, metavar="S", help="ignore everything after this time")
+    parser.add_argument("--rate", type=float, default=10.0, metavar="HZ", help="sampling rate (default: %(default)g)")
     parser.add_argument(
         "--max-gap",
         type=float,
         default=2.0,
         metavar="S",
-        help="time without poses after which a robot that has moved was anywhere (default: %(default)g)",
+        help="longest gap in the poses of a moving robot whose position still counts as known (default: %(default)g)",
     )
     parser.add_argument(
-        "--tolerance", type=float, default=0.25, metavar="M", help="radius of goals (default: %(default)g)"
+        "--tolerance",
+        type=float,
+        default=0.25,
+        metavar="M",
+        help="distance at which a goal counts as reached (default: %(default)g)",
     )
-    parser.add_argument("--metrics", default="planning,execution", metavar="A,B", help="default: %(default)s")
-    parser.add_argument("--importer", default="rosbag2", metavar="NAME", help="what reads BAG (default: %(default)s)")
-    parser.add_argument("--option", action="append", default=[], metavar="K=V", help="an option of the importer")
-    parser.add_argument("--label", default="recorded", help="its `simulator` in tables (default: %(default)s)")
+    parser.add_argument(
+        "--metrics", default="planning,execution", metavar="A,B", help="metrics to compute (default: %(default)s)"
+    )
+    parser.add_argument(
+        "--importer", default="rosbag2", metavar="NAME", help="importer that reads BAG (default: %(default)s)"
+    )
+    parser.add_argument("--option", action="append", default=[], metavar="K=V", help="option of the importer")
+    parser.add_argument("--label", default="recorded", help="value of `simulator` in tables (default: %(default)s)")
     parser.add_argument("--out", type=Path, metavar="DIR", help="results folder (default: results/<name of BAG>)")
     parser.add_argument("--json", action="store_true", help="print the record as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Measure, keep, print."""
+    """Measure the bag, store the record and print it."""
     from mrpbench_core.api.importer import Importer
     from mrpbench_core.api.metric import Metric
-    from mrpbench_core.cli.world import world_source
+    from mrpbench_core.cli.input.world import world_source
     from mrpbench_core.engine.analysis.analysis import Analysis, analyze
     from mrpbench_core.engine.analysis.observed_run import Sampling
 
@@ -110,7 +123,7 @@ def _print(record: dict[str, Any], out: Path) -> None:
     for key, value in record["metrics"].items():
         reason = reasons.get(key) or reasons.get(key.partition(".")[0]) or ""
         rows.append([key, f"{value:.6g}" if isinstance(value, float) else value, "" if value is not None else reason])
-    print_table(["metric", "value", "null because"], rows)
+    print_table(["metric", "value", "reason for null"], rows)
     print(f"{record['status']}, scenario {record['scenario_id']}")
     sources: dict[str, list[str]] = {}
     for robot, source in record["analysis"]["sources"].items():

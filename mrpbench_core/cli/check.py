@@ -1,4 +1,4 @@
-"""`mrpbench check NAME [OPTION=VALUE…]`: the conformance suite of a plugin's kind, without pytest."""
+"""`mrpbench check NAME [OPTION=VALUE…]`: run the conformance suite of a plugin without pytest."""
 
 import argparse
 import contextlib
@@ -6,9 +6,9 @@ import sys
 from pathlib import Path
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.cli.arguments import read_options
-from mrpbench_core.cli.resolve import resolve
-from mrpbench_core.cli.table import print_json
+from mrpbench_core.cli.input.arguments import read_options
+from mrpbench_core.cli.input.plugin_name import resolve
+from mrpbench_core.cli.output.table import print_json
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
 from mrpbench_core.plugins.kinds import kind_of
@@ -21,22 +21,22 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "words",
         nargs="+",
         metavar="NAME",
-        help="an installed plugin, NAME or KIND:NAME; or ./file.py:Class, package.module:Class; then its options",
+        help="an installed plugin (NAME or KIND:NAME), ./file.py:Class or package.module:Class; then its options",
     )
     parser.add_argument("--json", action="store_true", help="print as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print one line for each check; 1 if any failed."""
+    """Print one line for each check and return 1 if any failed."""
     name, *words = arguments.words
     component = make(name, words)
-    from mrpbench_core.testing import run_checks, suite_for  # the kit takes longer to import than to be refused
+    from mrpbench_core.testing import run_checks, suite_for  # after the user's errors: the kit takes long to import
 
     kind = kind_of(component.group)
     outcomes = []
     checks = run_checks(suite_for(component))
     while True:
-        with contextlib.redirect_stdout(sys.stderr):  # what a plugin prints is not our output
+        with contextlib.redirect_stdout(sys.stderr):  # a plugin's output is not part of ours
             check = next(checks, None)
         if check is None:
             break
@@ -53,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def make(name: str, words: list[str]) -> Component:
-    """The component of that name with options from the command line.
+    """Return the component of that name, with options from the command line.
 
     Raises:
         InputError, InputErrors: there is no such plugin, or its options are wrong or missing.

@@ -1,10 +1,10 @@
-"""`mrpbench compare A B`: what got better or worse from one results folder to another."""
+"""`mrpbench compare A B`: say what is better or worse in one results folder than in another."""
 
 import argparse
 from pathlib import Path
 
-from mrpbench_core.cli.arguments import split_names
-from mrpbench_core.cli.table import print_json, print_wide
+from mrpbench_core.cli.input.arguments import split_names
+from mrpbench_core.cli.output.table import print_json, print_wide
 from mrpbench_core.files.text import counted
 from mrpbench_core.store.results import load
 
@@ -12,19 +12,19 @@ from mrpbench_core.store.results import load
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
-        "Runs are paired by scenario (and repeats averaged), configurations by the options that vary within a folder."
-        " Exit code: 0 nothing is significantly worse in B, 1 something is, 2 nothing could be compared."
+        "Runs are paired by scenario, after repeats are averaged; configurations are paired by the options that vary"
+        " within a folder. Exit code: 0 nothing is significantly worse in B, 1 something is, 2 nothing can be compared."
     )
-    parser.add_argument("first", metavar="A", help="results folder to compare with")
+    parser.add_argument("first", metavar="A", help="results folder that is the reference")
     parser.add_argument("second", metavar="B", help="results folder that is judged")
-    parser.add_argument("--metrics", metavar="X,Y", help="columns to compare, or `all` (default: a few that matter)")
+    parser.add_argument("--metrics", metavar="X,Y", help="columns to compare, or `all` (default: the primary columns)")
     parser.add_argument("--by", metavar="X,Y", help="options in which configurations must agree; others are pooled")
     parser.add_argument("--json", action="store_true", help="print as JSON")
-    parser.add_argument("--csv", metavar="FILE", help="write every comparison")
+    parser.add_argument("--csv", metavar="FILE", help="write all comparisons to a file")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Compare and print."""
+    """Compare the folders and print the result."""
     from mrpbench_core.report.rules import RULES
     from mrpbench_core.report.tables.build import pairs_table
     from mrpbench_core.report.tidy import PAIR_COLUMNS, pairs_of, write_rows

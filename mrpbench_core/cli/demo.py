@@ -1,13 +1,13 @@
-"""`mrpbench demo`: the whole stack once, small."""
+"""`mrpbench demo`: run the whole stack once, on a small scenario."""
 
 import argparse
 import importlib.util
 from pathlib import Path
 from typing import Any
 
-from mrpbench_core.cli.progress import Printed
+from mrpbench_core.cli.output.progress import Printed
+from mrpbench_core.cli.output.summary import print_summary
 from mrpbench_core.cli.run import plugins_line
-from mrpbench_core.cli.summary import print_summary
 from mrpbench_core.cli.view import write_replay
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.study.invoke import prepare
@@ -27,7 +27,7 @@ WANTED = {
     "simulator": ("pybullet", "kinematic"),
     "controller": ("pure_pursuit",),
 }
-"""For each kind, what the demo takes: the first that works here."""
+"""Plugins of each kind in order of preference: the demo uses the first that works here."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -36,7 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Do the run and say what there is to see."""
+    """Do the run and print where its results are."""
     study = load_study(_configuration())
     print(plugins_line([study]), flush=True)
     progress = Printed()
@@ -54,7 +54,7 @@ def _configuration() -> dict[str, Any]:
     for kind, names in WANTED.items():
         chosen[kind] = next((name for name in names if _works(kind, name)), names[-1])
         if chosen[kind] != names[0]:
-            print(f"{kind} {names[0]} is not available here ({_why(names[0])}); {chosen[kind]} takes its place")
+            print(f"{kind} {names[0]} is not available here ({_why(names[0])}); the demo uses {chosen[kind]}")
     return {
         "name": "demo",
         "world": "office",
@@ -111,5 +111,5 @@ def _draw(recording: Recording, picture: Path) -> Path:
 
 
 def _near(path: Path) -> Path:
-    """Relative to where the user is, if it is below."""
+    """Return the path relative to the working directory, if it is below it."""
     return path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path

@@ -1,11 +1,11 @@
-"""`mrpbench export RUN --to NAME`."""
+"""`mrpbench export RUN --to NAME`: write a stored run in another format."""
 
 import argparse
 from pathlib import Path
 
 from mrpbench_core.api.exporter import Exporter
-from mrpbench_core.cli.arguments import read_options
-from mrpbench_core.cli.reference import HELP, find_run
+from mrpbench_core.cli.input.arguments import read_options
+from mrpbench_core.cli.input.run_reference import HELP, find_run
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
 from mrpbench_core.store.recording import Recording
@@ -14,9 +14,11 @@ from mrpbench_core.store.recording import Recording
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("run", metavar="RUN", help=HELP)
-    parser.add_argument("--to", required=True, metavar="NAME", help="an exporter, e.g. rosbag2")
-    parser.add_argument("--option", action="append", default=[], metavar="K=V", help="an option of it")
-    parser.add_argument("--out", metavar="FILE", help="where to, without suffix (default: exports/ in the results)")
+    parser.add_argument("--to", required=True, metavar="NAME", help="exporter, e.g. rosbag2")
+    parser.add_argument("--option", action="append", default=[], metavar="K=V", help="option of the exporter")
+    parser.add_argument(
+        "--out", metavar="FILE", help="destination without suffix (default: exports/ in the results folder)"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:

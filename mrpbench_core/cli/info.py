@@ -1,11 +1,11 @@
-"""`mrpbench info`: facts for a bug report."""
+"""`mrpbench info`: print the facts that a bug report needs."""
 
 import argparse
 import sys
 from typing import Any
 
 from mrpbench_core import __version__
-from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.plugins.installed import distribution, installed
 

@@ -1,4 +1,4 @@
-"""`mrpbench init [NAME]`."""
+"""`mrpbench init [NAME]`: write a commented configuration."""
 
 import argparse
 from pathlib import Path
@@ -6,25 +6,25 @@ from pathlib import Path
 from mrpbench_core.files.errors import InputError
 
 TEMPLATE = """\
-# A study: every key has a default except world and planner; `mrpbench plugins` lists what can be chosen,
-# `mrpbench plugins show NAME` the options of each. Run it with `mrpbench run {file}`.
+# A study. Every key except world and planner has a default. `mrpbench plugins` lists the plugins, and
+# `mrpbench plugins show NAME` the options of a plugin. Run the study with `mrpbench run {file}`.
 name: {name}
 
-world: office                    # built in; or {{plugin: rmf, file: my.building.yaml}}
+world: office                    # built in; a file: {{plugin: rmf, file: my.building.yaml}}
 roadmap: {{plugin: lanes}}         # the graph that planners search: lanes, grid or graph
 scenario: {{plugin: random, robots: 3}}
 fleet: turtlebot3_burger
 
 assigner: {assigner}
 planner: {planner}
-dispatcher: adg                  # robots wait for those that the plan lets pass first
+dispatcher: adg                  # keeps the order in which the plan lets robots pass
 controller: {controller}
 simulator: kinematic             # `none` ends a run after planning; pybullet simulates physics
 
 limits: {{planning: 10 s, execution: 5 min}}
-seed: 0                          # draws the scenario
+seed: 0                          # of the random scenario
 
-matrix:                          # one run for each combination
+matrix:                          # one run per combination
   scenario.robots: [2, 3]
   seed: 0..2
 """
@@ -37,7 +37,7 @@ PREFERRED = {
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.add_argument("name", nargs="?", default="study", metavar="NAME", help="of the study (default: study)")
+    parser.add_argument("name", nargs="?", default="study", metavar="NAME", help="name of the study (default: study)")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
     name = arguments.name.removesuffix(".yaml")
     file = Path(f"{name}.yaml")
     if file.name != str(file) or not name or name.startswith("."):
-        raise InputError(f"{arguments.name!r} is not a name", hint="the file is written to the working directory")
+        raise InputError(f"{arguments.name!r} is not a name", hint="give a name without a folder")
     choices = {kind: _first_installed(kind, names) for kind, names in PREFERRED.items()}
     try:
         with file.open("x", encoding="utf-8") as stream:

@@ -1,7 +1,7 @@
 """The command `mrpbench`. Each command is a module of this package, imported only when it is named.
 
 A command's module has `configure(parser)`, which declares its arguments, and `run(arguments) -> int`, which returns the
-exit code. Mistakes of the user are raised as `InputError` and printed here, one line each.
+exit code. Errors of the user are raised as `InputError` and printed here, one line each.
 """
 
 import argparse
@@ -20,31 +20,31 @@ from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
 
 COMMANDS = {
-    "demo": "a small office run, end to end, in under a minute",
+    "demo": "run a small office scenario, end to end, in under a minute",
     "init": "write a commented configuration that runs",
-    "run": "run what a study still lacks",
-    "report": "print tables of results with intervals, and write them as a page",
-    "compare": "say what got better or worse between two results folders",
-    "view": "write a replay of a run that any browser opens",
+    "run": "do the runs of a study that have no record yet",
+    "report": "print tables of results with intervals, and write an HTML page",
+    "compare": "compare two results folders and test the differences",
+    "view": "write a replay of a run as an HTML page",
     "export": "write a stored run in another format",
-    "analyze": "measure a bag of a real or otherwise simulated fleet",
-    "scenario": "freeze the instances a study draws, for publication",
-    "world": "facts and checks of a map",
-    "plugins": "list what is installed, or show one plugin's options",
-    "check": "run the checks that every plugin of its kind must pass",
-    "new-plugin": "write a plugin that works, in a folder of its own",
+    "analyze": "compute metrics of a bag from a real fleet or another simulator",
+    "scenario": "write the scenarios of a study to files, for publication",
+    "world": "print the facts and faults of a map, draw it, convert it",
+    "plugins": "list installed plugins, or show the options of one",
+    "check": "check a plugin against the contract of its kind",
+    "new-plugin": "write a working plugin to start from",
     "schema": "print the JSON Schema of configurations, for editors",
-    "info": "facts about this machine and installation, for bug reports",
+    "info": "print facts about machine and installation, for bug reports",
 }
 INTERRUPTED = 130
 
 
 class Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line."""
+    """Prints an error as one line."""
 
     def error(self, message: str) -> NoReturn:
         """Print the line and exit."""
-        sys.stderr.write(f"{self.prog}: {message} (`{self.prog} --help` lists what there is)\n")
+        sys.stderr.write(f"{self.prog}: {message} (see `{self.prog} --help`)\n")
         raise SystemExit(2)
 
 
@@ -62,13 +62,13 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         sys.stderr.write("mrpbench: interrupted\n")
         code = INTERRUPTED
-    except BrokenPipeError:  # `| head` has seen enough; keep Python from flushing into it at exit
+    except BrokenPipeError:  # e.g. `| head` has ended; Python must not flush to it at exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = 0
     except OSError as error:
         if not is_full(error):
             code = _defect(error)
-        else:  # of what was printed, or of a file that was being written
+        else:  # stdout, or a file that was being written
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             code = _input_errors([InputError(f"cannot write: {error.strerror}", file=error.filename)])
     except Exception as error:  # noqa: BLE001 - the last resort: one line, and the rest where it can be found
@@ -79,11 +79,11 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _dispatch(words: list[str]) -> int:
     top = Parser(
         prog="mrpbench",
-        description="Benchmark for multi-robot planning: from task assignment to what the robots then do.",
+        description="Benchmark for multi-robot planning, from task assignment to execution.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
         epilog="commands:\n"
         + "\n".join(f"  {name:<10} {text}" for name, text in COMMANDS.items())
-        + "\n\n`mrpbench COMMAND --help` says more about each.",
+        + "\n\n`mrpbench COMMAND --help` describes a command.",
         usage="mrpbench [-h] [--version] COMMAND …",
     )
     top.add_argument("--version", action="version", version=f"mrpbench {__version__}")
@@ -110,7 +110,7 @@ def _input_errors(errors: Sequence[InputError]) -> int:
 
 
 def _defect(error: Exception) -> int:
-    """Say in one line that mrpbench itself failed."""
+    """Report a defect of mrpbench in one line."""
     if os.environ.get("MRPBENCH_TRACEBACK"):
         traceback.print_exception(error)
         return 1

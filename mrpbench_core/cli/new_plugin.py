@@ -1,4 +1,4 @@
-"""`mrpbench new-plugin KIND NAME`: a distribution that installs, runs and passes its checks, to be changed."""
+"""`mrpbench new-plugin KIND NAME`: write a distribution that installs, runs and passes its checks, as a start."""
 
 import argparse
 import keyword
@@ -16,40 +16,40 @@ from mrpbench_core.plugins.kinds import group_of, singular
 
 SHARED = {"pyproject.toml.txt", "README.md.txt", "gitignore.txt", "init.py.txt", "test.py.txt"}
 EXAMPLES = {"scenario": {"robots": 3}}
-"""Options that a kind's template requires, with values for its test."""
+"""Required options of a template, by kind, with values for its test."""
 NAME = re.compile(r"[a-z][a-z0-9]*([_-][a-z0-9]+)*")
 
 
 @attrs.frozen
 class Plugin:
-    """The names of a new plugin; all follow from kind and name."""
+    """The names of a new plugin; all follow from its kind and name."""
 
     kind: str
     name: str
 
     @property
     def kinds(self) -> str:
-        """The kind's plural, as in its entry-point group."""
+        """Plural of the kind, as in its entry-point group."""
         return group_of(self.kind).rpartition(".")[2]
 
     @property
     def package(self) -> str:
-        """What is imported."""
+        """Name of the package."""
         return f"mrpbench_{self.kinds}_{self.name}"
 
     @property
     def distribution(self) -> str:
-        """What is installed."""
+        """Name of the distribution."""
         return self.package.replace("_", "-")
 
     @property
     def class_name(self) -> str:
-        """The component."""
+        """Name of the component's class."""
         return "".join(word.capitalize() for word in self.name.split("_"))
 
     @property
     def placeholders(self) -> dict[str, str]:
-        """What stands in the templates."""
+        """Values of the placeholders in the templates."""
         major, minor = __version__.split(".")[:2]
         options = EXAMPLES.get(self.kind, {})
         return {
@@ -72,9 +72,9 @@ class Plugin:
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("kind", metavar="KIND", help=", ".join(kinds()))
-    parser.add_argument("name", metavar="NAME", help="what configurations call it: small letters, digits, _")
+    parser.add_argument("name", metavar="NAME", help="name in configurations: lower-case letters, digits, _")
     parser.add_argument(
-        "--folder", metavar="DIR", type=Path, help="a new folder (default: named after the distribution)"
+        "--folder", metavar="DIR", type=Path, help="folder to create (default: the name of the distribution)"
     )
 
 
@@ -84,34 +84,36 @@ def run(arguments: argparse.Namespace) -> int:
     folder = arguments.folder or Path(plugin.distribution)
     write(plugin, folder)
     example = plugin.placeholders["example"]
-    print(f"wrote {folder}: a {plugin.kind} that works. Next:")
+    print(f"wrote {folder}: a working {plugin.kind}. Next:")
     print(f"  pip install -e {folder}")
     print(f"  mrpbench check {plugin.kind}:{plugin.name}{example}")
     return 0
 
 
 def kinds() -> list[str]:
-    """The kinds that have a template."""
+    """Return the kinds that have a template."""
     files = (file.name for file in resources.files("mrpbench_core.cli").joinpath("templates").iterdir())
     return sorted(name.removesuffix(".py.txt") for name in files if name.endswith(".py.txt") and name not in SHARED)
 
 
 def named(kind: str, name: str) -> Plugin:
-    """Check the words of the user.
+    """Return the names of the plugin that the user asks for.
 
     Raises:
-        InputError: there is no template for the kind, or the name is no name, or taken.
+        InputError: there is no template for the kind, or the name is invalid or taken.
     """
     kind = singular(kind)
     if kind not in kinds():
         raise InputError(f"there is no template for a {kind!r}", hint=f"there are {', '.join(kinds())}")
     plugin = Plugin(kind, name.replace("-", "_"))
     if not NAME.fullmatch(name):
-        raise InputError(f"{name!r} is not a name", hint="small letters, digits and _, beginning with a letter")
+        raise InputError(
+            f"{name!r} is not a name", hint="use lower-case letters, digits and _, beginning with a letter"
+        )
     if keyword.iskeyword(plugin.name):
-        raise InputError(f"{name!r} is a word of Python", hint="choose another name")
+        raise InputError(f"{name!r} is a keyword of Python", hint="choose another name")
     if plugin.class_name in _words(plugin):
-        raise InputError(f"a class {plugin.class_name} would hide another of that name", hint="choose another name")
+        raise InputError(f"the template already uses the name {plugin.class_name}", hint="choose another name")
     for provider in installed():
         if provider.kind == kind and provider.name == plugin.name:
             raise InputError(f"{kind} {plugin.name!r} is installed already, by {provider.origin}")
@@ -122,7 +124,7 @@ def write(plugin: Plugin, folder: Path) -> None:
     """Write the distribution.
 
     Raises:
-        InputError: the folder is there already, or cannot be written.
+        InputError: the folder exists already, or cannot be written.
     """
     files = {
         "pyproject.toml": "pyproject.toml.txt",
@@ -141,13 +143,13 @@ def write(plugin: Plugin, folder: Path) -> None:
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, encoding="utf-8")
     except FileExistsError:
-        raise InputError("is there already and is not overwritten", file=folder) from None
+        raise InputError("exists already and is not overwritten", file=folder) from None
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror}", file=folder) from None
 
 
 def _words(plugin: Plugin) -> set[str]:
-    """The names that the template uses."""
+    """Return the capitalised names in the template."""
     return set(re.findall(r"\b[A-Z]\w*", _template(f"{plugin.kind}.py.txt")))
 
 

@@ -1,9 +1,9 @@
-"""`mrpbench plugins [show NAME]`. Listing imports none of them."""
+"""`mrpbench plugins [KIND | show NAME]`: list plugins without importing them, or show one."""
 
 import argparse
 from typing import Any
 
-from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import Provider, installed
 from mrpbench_core.plugins.kinds import singular
@@ -12,17 +12,19 @@ from mrpbench_core.plugins.kinds import singular
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.usage = "mrpbench plugins [-h] [--json] [KIND | show NAME]"
-    parser.add_argument("words", nargs="*", help="a kind, e.g. planner; or `show` and a plugin's name or KIND:NAME")
+    parser.add_argument(
+        "words", nargs="*", help="a kind, e.g. planner; or `show` and the NAME or KIND:NAME of a plugin"
+    )
     parser.add_argument("--json", action="store_true", help="print as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """List or show."""
+    """List plugins, or show one."""
     words = arguments.words
     if words[:1] == ["show"]:
         if len(words) != 2:
-            raise InputError("name one plugin to show, e.g. `mrpbench plugins show lanes`")
-        from mrpbench_core.cli.options import show
+            raise InputError("`show` needs the name of one plugin", hint="e.g. `mrpbench plugins show lanes`")
+        from mrpbench_core.cli.output.plugin import show
 
         show(words[1], arguments.json)
         return 0
@@ -33,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
         found = [provider for provider in found if provider.kind == singular(words[0])]
         if not found:
             kinds = dict.fromkeys(provider.kind for provider in installed())
-            raise InputError(f"no plugin is a {words[0]!r}", hint="there are " + ", ".join(kinds))
+            raise InputError(f"no plugin has the kind {words[0]!r}", hint="there are " + ", ".join(kinds))
     if arguments.json:
         print_json([_facts(provider) for provider in found])
         return 0

@@ -4,8 +4,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mrpbench_core.cli.arguments import split_names
-from mrpbench_core.cli.table import print_json, print_wide
+from mrpbench_core.cli.input.arguments import split_names
+from mrpbench_core.cli.output.table import print_json, print_wide
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.results import load
 
@@ -53,7 +53,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print or write the tables."""
-    from mrpbench_core.cli.replays import make_replays
+    from mrpbench_core.cli.output.replays import make_replays
     from mrpbench_core.report.analysis import analyse
     from mrpbench_core.report.html.page import write_report
     from mrpbench_core.report.rules import RULES

@@ -1,4 +1,4 @@
-"""`mrpbench run CONFIG… [key=value…]`."""
+"""`mrpbench run CONFIG… [key=value…]`: do the runs of studies."""
 
 import argparse
 import signal
@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from contextlib import closing, redirect_stdout
 from typing import Any
 
-from mrpbench_core.cli.arguments import add_configuration, read_options, split_words
-from mrpbench_core.cli.progress import SHORT, Printed
-from mrpbench_core.cli.summary import print_summary
-from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.cli.input.arguments import add_configuration, read_options, split_words
+from mrpbench_core.cli.output.progress import SHORT, Printed
+from mrpbench_core.cli.output.summary import print_summary
+from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.config.study import Study, load_studies
 from mrpbench_core.engine.study.invoke import prepare
 from mrpbench_core.engine.study.record import code_of
@@ -22,32 +22,38 @@ from mrpbench_core.report.axes import word
 from mrpbench_core.store.results import Results
 
 GROUPS_SHOWN = 20
-"""Rows of the table at the end."""
+"""Rows of the summary."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
-        "Runs that have a record are not done again. Exit code: 0 every run has a definite status, 1 some crashed or"
-        " could not be run, 2 the configuration is wrong, 130 interrupted (the same command goes on from there)."
+        "Runs that have a record are not repeated. Exit code: 0 every run has a definite status, 1 some runs crashed or"
+        " could not be done, 2 the configuration is wrong, 130 interrupted (the same command continues)."
     )
     add_configuration(parser)
-    parser.add_argument("--out", metavar="DIR", help="results folder (default: results/NAME of the configuration)")
-    parser.add_argument("--workers", type=int, default=1, metavar="N", help="runs at once (default: 1)")
-    parser.add_argument("--executor", default="processes", metavar="NAME", help="where runs execute")
-    parser.add_argument("--executor-option", action="append", default=[], metavar="K=V", help="an option of it")
-    parser.add_argument("--shard", metavar="i/n", help="only part i of n, counted from 0; give each its own --out")
+    parser.add_argument(
+        "--out", metavar="DIR", help="results folder (default: results/NAME, with the name of the study)"
+    )
+    parser.add_argument("--workers", type=int, default=1, metavar="N", help="number of runs at a time (default: 1)")
+    parser.add_argument(
+        "--executor", default="processes", metavar="NAME", help="executor of the runs (default: %(default)s)"
+    )
+    parser.add_argument("--executor-option", action="append", default=[], metavar="K=V", help="option of the executor")
+    parser.add_argument(
+        "--shard", metavar="i/n", help="do only part i of n, counted from 0; give each part its own --out"
+    )
     parser.add_argument(
         "--rerun",
         choices=("failed", "changed", "all"),
-        help="also do again: runs that crashed, ran out of memory or wall time, or broke a contract; "
-        "those made with other versions; or all",
+        help="also repeat runs: `failed` = crashed, out of memory or wall time, or broken contract; `changed` = made"
+        " with other versions or sources; `all`",
     )
-    parser.add_argument("--dry-run", action="store_true", help="list what would be done, and stop")
+    parser.add_argument("--dry-run", action="store_true", help="list the runs without doing them")
     parser.add_argument(
         "--json",
         action="store_true",
-        help="print what came of it (with --dry-run, the list) as JSON; the rest goes to stderr",
+        help="print the outcome (with --dry-run, the list) as JSON; everything else goes to stderr",
     )
 
 
@@ -66,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _work(
     arguments: argparse.Namespace, files: Sequence[str], overrides: Sequence[str], options: dict[str, Any]
 ) -> tuple[int, list[tuple[Request, Results]]]:
-    """Do the runs, or list them; returns the exit code, and the results of each study that was done."""
+    """Do the runs, or list them; return the exit code and the results of each finished study."""
     studies = load_studies(files, overrides)
     progress = Printed()
     requests = [
@@ -89,7 +95,7 @@ def _work(
         _list(studies, requests, arguments.json)
         return int(any(study.errors for study in studies)), []
     print(plugins_line(studies), flush=True)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs so
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs with SIGTERM
     ended = [_run_one(study, request, progress) for study, request in zip(studies, requests, strict=True)]
     done = [(request, results) for request, (_, results) in zip(requests, ended, strict=True)]
     return max(code for code, _ in ended), done
@@ -104,9 +110,7 @@ def _run_one(study: Study, request: Request, progress: Printed) -> tuple[int, Re
         with closing(progress):
             done = run_study(study, request)
     except KeyboardInterrupt:
-        sys.stderr.write(
-            f"interrupted; what is finished is kept in {request.out}, the same command goes on from there\n"
-        )
+        sys.stderr.write(f"interrupted; finished runs are in {request.out}, and the same command continues\n")
         raise SystemExit(130) from None
     for mistake, runs in Counter(line for text in done.mistakes.values() for line in text.splitlines()).items():
         sys.stderr.write(f"{mistake}\n" if runs == 1 else f"{mistake} ({runs} runs)\n")
@@ -141,7 +145,7 @@ def _list(studies: Sequence[Study], requests: Sequence[Request], as_json: bool) 
 
 
 def plugins_line(studies: Sequence[Study]) -> str:
-    """Whose code runs, with versions."""
+    """Return one line with the distributions and versions of the plugins."""
     offered: dict[str, list[str]] = {}
     for entry in {
         id(part): part for study in studies for point in study.runs for part in code_of(point)["components"]
@@ -159,6 +163,6 @@ def _summarize(done: StudyOutcome, request: Request) -> None:
     statuses = sorted(results.statuses().items(), key=lambda item: -item[1])
     counts = ", ".join(f"{count} {status}" for status, count in statuses)
     print(f"{counted(len(results), 'run')}: {counts}; results in {request.out}")
-    print(f"intervals, comparisons and a page: `mrpbench report {request.out}`")
+    print(f"for intervals, comparisons and an HTML page: `mrpbench report {request.out}`")
     if results.statuses().get(RunStatus.CRASHED):
-        print(f"why runs crashed is in {request.out}/logs; `--rerun failed` does them again")
+        print(f"{request.out}/logs shows why runs crashed; `--rerun failed` repeats them")

@@ -1,9 +1,9 @@
-"""`mrpbench scenario CONFIG… --write FILE`."""
+"""`mrpbench scenario CONFIG… --write FILE`: write the scenarios of studies."""
 
 import argparse
 from pathlib import Path
 
-from mrpbench_core.cli.arguments import add_configuration, split_words
+from mrpbench_core.cli.input.arguments import add_configuration, split_words
 from mrpbench_core.config.study import load_studies
 from mrpbench_core.engine.stages.prepare import build_instance
 from mrpbench_core.files.errors import InputError
@@ -14,18 +14,18 @@ from mrpbench_core.model.scenario import Scenario
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.epilog = "Read back with `scenario: {plugin: file, file: FILE}`."
+    parser.epilog = "`scenario: {plugin: file, file: FILE}` reads the file."
     add_configuration(parser)
     parser.add_argument(
         "--write",
         required=True,
         metavar="FILE",
-        help="a .yaml file; where the study draws several scenarios, the id of each is put before the suffix",
+        help="a .yaml file; if the study has several scenarios, the id of each is inserted before the suffix",
     )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Draw and write each scenario once."""
+    """Draw each scenario once and write it."""
     files, overrides = split_words(arguments.words)
     studies = load_studies(files, overrides)
     drawn: dict[str, Scenario] = {}

@@ -7,7 +7,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.api.planner import Planner
-from mrpbench_core.cli.reference import HELP, find_run
+from mrpbench_core.cli.input.run_reference import HELP, find_run
 from mrpbench_core.config.canonical import json_scalar
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import load as load_yaml

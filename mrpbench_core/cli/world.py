@@ -1,24 +1,23 @@
-"""`mrpbench world FILE|NAME`: facts, faults and picture of a map."""
+"""`mrpbench world FILE|NAME`: print the facts and faults of a map, draw it, convert it."""
 
 import argparse
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
 
 if TYPE_CHECKING:
     from mrpbench_core.api.roadmap import RoadmapBuilder
-    from mrpbench_core.api.world import WorldSource
     from mrpbench_core.checking.world import WorldFacts
     from mrpbench_core.model.occupancy import Occupancy
     from mrpbench_core.model.roadmap import Roadmap
     from mrpbench_core.model.world import World
 
 SHOWN = 20
-"""Largest number of faults or notes that are printed."""
+"""Faults and notes that are printed."""
 RESOLUTION = 0.05
 """metres per pixel of a converted map."""
 
@@ -28,33 +27,36 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "world", metavar="FILE|NAME", help="a .building.yaml, .map or map_server .yaml file, or a built-in world"
     )
-    parser.add_argument("--level", help="the only level of a building to load; default: all levels")
+    parser.add_argument("--level", help="load only this level of a building (default: all levels)")
     parser.add_argument(
         "--roadmap",
         metavar="NAME",
-        help="lanes (default where there are lanes), grid or graph (default for several levels)",
+        help="lanes (default if the map has lanes), grid, or graph (default for several levels)",
     )
-    parser.add_argument("--cell-size", type=float, metavar="M", help="cell size of lanes and grid; default: 0.4 m")
-    parser.add_argument("--compatible", choices=["mrp_bench"], help="the raster of the original benchmark")
-    parser.add_argument("--robot", default="turtlebot3_burger", help="the robot that has to fit (default: %(default)s)")
+    parser.add_argument("--cell-size", type=float, metavar="M", help="cell size of lanes and grid (default: 0.4 m)")
+    parser.add_argument("--compatible", choices=["mrp_bench"], help="build the raster of the original benchmark")
+    parser.add_argument(
+        "--robot", default="turtlebot3_burger", help="robot that must fit through passages (default: %(default)s)"
+    )
     parser.add_argument(
         "--render",
         type=Path,
         metavar="PNG",
-        help="draw the world and its roadmap; further levels become files beside it",
+        help="draw the world and its roadmap; further levels get files of their own",
     )
     parser.add_argument(
         "--convert",
         type=Path,
         metavar="FILE",
-        help="write everything solid as a ROS map (.yaml and .pgm), or the raster of the roadmap as a MovingAI .map",
+        help="write all solid things as a ROS map (.yaml and .pgm), or the raster of the roadmap as a MovingAI .map",
     )
     parser.add_argument("--json", action="store_true", help="print as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Load and check the world, print its facts, and draw it."""
+    """Load and check the world; print, draw and convert it as requested."""
     from mrpbench_core.checking.world import check_world
+    from mrpbench_core.cli.input.world import world_source
     from mrpbench_core.files.robot import load_robot
     from mrpbench_core.model.fleet import Fleet
 
@@ -81,47 +83,19 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def world_source(name: str, level: str | None = None) -> "WorldSource":
-    """Return the source of a world that is named as on the command line.
-
-    Raises:
-        InputError: no world has that name.
-    """
-    from mrpbench_core.api.world import WorldSource
-    from mrpbench_core.plugins.registry import Registry
-
-    loader = _loader(Path(name))
-    options: dict[str, Any] = {"file": Path(name)} if loader else {}
-    if level is not None:
-        options["level"] = level
-    source: WorldSource = _make(Registry(WorldSource).get(loader or name), loader or name, options)  # type: ignore[type-abstract]
-    return source
-
-
-def _loader(file: Path) -> str | None:
-    """Return the plugin that reads a file; None for the name of a world."""
-    if file.suffix == ".map":
-        return "movingai"
-    if file.suffix not in (".yaml", ".yml"):
-        return None
-    from mrpbench_core.files.yaml import load
-
-    data = load(file).data
-    return "ros_map" if isinstance(data, dict) and "resolution" in data else "rmf"
-
-
 def _builder(arguments: argparse.Namespace, world: "World") -> "RoadmapBuilder":
     from mrpbench_core.api.roadmap import RoadmapBuilder
+    from mrpbench_core.cli.input.world import make_component
     from mrpbench_core.plugins.registry import Registry
 
     raster = "lanes" if world.lanes or arguments.compatible else "grid"
     several = len(world.levels) > 1 and bool(world.lanes)  # which no raster has
     name = arguments.roadmap or ("graph" if several else raster)
     given = {"cell_size": arguments.cell_size, "compatible": arguments.compatible}
-    if several and arguments.roadmap is None:  # then the size is that of a conversion
+    if several and arguments.roadmap is None:  # then --cell-size is that of the conversion
         given.pop("cell_size")
     options = {key: value for key, value in given.items() if value is not None}
-    builder: RoadmapBuilder = _make(Registry(RoadmapBuilder).get(name), name, options)  # type: ignore[type-abstract]
+    builder: RoadmapBuilder = make_component(Registry(RoadmapBuilder).get(name), name, options)  # type: ignore[type-abstract]
     return builder
 
 
@@ -137,7 +111,7 @@ def _convert(file: Path, world: "World", roadmap: "Roadmap", cell_size: float | 
     elif file.suffix == ".map":
         write_movingai_map(file, _planned_raster(roadmap))
     else:
-        raise InputError(f"cannot convert to {file.suffix or 'a file without suffix'}", hint="choose .yaml or .map")
+        raise InputError(f"cannot convert to {file.suffix or 'a file without suffix'}", hint="use .yaml or .map")
 
 
 def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
@@ -146,7 +120,7 @@ def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
     from mrpbench_core.model.occupancy import Occupancy
 
     if roadmap.grid is None:
-        raise InputError("this roadmap has no raster to write", hint="choose --roadmap lanes or grid")
+        raise InputError("this roadmap has no raster to write", hint="use --roadmap lanes or grid")
     blocked = np.ones(roadmap.grid.shape, bool)
     row, column = roadmap.grid.cell.T
     blocked[row, column] = False
@@ -154,26 +128,10 @@ def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
     walled = pairs - len(roadmap.edges) // 2
     if walled:
         print(
-            f"{walled} pairs of neighbouring cells have something solid between them, which a .map cannot express",
+            f"{walled} pairs of neighbouring cells are separated by something solid, which a .map cannot express",
             file=sys.stderr,
         )
     return Occupancy(blocked=blocked, cell_size=roadmap.grid.cell_size, origin=roadmap.grid.origin)
-
-
-def _make(component: Any, name: str, options: dict[str, Any]) -> Any:
-    import attrs
-
-    fields = {field.name: field for field in attrs.fields(component)}
-    for key in options:
-        if key not in fields:
-            raise InputError(f"{name} has no option {key!r}", hint=f"options: {', '.join(fields) or 'none'}")
-    missing = [key for key, field in fields.items() if field.default is attrs.NOTHING and key not in options]
-    if missing:
-        raise InputError(f"{name} needs {', '.join(missing)}", hint="name the file itself")
-    try:
-        return component(**options)
-    except (TypeError, ValueError) as error:
-        raise InputError(f"{name}: {error.args[0]}") from None
 
 
 def _print(facts: "WorldFacts") -> None:

@@ -10,7 +10,7 @@ def test_the_whole_stack_runs_and_leaves_something_to_see(mrpbench, monkeypatch)
     monkeypatch.setitem(demo.WANTED, "simulator", ("holodeck", "kinematic"))
     code, output, errors = mrpbench("demo")
     assert (code, errors) == (0, "")
-    assert "simulator holodeck is not available here (not installed); kinematic takes its place" in output
+    assert "simulator holodeck is not available here (not installed); the demo uses kinematic" in output
     (shard,) = Path("results/demo/runs").iterdir()
     record = json.loads(shard.read_text())
     assert record["status"] == "succeeded"

@@ -109,7 +109,7 @@ def test_nothing_is_overwritten(mrpbench, tmp_path):
     (tmp_path / "mrpbench-planners-mine").mkdir()
     code, _, err = mrpbench("new-plugin", "planner", "mine")
     assert code == 2
-    assert err == "mrpbench-planners-mine: is there already and is not overwritten\n"
+    assert err == "mrpbench-planners-mine: exists already and is not overwritten\n"
     assert not list((tmp_path / "mrpbench-planners-mine").iterdir())
 
 
@@ -120,8 +120,8 @@ def test_nothing_is_overwritten(mrpbench, tmp_path):
         (["planner", "Mine"], "'Mine' is not a name"),
         (["planner", "3d"], "'3d' is not a name"),
         (["planner", "../mine"], "'../mine' is not a name"),
-        (["planner", "class"], "'class' is a word of Python"),
-        (["planner", "path"], "a class Path would hide another of that name"),
+        (["planner", "class"], "'class' is a keyword of Python"),
+        (["planner", "path"], "the template already uses the name Path"),
         (["dispatcher", "adg"], "dispatcher 'adg' is installed already, by mrpbench-core"),
         (["planner"], "NAME"),
     ],

@@ -32,7 +32,7 @@ def test_a_study_is_run_reported_and_not_done_twice(mrpbench):
     assert lines[2].endswith(" succeeded seed=0")
     assert lines[-2:] == [
         "2 runs: 2 succeeded; results in results/tiny",
-        "intervals, comparisons and a page: `mrpbench report results/tiny`",
+        "for intervals, comparisons and an HTML page: `mrpbench report results/tiny`",
     ]
     assert "0 of 2 runs to do, 2 recorded" in mrpbench("run", "tiny.yaml")[1]
 
@@ -76,7 +76,7 @@ def test_a_crash_is_exit_code_1_and_the_log_is_named(mrpbench):
     code, output, _ = mrpbench("run", "tiny.yaml", "planner=./bad.py:Bad", "seed=0")
     assert code == 1
     assert ": ValueError: no (bad.py:6)" in output
-    assert "why runs crashed is in results/tiny/logs" in output
+    assert "results/tiny/logs shows why runs crashed" in output
     assert mrpbench("run", "tiny.yaml", "planner=./bad.py:Bad", "seed=0")[0] == 1
 
 

@@ -84,7 +84,7 @@ def test_what_a_map_cannot_say_is_said(invoke, tmp_path, capsys):
     command.configure(parser)
     command.run(parser.parse_args(["household", "--cell-size", "0.4", "--roadmap", "grid",
                                    "--convert", str(tmp_path / "a.map")]))  # fmt: skip
-    assert "pairs of neighbouring cells have something solid between them" in capsys.readouterr().err
+    assert "pairs of neighbouring cells are separated by something solid" in capsys.readouterr().err
 
 
 def test_further_levels_are_drawn_beside_the_first(invoke, tmp_path, shared_data):
@@ -97,7 +97,7 @@ def test_further_levels_are_drawn_beside_the_first(invoke, tmp_path, shared_data
     ("words", "message"),
     [
         (["office", "--convert", "a.yaml", "--roadmap", "grid", "--cell-size", "0.001"], "choose a larger cell_size"),
-        (["office", "--convert", "office.png"], "cannot convert to .png (choose .yaml or .map)"),
+        (["office", "--convert", "office.png"], "cannot convert to .png (use .yaml or .map)"),
         (["office", "--roadmap", "graph", "--convert", "a.map"], "this roadmap has no raster to write"),
         (["office", "--convert", "no/such/a.map"], "no/such/a.map: cannot be written"),
         (["offise"], "did you mean 'office'"),

@@ -115,9 +115,9 @@ def test_runs_whose_worker_was_killed_are_done_again_and_it_is_said(undisturbed)
         chance.choice(children(process)).kill()
     code, output, errors = finish(process)
     assert (code, errors) == (0, "")
-    assert output.count("is done again: the worker process was ended by SIGKILL") >= 1
+    assert output.count("is repeated: the worker process was ended by SIGKILL") >= 1
     assert essence("out") == undisturbed
-    assert sum(record["attempt"] - 1 for record in load("out")) == output.count("is done again")
+    assert sum(record["attempt"] - 1 for record in load("out")) == output.count("is repeated")
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
@@ -128,7 +128,7 @@ def test_an_interrupted_study_keeps_what_is_finished_and_goes_on(undisturbed, nu
     process.send_signal(number)
     code, _, errors = finish(process)
     assert code == 130
-    assert errors == "interrupted; what is finished is kept in out, the same command goes on from there\n"
+    assert errors == "interrupted; finished runs are in out, and the same command continues\n"
     assert gone(workers)
     kept = len(load("out"))
     assert 3 <= kept < RUNS

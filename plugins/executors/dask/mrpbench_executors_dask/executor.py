@@ -67,9 +67,7 @@ class Cluster(RemoteExecutor):
             except KilledWorker:
                 ours.set_exception(WorkerLost(LOST))
             except CancelledError:
-                ours.set_exception(
-                    InputError("the Dask scheduler was lost", hint="the same command goes on from there")
-                )
+                ours.set_exception(InputError("the Dask scheduler was lost", hint="the same command continues"))
             except BaseException as error:  # noqa: BLE001 - whatever the call raised
                 ours.set_exception(error)
 

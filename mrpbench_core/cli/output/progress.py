@@ -1,4 +1,4 @@
-"""What `mrpbench run` prints while it runs: a live line on a terminal, one line per finished run elsewhere."""
+"""Print the progress of a study: one line that is updated on a terminal, one line per finished run elsewhere."""
 
 import shutil
 import sys
@@ -15,7 +15,7 @@ from mrpbench_core.report.axes import word
 from mrpbench_core.store.results import Results
 
 SHORT = 12
-"""Characters of a run id that are printed; any beginning that is unique names the run."""
+"""Printed characters of a run id; commands accept any unique prefix."""
 REFRESH_S = 0.1
 
 
@@ -23,7 +23,7 @@ class Printed(StudyProgress):
     """Prints to standard output."""
 
     def __init__(self, live: bool | None = None) -> None:
-        """With `live` (default: on a terminal), what went well is only counted."""
+        """With `live` (default: on a terminal), successful runs are only counted."""
         self._live = sys.stdout.isatty() if live is None else live
         self._total = 0
         self._going: dict[str, RunPoint] = {}
@@ -31,7 +31,7 @@ class Printed(StudyProgress):
         self._began = self._drawn = time.monotonic()
 
     def selected(self, selection: Selection, results: Results) -> None:
-        """Say how much there is to do."""
+        """Print the number of runs to do."""
         for error in results.damaged:
             sys.stderr.write(f"{error}\n")
         self._total = len(selection.todo)
@@ -46,23 +46,23 @@ class Printed(StudyProgress):
         sys.stdout.flush()
 
     def started(self, point: RunPoint) -> None:
-        """Remember it for the live line."""
+        """Show the run in the live line."""
         self._going[point.run_id] = point
         self._draw()
 
     def finished(self, point: RunPoint, record: dict[str, Any]) -> None:
-        """Count it; on a terminal only what went wrong gets a line of its own."""
+        """Count the run; on a terminal only a failure gets a line of its own."""
         said = [(record.get("error") or {}).get("message", "")]
         said += [f"no export {name}: {reason}" for name, reason in record.get("unexported", {}).items()]
         self._end(point, record["status"], "; ".join(filter(None, said)))
 
     def lost(self, point: RunPoint, reason: str) -> None:
-        """Say so."""
+        """Print that the run is repeated."""
         self._going.pop(point.run_id)
-        self._say(f"{point.run_id[:SHORT]} is done again: {reason}")
+        self._say(f"{point.run_id[:SHORT]} is repeated: {reason}")
 
     def refused(self, point: RunPoint, mistake: str) -> None:  # noqa: ARG002
-        """Count it; the mistake itself is printed once for all runs it spoils, at the end."""
+        """Count the run; the error is printed at the end, once for all runs that it affects."""
         self._going.pop(point.run_id)
         self._counts["not run"] += 1
         self._draw()
@@ -96,7 +96,7 @@ class Printed(StudyProgress):
         eta = f" · {_clock(left)} left" if done else ""
         going = " ".join(run_id[:SHORT] for run_id in self._going)
         line = f"[{done}/{self._total}] {counts}{eta} · {going}"
-        width = shutil.get_terminal_size().columns - 1  # a line that wraps cannot be taken back
+        width = shutil.get_terminal_size().columns - 1  # a wrapped line cannot be erased
         print("\r\x1b[K" + line[:width], end="", flush=True)
 
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from mrpbench_core.cli import progress
-from mrpbench_core.cli.progress import Printed
+from mrpbench_core.cli.output import progress
+from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.report.axes import word
 
 
@@ -29,7 +29,7 @@ def test_a_terminal_has_one_line_that_counts_and_lines_for_what_went_wrong(capsy
     permanent = [part for part in output.split("\r\x1b[K") if part.endswith("\n")][1:]
     assert permanent == [
         "[2/4] 000000000000 crashed seed=1: ValueError: no\n",
-        "000000000000 is done again: killed\n",
+        "000000000000 is repeated: killed\n",
     ]
     assert "[2/4] 1 succeeded, 1 crashed · 0:00 left · 000000000000" in output
     assert output.endswith("\r\x1b[K")

@@ -1,4 +1,4 @@
-"""Finds the plugin that the command line names: `NAME`, `KIND:NAME`, `./file.py:Class` or `package.module:Class`."""
+"""A plugin on the command line: `NAME`, `KIND:NAME`, `./file.py:Class` or `package.module:Class`."""
 
 from pathlib import Path
 
@@ -13,7 +13,11 @@ from mrpbench_core.plugins.provenance import kind_class
 
 
 def resolve(name: str) -> tuple[type[Component], str]:
-    """The class of a plugin's kind, and the name by which a configuration would choose it."""
+    """Return the class of the kind of a plugin, and the name that a configuration uses for the plugin.
+
+    Raises:
+        InputError: there is no such plugin, or several kinds have one of this name.
+    """
     kind, _, rest = name.partition(":")
     kind = singular(kind)
     if kind in KINDS and rest:
@@ -24,12 +28,12 @@ def resolve(name: str) -> tuple[type[Component], str]:
     if is_local(name):
         cls = load_local(name, Path.cwd())
         if not isinstance(cls, type) or not issubclass(cls, Component) or not hasattr(cls, "group"):
-            raise InputError(f"{name} is no component", hint="derive it from a class of mrpbench_core.api")
+            raise InputError(f"{name} is not a component", hint="derive it from a class of mrpbench_core.api")
         return kind_class(cls), name
     kinds = dict.fromkeys(provider.kind for provider in offers if provider.name == name.partition("@")[0])
     if len(kinds) > 1:
         raise InputError(
-            f"{name!r} is a plugin of several kinds", hint="write " + " or ".join(f"{each}:{name}" for each in kinds)
+            f"several kinds have a plugin {name!r}", hint="write " + " or ".join(f"{each}:{name}" for each in kinds)
         )
     if not kinds:
         hint = suggest(name, {provider.name for provider in offers}, "`mrpbench plugins` lists what is installed:")
@@ -39,7 +43,7 @@ def resolve(name: str) -> tuple[type[Component], str]:
 
 
 def _own_kind(kind: str, name: str) -> type[Component]:
-    """The class of a kind that a plugin defines."""
+    """Return the class of a kind that a plugin defines."""
     for provider in installed():
         if provider.kind == kind and provider.name == name.partition("@")[0]:
             cls = load(provider)

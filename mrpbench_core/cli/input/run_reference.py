@@ -1,4 +1,4 @@
-"""`RUN` on the command line: `DIR:PREFIX` of a run id, or `DIR` if it holds one run."""
+"""A run on the command line: `DIR:PREFIX` with a prefix of its id, or `DIR` if the folder has one run."""
 
 from pathlib import Path
 from typing import Any
@@ -6,11 +6,11 @@ from typing import Any
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.results import Results, load
 
-HELP = "DIR:PREFIX of the run id, or DIR if it holds one run"
+HELP = "DIR:PREFIX with a prefix of the run id, or DIR if the folder has only one run"
 
 
 def find_run(text: str) -> tuple[Results, dict[str, Any]]:
-    """The results a run is in, and its record.
+    """Return the results that contain a run, and its record.
 
     Raises:
         InputError: there is no such run, or several.
@@ -21,5 +21,5 @@ def find_run(text: str) -> tuple[Results, dict[str, Any]]:
         return results, results[prefix]
     except KeyError as error:
         ids = " ".join(record["run_id"] for record, _ in zip(results, range(5), strict=False))
-        hint = f"as DIR:PREFIX; there are {ids} …" if ids else "it is empty"
+        hint = f"write DIR:PREFIX; there are {ids} …" if ids else "the folder has no runs"
         raise InputError(f"{text}: {error.args[0]}", hint=hint) from None

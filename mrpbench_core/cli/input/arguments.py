@@ -12,35 +12,35 @@ _OVERRIDE = re.compile(r"[A-Za-z_][\w.,\- ]*=")
 
 
 def add_configuration(parser: argparse.ArgumentParser) -> None:
-    """`CONFIG… [key=value…]`, in any order among the options."""
+    """Declare `CONFIG… [key=value…]`, in any order among the options."""
     parser.add_argument(
         "words",
         nargs="+",
         metavar="CONFIG… [KEY=VALUE…]",
-        help="configuration files, and dotted options that replace what they say, e.g. planner.w=1.5 seed=0..9",
+        help="configuration files, and dotted options that override them, e.g. planner.w=1.5 seed=0..9",
     )
 
 
 def split_words(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """Files and overrides."""
+    """Return the files and the overrides."""
     overrides = [word for word in words if _OVERRIDE.match(word)]
     files = [word for word in words if not _OVERRIDE.match(word)]
     if not files:
-        raise InputError("no configuration file is named", hint="`mrpbench init` writes one")
+        raise InputError("no configuration file is given", hint="`mrpbench init` writes one")
     return files, overrides
 
 
 def split_names(words: str | None) -> list[str] | None:
-    """Names that commas part; None stays None."""
+    """Return names that are separated by commas; None stays None."""
     return None if words is None else [word.strip() for word in words.split(",") if word.strip()]
 
 
 def read_options(words: Sequence[str], what: str) -> dict[str, Any]:
-    """`KEY=VALUE` words as options, values as YAML."""
+    """Return `KEY=VALUE` words as options; values are YAML."""
     options = {}
     for word in words:
         key, equals, text = word.partition("=")
         if not equals or not key.isidentifier():
-            raise InputError(f"{what} {word}: not KEY=VALUE")
+            raise InputError(f"{what} {word}: expected KEY=VALUE")
         options[key] = loads(text or '""').data
     return options

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.cli.table import print_table
+from mrpbench_core.cli.output.table import print_table
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.axes import word

@@ -1,4 +1,4 @@
-"""`mrpbench plugins show NAME`: what a plugin is, where it is from, and its options."""
+"""Print one plugin: its description, origin and options."""
 
 import inspect
 import re
@@ -9,19 +9,19 @@ import attrs
 
 from mrpbench_core.api import Metric
 from mrpbench_core.api.component import Component
-from mrpbench_core.cli.resolve import resolve
-from mrpbench_core.cli.table import print_json, print_table
+from mrpbench_core.cli.input.plugin_name import resolve
+from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.plugins.provenance import kind_class, origin
 from mrpbench_core.plugins.registry import Registry
 
 COLUMN = ("name", "unit", "better", "description", "source")
-"""What is told of a metric's column."""
+"""Printed fields of a metric's column."""
 MODULES = re.compile(r"\b(?:\w+\.)+(?=[A-Z])")
-"""What stands before a class's name."""
+"""Modules before the name of a class."""
 
 
 def show(name: str, as_json: bool) -> None:
-    """Print a plugin, named `NAME` or, where several kinds have one of that name, `KIND:NAME`."""
+    """Print a plugin, given as in `cli.input.plugin_name`."""
     base, plugin = resolve(name)
     cls = Registry(base).get(plugin, Path.cwd())
     facts: dict[str, Any] = origin(cls) | {"description": inspect.getdoc(cls) or ""} | _traits(cls)
@@ -76,7 +76,7 @@ def _text(default: Any) -> str:
 
 
 def _traits(cls: type[Component]) -> dict[str, list[str]]:
-    """What a planner or metric says about itself."""
+    """Return what a planner or metric declares: features, promises, required channels."""
     found = {}
     for key in ("supports", "promises", "requires"):
         value = getattr(cls, key, None)

@@ -1,0 +1,1 @@
+"""Read what a user writes on the command line: arguments, plugins, runs and worlds."""

@@ -1,0 +1,1 @@
+"""Print tables, progress, summaries and plugins, and write replays."""
