@@ -158,8 +158,8 @@ void solve(const Instance& instance, Heuristic heuristic, Limits& limits, Result
 
 }  // namespace
 
-Result solve_astar(const Instance& instance, Heuristic heuristic, Limits& limits) {
-  return solve_within(instance, limits, [&](Result& result) { solve(instance, heuristic, limits, result); });
+Result solve_astar(const Instance& instance, const AstarOptions& options, Limits& limits) {
+  return solve_within(instance, limits, [&](Result& result) { solve(instance, options.heuristic, limits, result); });
 }
 
 }  // namespace mrpbench::mapf

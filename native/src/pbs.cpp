@@ -214,7 +214,7 @@ class Pbs {
 
 }  // namespace
 
-Result solve_pbs(const Instance& instance, Limits& limits) {
+Result solve_pbs(const Instance& instance, const PbsOptions&, Limits& limits) {
   return solve_within(instance, limits, [&](Result& result) { Pbs(instance, limits, result).solve(); });
 }
 

@@ -1,6 +1,7 @@
 """The bindings themselves; what the solvers do is tested in C++ and with the planners."""
 
 import ast
+import re
 import threading
 import time
 from pathlib import Path
@@ -9,38 +10,48 @@ import numpy as np
 import pytest
 from mrpbench_native import mapf
 
+LIMITS = {"wall_s": 1.0, "memory_bytes": 1 << 30}
+NONE = {"first": np.empty(0, "i8"), "element": np.empty(0, "i4")}
+
 
 def swap(**changes) -> dict:
-    """Two robots that would have to pass one another on a single edge."""
-    arrays = {
-        "position": np.array([[0.0, 0.0], [1.0, 0.0]]),
-        "edges": np.array([[0, 1], [1, 0]], "i4"),
-        "duration": np.ones((1, 2), "i4"),
-        "profile": np.zeros(2, "i4"),
-        "radius": np.zeros(2),
-        "start": np.array([0, 1], "i4"),
-        "ready": np.zeros(2, "i8"),
-        "goal_first": np.array([0, 1, 2]),
-        "goal": np.array([1, 0], "i4"),
-        "committed_first": np.zeros(3, "i8"),
-        "committed_edge": np.empty(0, "i4"),
-        "committed_enter": np.empty(0, "i8"),
-        "committed_leave": np.empty(0, "i8"),
-        "exclusion_first": np.empty(0, "i8"),
-        "exclusion_element": np.empty(0, "i4"),
-        "exclusion_distance": np.empty(0),
-        "resource_first": np.zeros(1, "i8"),
-        "resource_element": np.empty(0, "i4"),
-        "resource_capacity": np.empty(0, "i4"),
-        "resource_setup": np.empty(0, "i8"),
+    """Two robots that would have to pass one another on a single edge; changes as `part__array`."""
+    problem = {
+        "roadmap": {
+            "position": np.array([[0.0, 0.0], [1.0, 0.0]]),
+            "edges": np.array([[0, 1], [1, 0]], "i4"),
+            "duration": np.ones((1, 2), "i4"),
+        },
+        "robots": {
+            "profile": np.zeros(2, "i4"),
+            "radius": np.zeros(2),
+            "start": np.array([0, 1], "i4"),
+            "ready": np.zeros(2, "i8"),
+            "goal_first": np.array([0, 1, 2]),
+            "goal": np.array([1, 0], "i4"),
+            "committed_first": np.zeros(3, "i8"),
+            "committed_edge": np.empty(0, "i4"),
+            "committed_enter": np.empty(0, "i8"),
+            "committed_leave": np.empty(0, "i8"),
+        },
+        "exclusions": {**NONE, "distance": np.empty(0)},
+        "resources": {
+            **NONE,
+            "first": np.zeros(1, "i8"),
+            "capacity": np.empty(0, "i4"),
+            "setup": np.empty(0, "i8"),
+        },
         "following_forbidden": False,
         "disappear_at_goal": False,
     }
-    return arrays | changes
+    for name, array in changes.items():
+        part, _, key = name.partition("__")
+        problem[part][key] = array
+    return problem
 
 
 def test_answers_outlive_what_they_came_from():
-    enter = mapf.astar(mapf.Instance(**swap()), heuristic="exact", wall_s=1.0, memory_bytes=1 << 30).enter
+    enter = mapf.solve(mapf.Instance(**swap()), "astar", {}, **LIMITS).enter
     assert enter.tolist() == [0, 0]
     assert not enter.flags.writeable
 
@@ -48,18 +59,18 @@ def test_answers_outlive_what_they_came_from():
 @pytest.mark.parametrize(
     ("changes", "error"),
     [
-        ({"edges": np.array([[0, 1], [1, 0]], "i8")}, TypeError),
-        ({"edges": np.array([0, 1], "i4")}, TypeError),
-        ({"duration": np.ones((1, 3), "i4")}, ValueError),
-        ({"profile": np.zeros(1, "i4")}, ValueError),
-        ({"profile": np.ones(2, "i4")}, ValueError),
-        ({"radius": np.array([0.1, np.nan])}, ValueError),
-        ({"goal_first": np.array([0, 2, 1])}, ValueError),
-        ({"goal_first": np.array([0, 0, 2])}, ValueError),
-        ({"goal": np.array([1, 2], "i4")}, ValueError),
-        ({"ready": np.array([0, 1 << 40])}, ValueError),
-        ({"ready": np.array([0, -1])}, ValueError),
-        ({"exclusion_first": np.array([0, 1])}, ValueError),
+        ({"roadmap__edges": np.array([[0, 1], [1, 0]], "i8")}, TypeError),
+        ({"roadmap__edges": np.array([0, 1], "i4")}, TypeError),
+        ({"roadmap__duration": np.ones((1, 3), "i4")}, ValueError),
+        ({"robots__profile": np.zeros(1, "i4")}, ValueError),
+        ({"robots__profile": np.ones(2, "i4")}, ValueError),
+        ({"robots__radius": np.array([0.1, np.nan])}, ValueError),
+        ({"robots__goal_first": np.array([0, 2, 1])}, ValueError),
+        ({"robots__goal_first": np.array([0, 0, 2])}, ValueError),
+        ({"robots__goal": np.array([1, 2], "i4")}, ValueError),
+        ({"robots__ready": np.array([0, 1 << 40])}, ValueError),
+        ({"robots__ready": np.array([0, -1])}, ValueError),
+        ({"exclusions__first": np.array([0, 1])}, ValueError),
     ],
 )
 def test_arrays_that_do_not_fit_are_refused(changes, error):
@@ -67,14 +78,25 @@ def test_arrays_that_do_not_fit_are_refused(changes, error):
         mapf.Instance(**swap(**changes))
 
 
-def test_unknown_choices_are_refused():
-    with pytest.raises(ValueError, match="'best' is none of: "):
-        mapf.astar(mapf.Instance(**swap()), heuristic="best", wall_s=1.0, memory_bytes=1 << 30)
+def test_a_missing_array_is_named():
+    problem = swap()
+    del problem["robots"]["goal"]
+    with pytest.raises(TypeError, match=r"robots\['goal'\] is missing"):
+        mapf.Instance(**problem)
+
+
+@pytest.mark.parametrize(("name", "options"), [("magic", {}), ("astar", {"w": 1.5}), ("astar", {"heuristic": "best"})])
+def test_unknown_algorithms_options_and_choices_are_refused(name, options):
+    with pytest.raises(ValueError, match="magic|astar: there is no option 'w'|astar: heuristic must be one of exact"):
+        mapf.solve(mapf.Instance(**swap()), name, options, **LIMITS)
 
 
 def test_python_runs_on_while_a_solver_works():
-    instance = mapf.Instance(**swap(duration=np.full((1, 2), 2, "i4")))  # with moves of one tick it is soon proved
-    worker = threading.Thread(target=mapf.cbs, args=(instance,), kwargs={"wall_s": 0.5, "memory_bytes": 1 << 31})
+    instance = mapf.Instance(
+        **swap(roadmap__duration=np.full((1, 2), 2, "i4"))
+    )  # with moves of one tick it is soon proved
+    limits = {"wall_s": 0.5, "memory_bytes": 1 << 31}
+    worker = threading.Thread(target=mapf.solve, args=(instance, "cbs", {}), kwargs=limits)
     worker.start()
     turns = 0
     while worker.is_alive():
@@ -83,11 +105,20 @@ def test_python_runs_on_while_a_solver_works():
     assert turns > 5
 
 
+def arguments_of(function) -> list[str]:
+    """From the signature that nanobind makes, which is the only one."""
+    ((signature, *_),) = function.__nb_signature__
+    return [name for name in re.findall(r"(\w+):", signature) if name != "self"]
+
+
 def test_the_stub_names_what_the_module_has():
     stub = ast.parse((Path(__file__).parent.parent / "python/mrpbench_native/mapf.pyi").read_text())
     for item in stub.body:
         if isinstance(item, ast.ClassDef):
             declared = {member.name for member in item.body if isinstance(member, ast.FunctionDef)} - {"__init__"}
             assert declared == {name for name in dir(getattr(mapf, item.name)) if not name.startswith("_")}
+        if isinstance(item, ast.FunctionDef):
+            arguments = [*item.args.args, *item.args.kwonlyargs]
+            assert [argument.arg for argument in arguments] == arguments_of(getattr(mapf, item.name))
     declared = {item.name for item in stub.body if isinstance(item, ast.FunctionDef | ast.ClassDef)}
     assert declared == {name for name in dir(mapf) if not name.startswith("_")}

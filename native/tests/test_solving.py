@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mrpbench_native import ALGORITHMS, Graph, Grid, options_of, solve, solving
+from mrpbench_native import ALGORITHMS, Graph, Grid, describe, options_of, solve, solving
 
 OPEN = np.ones((4, 4), bool)
 
@@ -84,21 +84,38 @@ def test_every_algorithm_answers_with_paths_from_starts_to_goals(seed, algorithm
         ({"starts": [0]}, r"starts: a row and a column each, but the array has shape \(1,\)"),
         ({"algorithm": "magic"}, "there is no algorithm 'magic'; there are: astar"),
         ({"algorithm": "cbs", "v": 2}, "cbs has no option 'v'; it has: "),
-        ({"algorithm": "cbs", "bypass": "no"}, "cbs: an option is of the wrong type"),
+        ({"algorithm": "cbs", "bypass": "no"}, "cbs: bypass must be true or false, not 'no'"),
         ({"algorithm": ["cbs"]}, r"there is no algorithm \['cbs'\]"),
-        ({"algorithm": "eecbs", "w": 0.5}, "w is from 1 to 1e[+]09, not 0.5"),
-        ({"algorithm": "eecbs", "w": np.nan}, "w is from 1 to 1e[+]09, not nan"),
-        ({"algorithm": "eecbs", "distance_weight": np.inf}, "distance_weight is from 1 to 1000, not inf"),
-        ({"algorithm": "eecbs", "distance_weight": 0.0}, "distance_weight is from 1 to 1000, not 0"),
-        ({"algorithm": "eecbs", "conflict_weight": np.nan}, "conflict_weight is from 0 to 1e[+]06, not nan"),
-        ({"algorithm": "eecbs", "incumbent_after": -1}, "incumbent_after is at least 0"),
-        ({"algorithm": "eecbs", "selection": "best"}, "'best' is none of: explicit_estimation, focal"),
-        ({"algorithm": "lacam", "iterations": -1}, "iterations is at least 0"),
-        ({"algorithm": "lacam", "seed": -1}, "lacam: an option is of the wrong type"),
-        ({"algorithm": "lns", "iterations": -1}, "iterations is at least 0"),
-        ({"algorithm": "lns", "neighbourhood": 0}, "neighbourhood is at least 1"),
-        ({"algorithm": "pibt", "steps": -1}, "steps is at least 0"),
-        ({"algorithm": "prioritized", "restarts": -1}, "restarts is at least 0"),
+        ({"algorithm": "eecbs", "w": 0.5}, "eecbs: w must be a number from 1 to 1e[+]09, not 0.5"),
+        ({"algorithm": "eecbs", "w": np.nan}, "w must be a number from 1 to 1e[+]09, not nan"),
+        ({"algorithm": "eecbs", "distance_weight": np.inf}, "distance_weight must be a number from 1 to 1000, not inf"),
+        ({"algorithm": "eecbs", "distance_weight": 0.0}, "distance_weight must be a number from 1 to 1000, not 0"),
+        (
+            {"algorithm": "eecbs", "conflict_weight": np.nan},
+            "conflict_weight must be a number from 0 to 1e[+]06, not nan",
+        ),
+        (
+            {"algorithm": "eecbs", "incumbent_after": -1},
+            "incumbent_after must be a whole number of at least 0, or none, not -1",
+        ),
+        (
+            {"algorithm": "eecbs", "selection": "best"},
+            "selection must be one of focal, explicit_estimation, not 'best'",
+        ),
+        ({"algorithm": "lacam", "iterations": -1}, "iterations must be a whole number of at least 0, or none, not -1"),
+        ({"algorithm": "lacam", "seed": -1}, "lacam: seed must be a whole number of at least 0, not -1"),
+        ({"algorithm": "lns", "iterations": -1}, "iterations must be a whole number of at least 0, or none, not -1"),
+        ({"algorithm": "lacam", "seed": 2**63}, "lacam: seed is too large"),
+        ({"algorithm": "lacam", "seed": 1.5}, "lacam: seed must be a whole number of at least 0, not 1.5"),
+        ({"algorithm": "eecbs", "w": "1.2"}, "eecbs: w must be a number from 1 to 1e[+]09, not '1.2'"),
+        ({"algorithm": "eecbs", "w": []}, "eecbs: w cannot be a <class 'list'>"),
+        ({"algorithm": "eecbs", "w": None}, "eecbs: w must be a number from 1 to 1e[+]09, not none"),
+        (
+            {"algorithm": "lns", "neighbourhood": 0},
+            "neighbourhood must be a whole number of at least 1, or none, not 0",
+        ),
+        ({"algorithm": "pibt", "steps": -1}, "steps must be a whole number of at least 0, not -1"),
+        ({"algorithm": "prioritized", "restarts": -1}, "restarts must be a whole number of at least 0, not -1"),
         ({"time_limit": -1}, "time_limit: seconds from 0 are needed, not -1"),
         ({"time_limit": np.nan}, "time_limit: seconds from 0 are needed, not nan"),
         ({"time_limit": "1"}, "time_limit: seconds from 0 are needed, not '1'"),
@@ -203,7 +220,32 @@ def test_options_are_listed_with_their_defaults():
     assert options_of("cbs")["bypass"] is True
     assert options_of("prioritized")["restarts"] == 1000
     assert options_of("eecbs")["w"] == 1.2
-    assert "wall_s" not in options_of("cbs")
+    assert options_of("ecbs")["bypass"] is False
+    assert options_of("lacam")["iterations"] is None
+
+
+@pytest.mark.parametrize("algorithm", sorted(ALGORITHMS))
+def test_every_option_is_described_and_takes_its_default_and_nothing_beyond_its_range(algorithm):
+    described = describe(algorithm)
+    assert described.help.endswith(".")
+    asked = {"roadmap": OPEN, "starts": [[0, 0]], "goals": [[1, 1]], "algorithm": algorithm, "time_limit": 0.2}
+    assert solve(**asked, **options_of(algorithm)).status == "solved"
+    for option in described.options:
+        assert option.help
+        assert not option.help.endswith(".")
+        wrong = [object(), *([] if option.optional else [None])]
+        wrong += ["other"] if option.type == "str" else []
+        wrong += [option.least - 1] if option.least is not None else []
+        wrong += [option.most * 2] if option.most is not None else []
+        for value in wrong:
+            with pytest.raises(ValueError, match=f"^{algorithm}: {option.name} "):
+                solve(**asked, **{option.name: value})
+
+
+def test_numbers_of_numpy_are_options_too():
+    asked = {"roadmap": OPEN, "starts": [[0, 0]], "goals": [[1, 1]], "time_limit": 0.2}
+    assert solve(**asked, algorithm="eecbs", w=np.float32(1.5), incumbent_after=np.int64(3)).status == "solved"
+    assert solve(**asked, algorithm="pibt", seed=np.uint8(3), swap=np.True_).status == "solved"
 
 
 @pytest.mark.parametrize("algorithm", ["cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"])

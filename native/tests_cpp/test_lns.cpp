@@ -72,7 +72,7 @@ TEST("long edges, footprints, commitments and rules are kept") {
     ++solved;
     CHECK(faults(it, result) == 0);
     Limits limits = unlimited();
-    const Result pbs = solve_pbs(it, limits);
+    const Result pbs = solve_pbs(it, {}, limits);
     CHECK(pbs.status == Status::solved && faults(it, pbs) == 0);
   }
   CHECK(solved > 40);
@@ -84,7 +84,7 @@ TEST("priorities that are found out plan what fixed ones do not, or it gives up"
   for (int k = 0; k < 200; ++k) {
     const Instance it = random_instance(random, 4, 3, 4);
     Limits limits = unlimited();
-    const Result result = solve_pbs(it, limits);
+    const Result result = solve_pbs(it, {}, limits);
     CHECK(result.status != Status::unsolvable || least_makespan(it) < 0);
     if (result.status != Status::solved) continue;
     ++solved;
@@ -107,5 +107,5 @@ TEST("limits hold, and a plan that was found is kept") {
   Limits tiny(10.0, 1 << 16);
   CHECK(solve_lns(it, {}, tiny).status == Status::out_of_memory);
   Limits tiny_too(10.0, 1 << 16);
-  CHECK(solve_pbs(it, tiny_too).status == Status::out_of_memory);
+  CHECK(solve_pbs(it, {}, tiny_too).status == Status::out_of_memory);
 }

@@ -35,7 +35,7 @@ TEST("robots alone take shortest paths whatever the heuristic") {
   for (const Heuristic heuristic :
        {Heuristic::exact, Heuristic::zero, Heuristic::manhattan, Heuristic::octile, Heuristic::euclidean}) {
     Limits limits = unlimited();
-    const Result result = solve_astar(it, heuristic, limits);
+    const Result result = solve_astar(it, {heuristic}, limits);
     CHECK(result.status == Status::solved);
     CHECK(result.lower_bound == 42.0);
     CHECK(sum_of_costs(result) == 42);

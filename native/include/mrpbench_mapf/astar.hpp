@@ -3,13 +3,30 @@
 #pragma once
 
 #include "mrpbench_mapf/limits.hpp"
+#include "mrpbench_mapf/options.hpp"
 
 namespace mrpbench::mapf {
 
 /// Geometric heuristics are distances in metres times the least ticks per metre of any edge, hence consistent.
 enum class Heuristic { exact, zero, manhattan, octile, euclidean };
 
+struct AstarOptions {
+  Heuristic heuristic = Heuristic::exact;
+
+  static Description<AstarOptions> description() {
+    return {
+        {"heuristic", &AstarOptions::heuristic,
+         Choices<Heuristic>{{"exact", Heuristic::exact},
+                            {"zero", Heuristic::zero},
+                            {"manhattan", Heuristic::manhattan},
+                            {"octile", Heuristic::octile},
+                            {"euclidean", Heuristic::euclidean}},
+         "Estimate of the ticks to go: exact (true distances), zero, or a distance in metres times the least ticks per "
+         "metre of any edge: manhattan, octile, euclidean. All find shortest paths, with different effort"}};
+  }
+};
+
 /// Shortest paths; they may conflict. The lower bound is their cost, since no robot can do better among others.
-Result solve_astar(const Instance& instance, Heuristic heuristic, Limits& limits);
+Result solve_astar(const Instance& instance, const AstarOptions& options, Limits& limits);
 
 }  // namespace mrpbench::mapf

@@ -16,12 +16,31 @@ namespace mrpbench::mapf {
 struct LacamOptions {
   Objective objective = Objective::flowtime;
   bool swap = true;
-  bool prioritized = true;                 // look for a second plan by planning robots in turn, nearest first
-  bool guides = true;                      // else along ways that keep clear of one another; in a crowd by chance
-  bool star = true;                        // go on searching configurations after the first plan
-  bool neighbourhoods = true;              // replan groups of robots after the first plan
-  std::optional<std::int64_t> iterations;  // of improving; nothing: until the clock ends it
+  bool prioritized = true;
+  bool guides = true;
+  bool star = true;
+  bool neighbourhoods = true;
+  std::optional<std::int64_t> iterations;
   std::uint64_t seed = 0;
+
+  static Description<LacamOptions> description() {
+    return {
+        objective_option<LacamOptions>(),
+        {"swap", &LacamOptions::swap,
+         "Lets robots change places in narrow passages; without it the first plan may take long"},
+        {"prioritized", &LacamOptions::prioritized,
+         "After the first plan, looks for a cheaper one by planning robots in turn, nearest first"},
+        {"guides", &LacamOptions::guides,
+         "If that fails, looks for a cheaper plan along guide paths that avoid each other; in a crowd, where there are "
+         "none, draws further first plans at random",
+         "Okumura, AAMAS 2024"},
+        {"star", &LacamOptions::star, "After the first plan, continues the search over configurations",
+         "Okumura, IJCAI 2023"},
+        {"neighbourhoods", &LacamOptions::neighbourhoods,
+         "After the first plan, improves it by large neighbourhood search"},
+        {"iterations", &LacamOptions::iterations, at_least(0), "Steps of improvement; none = until time is over"},
+        {"seed", &LacamOptions::seed, "Seed of all random choices"}};
+  }
 };
 
 /// Needs a roadmap of unit moves, throws std::invalid_argument for any other. Complete: unsolvable if all

@@ -18,9 +18,23 @@ enum class Initial { repair, lacam, either };
 struct LnsOptions {
   Objective objective = Objective::flowtime;
   Initial initial = Initial::either;
-  std::optional<int> neighbourhood;        // robots that are planned anew at a time; nothing: as many as bring most
-  std::optional<std::int64_t> iterations;  // of repairing, and again of improving; nothing: until the clock ends it
+  std::optional<int> neighbourhood;
+  std::optional<std::int64_t> iterations;
   std::uint64_t seed = 0;
+
+  static Description<LnsOptions> description() {
+    return {
+        objective_option<LnsOptions>(),
+        {"initial", &LnsOptions::initial,
+         Choices<Initial>{{"repair", Initial::repair}, {"lacam", Initial::lacam}, {"either", Initial::either}},
+         "Source of the first plan: repair, lacam (where every move takes one tick; elsewhere repair), or either "
+         "(lacam, then repair for a while, and the cheaper of the two plans)"},
+        {"neighbourhood", &LnsOptions::neighbourhood, at_least(1),
+         "Number of robots that are planned anew at a time; none = 8 while repairing, then 1 to 32, chosen by success"},
+        {"iterations", &LnsOptions::iterations, at_least(0),
+         "Groups that are planned anew, first to repair and again to improve; none = until time is over"},
+        {"seed", &LnsOptions::seed, "Seed of all random choices"}};
+  }
 };
 
 Result solve_lns(const Instance& instance, const LnsOptions& options, Limits& limits);

@@ -4,11 +4,20 @@
 #include <algorithm>
 #include <compare>
 
+#include "mrpbench_mapf/options.hpp"
 #include "mrpbench_mapf/result.hpp"
 
 namespace mrpbench::mapf {
 
 enum class Objective { flowtime, makespan };
+
+/// The row of the option that chooses it.
+template <class Options>
+Option<Options> objective_option() {
+  return {"objective", &Options::objective,
+          Choices<Objective>{{"flowtime", Objective::flowtime}, {"makespan", Objective::makespan}},
+          "What is minimised: flowtime (the sum of arrival times) or makespan (the last arrival, then the sum)"};
+}
 
 /// Smaller is better: first what is asked for, then the sum of arrival times.
 struct Value {

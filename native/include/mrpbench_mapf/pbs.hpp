@@ -4,10 +4,15 @@
 #pragma once
 
 #include "mrpbench_mapf/limits.hpp"
+#include "mrpbench_mapf/options.hpp"
 
 namespace mrpbench::mapf {
 
+struct PbsOptions {
+  static Description<PbsOptions> description() { return {}; }
+};
+
 /// Gives up if no partial order leads to a plan, which proves nothing.
-Result solve_pbs(const Instance& instance, Limits& limits);
+Result solve_pbs(const Instance& instance, const PbsOptions& options, Limits& limits);
 
 }  // namespace mrpbench::mapf

@@ -5,13 +5,21 @@
 #pragma once
 
 #include "mrpbench_mapf/limits.hpp"
+#include "mrpbench_mapf/options.hpp"
 
 namespace mrpbench::mapf {
 
 struct PibtOptions {
   bool swap = true;
-  int steps = 0;  // ticks after which to give up; 0: as many as the roadmap has vertices, times two, plus a thousand
+  int steps = 0;
   std::uint64_t seed = 0;
+
+  static Description<PibtOptions> description() {
+    return {{"swap", &PibtOptions::swap, "Lets robots change places in narrow passages", "Okumura, IJCAI 2023"},
+            {"steps", &PibtOptions::steps, at_least(0),
+             "Ticks after which the planner gives up; 0 = twice the number of vertices of the roadmap, plus 1000"},
+            {"seed", &PibtOptions::seed, "Seed of the choice between equally good vertices"}};
+  }
 };
 
 /// Needs a roadmap of unit moves, throws std::invalid_argument for any other.

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "mrpbench_mapf/limits.hpp"
+#include "mrpbench_mapf/options.hpp"
 
 namespace mrpbench::mapf {
 
@@ -13,8 +14,21 @@ enum class Order { index, longest_first, shortest_first, random };
 
 struct PrioritizedOptions {
   Order order = Order::longest_first;
-  int restarts = 0;  // further orders to try after a failure
+  int restarts = 1000;
   std::uint64_t seed = 0;
+
+  static Description<PrioritizedOptions> description() {
+    return {
+        {"order", &PrioritizedOptions::order,
+         Choices<Order>{{"index", Order::index},
+                        {"longest_first", Order::longest_first},
+                        {"shortest_first", Order::shortest_first},
+                        {"random", Order::random}},
+         "Which robots plan first: index (the order of the fleet), longest_first or shortest_first (by the distance "
+         "to the goal), random"},
+        {"restarts", &PrioritizedOptions::restarts, at_least(0), "Further orders to try after a failure"},
+        {"seed", &PrioritizedOptions::seed, "Seed of random orders and late starts"}};
+  }
 };
 
 Result solve_prioritized(const Instance& instance, const PrioritizedOptions& options, Limits& limits);

@@ -2,8 +2,8 @@
 `amcl`: localisation; `local`: costmaps and local control. `solve` plans paths from a notebook.
 """
 
-from mrpbench_native.algorithms import ALGORITHMS
+from mrpbench_native.algorithms import ALGORITHMS, describe, options_of
 from mrpbench_native.roadmaps import Graph, Grid
-from mrpbench_native.solving import Solution, options_of, solve
+from mrpbench_native.solving import Solution, solve
 
-__all__ = ["ALGORITHMS", "Graph", "Grid", "Solution", "options_of", "solve"]
+__all__ = ["ALGORITHMS", "Graph", "Grid", "Solution", "describe", "options_of", "solve"]

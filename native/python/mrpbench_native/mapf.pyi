@@ -1,39 +1,24 @@
 """Multi-agent path finding in C++. Plain arrays in, plain arrays out."""
 
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 class Instance:
-    """Robots on a roadmap. Raises ValueError for data that make no sense.
+    """Robots on a roadmap. `mrpbench_native.instances.build_instance` makes one; each dict holds arrays by name.
 
-    Lists of several robots are stored one after another: those of robot r are [first[r], first[r + 1]).
+    Raises ValueError for data that make no sense, and TypeError for an array of the wrong type or shape. Lists of several
+    robots or resources are stored one after another: those of number i are [first[i], first[i + 1]).
     """
 
     def __init__(
         self,
         *,
-        position: NDArray[np.float64],
-        edges: NDArray[np.int32],
-        duration: NDArray[np.int32],
-        profile: NDArray[np.int32],
-        radius: NDArray[np.float64],
-        start: NDArray[np.int32],
-        ready: NDArray[np.int64],
-        goal_first: NDArray[np.int64],
-        goal: NDArray[np.int32],
-        committed_first: NDArray[np.int64],
-        committed_edge: NDArray[np.int32],
-        committed_enter: NDArray[np.int64],
-        committed_leave: NDArray[np.int64],
-        exclusion_first: NDArray[np.int64],
-        exclusion_element: NDArray[np.int32],
-        exclusion_distance: NDArray[np.float64],
-        resource_first: NDArray[np.int64],
-        resource_element: NDArray[np.int32],
-        resource_capacity: NDArray[np.int32],
-        resource_setup: NDArray[np.int64],
+        roadmap: dict[str, Any],
+        robots: dict[str, Any],
+        exclusions: dict[str, Any],
+        resources: dict[str, Any],
         following_forbidden: bool,
         disappear_at_goal: bool,
     ) -> None: ...
@@ -68,106 +53,62 @@ class Answer:
     def leave(self) -> NDArray[np.int64]:
         """i8[...] ticks."""
 
-def astar(
+class Option:
+    """An option of an algorithm."""
+
+    @property
+    def name(self) -> str:
+        """The word that sets it."""
+    @property
+    def type(self) -> Literal["bool", "int", "float", "str"]: ...
+    @property
+    def optional(self) -> bool:
+        """It may be None."""
+    @property
+    def default(self) -> bool | int | float | str | None:
+        """Its value unless it is set."""
+    @property
+    def least(self) -> float | None:
+        """Of numbers, None if unbounded."""
+    @property
+    def most(self) -> float | None:
+        """Of numbers, None if unbounded."""
+    @property
+    def choices(self) -> list[str]:
+        """The words it may be; [] for other types."""
+    @property
+    def help(self) -> str:
+        """One sentence, without a full stop."""
+    @property
+    def paper(self) -> str:
+        """Short citation, or an empty text."""
+    @property
+    def fixed(self) -> bool:
+        """The name of the algorithm decides it; planners do not offer it."""
+
+class Algorithm:
+    """An algorithm and its options."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def help(self) -> str:
+        """One sentence."""
+    @property
+    def options(self) -> list[Option]: ...
+
+def algorithms() -> list[Algorithm]:
+    """All algorithms, in alphabetical order."""
+
+def describe(name: str) -> Algorithm:
+    """The algorithm of this name. Raises ValueError if there is none."""
+
+def solve(
     instance: Instance,
+    algorithm: str,
+    options: dict[str, Any],
     *,
-    heuristic: str,
     wall_s: float,
     memory_bytes: int,
 ) -> Answer:
-    """Every robot alone: shortest paths that may conflict."""
-
-def prioritized(
-    instance: Instance,
-    *,
-    order: str,
-    restarts: int,
-    seed: int,
-    wall_s: float,
-    memory_bytes: int,
-) -> Answer:
-    """One robot after another by safe interval path planning."""
-
-def cbs(
-    instance: Instance,
-    *,
-    goal_choice: str = "own",
-    prioritize: bool = True,
-    bypass: bool = True,
-    heuristic: bool = True,
-    target: bool = True,
-    corridor: bool = True,
-    rectangle: bool = True,
-    wall_s: float,
-    memory_bytes: int,
-) -> Answer:
-    """The least sum of arrival times, by conflict-based search. goal_choice: own (each robot takes any of its), ranked
-    or by_node (all take different ones, by trees for the cheapest assignments or by an assignment in each node).
-    """
-
-def bounded_cbs(
-    instance: Instance,
-    *,
-    goal_choice: str = "own",
-    selection: str,
-    w: float,
-    prioritize: bool,
-    bypass: bool,
-    heuristic: bool,
-    target: bool,
-    corridor: bool,
-    rectangle: bool,
-    flex: bool,
-    incumbent_after: int | None,
-    distance_weight: float,
-    conflict_weight: float,
-    wall_s: float,
-    memory_bytes: int,
-) -> Answer:
-    """At most w times the least sum of arrival times, by bounded-suboptimal conflict-based search."""
-
-def pbs(instance: Instance, *, wall_s: float, memory_bytes: int) -> Answer:
-    """One robot after another, by a search over who comes before whom."""
-
-def pibt(
-    instance: Instance,
-    *,
-    swap: bool,
-    steps: int,
-    seed: int,
-    wall_s: float,
-    memory_bytes: int,
-) -> Answer:
-    """Tick by tick, by priority inheritance. Unit moves only: raises ValueError for other roadmaps."""
-
-def lacam(
-    instance: Instance,
-    *,
-    objective: str,
-    swap: bool,
-    prioritized: bool,
-    guides: bool,
-    star: bool,
-    neighbourhoods: bool,
-    iterations: int | None,
-    seed: int,
-    wall_s: float,
-    memory_bytes: int,
-) -> Answer:
-    """A plan soon, by a search over configurations, and better ones later.
-
-    Unit moves only: raises ValueError for other roadmaps.
-    """
-
-def lns(
-    instance: Instance,
-    *,
-    objective: str,
-    initial: str,
-    neighbourhood: int | None,
-    iterations: int | None,
-    seed: int,
-    wall_s: float,
-    memory_bytes: int,
-) -> Answer:
-    """Plans groups of robots anew until there is no conflict, then for better plans."""
+    """Solve an instance. Raises ValueError for an option that does not exist or that cannot have its value."""

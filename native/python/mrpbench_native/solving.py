@@ -1,9 +1,8 @@
-"""The solvers in one call, for those who want nothing else: NumPy in, NumPy out."""
+"""The solvers in one call, without anything else of mrpbench: NumPy in, NumPy out."""
 
 import numbers
-import re
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from typing import Any
@@ -12,10 +11,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mrpbench_native import mapf
-from mrpbench_native.algorithms import ALGORITHMS
+from mrpbench_native.algorithms import options_of
+from mrpbench_native.instances import Roadmap, Robots, build_instance
 from mrpbench_native.roadmaps import Arrays, Graph, Grid
 
-_NOTHING = np.empty(0)
 _BYTES_PER_VERTEX = 48
 """What a roadmap takes at least, before any solver begins to count."""
 
@@ -82,9 +81,8 @@ def solve(
         ('solved', 28)
     """
     place = roadmap if isinstance(roadmap, Graph | Grid) else Grid(roadmap)
-    solver, preset = _algorithm(algorithm)
-    _require_limits(time_limit, memory_limit)
     known = options_of(algorithm)
+    _require_limits(time_limit, memory_limit)
     if unknown := sorted(set(options) - set(known)):
         raise ValueError(f"{algorithm} has no option {unknown[0]!r}; it has: {', '.join(known) or 'none'}")
     arrays = place.arrays
@@ -94,31 +92,9 @@ def solve(
         return Solution(status="out_of_memory")
     instance = _instance(arrays, first, candidates)
     began, began_cpu = time.perf_counter(), time.process_time()
-    try:
-        answer = solver(instance, wall_s=float(time_limit), memory_bytes=int(memory_limit), **(preset | options))
-    except TypeError as error:
-        raise ValueError(f"{algorithm}: an option is of the wrong type: {options}") from error
+    answer = mapf.solve(instance, algorithm, options, wall_s=float(time_limit), memory_bytes=int(memory_limit))
     seconds, cpu_seconds = time.perf_counter() - began, time.process_time() - began_cpu
     return replace(_solution(arrays, first, answer), seconds=seconds, cpu_seconds=cpu_seconds)
-
-
-def options_of(algorithm: str) -> dict[str, Any]:
-    """The options of an algorithm with their defaults.
-
-    Raises:
-        ValueError: there is no such algorithm.
-    """
-    solver, preset = _algorithm(algorithm)
-    (signature, _, defaults), *_ = solver.__nb_signature__  # type: ignore[attr-defined]
-    named = re.findall(r"(\w+): [\w.]+(?: = \\(\d+))?", signature.partition("*")[2])
-    own = {name: defaults[int(index)] if index else None for name, index in named}
-    return {name: value for name, value in (own | preset).items() if name not in ("wall_s", "memory_bytes")}
-
-
-def _algorithm(name: object) -> tuple[Callable[..., mapf.Answer], dict[str, Any]]:
-    if not isinstance(name, str) or name not in ALGORITHMS:
-        raise ValueError(f"there is no algorithm {name!r}; there are: {', '.join(sorted(ALGORITHMS))}")
-    return ALGORITHMS[name]
 
 
 def _require_limits(time_limit: object, memory_limit: object) -> None:
@@ -144,33 +120,10 @@ def _goal_sets(place: Graph | Grid, goals: Any) -> list[NDArray[np.int32]]:
 
 
 def _instance(arrays: Arrays, starts: NDArray[np.int32], goals: list[NDArray[np.int32]]) -> mapf.Instance:
-    robots = len(starts)
-    if len(goals) != robots:
-        raise ValueError(f"goals: {len(goals)} for {robots} robots")
-    return mapf.Instance(
-        position=np.zeros((arrays.vertices, 2)) if arrays.cell is None else arrays.cell.astype(float, order="C"),
-        edges=arrays.edges,
-        duration=arrays.duration[None],
-        profile=np.zeros(robots, "i4"),
-        radius=np.zeros(robots),
-        start=starts,
-        ready=np.zeros(robots, "i8"),
-        goal_first=np.cumsum([0, *map(len, goals)], dtype="i8"),
-        goal=np.concatenate([np.empty(0, "i4"), *goals]),
-        committed_first=np.zeros(robots + 1, "i8"),
-        committed_edge=_NOTHING.astype("i4"),
-        committed_enter=_NOTHING.astype("i8"),
-        committed_leave=_NOTHING.astype("i8"),
-        exclusion_first=_NOTHING.astype("i8"),
-        exclusion_element=_NOTHING.astype("i4"),
-        exclusion_distance=_NOTHING,
-        resource_first=np.zeros(1, "i8"),
-        resource_element=_NOTHING.astype("i4"),
-        resource_capacity=_NOTHING.astype("i4"),
-        resource_setup=_NOTHING.astype("i8"),
-        following_forbidden=False,
-        disappear_at_goal=False,
-    )
+    if len(goals) != len(starts):
+        raise ValueError(f"goals: {len(goals)} for {len(starts)} robots")
+    position = np.zeros((arrays.vertices, 2)) if arrays.cell is None else arrays.cell.astype(float, order="C")
+    return build_instance(Roadmap(position, arrays.edges, arrays.duration[None]), Robots(starts, goals))
 
 
 def _solution(arrays: Arrays, starts: NDArray[np.int32], answer: mapf.Answer) -> Solution:

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "mrpbench_mapf/options.hpp"
+
 namespace mrpbench::mapf {
 
 /// Where robots are sent.
@@ -34,6 +36,41 @@ struct CbsOptions {
   bool rectangle = true;
   /// Expansions after which the search for a pair of robots in `heuristic` ends with the bound it has.
   std::int64_t pair_expansions = 64;
+
+  static Description<CbsOptions> description() {
+    Description<CbsOptions> rows{goal_choice()};
+    for (const auto& row : techniques()) rows.push_back(row);
+    rows.push_back(heuristic_choice());
+    return rows;
+  }
+  static Option<CbsOptions> goal_choice() {
+    return {
+        "goal_choice", &CbsOptions::goals,
+        Choices<GoalChoice>{{"own", GoalChoice::own}, {"ranked", GoalChoice::ranked}, {"by_node", GoalChoice::by_node}},
+        "Where robots go: own (each robot to any of its goals), ranked or by_node (all robots to different goals, by "
+        "a tree for each of the cheapest assignments, or by an assignment in each node)"};
+  }
+  static Description<CbsOptions> techniques() {
+    return {
+        {"prioritize", &CbsOptions::prioritize, "Resolves first the conflicts that raise the lower bound either way",
+         "Boyarski et al., IJCAI 2015"},
+        {"bypass", &CbsOptions::bypass,
+         "Adopts paths with fewer conflicts, where the bound allows it, instead of branching",
+         "Boyarski et al., ICAPS 2015"},
+        {"target", &CbsOptions::target, "Resolves conflicts with robots at their goals by the times of arrival",
+         "Li et al., AIJ 2021"},
+        {"corridor", &CbsOptions::corridor,
+         "Delays one of two robots that meet in a corridor by the length of the corridor", "Li et al., AIJ 2021"},
+        {"rectangle", &CbsOptions::rectangle,
+         "Delays one of two robots that cross the same region until the other has left it; needs unit durations and "
+         "no footprints",
+         "generalised rectangles; Li et al., AIJ 2021"}};
+  }
+  static Option<CbsOptions> heuristic_choice() {
+    return {"heuristic", &CbsOptions::heuristic,
+            "Raises the lower bound of nodes by the cost that pairs of robots still have to pay",
+            "WDG; Li, Felner et al., IJCAI 2019"};
+  }
 };
 
 }  // namespace mrpbench::mapf

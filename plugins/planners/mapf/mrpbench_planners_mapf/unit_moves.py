@@ -1,14 +1,23 @@
-"""Which problems the planners can be given that move all robots tick by tick."""
+"""Planners that move all robots tick by tick."""
 
 import numpy as np
 
 from mrpbench_core.model.problem import Problem
+from mrpbench_planners_mapf.recipe import NativePlanner
 
 
-def no_unit_moves(problem: Problem) -> str | None:
-    """Why a problem without further features is still more than unit moves to goals to stay at, or None."""
+class UnitMoves(NativePlanner):
+    """A planner for problems in which every move takes one tick and robots stay at their goals."""
+
+    def skip(self, problem: Problem) -> str | None:
+        """See `Planner.skip`; also robots that disappear at their goals, and several motion profiles."""
+        return super().skip(problem) or _no_unit_moves(problem)
+
+
+def _no_unit_moves(problem: Problem) -> str | None:
+    """Why a problem without further features has more than unit moves to goals where robots stay, or None."""
     if problem.rules.at_goal != "stay":
-        return "does not know robots that disappear at their goals"
+        return "does not support robots that disappear at their goals"
     if len(np.unique(problem.profile)) > 1:
-        return "does not know several motion profiles, not even equal ones"
+        return "does not support several motion profiles, not even equal ones"
     return None

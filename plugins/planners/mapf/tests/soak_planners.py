@@ -5,8 +5,6 @@ oracle that searches the joint space, and against one another.
 what became of all of them.
 """
 
-from typing import get_args
-
 import attrs
 from mapf_instances import (
     random_corridor_problem,
@@ -19,15 +17,16 @@ from mapf_instances import (
     with_resources,
 )
 from mapf_oracle import least_cost, least_makespan, shortest
-from mrpbench_planners_mapf.astar import Astar, Heuristic
+from mrpbench_native import describe
+from mrpbench_planners_mapf.astar import Astar
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.lacam import Lacam
-from mrpbench_planners_mapf.lns import Initial, Lns
-from mrpbench_planners_mapf.objective import Objective
+from mrpbench_planners_mapf.lns import Lns
 from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.pibt import Pibt
-from mrpbench_planners_mapf.prioritized import Order, Prioritized
+from mrpbench_planners_mapf.prioritized import Prioritized
+from mrpbench_planners_mapf.recipe import NativePlanner
 from soaking import BUDGET, Draw, Random, Soak, main
 
 from mrpbench_core.api.planner import Planner
@@ -93,22 +92,23 @@ def drawn_planners(random: Random) -> list[Planner]:
             incumbent_after=[None, 0, 100_000][random.integers(3)],
             **{name: float(random.choice(values)) for name, values in weights.items()},
         ),
-        Astar(heuristic=_one(random, Heuristic)),
-        Prioritized(order=_one(random, Order), restarts=int(random.choice([0, 10, 200])), seed=seed),
+        Astar(heuristic=_one(random, Astar, "heuristic")),
+        Prioritized(order=_one(random, Prioritized, "order"), restarts=int(random.choice([0, 10, 200])), seed=seed),
         Pbs(),
         Pibt(swap=bool(random.integers(2)), seed=seed),
-        Lacam(objective=_one(random, Objective), seed=seed, **drawn_switches(random, Lacam)),
+        Lacam(objective=_one(random, Lacam, "objective"), seed=seed, **drawn_switches(random, Lacam)),
         Lns(
-            objective=_one(random, Objective),
-            initial=_one(random, Initial),
+            objective=_one(random, Lns, "objective"),
+            initial=_one(random, Lns, "initial"),
             neighbourhood=random.choice([None, 1, 2, 8]),
             seed=seed,
         ),
     ]
 
 
-def _one(random: Random, choices: object) -> str:
-    return str(random.choice(get_args(choices)))
+def _one(random: Random, planner: type[NativePlanner], name: str) -> str:
+    (choices,) = (option.choices for option in describe(planner.algorithm).options if option.name == name)
+    return str(random.choice(choices))
 
 
 def more_faults(asked: Problem, planner: Planner, result: PlanResult) -> list[str]:

@@ -1,0 +1,77 @@
+// Values of options between Python and C++. What an option may be is said by its row in C++, not here.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+
+#include <stdexcept>
+#include <string>
+
+#include "mrpbench_mapf/algorithms.hpp"
+
+namespace mrpbench::bindings {
+
+namespace nb = nanobind;
+
+inline nb::object to_python(const mapf::OptionValue& value) {
+  if (const auto* flag = std::get_if<bool>(&value)) return nb::bool_(*flag);
+  if (const auto* whole = std::get_if<std::int64_t>(&value)) return nb::int_(*whole);
+  if (const auto* number = std::get_if<double>(&value)) return nb::float_(*number);
+  if (const auto* word = std::get_if<std::string>(&value)) return nb::str(word->c_str());
+  return nb::none();
+}
+
+/// The value of an option from a Python object: integers are whole numbers of any type, numbers may be whole.
+inline mapf::OptionValue from_python(nb::handle value, mapf::OptionInfo::Type wanted) {
+  using Type = mapf::OptionInfo::Type;
+  if (value.is_none()) return std::monostate{};
+  bool flag = false;
+  if (wanted == Type::boolean && nb::try_cast(value, flag)) return flag;
+  if (PyBool_Check(value.ptr())) return value.ptr() == Py_True;
+  if (PyUnicode_Check(value.ptr())) return nb::cast<std::string>(value);
+  if (wanted == Type::integer && PyIndex_Check(value.ptr())) {
+    const auto whole = nb::steal<nb::object>(PyNumber_Index(value.ptr()));
+    const std::int64_t found = whole.is_valid() ? PyLong_AsLongLong(whole.ptr()) : -1;
+    if (PyErr_Occurred() == nullptr) return found;
+    PyErr_Clear();
+    throw std::invalid_argument("is too large");
+  }
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred() == nullptr) return number;
+  PyErr_Clear();
+  throw std::invalid_argument("cannot be a " + std::string(nb::str(value.type()).c_str()));
+}
+
+inline mapf::OptionValues from_python(const nb::dict& given, const mapf::Algorithm& algorithm) {
+  mapf::OptionValues values;
+  for (const auto& [key, value] : given) {
+    const auto name = nb::cast<std::string>(key);
+    auto type = mapf::OptionInfo::Type::real;
+    for (const mapf::Parameter& it : algorithm.options) {
+      if (it.info.name == name) type = it.info.type;
+    }
+    try {
+      values[name] = from_python(value, type);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(name + " " + error.what());
+    }
+  }
+  return values;
+}
+
+/// The Python type that a row stands for.
+inline const char* type_name(mapf::OptionInfo::Type type) {
+  switch (type) {
+    case mapf::OptionInfo::Type::boolean:
+      return "bool";
+    case mapf::OptionInfo::Type::integer:
+      return "int";
+    case mapf::OptionInfo::Type::real:
+      return "float";
+    case mapf::OptionInfo::Type::choice:
+      break;
+  }
+  return "str";
+}
+
+}  // namespace mrpbench::bindings

@@ -1,0 +1,119 @@
+"""Problems as the solvers take them. What a caller leaves out has its simplest value."""
+
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mrpbench_native import mapf
+
+
+class Roadmap(NamedTuple):
+    """A graph; `edges` and `duration` as in `mrpbench_core.model.roadmap.Roadmap`."""
+
+    position: NDArray[np.float64]
+    """f8[V,2] metres."""
+    edges: NDArray[np.int32]
+    """i4[E,2]: from, to."""
+    duration: NDArray[np.int32]
+    """i4[profiles,E] ticks, -1 where robots of that profile cannot go."""
+
+
+class Segments(NamedTuple):
+    """The beginning of a path that is already fixed."""
+
+    edge: NDArray[np.int32]
+    """i4[k], -1 = wait."""
+    enter: NDArray[np.int64]
+    """i8[k] ticks."""
+    leave: NDArray[np.int64]
+    """i8[k] ticks."""
+
+
+class Robots(NamedTuple):
+    """The robots, one row each."""
+
+    start: NDArray[np.int32]
+    """i4[n]: vertices."""
+    goals: Sequence[NDArray[np.int32]]
+    """For each robot the vertices at which it may end, i4[g]."""
+    ready: NDArray[np.int64] | None = None
+    """i8[n]: ticks before which robots do not leave; None = 0."""
+    profile: NDArray[np.int32] | None = None
+    """i4[n]: rows of `Roadmap.duration`; None = 0."""
+    radius: NDArray[np.float64] | None = None
+    """f8[n] metres; None = 0."""
+    committed: Sequence[Segments] = ()
+    """For each robot what is fixed of its path; () = nothing."""
+
+
+class Exclusions(NamedTuple):
+    """Elements (vertices, then edges) closer than the robots' radii allow, as sparse rows."""
+
+    first: NDArray[np.int64]
+    element: NDArray[np.int32]
+    distance: NDArray[np.float64]
+    """f8 metres."""
+
+
+class Resource(NamedTuple):
+    """Elements that at most `capacity` robots use at a time, each for `setup` ticks longer than it is on them."""
+
+    element: NDArray[np.int32]
+    capacity: int = 1
+    setup: int = 0
+
+
+NO_EXCLUSIONS = Exclusions(np.empty(0, "i8"), np.empty(0, "i4"), np.empty(0))
+
+
+def build_instance(
+    roadmap: Roadmap,
+    robots: Robots,
+    *,
+    exclusions: Exclusions = NO_EXCLUSIONS,
+    resources: Sequence[Resource] = (),
+    following_forbidden: bool = False,
+    disappear_at_goal: bool = False,
+) -> mapf.Instance:
+    """Join the lists of all robots and resources into the arrays that C++ takes.
+
+    Raises:
+        ValueError: the data make no sense; the message names the robot or the array.
+        TypeError: an array has the wrong type or shape.
+    """
+    count = len(robots.start)
+    committed = robots.committed or [Segments(*(np.empty(0, kind) for kind in ("i4", "i8", "i8")))] * count
+    return mapf.Instance(
+        roadmap=roadmap._asdict(),
+        robots={
+            "start": robots.start,
+            "ready": np.zeros(count, "i8") if robots.ready is None else robots.ready,
+            "profile": np.zeros(count, "i4") if robots.profile is None else robots.profile,
+            "radius": np.zeros(count) if robots.radius is None else robots.radius,
+            "goal_first": _first(map(len, robots.goals)),
+            "goal": _joined(robots.goals, "i4"),
+            "committed_first": _first(len(path.edge) for path in committed),
+            "committed_edge": _joined([path.edge for path in committed], "i4"),
+            "committed_enter": _joined([path.enter for path in committed], "i8"),
+            "committed_leave": _joined([path.leave for path in committed], "i8"),
+        },
+        exclusions=exclusions._asdict(),
+        resources={
+            "first": _first(len(resource.element) for resource in resources),
+            "element": _joined([resource.element for resource in resources], "i4"),
+            "capacity": np.array([resource.capacity for resource in resources], "i4"),
+            "setup": np.array([resource.setup for resource in resources], "i8"),
+        },
+        following_forbidden=following_forbidden,
+        disappear_at_goal=disappear_at_goal,
+    )
+
+
+def _first(lengths: Iterable[int]) -> NDArray[np.int64]:
+    return np.cumsum([0, *lengths], dtype="i8")
+
+
+def _joined(parts: Sequence[NDArray[np.generic]], dtype: str) -> NDArray[np.generic]:
+    return np.concatenate([np.empty(0, dtype), *parts]).astype(dtype)

@@ -1,0 +1,30 @@
+"""What planners by conflict-based search have in common."""
+
+from typing import ClassVar
+
+from mrpbench_core.api.planner import Promise
+from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_planners_mapf.recipe import SUPPORTED, NativePlanner
+
+OPTIMAL = frozenset({Promise.CONFLICT_FREE, Promise.OPTIMAL, Promise.COMPLETE, Promise.DETERMINISTIC})
+BOUNDED = frozenset({Promise.CONFLICT_FREE, Promise.BOUNDED, Promise.COMPLETE, Promise.DETERMINISTIC})
+
+
+class ConflictBased(NativePlanner):
+    """A planner that splits conflicts of two robots, so no resource may hold more than one."""
+
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
+
+    def skip(self, problem: Problem) -> str | None:
+        """See `Planner.skip`; also resources that hold several robots."""
+        roomy = [resource.name for resource in problem.roadmap.resources if resource.capacity > 1]
+        return super().skip(problem) or (f"resource {roomy[0]!r} holds more than one robot" if roomy else None)
+
+
+class Assigning(ConflictBased):
+    """A planner that also assigns goals to robots."""
+
+    @property
+    def assigns(self) -> bool:
+        """Always: see `Planner.assigns`."""
+        return True
