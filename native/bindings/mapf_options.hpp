@@ -25,8 +25,6 @@ inline nb::object to_python(const mapf::OptionValue& value) {
 inline mapf::OptionValue from_python(nb::handle value, mapf::OptionInfo::Type wanted) {
   using Type = mapf::OptionInfo::Type;
   if (value.is_none()) return std::monostate{};
-  bool flag = false;
-  if (wanted == Type::boolean && nb::try_cast(value, flag)) return flag;
   if (PyBool_Check(value.ptr())) return value.ptr() == Py_True;
   if (PyUnicode_Check(value.ptr())) return nb::cast<std::string>(value);
   if (wanted == Type::integer && PyIndex_Check(value.ptr())) {

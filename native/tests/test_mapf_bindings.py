@@ -87,14 +87,13 @@ def test_a_missing_array_is_named():
 
 @pytest.mark.parametrize(("name", "options"), [("magic", {}), ("astar", {"w": 1.5}), ("astar", {"heuristic": "best"})])
 def test_unknown_algorithms_options_and_choices_are_refused(name, options):
-    with pytest.raises(ValueError, match="magic|astar: there is no option 'w'|astar: heuristic must be one of exact"):
+    with pytest.raises(ValueError, match=r"magic|astar: there is no option 'w'|astar: heuristic must be one of exact"):
         mapf.solve(mapf.Instance(**swap()), name, options, **LIMITS)
 
 
 def test_python_runs_on_while_a_solver_works():
-    instance = mapf.Instance(
-        **swap(roadmap__duration=np.full((1, 2), 2, "i4"))
-    )  # with moves of one tick it is soon proved
+    slow = np.full((1, 2), 2, "i4")  # with moves of one tick it is soon proved that there is no plan
+    instance = mapf.Instance(**swap(roadmap__duration=slow))
     limits = {"wall_s": 0.5, "memory_bytes": 1 << 31}
     worker = threading.Thread(target=mapf.solve, args=(instance, "cbs", {}), kwargs=limits)
     worker.start()

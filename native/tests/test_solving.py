@@ -245,7 +245,7 @@ def test_every_option_is_described_and_takes_its_default_and_nothing_beyond_its_
 def test_numbers_of_numpy_are_options_too():
     asked = {"roadmap": OPEN, "starts": [[0, 0]], "goals": [[1, 1]], "time_limit": 0.2}
     assert solve(**asked, algorithm="eecbs", w=np.float32(1.5), incumbent_after=np.int64(3)).status == "solved"
-    assert solve(**asked, algorithm="pibt", seed=np.uint8(3), swap=np.True_).status == "solved"
+    assert solve(**asked, algorithm="pibt", seed=np.uint8(3)).status == "solved"
 
 
 @pytest.mark.parametrize("algorithm", ["cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"])

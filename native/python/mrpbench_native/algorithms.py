@@ -15,7 +15,7 @@ def describe(algorithm: str) -> mapf.Algorithm:
     Raises:
         ValueError: there is no such algorithm.
     """
-    if not isinstance(algorithm, str) or algorithm not in ALGORITHMS:
+    if algorithm not in list(ALGORITHMS):  # a list, because a mistake need not be hashable
         raise ValueError(f"there is no algorithm {algorithm!r}; there are: {', '.join(ALGORITHMS)}")
     return ALGORITHMS[algorithm]
 

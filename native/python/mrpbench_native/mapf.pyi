@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 class Instance:
     """Robots on a roadmap. `mrpbench_native.instances.build_instance` makes one; each dict holds arrays by name.
 
-    Raises ValueError for data that make no sense, and TypeError for an array of the wrong type or shape. Lists of several
-    robots or resources are stored one after another: those of number i are [first[i], first[i + 1]).
+    Raises ValueError for data that make no sense, and TypeError for an array of the wrong type or shape. Lists of
+    several robots or resources are stored one after another: those of number i are [first[i], first[i + 1]).
     """
 
     def __init__(

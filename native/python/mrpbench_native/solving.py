@@ -16,7 +16,7 @@ from mrpbench_native.instances import Roadmap, Robots, build_instance
 from mrpbench_native.roadmaps import Arrays, Graph, Grid
 
 _BYTES_PER_VERTEX = 48
-"""What a roadmap takes at least, before any solver begins to count."""
+"""Least memory of a roadmap, before a solver begins to count."""
 
 
 @dataclass(frozen=True)
@@ -27,9 +27,9 @@ class Solution:
     """solved | timeout | out_of_memory | unsolvable (proved) | gave_up (by a solver that is incomplete)."""
     paths: tuple[NDArray[np.int64], ...] = ()
     """One for each robot if there is a plan. On a grid i8[t+1,2]: row and column at every tick from 0 until the robot
-    is at its goal for good. On a graph i8[k,2]: each vertex that it visits, and the tick at which it comes there."""
+    stays at its goal. On a graph i8[k,2]: each vertex that the robot visits, and the tick of its arrival there."""
     cost: int | None = None
-    """Sum of the ticks at which robots are at their goals for good."""
+    """Sum over robots of the tick from which each stays at its goal."""
     makespan: int | None = None
     """The latest of these ticks."""
     lower_bound: float = float("nan")
@@ -37,7 +37,7 @@ class Solution:
     seconds: float = 0.0
     """Wall time of the solver, distance tables included."""
     cpu_seconds: float = 0.0
-    """What this process computed meanwhile: on an idle machine the same, on a busy one the fairer measure."""
+    """CPU time of this process; on a busy machine a fairer measure than `seconds`."""
     clock_bound: bool = False
     """The clock ended the search for a better plan."""
     statistics: Mapping[str, int] = field(default_factory=dict)
@@ -55,25 +55,25 @@ def solve(
     memory_limit: int = 4 << 30,
     **options: Any,
 ) -> Solution:
-    """Find paths for robots that must not meet.
+    """Find paths without conflicts for several robots.
 
-    Two robots must not be at one vertex at a time, nor pass one another on an edge; they stay at their goals.
+    Two robots must not be at one vertex at the same time, nor pass each other on an edge; they stay at their goals.
 
     Args:
         roadmap: a `Graph`, a `Grid`, or bool[rows, columns], true where free.
         starts: on a grid int[n,2], row and column of each robot; on a graph int[n].
-        goals: likewise; or a list with several candidates for each robot, of which it takes any that no other takes
-            (robots stay, so no two can end at one place). `cbs`, `cbs_ta` and `ita_cbs` make the choice that costs
-            least, `ecbs`, `eecbs`, `ecbs_ta` and `ita_ecbs` one within `w`, the others any that works.
+        goals: likewise; or a list with several candidates for each robot, of which it takes one that no other robot
+            takes (robots stay, so no two can end at one place). `cbs`, `cbs_ta` and `ita_cbs` make the choice of least
+            cost, `ecbs`, `eecbs`, `ecbs_ta` and `ita_ecbs` one within `w` times that cost, the others any feasible one.
         algorithm: one of `ALGORITHMS`.
-        time_limit: seconds of wall time, from 0; infinite: none.
-        memory_limit: bytes that the solver may take. It counts the roadmap, tables, nodes and plans before it makes
-            them, and ends as `out_of_memory`, or with the best plan until then. Not counted is what Python holds
-            meanwhile, some 50 bytes for each cell of a grid, and the paths that are handed back.
+        time_limit: seconds of wall time, at least 0; infinite = no limit.
+        memory_limit: bytes that the solver may allocate. It counts the roadmap, tables, nodes and plans before it
+            allocates them, and ends as `out_of_memory`, or with the best plan until then. It does not count the memory
+            of Python (some 50 bytes for each cell of a grid) and of the paths that are returned.
         options: of the algorithm, such as `w` of `eecbs`; `options_of(algorithm)` lists them.
 
     Raises:
-        ValueError: the roadmap, a place, the algorithm, a limit or an option makes no sense.
+        ValueError: the roadmap, a place, the algorithm, a limit or an option is not valid.
 
     Example:
         >>> solution = solve(np.ones((8, 8), bool), [[0, 0], [0, 7]], [[7, 7], [7, 0]], algorithm="cbs")

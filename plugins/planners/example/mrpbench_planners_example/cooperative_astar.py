@@ -1,7 +1,7 @@
 """A planner to copy: cooperative A* (Silver, "Cooperative Pathfinding", AIIDE 2005).
 
-Robots plan one after another, each by A* in space and time around what the robots before it have reserved. That is
-quick, and neither optimal nor complete: a robot that parks early can lock in one that plans late.
+Robots plan one after another, each by A* in space and time around the reservations of the robots before it. The search
+is fast, but neither optimal nor complete: a robot that parks early can enclose one that plans later.
 """
 
 import heapq
@@ -31,7 +31,7 @@ class Example(Planner):
     order: Literal["given", "farthest_first"] = option("given", help="which robots plan first, and so have priority")
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
-        """Plan robot by robot; `GAVE_UP` when one finds no way round the reservations."""
+        """Plan robot by robot; `GAVE_UP` if a robot finds no path around the reservations."""
         deadline = time.monotonic() + budget.wall_s
         forth, back = graphs(problem)
         goals = [sequence[0][0] for sequence in problem.goals]
@@ -43,7 +43,9 @@ class Example(Planner):
                 return PlanResult(status=PlanStatus.TIMEOUT)
         alone = [table.get(start, math.inf) for table, start in zip(distances, starts, strict=True)]
         if math.inf in alone:
-            return PlanResult(status=PlanStatus.UNSOLVABLE)  # proved: that robot cannot even reach its goal alone
+            return PlanResult(
+                status=PlanStatus.UNSOLVABLE
+            )  # proved: a robot cannot reach its goal even when it is alone
         robots = range(len(problem))
         reserved = Reservations()
         paths: dict[int, Path] = {}
@@ -62,7 +64,7 @@ class Example(Planner):
 
 
 class Reservations:
-    """Where the robots that have planned will be."""
+    """Places and times of the robots that have planned."""
 
     def __init__(self) -> None:
         self.places: set[tuple[int, int]] = set()  # (vertex, tick)
@@ -103,7 +105,7 @@ def search(
             raise TimeoutError
         _, minus_tick, vertex = heapq.heappop(queue)
         tick = -minus_tick
-        state = vertex, min(tick, reserved.end + 1)  # from then on nothing moves and it no longer matters when
+        state = vertex, min(tick, reserved.end + 1)  # afterwards nothing moves, so the tick does not matter
         if state in closed:
             continue
         closed.add(state)

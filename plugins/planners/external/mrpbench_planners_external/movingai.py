@@ -14,15 +14,15 @@ from mrpbench_core.model.roadmap import Grid, Roadmap
 
 
 def why_not(problem: Problem) -> str | None:
-    """Why a problem cannot be written as such files, or None."""
+    """Why a problem cannot be written as such files, as the end of a sentence about the planner, or None."""
     roadmap = problem.roadmap
     if roadmap.grid is None:
-        return "reads maps of cells, and this roadmap has none"
+        return "needs a map of cells, which this roadmap does not have"
     if problem.rules.at_goal != "stay":
-        return "reads problems in which robots stay at their goals"
+        return "needs robots that stay at their goals"
     usable = (roadmap.duration[problem.profile] >= 0).all(axis=0)
     if int(usable.sum()) != _neighbours(roadmap.grid):
-        return "reads maps in which robots may move between any two cells side by side, and here they may not"
+        return "needs a map on which robots may move between any two neighbouring cells"
     return None
 
 
@@ -38,7 +38,7 @@ def write_map(roadmap: Roadmap, file: Path) -> None:
 
 
 def write_scen(problem: Problem, map_name: str, file: Path) -> None:
-    """Write starts and goals, one robot a line; the last column, a distance, is 0: nobody needs it."""
+    """Write starts and goals, one robot per line; the last column, a distance that no solver needs, is 0."""
     grid = problem.roadmap.grid
     assert grid is not None
     rows, columns = grid.shape

@@ -1,9 +1,9 @@
-"""Reads the paths that solvers write, in the formats in use; every cell is returned as row (from the top), column.
+"""Reads the paths that solvers write, in three common formats. Every cell is returned as row (from the top), column.
 
 | format | looks like | written by |
 |---|---|---|
-| `agents` | `Agent 0: (3,5)->(3,6)->`, row before column, a line a robot | CBSH2-RTC, EECBS, MAPF-LNS2 |
-| `steps` | `0:(5,3),(2,1),`, column before row, a line a time step, after `solution=` | PIBT2, LaCAM |
+| `agents` | `Agent 0: (3,5)->(3,6)->`, row before column, one line per robot | CBSH2-RTC, EECBS, MAPF-LNS2 |
+| `steps` | `0:(5,3),(2,1),`, column before row, one line per time step, after `solution=` | PIBT2, LaCAM |
 | `schedule` | YAML `schedule: agent0: [{x: 5, y: 3, t: 0}, ...]` | libMultiRobotPlanning |
 """
 
@@ -19,11 +19,11 @@ _CELL = re.compile(r"\(\s*(\d{1,9})\s*,\s*(\d{1,9})\s*\)")
 _AGENT = re.compile(r"^\s*Agent\s+(\d{1,9})\s*:(.*)$", re.MULTILINE | re.IGNORECASE)
 _STEP = re.compile(r"^\s*(\d{1,9})\s*:(\s*\(.*)$", re.MULTILINE)
 _LATEST = 1_000_000
-"""Time step; a program that says more has lost count, and nobody wants to write all steps down."""
+"""Largest time step that is read; a larger one is a mistake, and would take too much memory."""
 
 
 class UnreadableError(Exception):
-    """Text that is not in the format it should be in; says what is wrong."""
+    """Text is not in the expected format; the message says what is wrong."""
 
 
 def read_agents(text: str) -> Cells:
@@ -43,7 +43,7 @@ def read_steps(text: str) -> Cells:
     }
     steps = _in_order(found, "time step")
     if len({len(step) for step in steps}) > 1:
-        raise UnreadableError("its time steps are of different numbers of robots")
+        raise UnreadableError("its time steps have different numbers of robots")
     return [list(path) for path in zip(*steps, strict=True)]
 
 
@@ -52,7 +52,7 @@ def read_schedule(text: str) -> Cells:
     try:
         document = yaml.safe_load(text)
     except (yaml.YAMLError, RecursionError, ValueError) as error:
-        raise UnreadableError(f"it is no YAML: {error}") from error
+        raise UnreadableError(f"it is not YAML: {error}") from error
     if not isinstance(document, dict) or not isinstance(document.get("schedule"), dict):
         raise UnreadableError("it has no `schedule`")
     found = {}

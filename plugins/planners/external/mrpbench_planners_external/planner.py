@@ -20,14 +20,14 @@ from mrpbench_planners_external.outputs import READERS, Cells, UnreadableError
 from mrpbench_planners_external.process import run
 
 FIELDS = ("map", "scen", "paths", "agents", "seconds", "seed")
-"""What the arguments may name in braces."""
+"""Names that the arguments may contain in braces."""
 _MARGIN_S = 0.5
-"""Time that a solver which is told its limit gets beyond it, to write its answer."""
+"""Time beyond its own limit that a solver gets to write its answer."""
 
 
 def _runs(_: Any, __: "attrs.Attribute[Path]", value: Path) -> None:
     if not value.is_file() or not os.access(value, os.X_OK):
-        raise ValueError(f"{value} is not a program that can be run")
+        raise ValueError(f"{value} is not an executable program")
 
 
 def _names_fields(_: Any, __: "attrs.Attribute[str]", value: str) -> None:
@@ -42,16 +42,16 @@ def _names_fields(_: Any, __: "attrs.Attribute[str]", value: str) -> None:
 
 @attrs.frozen(kw_only=True)
 class External(Planner):
-    """Any solver in a program of its own, so that solvers under any licence come into the same tables.
+    """Runs any solver as a separate program, so that solvers under any licence appear in the same tables.
 
-    It gets problems on grids with moves of one tick, one goal for each robot, and no footprints. The time that its
-    process takes, reading and writing of files included, is the planning time.
+    Supports grids with moves of one tick, one goal for each robot, and no footprints. The planning time is the time of
+    the process, including reading and writing of files.
     """
 
     supports: ClassVar[frozenset[Feature]] = frozenset()
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE})
 
-    binary: Path = option(help="the program", validator=_runs)
+    binary: Path = option(help="the program to run", validator=_runs)
     arguments: str = option(
         "-m {map} -a {scen} -o {paths} -k {agents} -t {seconds}",
         help="its arguments: {map} and {scen} are the files to read, {paths} the file to write, {agents} the number of "
@@ -68,14 +68,14 @@ class External(Planner):
     )
 
     def skip(self, problem: Problem) -> str | None:
-        """Also what cannot be written as a map of cells."""
+        """See `Planner.skip`; also problems that cannot be written as a map of cells."""
         return super().skip(problem) or why_not(problem)
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
-        """Run the program; without a file of paths it has found none.
+        """Run the program; `GAVE_UP` if it writes no paths.
 
         Raises:
-            RuntimeError: the program failed, or what it wrote are no paths.
+            RuntimeError: the program failed, or its output is not in the format.
         """
         with tempfile.TemporaryDirectory(prefix="mrpbench-external-") as name:
             folder = Path(name)
@@ -83,13 +83,13 @@ class External(Planner):
             write_scen(problem, "world.map", folder / "world.scen")
             ended = run(self._command(len(problem), budget), folder, budget.wall_s, budget.memory_bytes)
             statistics = {"process_s": ended.seconds, "process_cpu_s": ended.cpu_s}
-            if ended.resident > 0:  # who ends at once is not seen
+            if ended.resident > 0:  # a program that ends at once is not measured
                 statistics["memory_bytes"] = ended.resident
             if ended.limit is not None:
                 status = PlanStatus.TIMEOUT if ended.limit == "time" else PlanStatus.OUT_OF_MEMORY
                 return PlanResult(status=status, statistics=statistics)
             if ended.code != 0:
-                last = (ended.output.strip().splitlines() or ["and said nothing"])[-1]
+                last = (ended.output.strip().splitlines() or ["without output"])[-1]
                 raise RuntimeError(f"{self.binary.name} ended with exit code {ended.code}: {last}")
             answer = folder / "paths.txt"
             text = answer.read_text(errors="replace") if answer.is_file() else ""
@@ -101,7 +101,7 @@ class External(Planner):
             plan = Plan(paths=tuple(_paths(problem, READERS[self.output](text))))
         except UnreadableError as error:
             raise RuntimeError(
-                f"what {self.binary.name} wrote is not in the format {self.output!r}: {error}"
+                f"the output of {self.binary.name} is not in the format {self.output!r}: {error}"
             ) from error
         return PlanResult(status=PlanStatus.SOLVED, plan=plan, statistics=statistics)
 

@@ -1,4 +1,4 @@
-"""Runs a program within limits of time and memory, with all it starts."""
+"""Runs a program, and all processes that it starts, within limits of time and memory."""
 
 import contextlib
 import os
@@ -13,7 +13,7 @@ import attrs
 import psutil
 
 _GLANCE_S = 0.005
-"""How often the program is looked at, at first; up to ten times that later."""
+"""Interval between two measurements at the start; it grows to ten times that."""
 
 
 @attrs.frozen
@@ -26,17 +26,17 @@ class Ended:
     """time | memory | None."""
     seconds: float
     cpu_s: float
-    """Of it and all that it waited for."""
+    """CPU time of the program and of the processes that it waited for."""
     resident: int
-    """The most bytes that it and all it started were seen to use."""
+    """Largest measured memory of the program and of all processes that it started, in bytes."""
     output: str
 
 
 def run(command: Sequence[str], folder: Path, wall_s: float, memory_bytes: int) -> Ended:
-    """Run `command` in `folder`; when a limit is passed, it and all that it started are killed.
+    """Run `command` in `folder`; kill it and all processes that it started when it exceeds a limit.
 
     Raises:
-        OSError: it cannot be started.
+        OSError: the program cannot be started.
     """
     began, began_cpu = time.monotonic(), _cpu_s()
     with (folder / "output.txt").open("w+b") as output:
@@ -55,13 +55,13 @@ def run(command: Sequence[str], folder: Path, wall_s: float, memory_bytes: int) 
 
 
 def _cpu_s() -> float:
-    """Of all programs that were run so far."""
+    """CPU time of all programs that have ended so far."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
 def _wait(process: "subprocess.Popen[bytes]", deadline: float, memory_bytes: int) -> tuple[str | None, int]:
-    """Wait until the program has ended or passed a limit, and say which; and how much memory it was seen to use."""
+    """Wait until the program ends or exceeds a limit; return that limit, if any, and the largest measured memory."""
     pause, most = _GLANCE_S, 0
     while True:
         left = deadline - time.monotonic()
@@ -84,13 +84,13 @@ def _resident(pid: int) -> int:
         family = psutil.Process(pid)
         for member in (family, *family.children(recursive=True)):
             total += member.memory_info().rss
-    except psutil.Error:  # it has just ended
+    except psutil.Error:  # the process has just ended
         pass
     return total
 
 
 def _kill(process: "subprocess.Popen[bytes]") -> None:
-    """Its group, and also who left the group but still descends from it."""
+    """Kill its process group, and descendants that left the group."""
     family: list[psutil.Process] = []
     if process.poll() is None:
         with contextlib.suppress(psutil.Error):

@@ -141,7 +141,7 @@ def test_a_program_that_writes_nothing_has_found_nothing(tmp_path):
     ("text", "said"),
     [
         ("#!/bin/sh\necho out of ideas >&2\nexit 3", "solver ended with exit code 3: out of ideas"),
-        ("#!/bin/sh\nkill -SEGV $$", "solver ended with exit code -11: and said nothing"),
+        ("#!/bin/sh\nkill -SEGV $$", "solver ended with exit code -11: without output"),
         ("#!/bin/sh\nhead -c 100000 /dev/urandom > paths.txt", "not in the format 'agents'"),
         ("#!/bin/sh\necho nonsense > paths.txt", "not in the format 'agents': it has no Agent 0"),
         ("#!/bin/sh\necho 'Agent 0: (0,0)->' > paths.txt", "it has paths of 1 robots instead of 2"),
@@ -184,9 +184,9 @@ def test_a_program_that_passes_its_memory_is_killed(tmp_path):
 def test_what_is_no_map_of_cells_is_skipped_with_the_reason(tmp_path):
     planner, asked = External(binary=program(tmp_path, SOLVER)), problem()
     free = attrs.evolve(asked.roadmap, grid=None)
-    assert "has none" in planner.skip(attrs.evolve(asked, roadmap=free))
+    assert "does not have" in planner.skip(attrs.evolve(asked, roadmap=free))
     fewer = attrs.evolve(asked.roadmap, edges=asked.roadmap.edges[1:], duration=asked.roadmap.duration[:, 1:])
-    assert "may not" in planner.skip(attrs.evolve(asked, roadmap=fewer))
+    assert "neighbouring cells" in planner.skip(attrs.evolve(asked, roadmap=fewer))
     slow = attrs.evolve(asked, roadmap=attrs.evolve(asked.roadmap, duration=asked.roadmap.duration * 2))
     assert planner.skip(attrs.evolve(slow, features=features_of(slow))) == "does not support edge_durations"
 
@@ -194,7 +194,7 @@ def test_what_is_no_map_of_cells_is_skipped_with_the_reason(tmp_path):
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        ({"binary": Path("nowhere")}, "not a program that can be run"),
+        ({"binary": Path("nowhere")}, "not an executable program"),
         ({"arguments": "-m {maps}"}, r"cannot be filled in: 'maps'; it may use \{map\}"),
         ({"arguments": "-a {scen}"}, r"must hand over \{map\}"),
         ({"arguments": "'{map}"}, "No closing quotation"),

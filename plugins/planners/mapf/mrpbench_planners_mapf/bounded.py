@@ -11,9 +11,9 @@ from mrpbench_planners_mapf.recipe import native_planner
 class Ecbs(ConflictBased):
     """ECBS (Barer et al., SoCS 2014): a plan whose sum of costs is at most `w` times `lower_bound`.
 
-    Both levels use focal search. The low level takes the path with the fewest conflicts with other robots among those that
-    cost at most `w` times the robot's least; the high level takes the node with the fewest conflicts among those that cost
-    at most `w` times the lower bound.
+    Both levels use focal search. The low level takes the path with the fewest conflicts with other robots among those
+    that cost at most `w` times the robot's least; the high level takes the node with the fewest conflicts among those
+    that cost at most `w` times the lower bound.
     """
 
     promises: ClassVar[frozenset[Promise]] = BOUNDED

@@ -13,9 +13,10 @@ from mrpbench_planners_mapf.recipe import native_planner
 class Cbs(ConflictBased):
     """Conflict-based search (Sharon et al., AIJ 2015): the least sum of costs.
 
-    Optimal among plans in which every edge is crossed in exactly its duration, so robots wait at vertices only. After a
-    timeout `lower_bound` is what was proved until then. An instance whose lack of a solution is not found out at once (for
-    example, a swap in a dead end) runs until the budget is spent. The options switch single techniques off, for ablations.
+    Optimal among plans in which every edge is crossed in exactly its duration, so robots wait at vertices only. After
+    a timeout `lower_bound` is what was proved until then. An instance whose lack of a solution is not found out at
+    once (for example, a swap in a dead end) runs until the budget is spent. The options switch single techniques off,
+    for ablations.
     """
 
     promises: ClassVar[frozenset[Promise]] = OPTIMAL

@@ -11,8 +11,9 @@ from mrpbench_planners_mapf.recipe import native_planner
 class CbsTa(Assigning):
     """CBS-TA (Hönig et al., AAMAS 2018): the least sum of costs over all assignments of robots to different goals.
 
-    Every assignment has a constraint tree, the cheapest assignment first; the next one is tried only when nothing cheaper
-    is left. `statistics["assignments"]` counts them. Where many assignments cost the same, `ita_cbs` is much faster.
+    Every assignment has a constraint tree, the cheapest assignment first; the next one is tried only when nothing
+    cheaper is left. `statistics["assignments"]` counts them. Where many assignments cost the same, `ita_cbs` is much
+    faster.
     """
 
     promises: ClassVar[frozenset[Promise]] = OPTIMAL
@@ -22,9 +23,9 @@ class CbsTa(Assigning):
 class ItaCbs(Assigning):
     """ITA-CBS (Tang, Ren, Li and Sycara, MRS 2023): the same as `cbs_ta` from a single constraint tree.
 
-    Every node has the cheapest assignment under its own constraints, which the dynamic Hungarian algorithm repairs from
-    the assignment of its parent. Costs are planned only for goals to which robots are sent; other goals have lower bounds.
-    `statistics["assignments"]` counts the repairs, plus one.
+    Every node has the cheapest assignment under its own constraints, which the dynamic Hungarian algorithm repairs
+    from the assignment of its parent. Costs are planned only for goals to which robots are sent; other goals have
+    lower bounds. `statistics["assignments"]` counts the repairs, plus one.
     """
 
     promises: ClassVar[frozenset[Promise]] = OPTIMAL

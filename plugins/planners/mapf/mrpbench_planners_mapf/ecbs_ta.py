@@ -11,8 +11,8 @@ from mrpbench_planners_mapf.recipe import native_planner
 class EcbsTa(Assigning):
     """ECBS-TA (Hönig et al., AAMAS 2018): as `cbs_ta`, but a sum of costs of at most `w` times `lower_bound`.
 
-    The trees and the search for one robot use focal search, as `ecbs`. Another assignment is tried when all known nodes of
-    the others have more conflicts or may cost too much.
+    The trees and the search for one robot use focal search, as `ecbs`. Another assignment is tried when all known
+    nodes of the others have more conflicts or may cost too much.
     """
 
     promises: ClassVar[frozenset[Promise]] = BOUNDED

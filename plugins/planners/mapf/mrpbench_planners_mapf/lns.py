@@ -11,8 +11,8 @@ from mrpbench_planners_mapf.recipe import SUPPORTED, NativePlanner, native_plann
 class Lns(NativePlanner):
     """Repairs a plan with conflicts (Li et al., AAAI 2022), then improves it (Li et al., IJCAI 2021).
 
-    Improvement ends when all robots arrive as early as if they were alone, after `limits.iterations` groups, or when the
-    time is over. Incomplete if the first plan comes from repairing alone.
+    Improvement ends when all robots arrive as early as if they were alone, after `limits.iterations` groups, or when
+    the time is over. Incomplete if the first plan comes from repairing alone.
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED

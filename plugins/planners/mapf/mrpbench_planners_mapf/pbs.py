@@ -9,10 +9,11 @@ from mrpbench_planners_mapf.recipe import SUPPORTED, NativePlanner, native_plann
 
 @native_planner("pbs")
 class Pbs(NativePlanner):
-    """Searches depth first over partial orders of robots; each robot plans around those before it (Ma et al., AAAI 2019).
+    """Searches depth first over partial orders of robots (Ma et al., AAAI 2019).
 
-    Often near the optimum and much faster than an optimal planner. Incomplete: some problems have no solution under any
-    priorities, and the planner then gives up. `lower_bound` is the cost of all robots if each were alone.
+    Each robot plans around those before it. Often near the optimum and much faster than an optimal planner. Incomplete:
+    some problems have no solution under any priorities, and the planner then gives up. `lower_bound` is the cost of all
+    robots if each were alone.
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}

@@ -11,10 +11,11 @@ from mrpbench_planners_mapf.recipe import SUPPORTED, NativePlanner, native_plann
 class Prioritized(NativePlanner):
     """Plans one robot after another, each on its earliest path around the robots before it.
 
-    Fast, but incomplete. When a robot finds no path, it moves to the front of the order and all robots are planned again,
-    up to `restarts` times; an order that was tried before is shuffled. From the hundredth restart on, randomly chosen
-    robots also start late, because no order can plan robots that park in each other's way. After all restarts the planner
-    gives up, and `statistics["failed_robot"]` names the robot. `lower_bound` is the cost of all robots if each were alone.
+    Fast, but incomplete. When a robot finds no path, it moves to the front of the order and all robots are planned
+    again, up to `restarts` times; an order that was tried before is shuffled. From the hundredth restart on, randomly
+    chosen robots also start late, because no order can plan robots that park in each other's way. After all restarts
+    the planner gives up, and `statistics["failed_robot"]` names the robot. `lower_bound` is the cost of all robots if
+    each were alone.
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}

@@ -51,8 +51,8 @@ class NativePlanner(Planner):
 def native_planner(algorithm: str) -> Callable[[type[P]], type[P]]:
     """Make a class the recipe of an algorithm: each option that the algorithm offers becomes a field.
 
-    The fields come before those of the class. `iterations` is no field, because `Budget.iterations` sets it, and `seed` is
-    None by default, which stands for `Budget.seed`.
+    The fields come before those of the class. `iterations` is no field, because `Budget.iterations` sets it, and
+    `seed` is None by default, which stands for `Budget.seed`.
     """
 
     def decorate(cls: type[P]) -> type[P]:
