@@ -6,9 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.cli.output.progress import Printed
-from mrpbench_core.cli.output.summary import print_summary
-from mrpbench_core.cli.run import plugins_line
-from mrpbench_core.cli.view import write_replay
+from mrpbench_core.cli.output.replays import write_replay
+from mrpbench_core.cli.output.summary import plugins_line, print_summary
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.study.invoke import prepare
 from mrpbench_core.engine.study.study import run_study

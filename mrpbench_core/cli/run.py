@@ -10,11 +10,10 @@ from typing import Any
 
 from mrpbench_core.cli.input.arguments import add_configuration, read_options, split_words
 from mrpbench_core.cli.output.progress import SHORT, Printed
-from mrpbench_core.cli.output.summary import print_summary
+from mrpbench_core.cli.output.summary import plugins_line, print_summary
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.config.study import Study, load_studies
 from mrpbench_core.engine.study.invoke import prepare
-from mrpbench_core.engine.study.record import code_of
 from mrpbench_core.engine.study.study import Request, StudyOutcome, choose, run_study
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.status import RunStatus
@@ -142,19 +141,6 @@ def _list(studies: Sequence[Study], requests: Sequence[Request], as_json: bool) 
         rows,
         f"{len(rows)} of {counted(sum(len(study.runs) for study in studies), 'run')} to do",
     )
-
-
-def plugins_line(studies: Sequence[Study]) -> str:
-    """Return one line with the distributions and versions of the plugins."""
-    offered: dict[str, list[str]] = {}
-    for entry in {
-        id(part): part for study in studies for point in study.runs for part in code_of(point)["components"]
-    }.values():
-        owner = f"{entry['distribution']} {entry['version']}" if "distribution" in entry else "local"
-        names = offered.setdefault(owner, [])
-        if entry["name"] not in names:
-            names.append(entry["name"])
-    return "plugins: " + "; ".join(f"{owner}: {', '.join(names)}" for owner, names in sorted(offered.items()))
 
 
 def _summarize(done: StudyOutcome, request: Request) -> None:

@@ -6,6 +6,8 @@ from typing import Any
 import numpy as np
 
 from mrpbench_core.cli.output.table import print_table
+from mrpbench_core.config.study import Study
+from mrpbench_core.engine.study.record import code_of
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.axes import word
@@ -16,6 +18,19 @@ from mrpbench_core.store.results import Results
 
 ABREAST = 4
 """Groups that stand side by side, one row for each column of the table."""
+
+
+def plugins_line(studies: Sequence[Study]) -> str:
+    """Return one line with the distributions and versions of the plugins."""
+    offered: dict[str, list[str]] = {}
+    for entry in {
+        id(part): part for study in studies for point in study.runs for part in code_of(point)["components"]
+    }.values():
+        owner = f"{entry['distribution']} {entry['version']}" if "distribution" in entry else "local"
+        names = offered.setdefault(owner, [])
+        if entry["name"] not in names:
+            names.append(entry["name"])
+    return "plugins: " + "; ".join(f"{owner}: {', '.join(names)}" for owner, names in sorted(offered.items()))
 
 
 def print_summary(results: Results, limit: int | None = None) -> None:
