@@ -25,10 +25,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Compare the folders and print the result."""
+    from mrpbench_core.report.data import PAIR_COLUMNS, pairs_of, write_rows
+    from mrpbench_core.report.folder_comparison import compare_folders
     from mrpbench_core.report.rules import RULES
     from mrpbench_core.report.tables.build import pairs_table
-    from mrpbench_core.report.tidy import PAIR_COLUMNS, pairs_of, write_rows
-    from mrpbench_core.report.versus import compare_folders
 
     first, second = load(arguments.first), load(arguments.second)
     found = compare_folders(first, second, split_names(arguments.metrics), split_names(arguments.by))
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
                 "differing": {name: list(values) for name, values in found.differing.items()},
                 "only_in_first": list(found.unmatched[0]),
                 "only_in_second": list(found.unmatched[1]),
-                "no_common_scenario": list(found.lonely),
+                "no_common_scenario": list(found.no_common_scenario),
                 "rules": dict(RULES),
             }
         )
@@ -55,8 +55,8 @@ def run(arguments: argparse.Namespace) -> int:
     for letter, names in zip("AB", found.unmatched, strict=True):
         if names:
             print(f"only in {letter}, not compared: {'; '.join(names)}")
-    if found.lonely:
-        print(f"without a common scenario, not compared: {'; '.join(found.lonely)}")
+    if found.no_common_scenario:
+        print(f"without a common scenario, not compared: {'; '.join(found.no_common_scenario)}")
     table = pairs_table(found.comparisons)
     assert table is not None
     print()

@@ -15,8 +15,8 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.status import RunStatus
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.kinds import group_of
-from mrpbench_core.report.analysis import analyse
 from mrpbench_core.report.html.page import write_report
+from mrpbench_core.report.report import make_report
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
 
@@ -88,7 +88,7 @@ def _show(results: Results) -> None:
         write_replay(recording, results, record, replay)
         print(f"replay     {_near(replay)}")
         report = results.folder.path / "report.html"
-        write_report(analyse([results]), report, {record["run_id"]: replay.name})
+        write_report(make_report([results]), report, {record["run_id"]: replay.name})
         print(f"report     {_near(report)}")
         try:
             print(f"picture    {_near(_draw(recording, results.folder.path / 'demo.png'))}")
@@ -101,7 +101,7 @@ def _show(results: Results) -> None:
 
 
 def _draw(recording: Recording, picture: Path) -> Path:
-    from mrpbench_core.report.picture import draw_world
+    from mrpbench_core.report.pictures.world import draw_world
 
     context = recording.context()
     truth = recording.channel("truth")

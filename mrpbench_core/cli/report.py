@@ -10,7 +10,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.results import load
 
 if TYPE_CHECKING:
-    from mrpbench_core.report.analysis import Analysis
+    from mrpbench_core.report.report import Report
 
 REPLAYS = 8
 """Replays that are written unless asked otherwise: a look at what went wrong, in seconds."""
@@ -54,19 +54,19 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Print or write the tables."""
     from mrpbench_core.cli.output.replays import make_replays
-    from mrpbench_core.report.analysis import analyse
+    from mrpbench_core.report.data import PAIR_COLUMNS, groups_of, pairs_of, write_estimates, write_rows
     from mrpbench_core.report.html.page import write_report
+    from mrpbench_core.report.report import make_report
     from mrpbench_core.report.rules import RULES
     from mrpbench_core.report.tables.write import latex, markdown
-    from mrpbench_core.report.tidy import PAIR_COLUMNS, groups_of, pairs_of, write_estimates, write_rows
 
     folders = [load(folder) for folder in arguments.folders]
-    analysis = analyse(folders, split_names(arguments.metrics), split_names(arguments.by))
-    tables = analysis.tables()
+    report = make_report(folders, split_names(arguments.metrics), split_names(arguments.by))
+    tables = report.tables()
     if arguments.csv:
-        write_estimates(analysis, Path(arguments.csv))
+        write_estimates(report, Path(arguments.csv))
     if arguments.pairs_csv:
-        write_rows(Path(arguments.pairs_csv), pairs_of(analysis.comparisons), list(PAIR_COLUMNS))
+        write_rows(Path(arguments.pairs_csv), pairs_of(report.comparisons), list(PAIR_COLUMNS))
     if arguments.markdown:
         _write(arguments.markdown, markdown(tables))
     if arguments.latex:
@@ -78,25 +78,25 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(
             {
-                "groups": groups_of(analysis),
-                "pairs": pairs_of(analysis.comparisons),
+                "groups": groups_of(report),
+                "pairs": pairs_of(report.comparisons),
                 "rules": dict(RULES),
             }
         )
     else:
-        _print(analysis)
+        _print(report)
     if arguments.html != "none" and (arguments.html or not arguments.json):
         page = Path(arguments.html) if arguments.html else folders[0].folder.path / "report.html"
-        write_report(analysis, page, make_replays(analysis, page, arguments.replays))
+        write_report(report, page, make_replays(report, page, arguments.replays))
         if not arguments.json:
             print(f"wrote {page}")
     return 0
 
 
-def _print(analysis: "Analysis") -> None:
+def _print(report: "Report") -> None:
     from mrpbench_core.report.rules import RULES
 
-    for table in analysis.tables(brief=True):
+    for table in report.tables(brief=True):
         print_wide(table)
     print("Rules:")
     for name, words in RULES:

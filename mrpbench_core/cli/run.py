@@ -17,7 +17,7 @@ from mrpbench_core.engine.study.invoke import prepare
 from mrpbench_core.engine.study.study import Request, StudyOutcome, choose, run_study
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.status import RunStatus
-from mrpbench_core.report.axes import word
+from mrpbench_core.report.reading.axes import word
 from mrpbench_core.store.results import Results
 
 GROUPS_SHOWN = 20

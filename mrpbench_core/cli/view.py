@@ -37,7 +37,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _draw(recording: Recording, file: Path) -> None:
-    from mrpbench_core.report.picture import draw_world
+    from mrpbench_core.report.pictures.world import draw_world
     from mrpbench_core.report.replay.motion import read_levels
 
     context = recording.context()

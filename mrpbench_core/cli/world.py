@@ -65,7 +65,7 @@ def run(arguments: argparse.Namespace) -> int:
     roadmap = _builder(arguments, world).build(world, fleet)
     facts = check_world(world, roadmap, fleet.robots[0].radius)
     if arguments.render is not None:
-        from mrpbench_core.report.picture import draw_world
+        from mrpbench_core.report.pictures.world import draw_world
 
         for index, level in enumerate(world.levels):
             file = arguments.render

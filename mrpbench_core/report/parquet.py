@@ -6,7 +6,7 @@ from typing import Any
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import line
-from mrpbench_core.report.runs import each_once
+from mrpbench_core.report.reading.runs import each_once
 from mrpbench_core.store.results import Results, flatten
 
 _AT_ONCE = 2000

@@ -1,9 +1,9 @@
 """The rules behind the numbers, in words, for whoever reads a table: printed wherever the numbers are."""
 
 from mrpbench_core.model.status import LEFT_OUT
-from mrpbench_core.report.comparison import SIGNIFICANT
-from mrpbench_core.report.outcome import PENALTY
-from mrpbench_core.report.runs import PAR2
+from mrpbench_core.report.estimation.comparison import SIGNIFICANT
+from mrpbench_core.report.reading.outcome import PENALTY
+from mrpbench_core.report.reading.runs import PAR2
 from mrpbench_core.report.statistics.estimate import LEVEL
 from mrpbench_core.report.statistics.means import LEAST, MANY, RESAMPLES, SEED
 from mrpbench_core.report.statistics.paired import FLIPS

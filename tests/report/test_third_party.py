@@ -8,8 +8,8 @@ import sys
 
 import pytest
 
-from mrpbench_core.report.analysis import analyse
 from mrpbench_core.report.html.page import write_report
+from mrpbench_core.report.report import make_report
 from mrpbench_core.store.results import load
 
 METRIC = """
@@ -100,7 +100,7 @@ def test_the_replay_has_its_primary_column(told):
 
 def test_a_folder_tells_of_columns_whose_metric_is_not_installed_here(told, tmp_path):
     folder, _, _ = told
-    found = analyse([load(folder)])
+    found = make_report([load(folder)])
     (column,) = (column for column in found.columns if column.name == "strain.wear_mm")
     assert (column.unit, column.better, column.drawn) == ("mm", "lower", "cactus")
     write_report(found, tmp_path / "report.html")

@@ -14,10 +14,10 @@ from mrpbench_core.files.yaml import load as load_yaml
 from mrpbench_core.model.status import RunStatus
 from mrpbench_core.plugins.local import is_local
 from mrpbench_core.plugins.registry import Registry
-from mrpbench_core.report.analysis import Analysis
-from mrpbench_core.report.columns import Columns, describe_columns
+from mrpbench_core.report.reading.columns import Columns, describe_columns
 from mrpbench_core.report.replay.facts import numbers_of
 from mrpbench_core.report.replay.page import write_page
+from mrpbench_core.report.report import Report
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
 
@@ -62,16 +62,16 @@ def _planner(block: Any) -> str:
     return " ".join([name, *chosen])
 
 
-def make_replays(analysis: Analysis, page: Path, most: int) -> dict[str, str]:
+def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
     """Write replays of up to `most` runs that have none; returns the addresses of all, relative to `page`.
 
     Failed runs come first, and every configuration gets its turn before another gets a second one.
     """
     found: dict[str, str] = {}
     lacking: list[tuple[Results, str, Path]] = []
-    for index in _order(analysis):
-        run_id = analysis.runs.run_id[index]
-        results = analysis.folders[analysis.runs.folder[index]]
+    for index in _order(report):
+        run_id = report.runs.run_id[index]
+        results = report.folders[report.runs.folder[index]]
         file = replay_file(results, run_id)
         if file.is_file():
             found[run_id] = _address(file, page)
@@ -90,9 +90,9 @@ def make_replays(analysis: Analysis, page: Path, most: int) -> dict[str, str]:
     return found
 
 
-def _order(analysis: Analysis) -> Sequence[int]:
-    runs = analysis.runs
-    groups = [group for setting in analysis.settings for group in setting.groups]
+def _order(report: Report) -> Sequence[int]:
+    runs = report.runs
+    groups = [group for setting in report.settings for group in setting.groups]
     turns = [
         (succeeded, turn, number, index)
         for number, group in enumerate(groups)

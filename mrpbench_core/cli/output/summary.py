@@ -10,10 +10,10 @@ from mrpbench_core.config.study import Study
 from mrpbench_core.engine.study.record import code_of
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.status import LEFT_OUT, RunStatus
-from mrpbench_core.report.axes import word
-from mrpbench_core.report.columns import primary_columns, read_columns
-from mrpbench_core.report.groups import Group, group_runs
-from mrpbench_core.report.runs import PAR2, Runs, read_runs
+from mrpbench_core.report.estimation.groups import RunGroup, group_runs
+from mrpbench_core.report.reading.axes import word
+from mrpbench_core.report.reading.columns import primary_columns, read_columns
+from mrpbench_core.report.reading.runs import PAR2, Runs, read_runs
 from mrpbench_core.store.results import Results
 
 ABREAST = 4
@@ -68,7 +68,7 @@ def _short(columns: Sequence[str]) -> list[str]:
     return [end if short.count(end) == 1 else column for end, column in zip(short, columns, strict=True)]
 
 
-def _mean(runs: Runs, found: Group, key: str) -> str | None:
+def _mean(runs: Runs, found: RunGroup, key: str) -> str | None:
     values = runs.values[key][found.counted]
     having = values[np.isfinite(values)]
     if not len(having):

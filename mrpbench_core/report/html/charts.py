@@ -7,7 +7,7 @@ import attrs
 
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.report.html.scales import Scale, spread, tick_text
-from mrpbench_core.report.statistics.estimate import Estimate
+from mrpbench_core.report.statistics.estimate import IntervalEstimate
 from mrpbench_core.report.tables.table import Shown
 
 STYLES = 8
@@ -62,7 +62,9 @@ def steps(curves: Sequence[Curve], x_label: str, y_label: str, *, log_x: bool, s
     return _figure(parts, _WIDTH, _HEIGHT, f"{y_label} by {x_label}")
 
 
-def intervals(rows: Sequence[tuple[str, int, Estimate | None]], label: str, *, percent: bool, log: bool = False) -> str:
+def intervals(
+    rows: Sequence[tuple[str, int, IntervalEstimate | None]], label: str, *, percent: bool, log: bool = False
+) -> str:
     """One row per group: a mark at the estimate and a line over its interval."""
     found = [entry for _, _, entry in rows if entry is not None]
     if not found:

@@ -7,24 +7,24 @@ import numpy as np
 
 from mrpbench_core.api.metric import Column
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.report.analysis import Analysis
-from mrpbench_core.report.columns import direction, heading
-from mrpbench_core.report.estimates import Numbers
-from mrpbench_core.report.groups import Group, Setting
+from mrpbench_core.report.estimation.estimates import Numbers
+from mrpbench_core.report.estimation.groups import RunGroup, Setting
 from mrpbench_core.report.html.charts import Curve, intervals, legend, steps
-from mrpbench_core.report.runs import Runs
+from mrpbench_core.report.reading.columns import direction, heading
+from mrpbench_core.report.reading.runs import Runs
+from mrpbench_core.report.report import Report
 from mrpbench_core.report.statistics.profiles import cactus, profiles
 
 _DONE = {"planning": ("planned", "had a plan"), "execution": ("succeeded", "succeeded")}
 """For each stage the rate that says which runs are done with it, and words for that."""
 
 
-def figures(analysis: Analysis) -> str:
+def figures(report: Report) -> str:
     """Charts of every setting, as markup."""
     parts = []
-    for setting, numbers in zip(analysis.settings, analysis.numbers, strict=True):
+    for setting, numbers in zip(report.settings, report.numbers, strict=True):
         title = f"<h3>{escape(setting.name)}</h3>" if setting.name else ""
-        found = [*_rates(setting, numbers), *_means(analysis, setting, numbers), *_curves(analysis, setting)]
+        found = [*_rates(setting, numbers), *_means(report, setting, numbers), *_curves(report, setting)]
         cards = "".join(
             f"<figure>{chart}<figcaption>{escape(text)}</figcaption></figure>" for chart, text in found if chart
         )
@@ -53,10 +53,10 @@ def _rates(setting: Setting, numbers: Sequence[Numbers]) -> list[tuple[str, str]
     return charts[1:] if same else charts
 
 
-def _means(analysis: Analysis, setting: Setting, numbers: Sequence[Numbers]) -> list[tuple[str, str]]:
+def _means(report: Report, setting: Setting, numbers: Sequence[Numbers]) -> list[tuple[str, str]]:
     found = []
-    for column in analysis.columns:
-        if column.name in analysis.runs.flags:
+    for column in report.columns:
+        if column.name in report.runs.flags:
             continue
         rows = [(name, index, numbers[index].common[column.name]) for index, name in enumerate(setting.names)]
         count = max((entry.n for _, _, entry in rows if entry is not None), default=0)
@@ -66,13 +66,13 @@ def _means(analysis: Analysis, setting: Setting, numbers: Sequence[Numbers]) -> 
     return found
 
 
-def _curves(analysis: Analysis, setting: Setting) -> list[tuple[str, str]]:
+def _curves(report: Report, setting: Setting) -> list[tuple[str, str]]:
     if len(setting.groups) < 2:
         return []
     units = np.unique(np.concatenate([setting.units[group.counted] for group in setting.groups]))
     found = []
-    for column in analysis.profiled:
-        table = [_on(analysis.runs, setting, group, column, units) for group in setting.groups]
+    for column in report.profiled:
+        table = [_on(report.runs, setting, group, column, units) for group in setting.groups]
         if not any(np.isfinite(row).any() for row in table):
             continue
         if column.drawn == "cactus":
@@ -98,7 +98,7 @@ def _wide(curves: Sequence[Curve]) -> bool:
     return max(finite, default=1.0) > 10
 
 
-def _on(runs: Runs, setting: Setting, group: Group, column: Column, units: Float) -> Float:
+def _on(runs: Runs, setting: Setting, group: RunGroup, column: Column, units: Float) -> Float:
     """A group's mean for each unit; NaN where the stage failed in some run, so that the unit is not done."""
     numbers, values, _ = group.by_unit(runs, setting.units, column.name)
     asked, done, _ = group.by_unit(runs, setting.units, _DONE[column.stage][0])

@@ -8,32 +8,32 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.report.analysis import Analysis
-from mrpbench_core.report.columns import heading
+from mrpbench_core.report.reading.columns import heading
+from mrpbench_core.report.report import Report
 
 SHORT = 12
 """Characters of a run id; enough to name one."""
 FIGURES = 6
 
 
-def packed_runs(analysis: Analysis, replays: Mapping[str, str]) -> str:
+def packed_runs(report: Report, replays: Mapping[str, str]) -> str:
     """All runs as deflated JSON in base64: columns, with texts that repeat given once.
 
     Args:
-        analysis: its runs, groups and columns.
+        report: its runs, groups and columns.
         replays: addresses of pages, relative to the report, by run id.
     """
-    runs = analysis.runs
+    runs = report.runs
     group = np.zeros(len(runs), int)
     names: list[str] = []
-    for setting in analysis.settings:
+    for setting in report.settings:
         for entry, name in zip(setting.groups, setting.names, strict=True):
             group[entry.members] = len(names)
             names.append(" ".join(filter(None, (setting.name, name))))
     statuses, messages = _Texts(), _Texts()
-    columns = [column for column in analysis.columns if column.name in runs.values]
+    columns = [column for column in report.columns if column.name in runs.values]
     data: dict[str, Any] = {
-        "folders": [str(results.folder.path) for results in analysis.folders],
+        "folders": [str(results.folder.path) for results in report.folders],
         "groups": names,
         "id": [run_id[:SHORT] for run_id in runs.run_id],
         "folder": runs.folder.tolist(),

@@ -10,19 +10,19 @@ import numpy as np
 
 from mrpbench_core import __version__
 from mrpbench_core.files.text import counted
-from mrpbench_core.report.analysis import Analysis
-from mrpbench_core.report.invocations import made_with, read_invocations
-from mrpbench_core.report.spans import spans
+from mrpbench_core.report.reading.invocations import made_with, read_invocations
+from mrpbench_core.report.report import Report
 from mrpbench_core.report.statistics.means import RESAMPLES, SEED
+from mrpbench_core.report.tables.spans import spans
 from mrpbench_core.store.invocation import dumps
 
 _BLOCK = 2**20
 
 
-def origin(analysis: Analysis) -> str:
+def origin(report: Report) -> str:
     """Markup of the section."""
-    invocations = read_invocations(analysis.folders)
-    runs = analysis.runs
+    invocations = read_invocations(report.folders)
+    runs = report.runs
     facts = [
         ("seeds", spans(runs.seed)),
         ("repeats", spans(runs.repeat)),
@@ -32,7 +32,7 @@ def origin(analysis: Analysis) -> str:
         *((name, ", ".join(values)) for name, values in made_with(invocations).items()),
     ]
     items = "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in facts)
-    return f'<dl class="facts">{items}</dl>{_invocations(invocations)}{_studies(invocations)}{_shards(analysis)}'
+    return f'<dl class="facts">{items}</dl>{_invocations(invocations)}{_studies(invocations)}{_shards(report)}'
 
 
 def _invocations(invocations: Iterable[dict[str, Any]]) -> str:
@@ -67,13 +67,13 @@ def _studies(invocations: Sequence[dict[str, Any]]) -> str:
     )
 
 
-def _shards(analysis: Analysis) -> str:
+def _shards(report: Report) -> str:
     rows = [
         f"<tr><td>{escape(str(shard))}</td><td><code>{_digest(shard)}</code></td></tr>"
-        for results in analysis.folders
+        for results in report.folders
         for shard in results.folder.shards()
     ]
-    damaged = [error for results in analysis.folders for error in results.damaged]
+    damaged = [error for results in report.folders for error in results.damaged]
     warning = "".join(f'<p class="warning">{escape(str(error))}</p>' for error in damaged)
     return (
         f"<details><summary>{counted(len(rows), 'file')} of records, with SHA-256</summary>"

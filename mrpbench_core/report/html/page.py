@@ -9,11 +9,11 @@ from pathlib import Path
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.status import LEFT_OUT, RunStatus
-from mrpbench_core.report.analysis import Analysis
-from mrpbench_core.report.comparison import SIGNIFICANT, Comparison
+from mrpbench_core.report.estimation.comparison import SIGNIFICANT, Comparison
 from mrpbench_core.report.html.figures import figures
 from mrpbench_core.report.html.listing import packed_runs
 from mrpbench_core.report.html.origin import origin
+from mrpbench_core.report.report import Report
 from mrpbench_core.report.rules import RULES
 from mrpbench_core.report.tables.table import Shown, Table, p_value, text
 
@@ -21,11 +21,11 @@ FINDINGS = 12
 """Differences that the summary tells."""
 
 
-def write_report(analysis: Analysis, file: Path, replays: Mapping[str, str] | None = None) -> None:
+def write_report(report: Report, file: Path, replays: Mapping[str, str] | None = None) -> None:
     """Write one self-contained HTML page.
 
     Args:
-        analysis: what it tells.
+        report: what it tells.
         file: where to.
         replays: addresses of replays relative to the page, by run id.
 
@@ -33,16 +33,16 @@ def write_report(analysis: Analysis, file: Path, replays: Mapping[str, str] | No
         InputError: the file cannot be written.
     """
     folder = resources.files(__package__) / "template"
-    title = " and ".join(dict.fromkeys(results.folder.path.name for results in analysis.folders))
+    title = " and ".join(dict.fromkeys(results.folder.path.name for results in report.folders))
     parts = {
         "title": escape(title),
         "style": (folder / "style.css").read_text(encoding="utf-8"),
-        "summary": _summary(analysis),
-        "tables": "".join(_table(table) for table in analysis.tables()),
-        "figures": figures(analysis),
-        "origin": origin(analysis),
+        "summary": _summary(report),
+        "tables": "".join(_table(table) for table in report.tables()),
+        "figures": figures(report),
+        "origin": origin(report),
         "rules": "".join(f"<dt>{escape(name)}</dt><dd>{escape(words)}</dd>" for name, words in RULES),
-        "data": packed_runs(analysis, replays or {}),
+        "data": packed_runs(report, replays or {}),
         "script": (folder / "runs.js").read_text(encoding="utf-8"),
     }
     page = (folder / "index.html").read_text(encoding="utf-8")
@@ -53,9 +53,9 @@ def write_report(analysis: Analysis, file: Path, replays: Mapping[str, str] | No
         raise InputError(f"cannot be written: {error.strerror or error}", file=file) from None
 
 
-def _summary(analysis: Analysis) -> str:
-    runs = analysis.runs
-    total, groups = len(runs), sum(len(setting.groups) for setting in analysis.settings)
+def _summary(report: Report) -> str:
+    runs = report.runs
+    total, groups = len(runs), sum(len(setting.groups) for setting in report.settings)
     counts: dict[str, int] = {}
     for status in runs.status:
         counts[status] = counts.get(status, 0) + 1
@@ -72,7 +72,7 @@ def _summary(analysis: Analysis) -> str:
         f'<p class="lead">{counted(total, "run")} of {counted(groups, "configuration")} on'
         f" {counted(scenarios, 'scenario')}.</p>"
         f'<div class="bar" role="img" aria-label="{escape(", ".join(f"{n} {s}" for s, n in ordered))}">{bar}</div>'
-        f'<ul class="counts">{words}</ul>{_findings(analysis.comparisons)}'
+        f'<ul class="counts">{words}</ul>{_findings(report.comparisons)}'
     )
 
 

@@ -11,7 +11,8 @@ from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.doors import leaf_segments
 from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.report.picture import COLOURS, WALL, world_figure
+from mrpbench_core.report.pictures.style import COLOURS, WALL
+from mrpbench_core.report.pictures.world import world_figure
 from mrpbench_core.report.replay.motion import read_levels
 from mrpbench_core.store.recording import Recording
 
@@ -62,11 +63,11 @@ def _doors(recording: Recording, level: int) -> Callable[[int], list[Float]]:
     if "facility" not in recording.channels:
         return lambda sample: []  # noqa: ARG005 - nobody knows
     doing = recording.channel("facility")
-    here = [gate for gate in facilities.doors if level in gate.levels]
+    here = [door for door in facilities.doors if level in door.levels]
 
     def at(sample: int) -> list[Float]:
         state = dict(zip(facilities.names, doing[sample].tolist(), strict=True))
-        lines = [leaf_segments(gate.door, facilities.opening(gate, state, level)) for gate in here]
+        lines = [leaf_segments(door.door, facilities.opening(door, state, level)) for door in here]
         return list(np.concatenate([np.empty((0, 4)), *lines]).reshape(-1, 2, 2))
 
     return at

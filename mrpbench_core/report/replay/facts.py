@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from mrpbench_core.api.metric import Column
-from mrpbench_core.report.columns import Columns
+from mrpbench_core.report.reading.columns import Columns
 
 STAGES = (
     "roadmap",
@@ -26,7 +26,7 @@ def facts_of(record: Mapping[str, Any], columns: Columns, planner: str) -> dict[
 
     Args:
         record: as in `mrpbench_core.store.results`.
-        columns: those of its metrics and timing, as `mrpbench_core.report.columns` describes them.
+        columns: those of its metrics and timing, as `mrpbench_core.report.reading.columns` describes them.
         planner: what to call the planner.
     """
     config = record.get("config") or {}

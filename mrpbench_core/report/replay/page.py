@@ -10,10 +10,10 @@ from typing import Any
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.run import all_routes
-from mrpbench_core.report.columns import Columns
+from mrpbench_core.report.reading.columns import Columns
+from mrpbench_core.report.replay.doors import pack_facilities
+from mrpbench_core.report.replay.events import read_contacts, read_events
 from mrpbench_core.report.replay.facts import facts_of
-from mrpbench_core.report.replay.gates import pack_facilities
-from mrpbench_core.report.replay.happenings import read_contacts, read_events
 from mrpbench_core.report.replay.motion import pack_motion
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.report.replay.scans import pack_scans

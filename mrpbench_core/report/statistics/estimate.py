@@ -7,7 +7,7 @@ LEVEL = 0.95
 
 
 @attrs.frozen
-class Estimate:
+class IntervalEstimate:
     """A rate or a mean over units, with its interval."""
 
     value: float

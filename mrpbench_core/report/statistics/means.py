@@ -6,7 +6,7 @@ B. Efron, "Better bootstrap confidence intervals", JASA 82, 1987.
 import numpy as np
 
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.report.statistics.estimate import LEVEL, Estimate
+from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
 
 RESAMPLES = 1999
 SEED = 0
@@ -19,7 +19,7 @@ AT_ONCE = 4_000_000
 """Numbers drawn at once, which bounds memory."""
 
 
-def mean(values: Float) -> Estimate | None:
+def mean(values: Float) -> IntervalEstimate | None:
     """The mean over units; None without units."""
     from scipy.stats import bootstrap
 
@@ -28,9 +28,9 @@ def mean(values: Float) -> Estimate | None:
         return None
     centre = float(values.mean())
     if count < LEAST:
-        return Estimate(centre, np.nan, np.nan, count)
+        return IntervalEstimate(centre, np.nan, np.nan, count)
     if np.ptp(values) <= 1e-12 * max(1.0, abs(centre)):  # nothing to resample
-        return Estimate(centre, centre, centre, count)
+        return IntervalEstimate(centre, centre, centre, count)
     found = bootstrap(
         (values,),
         np.mean,
@@ -40,4 +40,4 @@ def mean(values: Float) -> Estimate | None:
         batch=max(1, AT_ONCE // count),
         rng=np.random.default_rng(SEED),
     ).confidence_interval
-    return Estimate(centre, float(found.low), float(found.high), count)
+    return IntervalEstimate(centre, float(found.low), float(found.high), count)

@@ -18,7 +18,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.report.statistics.estimate import LEVEL, Estimate
+from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
 from mrpbench_core.report.statistics.means import AT_ONCE, SEED, mean
 
 FLIPS = 9999
@@ -31,7 +31,7 @@ TIE = 1e-9
 class Difference:
     """Second treatment less first, over the units that both have."""
 
-    difference: Estimate
+    difference: IntervalEstimate
     first: float
     second: float
     """Means of both over these units."""
@@ -65,7 +65,7 @@ def compare_rates(first: Float, second: Float) -> Difference | None:
     padded = np.append(steps, (1.0, -1.0))
     reach = float(norm.ppf((1 + LEVEL) / 2) * np.sqrt(padded.var() / len(padded)))
     centre = float(padded.mean())
-    estimate = Estimate(float(steps.mean()), max(-1.0, centre - reach), min(1.0, centre + reach), len(steps))
+    estimate = IntervalEstimate(float(steps.mean()), max(-1.0, centre - reach), min(1.0, centre + reach), len(steps))
     return _difference(estimate, first, second, steps, _flip_test(steps))
 
 
@@ -99,7 +99,7 @@ def _steps(first: Float, second: Float) -> Float:
     return steps
 
 
-def _difference(estimate: Estimate, first: Float, second: Float, steps: Float, p: float) -> Difference:
+def _difference(estimate: IntervalEstimate, first: Float, second: Float, steps: Float, p: float) -> Difference:
     return Difference(
         difference=estimate,
         first=float(first.mean()),

@@ -9,10 +9,10 @@ proportions in complex sample surveys", Journal of Survey Statistics and Methodo
 import numpy as np
 
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.report.statistics.estimate import LEVEL, Estimate
+from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
 
 
-def rate(fractions: Float, runs: int) -> Estimate | None:
+def rate(fractions: Float, runs: int) -> IntervalEstimate | None:
     """The mean of the units' success fractions; None without units.
 
     Args:
@@ -26,7 +26,8 @@ def rate(fractions: Float, runs: int) -> Estimate | None:
     mean = float(fractions.mean())
     size = effective_size(fractions, runs)
     low, high = proportion_confint(mean * size, size, alpha=1 - LEVEL, method="wilson")
-    return Estimate(mean, min(mean, float(low)), max(mean, float(high)), len(fractions))  # but for rounding, at 0 and 1
+    # Rounding errors may leave the mean outside of the interval, at 0 and 1.
+    return IntervalEstimate(mean, min(mean, float(low)), max(mean, float(high)), len(fractions))
 
 
 def effective_size(fractions: Float, runs: int) -> float:

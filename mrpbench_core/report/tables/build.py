@@ -6,14 +6,14 @@ import numpy as np
 
 from mrpbench_core.api.metric import Column
 from mrpbench_core.model.status import LEFT_OUT, RunStatus
-from mrpbench_core.report.axes import word
-from mrpbench_core.report.columns import heading
-from mrpbench_core.report.comparison import SIGNIFICANT, Comparison
-from mrpbench_core.report.estimates import Numbers
-from mrpbench_core.report.groups import Group, Setting
-from mrpbench_core.report.runs import Runs
-from mrpbench_core.report.spans import spans
-from mrpbench_core.report.statistics.estimate import Estimate
+from mrpbench_core.report.estimation.comparison import SIGNIFICANT, Comparison
+from mrpbench_core.report.estimation.estimates import Numbers
+from mrpbench_core.report.estimation.groups import RunGroup, Setting
+from mrpbench_core.report.reading.axes import word
+from mrpbench_core.report.reading.columns import heading
+from mrpbench_core.report.reading.runs import Runs
+from mrpbench_core.report.statistics.estimate import IntervalEstimate
+from mrpbench_core.report.tables.spans import spans
 from mrpbench_core.report.tables.table import Cell, Shown, Table, p_value
 
 RATES = ("succeeded", "planned")
@@ -191,7 +191,9 @@ def axes_of(settings: Sequence[Setting]) -> list[str]:
     return list(dict.fromkeys(key for setting in settings for group in setting.groups for key in group.axes))
 
 
-def _groups(settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]]) -> list[tuple[Setting, Group, Numbers]]:
+def _groups(
+    settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]]
+) -> list[tuple[Setting, RunGroup, Numbers]]:
     return [
         (setting, group, found)
         for setting, entries in zip(settings, numbers, strict=True)
@@ -199,23 +201,23 @@ def _groups(settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]]) -
     ]
 
 
-def _axes_cells(group: Group, axes: Sequence[str]) -> list[Cell]:
+def _axes_cells(group: RunGroup, axes: Sequence[str]) -> list[Cell]:
     return [word(group.axes[key]) if key in group.axes else None for key in axes]
 
 
-def _shown(estimate: Estimate | None, column: Column, runs: Runs, usual: int | None) -> Cell:
+def _shown(estimate: IntervalEstimate | None, column: Column, runs: Runs, usual: int | None) -> Cell:
     return None if estimate is None else Shown(estimate, percent=column.name in runs.flags, usual=usual)
 
 
-def _rate(estimate: Estimate | None) -> Cell:
+def _rate(estimate: IntervalEstimate | None) -> Cell:
     return None if estimate is None else Shown(estimate, percent=True, usual=estimate.n)
 
 
-def _n(estimate: Estimate | None) -> int:
+def _n(estimate: IntervalEstimate | None) -> int:
     return 0 if estimate is None else estimate.n
 
 
-def _size(setting: Setting, group: Group) -> int:
+def _size(setting: Setting, group: RunGroup) -> int:
     return len(np.unique(setting.units[group.counted]))
 
 

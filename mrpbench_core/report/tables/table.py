@@ -5,7 +5,7 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.report.statistics.estimate import Estimate
+from mrpbench_core.report.statistics.estimate import IntervalEstimate
 
 Cell = Any
 """None, text, a number or a `Shown`."""
@@ -15,7 +15,7 @@ Cell = Any
 class Shown:
     """An estimate as a table shows it."""
 
-    estimate: Estimate
+    estimate: IntervalEstimate
     percent: bool = False
     usual: int | None = None
     """Number of units that the table gives elsewhere in the row; another one is written behind the interval."""

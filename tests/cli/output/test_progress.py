@@ -7,7 +7,7 @@ import pytest
 
 from mrpbench_core.cli.output import progress
 from mrpbench_core.cli.output.progress import Printed
-from mrpbench_core.report.axes import word
+from mrpbench_core.report.reading.axes import word
 
 
 def test_a_terminal_has_one_line_that_counts_and_lines_for_what_went_wrong(capsys, monkeypatch):

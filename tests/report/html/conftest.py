@@ -2,8 +2,8 @@
 
 import pytest
 
-from mrpbench_core.report.analysis import analyse
 from mrpbench_core.report.html.page import write_report
+from mrpbench_core.report.report import make_report
 
 
 @pytest.fixture(scope="package")
@@ -27,6 +27,6 @@ def study(written, record, tmp_path_factory):
 def page(study, tmp_path_factory):
     """Return the page's file."""
     file = tmp_path_factory.mktemp("page") / "report.html"
-    analysis = analyse([study], ["planning.cost", "timing.planning_s", "timing.planning_par2_s"])
-    write_report(analysis, file, {"cbs-0-0-5-": "results/replay-cbs.html"})
+    report = make_report([study], ["planning.cost", "timing.planning_s", "timing.planning_par2_s"])
+    write_report(report, file, {"cbs-0-0-5-": "results/replay-cbs.html"})
     return file

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mrpbench_core.report.html.charts import Curve, intervals, steps
 from mrpbench_core.report.html.scales import Scale, spread, tick_text
-from mrpbench_core.report.statistics.estimate import Estimate
+from mrpbench_core.report.statistics.estimate import IntervalEstimate
 
 
 @given(st.floats(-1e6, 1e6), st.floats(1e-3, 1e6))
@@ -37,7 +37,7 @@ def test_values_lie_within_their_axis(values):
 
 
 def test_a_mark_stands_where_its_value_is():
-    chart = intervals([("a", 0, Estimate(0.5, 0.25, 0.75, 8)), ("b", 1, None)], "success", percent=True)
+    chart = intervals([("a", 0, IntervalEstimate(0.5, 0.25, 0.75, 8)), ("b", 1, None)], "success", percent=True)
     x = float(re.search(r'cx="([\d.]+)"', chart)[1])
     left, right = map(float, re.search(r'<line x1="([\d.]+)" x2="([\d.]+)" y1="[\d.]+" y2="[\d.]+"/>', chart).groups())
     assert x == pytest.approx((left + right) / 2, abs=0.1)

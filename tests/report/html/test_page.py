@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.report.analysis import analyse
 from mrpbench_core.report.html.origin import spans
 from mrpbench_core.report.html.page import write_report
-from mrpbench_core.report.picture import COLOURS
+from mrpbench_core.report.pictures.style import COLOURS
+from mrpbench_core.report.report import make_report
 
 
 def test_the_page_is_well_formed_and_loads_nothing(page, parsed):
@@ -68,14 +68,14 @@ def test_groups_have_the_colours_of_the_house():
 
 
 def test_a_page_without_anything_to_compare(results, record, tmp_path, parsed):
-    write_report(analyse([results([record(status="crashed", scenario=None)])]), tmp_path / "a.html")
+    write_report(make_report([results([record(status="crashed", scenario=None)])]), tmp_path / "a.html")
     words = " ".join(parsed((tmp_path / "a.html").read_text(encoding="utf-8")).words)
     assert "1 run of 1 configuration on 0 scenarios." in words
 
 
 def test_a_folder_that_does_not_exist_is_named(study, tmp_path):
     with pytest.raises(InputError, match="cannot be written"):
-        write_report(analyse([study], ["planning.cost"]), tmp_path / "no" / "a.html")
+        write_report(make_report([study], ["planning.cost"]), tmp_path / "no" / "a.html")
 
 
 def test_numbers_in_a_row_are_a_span():

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.report.picture import COLOURS
+from mrpbench_core.report.pictures.style import COLOURS
 from mrpbench_core.report.replay.animation import FRAME_MS, HOLD_MS, PIXELS, write_gif
 
 pytest.importorskip("matplotlib")

@@ -9,8 +9,8 @@ import pytest
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.world import Area, Door, Lane, Level, Obstacle, World
-from mrpbench_core.report.columns import describe_columns
-from mrpbench_core.report.picture import COLOURS
+from mrpbench_core.report.pictures.style import COLOURS
+from mrpbench_core.report.reading.columns import describe_columns
 from mrpbench_core.report.replay.page import write_page
 
 
@@ -108,7 +108,7 @@ def test_every_part_of_a_world_is_there(store, chunk, record, run_context, tmp_p
     }
     assert shown["levels"][1]["name"] == "L2"
     slides = {"name": "gate", "levels": [0], "lift": -1, "opens_on": [], "leaves": [[0, 1, 1, 1, -1, 0, 0]]}
-    assert shown["gates"] == [slides]
+    assert shown["doors"] == [slides]
     assert shown["lanes"] == [[0, 1, 1]]
     arrays = unpack(found["motion"][0]["data-layout"], found["motion"][1])
     assert arrays["blocked_0"].tolist() == [[1, 0, 0], [0, 0, 1]]

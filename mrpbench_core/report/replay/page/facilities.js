@@ -5,7 +5,7 @@ const AT = 0.02; // metres by which a cabin may miss a level and still be there
 export class Facilities {
   constructor(run) {
     this.run = run;
-    this.gates = run.world.gates;
+    this.doors = run.world.doors;
     this.cabins = run.world.cabins;
   }
 
@@ -13,14 +13,14 @@ export class Facilities {
   #doing(number) {
     const { run } = this;
     const channel = run.arrays.facility;
-    if (!channel) return number < this.gates.length ? 0 : this.cabins[number - this.gates.length].stops[0][1];
+    if (!channel) return number < this.doors.length ? 0 : this.cabins[number - this.doors.length].stops[0][1];
     const at = number * run.samples + run.sample;
     const next = run.samples > 1 ? at + 1 : at;
     return channel.offset + channel.scale * (channel.values[at] + run.fraction * (channel.values[next] - channel.values[at]));
   }
 
   height(cabin) {
-    return this.#doing(this.gates.length + cabin);
+    return this.#doing(this.doors.length + cabin);
   }
 
   /** The level of a cabin or, between two, the nearer. */
@@ -30,21 +30,21 @@ export class Facilities {
   }
 
   /** How far a door is open on a level: a lift's is shut where the cabin is not. */
-  opening(gate, level) {
-    const { lift, opens_on } = this.gates[gate];
-    if (lift < 0) return this.#doing(gate);
-    return opens_on.includes(level) && this.level(lift) === level ? this.#doing(gate) : 0;
+  opening(door, level) {
+    const { lift, opens_on } = this.doors[door];
+    if (lift < 0) return this.#doing(door);
+    return opens_on.includes(level) && this.level(lift) === level ? this.#doing(door) : 0;
   }
 
   draw(context, view, theme, shown) {
     context.lineCap = "butt";
     context.lineWidth = Math.max(2.5, 0.06 * view.scale);
-    for (const [number, gate] of this.gates.entries()) {
-      if (!gate.levels.includes(shown.level)) continue;
+    for (const [number, door] of this.doors.entries()) {
+      if (!door.levels.includes(shown.level)) continue;
       const opening = this.opening(number, shown.level);
       context.strokeStyle = opening > 0 ? theme.accent : theme.door;
       context.beginPath();
-      for (const leaf of gate.leaves) {
+      for (const leaf of door.leaves) {
         const [from, to] = ends(leaf, opening);
         context.moveTo(...view.toScreen(...from));
         context.lineTo(...view.toScreen(...to));

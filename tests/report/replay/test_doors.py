@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from mrpbench_core.model.doors import leaf_segments
 from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.world import Door, Level, World
-from mrpbench_core.report.replay.gates import pack_facilities
+from mrpbench_core.report.replay.doors import pack_facilities
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.testing.fixtures.building import building
 
@@ -51,20 +51,20 @@ def test_leaves_move_on_the_page_as_in_the_world(motion, axis, direction, degree
         right_left_ratio=ratio,
     )
     world = World(name="w", levels=(Level(name="L1", doors=(door,)),))
-    (gate,) = pack_facilities(SILENT, world, Packing())["gates"]
+    (drawn,) = pack_facilities(SILENT, world, Packing())["doors"]
     np.testing.assert_allclose(
-        [moved(leaf, opening) for leaf in gate["leaves"]], leaf_segments(door, opening), atol=1e-3
+        [moved(leaf, opening) for leaf in drawn["leaves"]], leaf_segments(door, opening), atol=1e-3
     )
 
 
 def test_lifts_know_their_doors_stops_and_levels():
     world = building()
     packed = pack_facilities(SILENT, world, Packing())
-    assert [gate["name"] for gate in packed["gates"]] + [cabin["name"] for cabin in packed["cabins"]] == list(
+    assert [door["name"] for door in packed["doors"]] + [cabin["name"] for cabin in packed["cabins"]] == list(
         Facilities(world).names
     )
-    assert [gate["lift"] for gate in packed["gates"]] == [-1, 0]
-    assert packed["gates"][1]["opens_on"] == [0, 1]
+    assert [door["lift"] for door in packed["doors"]] == [-1, 0]
+    assert packed["doors"][1]["opens_on"] == [0, 1]
     assert packed["cabins"][0]["stops"] == [[0, 0.0], [1, 3.0]]
 
 

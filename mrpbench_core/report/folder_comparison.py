@@ -7,18 +7,18 @@ import attrs
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.report.analysis import choose_columns, tested
-from mrpbench_core.report.axes import Axes, name_axes, word
-from mrpbench_core.report.comparison import Comparison, adjusted, compare_pair
-from mrpbench_core.report.groups import Group
-from mrpbench_core.report.invocations import made_with, read_invocations
-from mrpbench_core.report.reading import read_folders
-from mrpbench_core.report.runs import Runs
+from mrpbench_core.report.estimation.comparison import Comparison, adjusted, compare_pair
+from mrpbench_core.report.estimation.groups import RunGroup
+from mrpbench_core.report.reading.axes import Axes, name_axes, word
+from mrpbench_core.report.reading.folders import read_folders
+from mrpbench_core.report.reading.invocations import made_with, read_invocations
+from mrpbench_core.report.reading.runs import Runs
+from mrpbench_core.report.report import choose_columns, tested
 from mrpbench_core.store.results import Results
 
 
 @attrs.frozen(kw_only=True)
-class Versus:
+class FolderComparison:
     """What became of A in B."""
 
     comparisons: tuple[Comparison, ...]
@@ -26,13 +26,13 @@ class Versus:
     """Options, versions and machines that are one thing throughout A and another throughout B."""
     unmatched: tuple[tuple[str, ...], tuple[str, ...]]
     """Configurations of A and of B that the other lacks."""
-    lonely: tuple[str, ...]
+    no_common_scenario: tuple[str, ...]
     """Configurations of both that share no scenario."""
 
 
 def compare_folders(
     first: Results, second: Results, metrics: Sequence[str] | None = None, by: Sequence[str] | None = None
-) -> Versus:
+) -> FolderComparison:
     """Compare B with A.
 
     Configurations match where they agree in every option that varies within a folder; options that are one thing in A
@@ -57,7 +57,7 @@ def compare_folders(
     matching = _varying_within(runs, axes) if by is None else list(dict.fromkeys(k for a in runs.axes(by) for k in a))
     sides = [_groups(runs, axes, folder, matching) for folder in (0, 1)]
     found: list[Comparison] = []
-    lonely = []
+    no_common_scenario = []
     for key in (key for key in sides[0] if key in sides[1]):
         pair = sides[0][key], sides[1][key]
         units, unit = runs.units(np.concatenate([group.members for group in pair]))
@@ -65,18 +65,18 @@ def compare_folders(
         entries = compare_pair(runs, units, unit, pair, (name, "A", "B"), tested(runs, known, columns))
         found += entries
         if not entries:
-            lonely.append(name or "all runs")
+            no_common_scenario.append(name or "all runs")
     if not found:
         raise InputError(
-            f"have no {'scenario' if lonely else 'configuration'} in common, so that nothing can be paired",
+            f"have no {'scenario' if no_common_scenario else 'configuration'} in common, so that nothing can be paired",
             file=f"{first.folder.path} and {second.folder.path}",
             hint=f"configurations match by {', '.join(matching) or 'nothing'}; --by chooses other options",
         )
-    return Versus(
+    return FolderComparison(
         comparisons=tuple(adjusted(found)),
         differing=_differing(runs, axes, matching) | _made_differently(folders),
         unmatched=(_missing(sides[0], sides[1]), _missing(sides[1], sides[0])),
-        lonely=tuple(lonely),
+        no_common_scenario=tuple(no_common_scenario),
     )
 
 
@@ -92,7 +92,7 @@ def _values(runs: Runs, axes: Sequence[Axes], folder: int, key: str) -> dict[str
     return {repr(axes[index].get(key)): axes[index].get(key) for index in used}
 
 
-def _groups(runs: Runs, axes: Sequence[Axes], folder: int, matching: Sequence[str]) -> dict[str, Group]:
+def _groups(runs: Runs, axes: Sequence[Axes], folder: int, matching: Sequence[str]) -> dict[str, RunGroup]:
     """Groups of one folder, by the options in which they must agree."""
     chosen = [{key: entry[key] for key in matching if key in entry} for entry in axes]
     names = np.array([repr(entry) for entry in chosen])
@@ -101,7 +101,7 @@ def _groups(runs: Runs, axes: Sequence[Axes], folder: int, matching: Sequence[st
         members = np.flatnonzero((runs.folder == folder) & (names == name)[runs.config])
         if len(members):
             part = next(entry for entry in chosen if repr(entry) == name)
-            groups[name] = Group(axes=part, members=members, counted=members[runs.counted[members]])
+            groups[name] = RunGroup(axes=part, members=members, counted=members[runs.counted[members]])
     return groups
 
 
@@ -123,5 +123,5 @@ def _made_differently(folders: Sequence[Results]) -> dict[str, tuple[str, str]]:
     }
 
 
-def _missing(here: dict[str, Group], there: dict[str, Group]) -> tuple[str, ...]:
+def _missing(here: dict[str, RunGroup], there: dict[str, RunGroup]) -> tuple[str, ...]:
     return tuple(name_axes(group.axes) or "all runs" for key, group in here.items() if key not in there)

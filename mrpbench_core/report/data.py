@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.report.analysis import Analysis
-from mrpbench_core.report.comparison import Comparison
-from mrpbench_core.report.statistics.estimate import Estimate
+from mrpbench_core.report.estimation.comparison import Comparison
+from mrpbench_core.report.report import Report
+from mrpbench_core.report.statistics.estimate import IntervalEstimate
 from mrpbench_core.report.tables.build import axes_of
 
 PAIR_COLUMNS = (
@@ -20,10 +20,10 @@ PAIR_COLUMNS = (
 )
 
 
-def groups_of(analysis: Analysis) -> list[dict[str, Any]]:
+def groups_of(report: Report) -> list[dict[str, Any]]:
     """Of each group: axes, counts, and estimates by column, over all its units and over those in common."""
     found = []
-    for setting, entries in zip(analysis.settings, analysis.numbers, strict=True):
+    for setting, entries in zip(report.settings, report.numbers, strict=True):
         for group, numbers in zip(setting.groups, entries, strict=True):
             found.append(
                 {
@@ -33,7 +33,7 @@ def groups_of(analysis: Analysis) -> list[dict[str, Any]]:
                     "counted": len(group.counted),
                     "units": len(np.unique(setting.units[group.counted])),
                     "unit": setting.unit,
-                    "statuses": dict(group.statuses(analysis.runs)),
+                    "statuses": dict(group.statuses(report.runs)),
                     "overall": {name: _plain(value) for name, value in numbers.overall.items()},
                     "common": {name: _plain(value) for name, value in numbers.common.items()},
                 }
@@ -71,15 +71,15 @@ def pairs_of(comparisons: Iterable[Comparison]) -> list[dict[str, Any]]:
     ]
 
 
-def write_estimates(analysis: Analysis, file: Path) -> None:
+def write_estimates(report: Report, file: Path) -> None:
     """Write a CSV file with one line per group and column, over all units and over those in common."""
-    axes = axes_of(analysis.settings)
-    units = {column.name: column.unit for column in analysis.columns}
+    axes = axes_of(report.settings)
+    units = {column.name: column.unit for column in report.columns}
     rows = [
         {key: group["axes"].get(key) for key in axes}
         | {"runs": group["runs"], "counted": group["counted"], "over": over}
         | {"column": name, "unit": units.get(name, ""), **(value or {"n": 0})}
-        for group in groups_of(analysis)
+        for group in groups_of(report)
         for over in ("overall", "common")
         for name, value in group[over].items()
     ]
@@ -97,7 +97,7 @@ def write_rows(file: Path, rows: Iterable[Mapping[str, Any]], columns: list[str]
         raise InputError(f"cannot be written: {error.strerror}", file=file) from error
 
 
-def _plain(estimate: Estimate | None) -> dict[str, Any] | None:
+def _plain(estimate: IntervalEstimate | None) -> dict[str, Any] | None:
     if estimate is None:
         return None
     return {

@@ -1,6 +1,6 @@
 """What a report knows of columns: declared by invocations, completed by installed metrics."""
 
-from mrpbench_core.report.columns import describe_columns, heading, primary_columns
+from mrpbench_core.report.reading.columns import describe_columns, heading, primary_columns
 
 OLD = {"unit": "s", "better": "lower", "description": "how long", "source": ""}
 """As invocations of version 0.1 declare a column."""

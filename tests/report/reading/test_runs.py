@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.report.runs import PAR2, read_runs
+from mrpbench_core.report.reading.runs import PAR2, read_runs
 
 
 def test_a_run_without_a_plan_has_no_planning_time_but_a_penalised_one(results, record):

@@ -7,19 +7,19 @@ import attrs
 from mrpbench_core.api.metric import Column
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import suggest
-from mrpbench_core.report.columns import Columns, direction, primary_columns
-from mrpbench_core.report.comparison import Comparison, compare_settings
-from mrpbench_core.report.estimates import Numbers, numbers_of
-from mrpbench_core.report.groups import Setting, find_settings, group_runs
-from mrpbench_core.report.reading import read_folders
-from mrpbench_core.report.runs import Runs
+from mrpbench_core.report.estimation.comparison import Comparison, compare_settings
+from mrpbench_core.report.estimation.estimates import Numbers, numbers_of
+from mrpbench_core.report.estimation.groups import Setting, find_settings, group_runs
+from mrpbench_core.report.reading.columns import Columns, direction, primary_columns
+from mrpbench_core.report.reading.folders import read_folders
+from mrpbench_core.report.reading.runs import Runs
 from mrpbench_core.report.tables.build import RATES, common_table, means_table, outcome_table, pairs_table
 from mrpbench_core.report.tables.table import Table
 from mrpbench_core.store.results import Results
 
 
 @attrs.frozen(kw_only=True)
-class Analysis:
+class Report:
     """Runs of results folders with what can be said of them."""
 
     folders: tuple[Results, ...]
@@ -46,9 +46,9 @@ class Analysis:
         return [table for table in found if table is not None]
 
 
-def analyse(
+def make_report(
     folders: Sequence[Results], metrics: Sequence[str] | None = None, by: Sequence[str] | None = None
-) -> Analysis:
+) -> Report:
     """Read folders and estimate and compare everything.
 
     Args:
@@ -65,7 +65,7 @@ def analyse(
     columns = choose_columns(runs, known, metrics)
     settings = tuple(find_settings(runs, group_runs(runs, by)))
     wanted = [*RATES, *(column.name for column in columns)]
-    return Analysis(
+    return Report(
         folders=tuple(folders),
         runs=runs,
         settings=settings,

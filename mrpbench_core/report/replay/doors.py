@@ -23,18 +23,18 @@ def pack_facilities(recording: Recording, world: World, packing: Packing) -> dic
         packing.add_metres("facility", recording.channel("facility").T, OPENING)
     lifts = [lift.name for lift in world.lifts]
     return {
-        "gates": [_gate(gate, lifts) for gate in facilities.doors],
+        "doors": [_door(door, lifts) for door in facilities.doors],
         "cabins": [_cabin(lift, facilities.heights[lift.name]) for lift in world.lifts],
     }
 
 
-def _gate(gate: OperatedDoor, lifts: list[str]) -> dict[str, Any]:
+def _door(door: OperatedDoor, lifts: list[str]) -> dict[str, Any]:
     return {
-        "name": gate.name,
-        "levels": list(gate.levels),
-        "lift": -1 if gate.lift is None else lifts.index(gate.lift.name),
-        "opens_on": list(gate.opens_on),
-        "leaves": _leaves(gate.door),
+        "name": door.name,
+        "levels": list(door.levels),
+        "lift": -1 if door.lift is None else lifts.index(door.lift.name),
+        "opens_on": list(door.opens_on),
+        "leaves": _leaves(door.door),
     }
 
 

@@ -5,11 +5,11 @@ import pytest
 from scipy import stats
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.report.analysis import analyse
+from mrpbench_core.report.report import make_report
 
 
-def numbers(analysis, setting=0):
-    return dict(zip(analysis.settings[setting].names, analysis.numbers[setting], strict=True))
+def numbers(report, setting=0):
+    return dict(zip(report.settings[setting].names, report.numbers[setting], strict=True))
 
 
 def test_success_is_overall_and_normalised(results, record):
@@ -18,7 +18,7 @@ def test_success_is_overall_and_normalised(results, record):
         "a": ["succeeded", "succeeded", "goals_missed", "goals_missed"],
         "b": ["succeeded", "succeeded", "succeeded", "plan_timeout"],
     }
-    found = analyse([results([record(p, seed, end) for p in ends for seed, end in enumerate(ends[p])])])
+    found = make_report([results([record(p, seed, end) for p in ends for seed, end in enumerate(ends[p])])])
     a, b = numbers(found)["a"], numbers(found)["b"]
     assert (a.overall["succeeded"].value, a.overall["succeeded"].n) == (0.5, 4)
     assert (b.overall["succeeded"].value, b.overall["planned"].value) == (0.75, 0.75)
@@ -29,7 +29,7 @@ def test_success_is_overall_and_normalised(results, record):
 def test_means_in_common_are_over_scenarios_for_which_all_have_a_value(results, record):
     costs = {"a": [1.0, 2.0, 30.0], "b": [2.0, 3.0, None]}
     records = [record(p, seed, cost=costs[p][seed]) for p in costs for seed in range(3)]
-    found = analyse([results(records)], ["planning.cost"])
+    found = make_report([results(records)], ["planning.cost"])
     a, b = numbers(found)["a"], numbers(found)["b"]
     assert (a.overall["planning.cost"].value, a.overall["planning.cost"].n) == (11.0, 3)
     assert (a.common["planning.cost"].value, a.common["planning.cost"].n) == (1.5, 2)
@@ -38,7 +38,7 @@ def test_means_in_common_are_over_scenarios_for_which_all_have_a_value(results, 
 
 def test_a_skipped_planner_takes_nothing_from_the_others(results, record):
     records = [record("a", seed) for seed in range(3)] + [record("b", seed, "skipped") for seed in range(3)]
-    found = analyse([results(records)])
+    found = make_report([results(records)])
     assert numbers(found)["b"].overall["succeeded"] is None
     assert numbers(found)["a"].common["succeeded"].n == 3
     assert "n/a" in found.tables()[0].rows[1]
@@ -47,14 +47,14 @@ def test_a_skipped_planner_takes_nothing_from_the_others(results, record):
 def test_one_that_never_plans_leaves_nothing_in_common(results, record):
     records = [record("a", seed, cost=1.0) for seed in range(3)]
     records += [record("b", seed, "plan_timeout") for seed in range(3)]
-    found = analyse([results(records)], ["planning.cost"])
+    found = make_report([results(records)], ["planning.cost"])
     assert numbers(found)["a"].common["planning.cost"] is None
 
 
 def test_one_that_is_not_executed_is_not_asked_for_executions(results, record):
     driven = [record("a", seed, metrics={"execution.duration_s": 5.0 + seed}) for seed in range(3)]
     planned = [record("b", seed, metrics={"execution.duration_s": None}) for seed in range(3)]
-    found = analyse([results(driven + planned)], ["execution.duration_s"])
+    found = make_report([results(driven + planned)], ["execution.duration_s"])
     assert numbers(found)["a"].common["execution.duration_s"].n == 3
 
 
@@ -62,7 +62,7 @@ def test_pairs_are_made_on_common_scenarios_only(results, record):
     records = [record("a", seed, cost=float(seed)) for seed in range(8)]
     records += [record("b", seed, cost=seed + 1.0 + seed / 10) for seed in range(2, 12)]
     (cost,) = [
-        c for c in analyse([results(records)], ["planning.cost"]).comparisons if c.column.name == "planning.cost"
+        c for c in make_report([results(records)], ["planning.cost"]).comparisons if c.column.name == "planning.cost"
     ]
     assert (cost.found.difference.n, cost.unpaired) == (6, (2, 4))
     assert cost.found.difference.value == pytest.approx(1.45)
@@ -74,7 +74,7 @@ def test_a_mean_that_points_the_other_way_is_told(results, record):
     """Nineteen pairs a little dearer and one far cheaper: worse by the ranks, cheaper on average."""
     records = [record("a", seed, cost=500.0 if seed == 19 else 10.0) for seed in range(20)]
     records += [record("b", seed, cost=100.0 if seed == 19 else 11.0 + seed) for seed in range(20)]
-    found = analyse([results(records)], ["planning.cost"])
+    found = make_report([results(records)], ["planning.cost"])
     (cost,) = [c for c in found.comparisons if c.column.name == "planning.cost"]
     assert cost.found.difference.value < 0 < cost.found.effect
     assert (cost.is_mixed, cost.verdict) == (True, "worse")
@@ -88,14 +88,14 @@ def test_only_groups_that_differ_in_one_choice_are_compared(results, record):
             for seed in range(3)
         ]
 
-    found = analyse([results(entry("a", 10) + entry("a", 20) + entry("b", 10))])
+    found = make_report([results(entry("a", 10) + entry("a", 20) + entry("b", 10))])
     compared = {(c.first, c.second) for c in found.comparisons}
     assert compared == {("control_rate=10 a", "control_rate=20 a"), ("control_rate=10 a", "control_rate=10 b")}
 
 
 def test_a_column_nobody_has_is_refused(results, record):
     with pytest.raises(InputError, match=r"did you mean 'planning\.cost'"):
-        analyse([results([record(cost=1.0)])], ["planning.costs"])
+        make_report([results([record(cost=1.0)])], ["planning.costs"])
 
 
 def test_a_reviewer_recomputes_the_numbers_from_the_lines(results, record, tmp_path):
@@ -110,7 +110,7 @@ def test_a_reviewer_recomputes_the_numbers_from_the_lines(results, record, tmp_p
                 records.append(record(planner, seed, status, repeat=repeat, cost=value))
     records.append(record("a", 99, "scenario_infeasible"))
     folder = results(records).folder.path
-    found = analyse([results(records)], ["planning.cost"])
+    found = make_report([results(records)], ["planning.cost"])
 
     files = (folder / "runs").glob("*.jsonl")
     lines = pd.concat((pd.read_json(file, lines=True) for file in files), ignore_index=True)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mrpbench_core.report.analysis import analyse
-from mrpbench_core.report.reading import read_folders
+from mrpbench_core.report.reading.folders import read_folders
+from mrpbench_core.report.report import make_report
 
 COUNTED = "execution.robot_contacts"
 FORMER = "contact.robot_count"
@@ -34,4 +34,4 @@ def test_values_that_differ_stay_apart(read):
 
 def test_a_former_name_may_be_asked_for(read):
     for entry in ({COUNTED: 4}, {FORMER: 4}):
-        assert [column.name for column in analyse([read(entry)], [FORMER]).columns] == [COUNTED]
+        assert [column.name for column in make_report([read(entry)], [FORMER]).columns] == [COUNTED]

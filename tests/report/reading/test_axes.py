@@ -3,7 +3,7 @@
 import pytest
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.report.axes import find_axes, name_axes
+from mrpbench_core.report.reading.axes import find_axes, name_axes
 
 CBS, ECBS = {"plugin": "cbs"}, {"plugin": "ecbs", "w": 1.2}
 

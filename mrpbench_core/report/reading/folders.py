@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from mrpbench_core.report.columns import Columns, read_columns
-from mrpbench_core.report.runs import Runs, read_runs
+from mrpbench_core.report.reading.columns import Columns, read_columns
+from mrpbench_core.report.reading.runs import Runs, read_runs
 from mrpbench_core.store.results import Results
 
 

@@ -8,9 +8,9 @@ import numpy as np
 
 from mrpbench_core.api.metric import Column
 from mrpbench_core.model.arrays import Int
-from mrpbench_core.report.columns import direction
-from mrpbench_core.report.groups import Group, Setting, differing_factors
-from mrpbench_core.report.runs import Runs
+from mrpbench_core.report.estimation.groups import RunGroup, Setting, differing_factors
+from mrpbench_core.report.reading.columns import direction
+from mrpbench_core.report.reading.runs import Runs
 from mrpbench_core.report.statistics.paired import Difference, adjust, compare_rates, compare_values
 
 SIGNIFICANT = 0.05
@@ -49,7 +49,7 @@ def compare_pair(
     runs: Runs,
     units: Int,
     unit: str,
-    sides: tuple[Group, Group],
+    sides: tuple[RunGroup, RunGroup],
     names: tuple[str, str, str],
     columns: Iterable[Column],
 ) -> list[Comparison]:

@@ -10,8 +10,8 @@ import numpy as np
 from mrpbench_core.files.jsonl import line
 from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.status import LEFT_OUT, RunStatus
-from mrpbench_core.report.axes import NO_AXES, Axes, find_axes
-from mrpbench_core.report.outcome import PENALTY, has_plan
+from mrpbench_core.report.reading.axes import NO_AXES, Axes, find_axes
+from mrpbench_core.report.reading.outcome import PENALTY, has_plan
 from mrpbench_core.store.results import Results
 
 PAR2 = "timing.planning_par2_s"

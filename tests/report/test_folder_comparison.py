@@ -3,7 +3,7 @@
 import pytest
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.report.versus import compare_folders
+from mrpbench_core.report.folder_comparison import compare_folders
 
 
 @pytest.fixture

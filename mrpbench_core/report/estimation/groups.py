@@ -7,12 +7,12 @@ import attrs
 import numpy as np
 
 from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.report.axes import Axes, factors, name_axes
-from mrpbench_core.report.runs import Runs
+from mrpbench_core.report.reading.axes import Axes, factors, name_axes
+from mrpbench_core.report.reading.runs import Runs
 
 
 @attrs.frozen(kw_only=True, eq=False)
-class Group:
+class RunGroup:
     """Runs of one configuration, or of several that are looked at as one."""
 
     axes: Axes
@@ -42,7 +42,7 @@ class Setting:
 
     name: str
     """What sets it apart from the other settings."""
-    groups: tuple[Group, ...]
+    groups: tuple[RunGroup, ...]
     names: tuple[str, ...]
     """Of each group, what sets it apart from the others here."""
     units: Int
@@ -51,7 +51,7 @@ class Setting:
     """`scenarios` or `runs`."""
 
 
-def group_runs(runs: Runs, by: Sequence[str] | None = None) -> list[Group]:
+def group_runs(runs: Runs, by: Sequence[str] | None = None) -> list[RunGroup]:
     """Groups in the order in which their first runs come.
 
     Args:
@@ -66,13 +66,14 @@ def group_runs(runs: Runs, by: Sequence[str] | None = None) -> list[Group]:
     order = np.argsort(of_run, kind="stable")
     parts = np.split(order, np.cumsum(np.bincount(of_run, minlength=len(numbers)))[:-1]) if len(runs) else []
     return [
-        Group(axes=first[number], members=part, counted=part[runs.counted[part]]) for number, part in enumerate(parts)
+        RunGroup(axes=first[number], members=part, counted=part[runs.counted[part]])
+        for number, part in enumerate(parts)
     ]
 
 
-def find_settings(runs: Runs, groups: Sequence[Group]) -> list[Setting]:
+def find_settings(runs: Runs, groups: Sequence[RunGroup]) -> list[Setting]:
     """Put together groups that share scenarios, directly or through others."""
-    parts: list[tuple[set[int], list[Group]]] = []
+    parts: list[tuple[set[int], list[RunGroup]]] = []
     for group in groups:
         scenarios = set(np.unique(runs.scenario[group.members]).tolist()) - {-1}
         touching = [part for part in parts if part[0] & scenarios]
@@ -96,7 +97,7 @@ def differing_factors(first: Axes, second: Axes) -> list[str]:
     return [name for name in dict.fromkeys([*one, *other]) if repr(one.get(name)) != repr(other.get(name))]
 
 
-def _setting(runs: Runs, members: Sequence[Group], axes: Axes) -> Setting:
+def _setting(runs: Runs, members: Sequence[RunGroup], axes: Axes) -> Setting:
     units, unit = runs.units(np.concatenate([group.members for group in members]))
     constant = _constant(members)
     own = [{key: value for key, value in group.axes.items() if key not in constant} for group in members]
@@ -109,7 +110,7 @@ def _setting(runs: Runs, members: Sequence[Group], axes: Axes) -> Setting:
     )
 
 
-def _constant(members: Sequence[Group]) -> Axes:
+def _constant(members: Sequence[RunGroup]) -> Axes:
     """Axes that are the same in all groups."""
     return {
         key: value

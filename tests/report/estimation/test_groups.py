@@ -1,7 +1,7 @@
 """Groups of runs, and the settings in which they can be compared."""
 
-from mrpbench_core.report.groups import differing_factors, find_settings, group_runs
-from mrpbench_core.report.runs import read_runs
+from mrpbench_core.report.estimation.groups import differing_factors, find_settings, group_runs
+from mrpbench_core.report.reading.runs import read_runs
 
 
 def study(record, planners=("astar", "cbs"), robots=(5, 9), seeds=range(3)):

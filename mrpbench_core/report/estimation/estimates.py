@@ -7,9 +7,9 @@ import attrs
 import numpy as np
 
 from mrpbench_core.model.arrays import Int
-from mrpbench_core.report.groups import Group, Setting
-from mrpbench_core.report.runs import Runs
-from mrpbench_core.report.statistics.estimate import Estimate
+from mrpbench_core.report.estimation.groups import RunGroup, Setting
+from mrpbench_core.report.reading.runs import Runs
+from mrpbench_core.report.statistics.estimate import IntervalEstimate
 from mrpbench_core.report.statistics.means import mean
 from mrpbench_core.report.statistics.rates import rate
 
@@ -18,13 +18,13 @@ from mrpbench_core.report.statistics.rates import rate
 class Numbers:
     """What the tables say of a group, by column."""
 
-    overall: dict[str, Estimate | None]
+    overall: dict[str, IntervalEstimate | None]
     """Over every unit of the group that has a value."""
-    common: dict[str, Estimate | None]
+    common: dict[str, IntervalEstimate | None]
     """Over the units that every group of the setting has a value for."""
 
 
-def estimate(runs: Runs, group: Group, units: Int, column: str, only: Int | None = None) -> Estimate | None:
+def estimate(runs: Runs, group: RunGroup, units: Int, column: str, only: Int | None = None) -> IntervalEstimate | None:
     """Mean or rate of a column over a group's units, or over those in `only`; None where no unit has a value."""
     numbers, values, count = group.by_unit(runs, units, column)
     if only is not None:

@@ -8,9 +8,9 @@ import attrs
 from mrpbench_core.api.metric import Column, ColumnStage, Drawn, Metric
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.registry import Registry
-from mrpbench_core.report.invocations import read_invocations
-from mrpbench_core.report.outcome import PENALTY
-from mrpbench_core.report.runs import PAR2
+from mrpbench_core.report.reading.invocations import read_invocations
+from mrpbench_core.report.reading.outcome import PENALTY
+from mrpbench_core.report.reading.runs import PAR2
 from mrpbench_core.store.results import Results
 
 Columns = Mapping[str, Column]

@@ -1,6 +1,6 @@
 import numpy as np
 
-from mrpbench_core.report.replay.happenings import read_contacts, read_events
+from mrpbench_core.report.replay.events import read_contacts, read_events
 
 
 def test_periods_in_contact_become_one_contact_until_they_part(store, chunk):

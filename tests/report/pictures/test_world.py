@@ -11,7 +11,8 @@ from mrpbench_core.model.execution import Route
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.world import Door, Lane, Level, Obstacle, Vertex, World
-from mrpbench_core.report.picture import PIXELS, draw_world
+from mrpbench_core.report.pictures.style import PIXELS
+from mrpbench_core.report.pictures.world import draw_world
 
 pytest.importorskip("matplotlib")
 

@@ -1,0 +1,1 @@
+"""Pictures of worlds and of the paths that robots planned and drove, by matplotlib."""

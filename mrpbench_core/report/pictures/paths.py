@@ -1,0 +1,62 @@
+"""Planned and driven paths in a picture."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.execution import Route
+from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.report.pictures.style import COLOURS
+
+
+def on_level(route: Route, level: int) -> Float:
+    """Waypoints f8[k,2] of a route in metres, NaN on other levels."""
+    there: Float = np.where((route.level == level)[:, None], route.waypoint[:, :2], np.nan)
+    return there
+
+
+def draw_paths(axes: Any, fleet: Fleet | None, routes: Sequence[Float], truth: Float | None) -> None:
+    """Draw for each robot the planned path dashed, the driven path solid, its start as a circle and its goal as a star.
+
+    Positions on other levels are NaN.
+    """
+    from matplotlib.patches import Circle
+
+    robots = len(routes) if routes else (0 if truth is None else truth.shape[1])
+    width = 1.6 if robots <= 20 else 0.9
+    for robot in range(robots):
+        colour = COLOURS[robot % len(COLOURS)]
+        planned = routes[robot] if routes else np.empty((0, 2))
+        driven = np.empty((0, 2)) if truth is None else truth[:, robot, :2]
+        if len(planned):
+            axes.plot(*planned.T, "--", color=colour, linewidth=0.7 * width, alpha=0.7, zorder=6, dash_capstyle="round")
+        if len(driven):
+            axes.plot(*driven.T, "-", color=colour, linewidth=width, zorder=7, solid_joinstyle="round")
+        start, goal = (planned if len(planned) else driven)[[0, -1]]
+        if fleet is not None and np.isfinite(start).all():
+            axes.add_patch(Circle(start, fleet.robots[robot].radius, facecolor=colour, alpha=0.25, zorder=7))
+        for point, marker, size in ((start, "o", 9), (goal, "*", 15)):
+            if np.isfinite(point).all():
+                _mark(axes, point, marker, size, colour, str(robot))
+    _legend(axes, bool(routes), truth is not None)
+
+
+def _mark(axes: Any, point: Float, marker: str, size: int, colour: str, text: str) -> None:
+    style: dict[str, Any] = {"ha": "center", "va": "center_baseline", "fontsize": 5.5, "fontweight": "bold"}
+    axes.plot(*point, marker, color=colour, markersize=size, markeredgecolor="white", markeredgewidth=0.8, zorder=8)
+    axes.text(*point, text, color="white", zorder=9, **style)
+
+
+def _legend(axes: Any, planned: bool, driven: bool) -> None:
+    from matplotlib.lines import Line2D
+
+    grey: dict[str, Any] = {"color": "#555555"}
+    entries = [
+        *([Line2D([], [], linestyle="--", linewidth=1.1, label="planned", **grey)] if planned else []),
+        *([Line2D([], [], linewidth=1.6, label="driven", **grey)] if driven else []),
+        Line2D([], [], linestyle="", marker="o", markersize=6, label="start", **grey),
+        Line2D([], [], linestyle="", marker="*", markersize=9, label="goal", **grey),
+    ]
+    axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=4, frameon=False, borderpad=0)

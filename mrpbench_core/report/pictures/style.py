@@ -1,0 +1,26 @@
+"""The look of pictures: colours, sizes, fonts."""
+
+from contextlib import AbstractContextManager
+
+from mrpbench_core.files.errors import InputError
+
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5195", "#8c6d31")
+"""Colours of robots that colour-blind readers can distinguish; after Okabe and Ito, "Color Universal Design", 2008."""
+WALL, LANE, ROAD, NAME, DOOR, LIFT = "#3b4252", "#9db4c8", "#e8f0f6", "#51606e", "#b07d2b", "#7a5195"
+PIXELS = 1280
+"""Width of a picture, or height of a tall one."""
+DPI = 160
+
+
+def own_style() -> AbstractContextManager[None]:
+    """Return a context in which matplotlib has the style of these pictures, whatever the user's settings.
+
+    Raises:
+        InputError: matplotlib is not installed.
+    """
+    try:
+        import matplotlib
+    except ImportError:
+        raise InputError("pictures need matplotlib", hint="pip install 'mrpbench-core[figures]'") from None
+    style: AbstractContextManager[None] = matplotlib.rc_context({"font.family": "sans-serif", "font.size": 7})
+    return style
