@@ -1,4 +1,4 @@
-// Values of options between Python and C++. What an option may be is said by its row in C++, not here.
+// Values of options between Python and C++. The row of an option in C++ decides which values are allowed.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -41,12 +41,12 @@ def test_robots_choose_among_candidates():
     assert [path[-1].tolist() for path in solution.paths] == [[0, 1], [3, 3]]
 
 
-def test_nobody_is_an_answer_too():
+def test_a_problem_without_robots_is_solved():
     solution = solve(OPEN, np.empty((0, 2), int), np.empty((0, 2), int), algorithm="cbs")
     assert (solution.status, solution.paths, solution.cost) == ("solved", (), 0)
 
 
-def test_what_cannot_be_solved_has_no_paths():
+def test_an_unsolvable_problem_has_no_paths():
     walled = OPEN.copy()
     walled[:, 1] = False
     solution = solve(walled, [[0, 0]], [[0, 3]], algorithm="cbs")
@@ -81,7 +81,7 @@ def test_every_algorithm_answers_with_paths_from_starts_to_goals(seed, algorithm
         ({"goals": [[0, 1], [0, 2]]}, "goals: 2 for 1 robots"),
         ({"goals": [0]}, "goals: one for each robot, or a list of candidates"),
         ({"starts": [[0.5, 1]]}, "starts: whole numbers are needed, not float64"),
-        ({"starts": [0]}, r"starts: a row and a column each, but the array has shape \(1,\)"),
+        ({"starts": [0]}, r"starts: needs a row and a column each, but the array has shape \(1,\)"),
         ({"algorithm": "magic"}, "there is no algorithm 'magic'; there are: astar"),
         ({"algorithm": "cbs", "v": 2}, "cbs has no option 'v'; it has: "),
         ({"algorithm": "cbs", "bypass": "no"}, "cbs: bypass must be true or false, not 'no'"),
@@ -150,16 +150,16 @@ def test_mistakes_are_named(arguments, said):
         ({"edges": [(0, 1)], "duration": [0]}, "at least one tick"),
         ({"edges": [(0, 1)], "duration": 2**21}, "at most 1048576"),
         ({"edges": [(0, 1)], "duration": 2**32 + 1}, "at most 1048576"),
-        ({"edges": [(0, 1)], "duration": [1, 2]}, r"one for all or one for each of 1 edges, not \(2,\)"),
+        ({"edges": [(0, 1)], "duration": [1, 2]}, r"one value for all or for each of 1 edges, but has shape \(2,\)"),
         ({"edges": [(0, 1)], "duration": 1.5}, "duration: whole numbers are needed"),
-        ({"edges": [(0, 1, 2)]}, r"edges: from and to of each, but the array has shape \(1, 3\)"),
-        ({"edges": [0, 1]}, r"edges: from and to of each, but the array has shape \(2,\)"),
+        ({"edges": [(0, 1, 2)]}, r"edges: each row needs from and to, but the array has shape \(1, 3\)"),
+        ({"edges": [0, 1]}, r"edges: each row needs from and to, but the array has shape \(2,\)"),
         ({"edges": [(0, 1), (1,)]}, "edges: an array is needed, but the rows differ in length"),
-        ({"edges": [(0, 2**40)]}, "are more than the 2147483647 that can be numbered"),
+        ({"edges": [(0, 2**40)]}, "are more than the supported 2147483647"),
         ({"edges": [], "vertices": 2.5}, "vertices: a whole number is needed, not 2.5"),
     ],
 )
-def test_graphs_that_are_none_are_refused(arguments, said):
+def test_invalid_graphs_are_refused(arguments, said):
     with pytest.raises(ValueError, match=said):
         Graph(**arguments)
 
@@ -180,7 +180,7 @@ places = st.lists(st.tuples(st.integers(-1, 4), st.integers(-1, 4)), max_size=5)
     time_limit=st.just(0.1) | anything.filter(lambda it: not isinstance(it, int | float) or it < 0.1),
     memory_limit=st.sampled_from([0, 1 << 10, 1 << 20, 1 << 30]) | anything,
 )
-def test_whatever_is_asked_has_an_answer_or_a_clear_refusal(starts, goals, algorithm, time_limit, memory_limit):
+def test_any_input_gives_a_solution_or_a_clear_error(starts, goals, algorithm, time_limit, memory_limit):
     refusal = ""
     try:
         solution = solve(OPEN, starts, goals, algorithm=algorithm, time_limit=time_limit, memory_limit=memory_limit)

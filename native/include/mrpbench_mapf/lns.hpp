@@ -1,6 +1,6 @@
 // Large neighbourhood search. A first plan by repairing one that has conflicts: Li, Chen, Harabor, Stuckey and Koenig,
 // "MAPF-LNS2: Fast repairing for multi-agent path finding via large neighborhood search", AAAI 2022. Then groups of
-// robots are planned anew as long as there is time: Li, Chen, Harabor, Stuckey and Koenig, "Anytime multi-agent path
+// robots are replanned until time is over: Li, Chen, Harabor, Stuckey and Koenig, "Anytime multi-agent path
 // finding via large neighborhood search", IJCAI 2021.
 #pragma once
 
@@ -30,9 +30,9 @@ struct LnsOptions {
          "Source of the first plan: repair, lacam (where every move takes one tick; elsewhere repair), or either "
          "(lacam, then repair for a while, and the cheaper of the two plans)"},
         {"neighbourhood", &LnsOptions::neighbourhood, at_least(1),
-         "Number of robots that are planned anew at a time; none = 8 while repairing, then 1 to 32, chosen by success"},
+         "Number of robots that are replanned at a time; none = 8 while repairing, then 1 to 32, chosen by success"},
         {"iterations", &LnsOptions::iterations, at_least(0),
-         "Groups that are planned anew, first to repair and again to improve; none = until time is over"},
+         "Groups that are replanned, first to repair and again to improve; none = until time is over"},
         {"seed", &LnsOptions::seed, "Seed of all random choices"}};
   }
 };

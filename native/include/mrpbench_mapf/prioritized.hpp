@@ -2,7 +2,7 @@
 // Erdmann and Lozano-Perez, "On multiple moving objects", Algorithmica 1987; Silver, "Cooperative Pathfinding",
 // AIIDE 2005. After a failure the robot that found no path plans first the next time: Andreychuk and Yakovlev, "Two
 // techniques that enhance the performance of multi-robot prioritized path planning", AAMAS 2018. After a hundred
-// restarts robots also start late at random, and are hurried once there is a plan.
+// restarts robots also start late at random; once there is a plan, each is given its earliest path in it.
 #pragma once
 
 #include "mrpbench_mapf/limits.hpp"

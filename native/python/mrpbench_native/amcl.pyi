@@ -1,6 +1,6 @@
 """Adaptive Monte Carlo localisation of a fleet, in C++. Plain arrays in, new arrays out; metres, radians.
 
-Everything raises ValueError for data that make no sense. One `Fleet` belongs to one thread at a time.
+All functions raise ValueError for invalid data. Only one thread at a time may use a `Fleet`.
 """
 
 from collections.abc import Mapping
@@ -23,13 +23,13 @@ class Fleet:
     ) -> None:
         """Particles around `placements` f8[n,3] among `segments` f8[S,4], solid on their left.
 
-        `resolution` is the side of the likelihood field's squares. Particles that recovery places anywhere are put on
-        the squares of that side around `places` f8[k,2]. `parameters` are Nav2's, by name, and `independent_beams`,
-        which is its `likelihood_field_prob`; what is not named has its default. `seed` is below 2**64; robot i's draws
-        do not depend on the others.
+        `resolution` is the side of the likelihood field's squares. Recovery draws particles on the squares of that side
+        around `places` f8[k,2]. `parameters` are Nav2's, by name, and `independent_beams`, which is its
+        `likelihood_field_prob`; parameters that are not named have their defaults. `seed` is below 2**64; the draws of
+        a robot do not depend on other robots.
         """
     def begin(self, odometry: NDArray[np.float64]) -> None:
-        """Say what odometry f8[n,3] was at the placements; before anything else, once."""
+        """Set the odometry f8[n,3] at the placements; call this once, before all other methods."""
     def sense(
         self,
         robots: NDArray[np.int32],
@@ -41,9 +41,9 @@ class Fleet:
         forward: float,
         leftward: float,
     ) -> None:
-        """Learn from scans f8[k,beams] of `robots` i4[k] taken when odometry of all was f8[n,3]; inf = no return."""
+        """Update from scans f8[k,beams] of `robots` i4[k], taken at odometry f8[n,3] of the fleet; inf = no return."""
     def poses(self, odometry: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Estimates f8[n,3]: of the last update, and what odometry f8[n,3] has added since."""
+        """Estimates f8[n,3]: those of the last update, moved by the odometry f8[n,3] since then."""
     @property
     def covariances(self) -> NDArray[np.float64]:
         """f8[n,3,3] of the last updates."""

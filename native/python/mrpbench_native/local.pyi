@@ -1,7 +1,7 @@
 """Local navigation in C++: costmaps, and Nav2's DWB. Plain arrays in, new arrays out; metres, radians, seconds.
 
-Everything raises ValueError for data that make no sense. `see` and `command` let other threads run; one `Fleet` belongs
-to one thread at a time.
+All functions raise ValueError for invalid data. `see` and `command` let other threads run; only one thread at a time
+may use a `Fleet`.
 """
 
 from collections.abc import Callable
@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 class Fleet:
-    """Local controllers, one per robot, all asked in one call."""
+    """Local controllers, one per robot; one call computes the commands of all."""
 
     def __init__(self, *, walls: NDArray[np.float64], reach: float, threads: int) -> None:
-        """`walls` f8[S,4] are the static map's, of which those within `reach` of a robot matter to it."""
+        """`walls` f8[S,4] are those of the static map; a robot considers the walls within `reach` of it."""
     def add(
         self,
         *,
@@ -26,7 +26,7 @@ class Fleet:
     def see(
         self, now: float, robots: NDArray[np.int32], pose: NDArray[np.float64], ranges: NDArray[np.float64]
     ) -> None:
-        """Take note of scans f8[k,beams] of `robots` i4[k]; `pose` f8[n,3] is the whole fleet's."""
+        """Mark scans f8[k,beams] of `robots` i4[k] in the costmaps; `pose` f8[n,3] is that of the whole fleet."""
     def command(
         self,
         *,
@@ -45,24 +45,24 @@ class Fleet:
     ) -> NDArray[np.float64]:
         """Commands f8[k,2], NaN where none is admissible; see `mrpbench_core.model.execution.Observations`.
 
-        `score` gets a robot, twists f8[m,2] and poses f8[m,p,3], and returns what is added to their totals f8[m].
+        `score` gets a robot, twists f8[m,2] and poses f8[m,p,3], and returns f8[m], which is added to their totals.
         """
     def clear(self, robot: int) -> None:
-        """Forget what scans have marked."""
+        """Remove the marks of scans."""
     def is_free(self, robot: int, poses: NDArray[np.float64]) -> NDArray[np.float64]:
         """1.0 for each of `poses` f8[k,3] where the robot fits, else 0.0."""
     def reroute(self, robot: int, x: float, y: float, path: NDArray[np.float64]) -> NDArray[np.float64] | None:
-        """Points f8[k,2] from (x, y) around what blocks a path f8[p,2] to a point of it; None = free, or no way."""
+        """Points f8[k,2] from (x, y) around an obstacle to the path f8[p,2]; None = path free, or no detour."""
     def approach(
         self, robot: int, x: float, y: float, path: NDArray[np.float64], tolerance: float
     ) -> NDArray[np.float64] | None:
-        """Points f8[k,2] from (x, y) to the free place nearest to where a path f8[p,2] ends, at most `tolerance` metres
-        from there; None = the end is free, or there is no such way.
+        """Points f8[k,2] from (x, y) to the free place nearest to the end of the path f8[p,2], at most `tolerance`
+        metres from it; None = the end is free, or there is no such path.
         """
     def explain(self, robot: int) -> dict[str, Any]:
-        """What the last command was chosen from."""
+        """Trajectories, scores and reasons behind the last command."""
     def costmap(self, robot: int) -> tuple[NDArray[np.float64], float, float, float]:
         """Costs f8[rows,columns], x and y of the lower left corner, inscribed radius."""
 
 def critic(name: str, options: dict[str, float]) -> None:
-    """Raise ValueError unless there is such a critic with such options."""
+    """Raise ValueError if there is no such critic, or if it does not have these options."""

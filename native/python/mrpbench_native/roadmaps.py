@@ -1,4 +1,4 @@
-"""Roadmaps as a user of the solvers alone has them: a grid of cells, or a graph."""
+"""Roadmaps for users of the solvers alone: a grid of cells, or a graph."""
 
 import operator
 from dataclasses import dataclass, field
@@ -16,7 +16,7 @@ class Graph:
     """Vertices joined by directed edges, each of which takes a whole number of ticks."""
 
     edges: ArrayLike
-    """int[E,2]: from, to. A way that can be used in both directions is two edges."""
+    """int[E,2]: from, to. A connection that is usable in both directions is two edges."""
     duration: ArrayLike = 1
     """int[E] ticks, or one for all."""
     vertices: int | None = None
@@ -27,29 +27,31 @@ class Graph:
         """Check and convert.
 
         Raises:
-            ValueError: an edge names no vertex, or takes less than a tick.
+            ValueError: an edge has a vertex that does not exist, or takes less than a tick.
         """
         edges = whole(self.edges, "edges")
         if edges.size and (edges.ndim != 2 or edges.shape[1] != 2):
-            raise ValueError(f"edges: from and to of each, but the array has shape {edges.shape}")
+            raise ValueError(f"edges: each row needs from and to, but the array has shape {edges.shape}")
         edges = edges.reshape(-1, 2)
         largest = int(edges.max(initial=-1))
         count = largest + 1 if self.vertices is None else _count(self.vertices)
         if edges.min(initial=0) < 0 or largest >= count:
-            raise ValueError(f"edges: vertices are numbered from 0 to {count - 1}, and one is called otherwise")
+            raise ValueError(f"edges: vertices are numbered from 0 to {count - 1}, but an edge has another number")
         if count > MOST_VERTICES:
-            raise ValueError(f"edges: {count} vertices are more than the {MOST_VERTICES} that can be numbered")
+            raise ValueError(f"edges: {count} vertices are more than the supported {MOST_VERTICES}")
         duration = whole(self.duration, "duration")
         if duration.shape not in ((), (1,), (len(edges),)):
-            raise ValueError(f"duration: one for all or one for each of {len(edges)} edges, not {duration.shape}")
+            raise ValueError(
+                f"duration: needs one value for all or for each of {len(edges)} edges, but has shape {duration.shape}"
+            )
         if ((duration < 1) | (duration > LONGEST_DURATION)).any():
-            raise ValueError(f"duration: every edge takes at least one tick and at most {LONGEST_DURATION}")
+            raise ValueError(f"duration: every edge must take at least one tick and at most {LONGEST_DURATION}")
         ticks = np.broadcast_to(duration, len(edges)).astype("i4")
         object.__setattr__(self, "_arrays", Arrays(count, edges.astype("i4"), ticks))
 
     @property
     def arrays(self) -> "Arrays":
-        """As the solvers take it."""
+        """Arrays for the solvers."""
         return self._arrays
 
     def vertex(self, places: ArrayLike, what: str) -> NDArray[np.int32]:
@@ -60,14 +62,14 @@ class Graph:
         """
         found = whole(places, what)
         if found.ndim != 1:
-            raise ValueError(f"{what}: one vertex each, but the array has {found.ndim} dimensions")
+            raise ValueError(f"{what}: needs one vertex each, but the array has {found.ndim} dimensions")
         _within(found, self._arrays.vertices, what, found)
         return found.astype("i4")
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Cells of which some are free; robots move between free cells side by side, one step a tick."""
+    """Cells of which some are free; robots move between neighbouring free cells, one step per tick."""
 
     free: NDArray[np.bool_]
     """bool[rows, columns]."""
@@ -76,16 +78,18 @@ class Grid:
         """Check.
 
         Raises:
-            ValueError: it is no grid of truth values.
+            ValueError: it is not a two-dimensional array of booleans.
         """
         free = np.asarray(self.free)
         if free.ndim != 2 or free.dtype != bool:
-            raise ValueError(f"a grid is bool[rows, columns], true where free; got {free.dtype} of shape {free.shape}")
+            raise ValueError(
+                f"a grid is bool[rows, columns], true where free, but this is {free.dtype} of shape {free.shape}"
+            )
         object.__setattr__(self, "free", free)
 
     @property
     def arrays(self) -> "Arrays":
-        """As the solvers take it: vertices are the free cells, row by row."""
+        """Arrays for the solvers: vertices are the free cells, row by row."""
         number = self._number()
         pairs = [
             np.column_stack([number[:, :-1].ravel(), number[:, 1:].ravel()]),
@@ -104,7 +108,7 @@ class Grid:
         """
         cells = whole(places, what)
         if cells.ndim != 2 or cells.shape[1] != 2:
-            raise ValueError(f"{what}: a row and a column each, but the array has shape {cells.shape}")
+            raise ValueError(f"{what}: needs a row and a column each, but the array has shape {cells.shape}")
         outside = (cells < 0) | (cells >= np.array(self.free.shape))
         inside = np.flatnonzero(~outside.any(axis=1))
         found: NDArray[np.int64] = np.full(len(cells), -1)
@@ -120,7 +124,7 @@ class Grid:
 
 @dataclass(frozen=True)
 class Arrays:
-    """A roadmap as the solvers take it."""
+    """A roadmap as arrays for the solvers."""
 
     vertices: int
     edges: NDArray[np.int32]
@@ -133,7 +137,7 @@ def whole(values: ArrayLike, what: str) -> NDArray[np.int64]:
     """An array of whole numbers.
 
     Raises:
-        ValueError: it is none.
+        ValueError: the values are not whole numbers in an array.
     """
     try:
         array = np.asarray(values)

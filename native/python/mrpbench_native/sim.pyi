@@ -1,14 +1,14 @@
 """Robots, contacts and lidars in the plane, in C++. Plain arrays in, new arrays out; metres, radians, seconds.
 
-Segments are f8[S,4] x1, y1, x2, y2, solid on their left. Everything raises ValueError for data that make no sense and
-lets other threads run; one `Plane` belongs to one thread at a time, a `Caster` to any number.
+Segments are f8[S,4] x1, y1, x2, y2, solid on their left. All functions raise ValueError for invalid data and
+let other threads run. Only one thread at a time may use a `Plane`; any number of threads may use a `Caster`.
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
 class Plane:
-    """Robots with differential drives, discs to whatever they touch, among walls and movers."""
+    """Robots with differential drives among walls and movers; all of them collide as discs."""
 
     def __init__(
         self,
@@ -26,16 +26,16 @@ class Plane:
     ) -> None:
         """Robots at `pose` f8[n,3].
 
-        `radius` f8[n+m] is first the robots', then the movers', which are nowhere until `step` says where. `limit` and
-        `acceleration` f8[n,2] are of speed and turn rate. `slip` is the mean share of its travel that a wheel loses,
+        `radius` f8[n+m] holds the robots' radii, then the movers'; movers have no place until `step` sets it. `limit`
+        and `acceleration` f8[n,2] limit speed and turn rate. `slip` is the mean share of its travel that a wheel loses,
         `actuation` the standard deviation of the relative error of speeds; `seed` is below 2**64.
         """
     def step(self, twist: NDArray[np.float64], movers: NDArray[np.float64] | None = None) -> None:
         """Advance by one control period under commands f8[n,2]; put movers at f8[m,2], or leave them."""
     def set_leaves(self, segments: NDArray[np.float64]) -> None:
-        """What is solid besides the segments given at first, from now on: f8[S,4] of doors."""
+        """Replace the door leaves f8[S,4] that are solid besides the segments of the constructor."""
     def place(self, robot: int, x: float, y: float) -> None:
-        """Put a robot elsewhere, as it is: a lift has carried it to another level."""
+        """Move a robot to (x, y) with its yaw and speed, for example because a lift carried it to another level."""
     @property
     def pose(self) -> NDArray[np.float64]:
         """f8[n,3]."""
@@ -69,6 +69,6 @@ class Caster:
     ) -> NDArray[np.float64]:
         """Ranges f8[k,beams] of `robots` i4[k] among all robots at `pose` f8[n,3] and movers at f8[m,2]; inf = none.
 
-        `radius` f8[n+m]. No robot sees itself. A mover at infinity is nowhere. `leaves` f8[S,4] are
+        `radius` f8[n+m]. A robot does not see itself. A mover at infinity is absent. `leaves` f8[S,4] are
         solid besides the segments.
         """
