@@ -1,4 +1,4 @@
-"""How much room robots keep to one another and to walls."""
+"""Distances that robots keep from one another and from walls."""
 
 from collections.abc import Mapping
 from typing import ClassVar
@@ -21,10 +21,10 @@ _SCOPE = "over all samples of robots that have not completed their path, of the 
 
 @attrs.frozen(kw_only=True)
 class Clearance(Metric):
-    """Measures gaps of robots under way, as their circumscribed discs; below 0 where discs overlap.
+    """Measures the gaps of robots that have not arrived, as circumscribed discs; a gap is below 0 where discs overlap.
 
-    A disc is never smaller than the robot, so true gaps are as large or larger. Solid is what
-    `mrpbench_core.model.solids` says: walls, obstacles, blocked cells; doors are open. Each sample has the same weight.
+    A disc is never smaller than its robot, so true gaps are at least as large. Walls, obstacles and blocked cells are
+    solid, as `mrpbench_core.model.solids` defines them; doors count as open. Each sample has the same weight.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
@@ -42,7 +42,7 @@ class Clearance(Metric):
     requires: ClassVar[frozenset[str]] = frozenset({"time", "truth", "level", "reached"})
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
-        """Return all columns; null where there is no other robot, or nothing solid, on any robot's level."""
+        """Return all columns; null where no level of a robot has another robot, or anything solid."""
         if not measurable(self, run):
             return nulls(self)
         context, time, level = run.context, run.channel("time"), run.channel("level")

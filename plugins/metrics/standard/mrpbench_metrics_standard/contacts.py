@@ -1,4 +1,4 @@
-"""Touches, counted as episodes."""
+"""Counts contacts: episodes of touching."""
 
 import numpy as np
 
@@ -6,12 +6,12 @@ from mrpbench_core.model.arrays import Float, Int32
 
 
 def episodes(time: Float, contact: Int32, pause: float) -> tuple[int, int]:
-    """Number of episodes between robots, and with walls.
+    """Count the episodes between robots and those with walls.
 
     Args:
         time: f8[k] seconds of each row of `contact`.
         contact: i4[k,2]: robot and what it touched (another robot, or -1 = wall or obstacle).
-        pause: an episode goes on while touches follow one another within this many seconds.
+        pause: seconds; touches of a pair at most this far apart belong to one episode.
     """
     pair = np.sort(contact, axis=1)  # -1 sorts first
     order = np.lexsort((time, pair[:, 1], pair[:, 0]))

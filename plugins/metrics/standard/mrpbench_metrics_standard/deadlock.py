@@ -1,4 +1,4 @@
-"""When nobody who still has to go anywhere gets on."""
+"""Detects deadlocks of all robots that have not arrived."""
 
 import math
 from collections.abc import Mapping
@@ -9,20 +9,20 @@ import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
 from mrpbench_core.model.run import FinishedRun
+from mrpbench_metrics_standard.periods import periods
 from mrpbench_metrics_standard.progress import arrival_times, blocked_intervals, progress, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
-from mrpbench_metrics_standard.spells import spells
 
 _POSITIVE = attrs.validators.gt(0)
 
 
 @attrs.frozen(kw_only=True)
 class Deadlock(Metric):
-    """Measures spells in which all robots under way are blocked at once.
+    """Measures the periods in which all robots that have not arrived are blocked at once.
 
     A robot is blocked as in `execution.time_blocked_s`: it has advanced along its path by less than `distance` during
-    the last `window`; so a spell begins `window` after the standstill. Robots that block one another while others still
-    get on are not seen here but in `execution.time_blocked_s`.
+    the last `window`. A period therefore begins `window` after the robots stopped. Robots that block one another while
+    other robots still move count in `execution.time_blocked_s` only.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
@@ -30,16 +30,16 @@ class Deadlock(Metric):
             "time_s",
             "s",
             "lower",
-            "time at which some robot has not completed its path, and none of these has advanced along it by "
-            "`distance` during the last `window`",
+            "time during which at least one robot has not completed its path, and none of these robots has advanced "
+            "by `distance` along its path during the last `window`",
         ),
-        Column("longest_s", "s", "lower", "the longest uninterrupted spell of that time"),
-        Column("count", "", "lower", "number of such spells"),
-        Column("unresolved", "", "lower", "the recording ends in such a spell"),
+        Column("longest_s", "s", "lower", "the longest uninterrupted period of this kind"),
+        Column("count", "", "lower", "number of such periods"),
+        Column("unresolved", "", "lower", "the recording ends during such a period"),
     )
     requires: ClassVar[frozenset[str]] = frozenset({"time", "truth", "reached", "path"})
 
-    window: float = option(5.0, help="time over which progress is looked at", unit="s", validator=_POSITIVE)
+    window: float = option(5.0, help="time over which progress is measured", unit="s", validator=_POSITIVE)
     distance: float = option(
         0.35, help="progress along the path below which a robot is blocked", unit="m", validator=_POSITIVE
     )
@@ -55,7 +55,7 @@ class Deadlock(Metric):
         blocked = blocked_intervals(time, along, arrival, self.window, self.distance)
         # Interval k ends at sample k; there is none before the first.
         stuck = np.stack([going.any(axis=1) & (blocked | ~going).all(axis=1)], axis=1)[1:]
-        _, first, after = spells(stuck)
+        _, first, after = periods(stuck)
         lasted = time[after] - time[first]
         return {
             "time_s": math.fsum(lasted),

@@ -1,4 +1,4 @@
-"""How much later than planned robots arrive."""
+"""Delays of robots, compared with the plan."""
 
 from collections.abc import Mapping
 from typing import ClassVar
@@ -17,19 +17,19 @@ from mrpbench_metrics_standard.samples import measurable, nulls
 
 @attrs.frozen(kw_only=True)
 class Delay(Metric):
-    """Compares when robots completed their last move with when the first plan has them complete it.
+    """Compares the time at which each robot completed its last move with the time in the first plan.
 
-    Robots that never arrive have no delay (theirs is censored): read the others beside `robots`.
+    A robot that never arrives has no delay (it is censored). Read the other columns together with `robots`.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
-        Column("robots", "", "higher", "robots that completed their last planned move: those whose delay is known"),
+        Column("robots", "", "higher", "robots that completed their last planned move; their delays are known"),
         Column(
             "mean_s",
             "s",
             "lower",
             "mean over these robots of the time from the start until the first sample at which the last planned move "
-            "is completed, less the time at which the plan has it completed; robots that need not move have delay 0",
+            "is completed, minus the time at which the plan completes it; robots that need not move have delay 0",
         ),
         Column("p95_s", "s", "lower", "95th percentile of these delays, linear between robots"),
         Column("max_s", "s", "lower", "the largest of these delays"),
@@ -51,7 +51,7 @@ class Delay(Metric):
 
 
 def delays(run: FinishedRun) -> Float:
-    """Seconds f8[n] by which each robot completed its last planned move late; NaN = never completed."""
+    """Delays f8[n] in seconds of the last planned move of each robot; NaN if it was never completed."""
     plan, time = run.context.result.plan, run.channel("time")
     assert plan is not None
     needed = np.array([_last_move(route) for route in run.context.routes], int)
@@ -61,6 +61,6 @@ def delays(run: FinishedRun) -> Float:
 
 
 def _last_move(route: Route) -> int:
-    """Number of segments until the robot moves no more; a new plan may send it away from its goal once more."""
+    """Number of segments up to the last move; a new plan may send a robot away from its goal again."""
     moved = (np.diff(route.waypoint[:, :2], axis=0) != 0).any(axis=1) | (np.diff(route.level) != 0)
     return int(np.flatnonzero(moved)[-1]) + 1 if moved.any() else 0

@@ -11,10 +11,10 @@ from mrpbench_core.model.arrays import Float
 
 
 def mean(values: Float) -> float | None:
-    """Arithmetic mean; null of nothing."""
+    """Arithmetic mean; None without values."""
     return math.fsum(values) / len(values) if len(values) else None
 
 
 def percentile(values: Float, share: float) -> float | None:
-    """Percentile, linear between the two nearest values (type 7 of Hyndman and Fan, 1996); null of nothing."""
+    """Percentile, linear between the two nearest values (type 7 of Hyndman and Fan, 1996); None without values."""
     return float(np.percentile(values, share)) if len(values) else None

@@ -1,4 +1,4 @@
-"""How much farther than necessary robots drive."""
+"""Lengths of the driven paths, compared with the planned and the shortest ones."""
 
 import math
 from collections.abc import Mapping
@@ -14,17 +14,17 @@ from mrpbench_metrics_standard.distribution import mean
 from mrpbench_metrics_standard.motion import steps
 from mrpbench_metrics_standard.progress import arrival_times
 from mrpbench_metrics_standard.samples import measurable, nulls
-from mrpbench_metrics_standard.shortest import shortest_ways
+from mrpbench_metrics_standard.shortest import shortest_lengths
 
 SPL = "Anderson et al., On Evaluation of Embodied Navigation Agents, arXiv:1807.06757, 2018"
 
 
 @attrs.frozen(kw_only=True)
 class Efficiency(Metric):
-    """Compares true ways until arrival with the planned paths, and with the shortest ways on the roadmap.
+    """Compares the paths that robots truly drove until arrival with the planned and with the shortest paths.
 
-    The shortest way of a robot leads from its start through its goals in order, as if it were alone. Robots that need
-    not move are left out everywhere.
+    The shortest path of a robot leads on the roadmap from its start through its goals in order, without other robots.
+    Robots that need not move are left out.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
@@ -32,28 +32,38 @@ class Efficiency(Metric):
             "spl",
             "",
             "higher",
-            "mean over robots of their shortest way over the larger of it and their true way; 0 for robots that never "
-            "complete their path",
+            "success weighted by path length: mean over robots of the length of the shortest path, divided by the "
+            "larger of it and the length of the driven path; 0 for a robot that never completes its path",
             SPL,
         ),
         Column(
             "path_efficiency",
             "",
             "higher",
-            "length of the planned paths over that of the true ways, of all robots that completed their path; above 1 "
-            "where corners were cut",
+            "length of the planned paths divided by that of the driven paths, of all robots that completed their path; "
+            "above 1 where robots cut corners",
         ),
-        Column("detour", "", "lower", "true ways over shortest ways, of all robots that completed their path"),
-        Column("planned_detour", "", "lower", "planned paths over shortest ways, of all robots"),
+        Column(
+            "detour",
+            "",
+            "lower",
+            "length of the driven paths divided by that of the shortest paths, of all robots that completed their path",
+        ),
+        Column(
+            "planned_detour",
+            "",
+            "lower",
+            "length of the planned paths divided by that of the shortest paths, of all robots",
+        ),
     )
     requires: ClassVar[frozenset[str]] = frozenset({"time", "truth", "reached", "plan", "path"})
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
-        """Return all columns; null where no robot needs to move, or one has no way on the roadmap."""
+        """Return all columns; null where no robot needs to move, or the roadmap has no path for some robot."""
         if not measurable(self, run):
             return nulls(self)
         context, time = run.context, run.channel("time")
-        shortest = shortest_ways(context.problem)
+        shortest = shortest_lengths(context.problem)
         moving = shortest > 0
         if not moving.any() or not np.isfinite(shortest).all():
             return nulls(self)

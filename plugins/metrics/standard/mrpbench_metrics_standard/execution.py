@@ -1,4 +1,4 @@
-"""What truly happened when a plan was executed, in simulated time.
+"""The execution of a plan, measured on true poses in simulated time.
 
 Sums are exactly rounded (`math.fsum`), so that no result depends on the order of robots or the layout of arrays.
 """
@@ -24,7 +24,7 @@ PROGRESS, CONTACTS = frozenset({"reached"}), frozenset({"contact_time", "contact
 
 @attrs.frozen(kw_only=True)
 class Execution(Metric):
-    """Measures the recording of a run: ours, and as the original MRP-Bench defines it (`mrp_bench.*`)."""
+    """Measures the execution of a run, by our definitions and by those of the original MRP-Bench (`mrp_bench.*`)."""
 
     columns: ClassVar[tuple[Column, ...]] = (
         Column("success", "", "higher", "every robot completed its path within the limits", requires=PROGRESS),
@@ -32,17 +32,17 @@ class Execution(Metric):
             "duration_s",
             "s",
             "lower",
-            "from the start until the last robot completed its path; null unless all did",
+            "time from the start until the last robot completed its path; null unless all robots did",
             requires=PROGRESS,
             primary=True,
             drawn="profile",
         ),
-        Column("goals_reached", "", "higher", "robots that completed their path at some time", requires=PROGRESS),
+        Column("goals_reached", "", "higher", "number of robots that completed their path", requires=PROGRESS),
         Column(
             "min_distance_m",
             "m",
             "higher",
-            "least distance between the centres of two robots on one level",
+            "smallest distance between the centres of two robots on the same level",
             requires=frozenset({"level"}),
             primary=True,
         ),
@@ -50,15 +50,15 @@ class Execution(Metric):
             "min_clearance_m",
             "m",
             "higher",
-            "least gap between the circumscribed discs of two robots on one level",
+            "smallest gap between the circumscribed discs of two robots on the same level",
             requires=frozenset({"level"}),
         ),
         Column(
             "time_blocked_s",
             "s",
             "lower",
-            "sum over robots of the time, before they complete their path, at which they have advanced along it by "
-            "less than `blocked_distance` during the last `blocked_window`; planned waits count",
+            "sum over robots of the time, before they complete their path, during which they have advanced along it by "
+            "less than `blocked_distance` in the last `blocked_window`; planned waits count",
             requires=PROGRESS | {"path"},
             primary=True,
         ),
@@ -66,7 +66,7 @@ class Execution(Metric):
             "time_blocked_max_s",
             "s",
             "lower",
-            "the largest of the robots' times blocked",
+            "the largest blocked time of a single robot",
             requires=PROGRESS | {"path"},
         ),
         Column(
@@ -82,16 +82,21 @@ class Execution(Metric):
             "wall_contacts",
             "",
             "lower",
-            "episodes of a robot touching a wall or obstacle, counted likewise",
+            "episodes of a robot touching a wall or an obstacle, counted in the same way",
             requires=CONTACTS,
             aliases=("contact.wall_count",),
         ),
-        Column("distance_m", "m", "lower", "length of the ways all robots truly drove, straight between samples"),
+        Column(
+            "distance_m",
+            "m",
+            "lower",
+            "length of the paths that all robots truly drove, as straight lines between samples",
+        ),
         *COLUMNS,
     )
     requires: ClassVar[frozenset[str]] = frozenset({"time", "truth"})
 
-    blocked_window: float = option(5.0, help="time over which progress is looked at", unit="s", validator=_POSITIVE)
+    blocked_window: float = option(5.0, help="time over which progress is measured", unit="s", validator=_POSITIVE)
     blocked_distance: float = option(
         0.35, help="progress along the path below which a robot counts as blocked", unit="m", validator=_POSITIVE
     )
@@ -103,7 +108,7 @@ class Execution(Metric):
     )
     mrp_bench_cell_size: float | None = option(
         None,
-        help="the original's cellSize; null = the roadmap's cell size, or 0.35 m on a roadmap that is no raster",
+        help="the original's cellSize; null = the roadmap's cell size, or 0.35 m on a roadmap without a raster",
         unit="m",
         validator=attrs.validators.optional(_POSITIVE),
     )

@@ -1,4 +1,4 @@
-"""How evenly delays fall on robots.
+"""The distribution of delays over robots.
 
 Jain, Chiu, Hawe, "A Quantitative Measure of Fairness and Discrimination for Resource Allocation in Shared Computer
 Systems", DEC Research Report TR-301, 1984.
@@ -22,28 +22,28 @@ JAIN = "Jain, Chiu, Hawe, A Quantitative Measure of Fairness and Discrimination,
 
 @attrs.frozen(kw_only=True)
 class Fairness(Metric):
-    """Measures how evenly delays (see `delay`) are shared; a robot that is early counts as having delay 0."""
+    """Measures how evenly the delays (see `delay`) are distributed; a robot that is early has delay 0."""
 
     columns: ClassVar[tuple[Column, ...]] = (
         Column(
             "jain",
             "",
             "higher",
-            "square of the sum of the n delays over n times the sum of their squares: 1 if all are the same, 1/n if "
-            "one robot has it all; null unless every robot arrived",
+            "square of the sum of the n delays, divided by n times the sum of their squares: 1 if all delays are "
+            "equal, 1/n if a single robot is delayed; null unless every robot arrived",
             JAIN,
         ),
         Column(
             "max_over_mean",
             "",
             "lower",
-            "largest delay over mean delay; null unless every robot arrived and one was late",
+            "largest delay divided by mean delay; null unless every robot arrived and at least one was late",
         ),
     )
     requires: ClassVar[frozenset[str]] = frozenset({"time", "reached", "plan"})
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
-        """Return both columns; null where a delay is unknown, since what is censored is the largest."""
+        """Return both columns; null where a delay is unknown, because censored delays are the largest."""
         if not measurable(self, run):
             return nulls(self)
         delay = delays(run)
@@ -55,7 +55,7 @@ class Fairness(Metric):
 
 
 def jain(shares: Float) -> float:
-    """Jain's index of non-negative shares f8[n], n >= 1; 1 where nobody has anything."""
+    """Jain's index of non-negative shares f8[n], n >= 1; 1 if all shares are 0."""
     most = float(shares.max())
     if most == 0:
         return 1.0

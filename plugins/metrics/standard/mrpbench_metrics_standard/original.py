@@ -1,8 +1,8 @@
 """The execution metrics of the original MRP-Bench, by the definitions of its analyser.
 
 Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered Environments", 2023. It reads
-messages with all robots' positions, 2 Hz, and measures straight-line distances to starts and goals. The one
-difference: messages carry simulated time here, where the original's carry wall time.
+messages with all robots' positions, 2 Hz, and measures straight-line distances to starts and goals. One thing differs:
+messages carry simulated time here, and wall time in the original.
 """
 
 import math
@@ -15,7 +15,7 @@ from mrpbench_core.model.arrays import Bool, Float, Int
 RATE = 2.0
 """Hz of messages."""
 WINDOW = 10
-"""Distances kept to tell whether a robot is blocked."""
+"""Number of distances from which it follows whether a robot is blocked."""
 
 SOURCE = "Schaefer et al., A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered Environments, 2023"
 
@@ -25,24 +25,32 @@ COLUMNS = (
         "mrp_bench.duration_s",
         "s",
         "lower",
-        "from the first message with any robot farther than the tolerance from its start to that in which the last "
-        "robot has been within the tolerance of its goal; `mrp_bench_timeout` if one never is; null if none had left",
+        "time from the first message in which a robot is farther than the tolerance from its start to the message in "
+        "which the last robot has been within the tolerance of its goal; `mrp_bench_timeout` if a robot never is; null "
+        "if no robot left its start",
         SOURCE,
     ),
-    Column("mrp_bench.goals_reached", "", "higher", "robots that have been within the tolerance of their goal", SOURCE),
-    Column("mrp_bench.min_distance_m", "m", "higher", "least distance between the centres of two robots", SOURCE),
-    Column("mrp_bench.min_distance_at_start_m", "m", "higher", "that distance in the first message", SOURCE),
+    Column(
+        "mrp_bench.goals_reached",
+        "",
+        "higher",
+        "number of robots that have been within the tolerance of their goal",
+        SOURCE,
+    ),
+    Column("mrp_bench.min_distance_m", "m", "higher", "smallest distance between the centres of two robots", SOURCE),
+    Column("mrp_bench.min_distance_at_start_m", "m", "higher", "the same distance in the first message", SOURCE),
     Column("mrp_bench.min_distance_delta_m", "m", "lower", "min_distance_at_start_m - min_distance_m", SOURCE),
     Column(
         "mrp_bench.time_blocked_s",
         "s",
         "lower",
-        "messages times their mean period: those, of each robot that has not reached its goal and is farther than a "
-        "cell from its start or nearer than one to its goal, in which the distance to the goal differs by at most a "
-        "cell from the oldest of the last ten such messages",
+        "number of messages in which a robot is blocked, times their mean period; of a robot that has not reached its "
+        "goal, the messages count in which it is more than a cell from its start or less than a cell from its goal; it "
+        "is blocked if its distance to the goal differs by at most a cell from the oldest of the last ten such "
+        "messages",
         SOURCE,
     ),
-    Column("mrp_bench.time_blocked_max_s", "s", "lower", "the largest of the robots' times blocked", SOURCE),
+    Column("mrp_bench.time_blocked_max_s", "s", "lower", "the largest blocked time of a single robot", SOURCE),
 )
 
 
@@ -76,7 +84,7 @@ def measure_as_original(
 
 
 def _messages(time: Float) -> Int:
-    """Index of the newest sample at each message: the state that it would carry. The last sample is a message too."""
+    """Index of the newest sample at each message, whose state it carries. The last sample is a message, too."""
     stamps = time[0] + np.arange(int((time[-1] - time[0]) * RATE + 1e-6) + 1) / RATE
     newest = np.searchsorted(time, stamps + 1e-6, side="right") - 1
     return np.unique(np.append(newest, len(time) - 1))
@@ -92,13 +100,13 @@ def _duration(stamp: Float, at_goal: Bool, away: Bool, timeout: float) -> float 
 
 
 def _blocked(to_goal: Float, cell_size: float) -> int:
-    """Samples at which the distance to the goal is about what it was ten samples (nine periods) before."""
+    """Count the samples at which the distance to the goal is about the same as ten samples (nine periods) before."""
     oldest, newest = to_goal[: -(WINDOW - 1)], to_goal[WINDOW - 1 :]
     return int((np.abs(oldest - newest) <= cell_size).sum())
 
 
 def _pair_distances(position: Float) -> Float | None:
-    """Least distance f8[T] between two robots in each message; levels are not told apart. None for fewer than two."""
+    """Smallest distance f8[T] between two robots in each message, on any levels; None for fewer than two robots."""
     count = position.shape[1]
     if count < 2:
         return None

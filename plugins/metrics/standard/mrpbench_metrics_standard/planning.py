@@ -1,4 +1,4 @@
-"""What a plan costs and what it took to find it. Wall time is no metric; it stands in the record's `timing`."""
+"""Costs of a plan and the effort of the search. Wall time is not a metric; the record's `timing` holds it."""
 
 import math
 from collections.abc import Mapping
@@ -28,7 +28,7 @@ class Planning(Metric):
             "sum_of_costs",
             "s",
             "lower",
-            "sum over robots of the time of the last arrival at its goal",
+            "sum over robots of the time at which each arrives at its goal for the last time",
             STERN,
             primary=True,
             drawn="profile",
@@ -48,8 +48,20 @@ class Planning(Metric):
         ),
         _column("moves", "", "lower", "moves along edges, without waits (sum of fuel)", STERN),
         _column("distance_m", "m", "lower", "length of all planned moves"),
-        _column("mrp_bench.cost", "", "lower", "sum over robots of states in the schedule: arrival tick + 1", SOURCE),
-        _column("mrp_bench.makespan", "", "lower", "most states in one robot's schedule: arrival tick + 1", SOURCE),
+        _column(
+            "mrp_bench.cost",
+            "",
+            "lower",
+            "sum over robots of the number of states in the schedule: arrival tick + 1",
+            SOURCE,
+        ),
+        _column(
+            "mrp_bench.makespan",
+            "",
+            "lower",
+            "largest number of states in one robot's schedule: arrival tick + 1",
+            SOURCE,
+        ),
     )
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
@@ -86,14 +98,14 @@ def _costs(plan: Plan, roadmap: Roadmap) -> dict[str, Value]:
 
 
 def _finite(value: float | None) -> float | int | None:
-    """Null for what is missing or not finite; a whole number as one."""
+    """None for a value that is missing or not finite; an int for a whole number."""
     if value is None or not math.isfinite(value):
         return None
     return int(value) if value == int(value) else value
 
 
 def _ratio(cost: int, bound: float) -> float | None:
-    """1 for a plan in which nobody needs to move; null where the planner proved nothing but that."""
+    """1 for a plan in which no robot moves; None where the planner proved no bound above 0."""
     if cost == bound:
         return 1.0
     return cost / bound if bound > 0 else None

@@ -1,4 +1,4 @@
-"""How far robots have got along their own paths, when they arrive, and when they are blocked."""
+"""Progress of robots along their own paths, their arrivals, and when they are blocked."""
 
 from collections.abc import Sequence
 
@@ -20,8 +20,8 @@ def completion_times(time: Float, reached: Int32, needed: Int) -> Float:
 
 
 def under_way(time: Float, arrival: Float) -> Bool:
-    """Tell bool[T,n] which robots have not arrived yet at each sample."""
-    return ~(time[:, None] >= arrival)  # true for ever where the arrival is NaN
+    """bool[T,n]: whether a robot has not arrived yet at a sample."""
+    return ~(time[:, None] >= arrival)  # stays true where the arrival is NaN
 
 
 def progress(truth: Float, reached: Int32, routes: Sequence[Route]) -> Float:
@@ -29,7 +29,7 @@ def progress(truth: Float, reached: Int32, routes: Sequence[Route]) -> Float:
     along = np.empty(reached.shape)
     for robot, route in enumerate(routes):
         point = route.waypoint[:, :2]
-        span = np.diff(point, axis=0, append=point[-1:])  # after the last waypoint there is nowhere to go
+        span = np.diff(point, axis=0, append=point[-1:])  # the last waypoint has no next one
         length = np.hypot(span[:, 0], span[:, 1])
         segment = np.clip(reached[:, robot], 0, len(point) - 1)
         offset = truth[:, robot, :2] - point[segment]
@@ -40,9 +40,9 @@ def progress(truth: Float, reached: Int32, routes: Sequence[Route]) -> Float:
 
 
 def blocked_intervals(time: Float, along: Float, arrival: Float, window: float, distance: float) -> Bool:
-    """Tell bool[T,n] whether the time from the sample before counts as blocked for each robot.
+    """bool[T,n]: whether the time since the previous sample counts as blocked for a robot.
 
-    It does when, at the sample, the robot has not arrived, `window` seconds have passed since the start, and it has
+    It does if, at the sample, the robot has not arrived, `window` seconds have passed since the start, and it has
     advanced less than `distance` metres in the last `window` seconds. Positions between samples are interpolated.
     """
     before = np.empty(along.shape)

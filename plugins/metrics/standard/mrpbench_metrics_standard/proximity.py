@@ -1,4 +1,4 @@
-"""How near robots came to one another."""
+"""Smallest distances between robots."""
 
 import numpy as np
 
@@ -6,10 +6,10 @@ from mrpbench_core.model.arrays import Float, Int16
 
 
 def closest(position: Float, level: Int16, radii: Float) -> tuple[float | None, float | None]:
-    """Least centre distance and least gap between discs, metres, over samples and pairs on one level.
+    """Smallest distance of centres and smallest gap of discs, metres, over all samples and pairs on the same level.
 
     Neighbours are compared in order of x, farther and farther apart in that order, until the x distance alone exceeds
-    both records: exact, and quick for robots that are spread out.
+    both minima. This is exact, and fast for robots that are spread out.
 
     Args:
         position: f8[T,n,2] metres.
@@ -17,7 +17,7 @@ def closest(position: Float, level: Int16, radii: Float) -> tuple[float | None, 
         radii: f8[n] metres.
 
     Returns:
-        None for both where no two robots were ever on one level.
+        None for both if two robots were never on the same level.
     """
     order = np.argsort(position[..., 0], axis=1, kind="stable")
     x, y = (np.take_along_axis(position[..., axis], order, axis=1) for axis in (0, 1))

@@ -1,4 +1,4 @@
-"""Whether a run has samples to measure, and what is told where it has none."""
+"""Whether a run can be measured, and the result if it cannot."""
 
 import numpy as np
 
@@ -7,12 +7,12 @@ from mrpbench_core.model.run import FinishedRun
 
 
 def measurable(metric: Metric, run: FinishedRun) -> bool:
-    """Tell whether all that the metric requires is there, with samples, and all true positions are finite."""
+    """Whether the run has everything that the metric requires, samples, and finite true positions."""
     if not all(run.has(channel) for channel in metric.requires) or not len(run.channel("time")):
         return False
     return "truth" not in metric.requires or bool(np.isfinite(run.channel("truth")).all())
 
 
 def nulls(metric: Metric) -> dict[str, Value]:
-    """All columns of a metric, null."""
+    """All columns of a metric, as None."""
     return {column.name: None for column in metric.columns}

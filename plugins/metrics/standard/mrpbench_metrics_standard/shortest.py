@@ -1,4 +1,4 @@
-"""Lengths of the shortest ways on a roadmap."""
+"""Lengths of the shortest paths on a roadmap."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -14,9 +14,9 @@ TOGETHER = 2**23
 """Pairs of source and vertex searched at once: bounds memory to some 64 MB."""
 
 
-def shortest_ways(problem: Problem) -> Float:
-    """Metres f8[n] of the shortest way of each robot, alone, from its start through its goals in order; inf = none."""
-    ways = np.zeros(len(problem))
+def shortest_lengths(problem: Problem) -> Float:
+    """Metres f8[n] of the shortest path of each robot, alone, from its start through its goals in order; inf = none."""
+    lengths = np.zeros(len(problem))
     for profile in np.unique(problem.profile):
         robots = np.flatnonzero(problem.profile == profile)
         stages = {robot: [(int(problem.start[robot]),), *problem.goals[robot]] for robot in robots}
@@ -31,12 +31,12 @@ def shortest_ways(problem: Problem) -> Float:
             for before, after in pairwise(own):
                 leg = length[np.ix_([row[vertex] for vertex in before], [column[vertex] for vertex in after])]
                 so_far = (so_far[:, None] + leg).min(axis=0)
-            ways[robot] = so_far.min()
-    return ways
+            lengths[robot] = so_far.min()
+    return lengths
 
 
 def _graph(problem: Problem, profile: int) -> csr_array:
-    """Edges that the profile may use, weighted with their lengths; of parallel edges, one."""
+    """The edges that the profile may use, weighted with their lengths; one of several parallel edges."""
     roadmap, count = problem.roadmap, len(problem.roadmap.position)
     ends = np.unique(roadmap.edges[roadmap.duration[profile] >= 0], axis=0)
     span = roadmap.position[ends[:, 1]] - roadmap.position[ends[:, 0]]

@@ -1,4 +1,4 @@
-"""How smoothly robots truly drive.
+"""Smoothness of the driven paths.
 
 Angle over length and curvature after Heiden, Palmieri, Bruns, Arras, Sukhatme, Koenig, "Bench-MR: A Motion Planning
 Benchmark for Wheeled Mobile Robots", IEEE Robotics and Automation Letters 2021; normalised jerk after Teulings,
@@ -27,7 +27,7 @@ _POSITIVE = attrs.validators.gt(0)
 
 @attrs.frozen(kw_only=True)
 class Smoothness(Metric):
-    """Measures true motion. Robots that drive less than `least` in all are left out.
+    """Measures the smoothness of true motion. Robots that drive less than `least` are left out.
 
     A robot moves from one sample to the next if its mean speed is at least `speed`.
     """
@@ -37,38 +37,38 @@ class Smoothness(Metric):
             "angle_over_length",
             "rad/m",
             "lower",
-            "sum of all changes of yaw between samples, without sign, over the distance driven; turns on the spot too",
+            "sum of all absolute changes of yaw between samples, divided by the distance driven; turns on the spot "
+            "count",
             BENCH_MR,
         ),
         Column(
             "curvature_mean",
             "1/m",
             "lower",
-            "the same between samples between which the robot moves: mean curvature along the way",
+            "the same, over the steps in which the robot moves only: mean curvature of the driven path",
             BENCH_MR,
         ),
         Column(
             "curvature_p95",
             "1/m",
             "lower",
-            "95th percentile, of all steps between samples in which a robot moves, of the yaw turned over its length",
+            "95th percentile, over the steps between samples in which a robot moves, of the change of yaw divided by "
+            "the length of the step",
             BENCH_MR,
         ),
         Column(
             "normalised_jerk",
             "",
             "lower",
-            "median over robots of sqrt(1/2 * integral of squared jerk * duration^5 / length^2), from its first to its "
-            "last move, jerk by differences of positions at samples: 19 for the smoothest way from rest to rest",
+            "median over robots of sqrt(1/2 * integral of squared jerk * duration^5 / length^2), from the first to the "
+            "last move, with the jerk from differences of positions; 19 for the smoothest motion from rest to rest",
             TEULINGS,
         ),
     )
     requires: ClassVar[frozenset[str]] = frozenset({"time", "truth"})
 
     speed: float = option(0.02, help="speed from which a robot moves", unit="m/s", validator=_POSITIVE)
-    least: float = option(
-        0.1, help="distance that a robot must have driven to be looked at", unit="m", validator=_POSITIVE
-    )
+    least: float = option(0.1, help="distance that a robot must drive to be measured", unit="m", validator=_POSITIVE)
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
         """Return all columns; null where no robot drove far enough."""
@@ -94,7 +94,7 @@ class Smoothness(Metric):
 
 
 def _regular(time: Float, truth: Float) -> tuple[Float, Float]:
-    """Without the last sample if it follows at half the usual time or less: differences over that would be noise."""
+    """Drop the last sample if it follows after half the usual time or less: such differences would be noise."""
     spent = np.diff(time)
     if len(spent) > 1 and spent[-1] < 0.51 * np.median(spent):
         return time[:-1], truth[:-1]
@@ -102,7 +102,7 @@ def _regular(time: Float, truth: Float) -> tuple[Float, Float]:
 
 
 def _normalised_jerk(time: Float, track: Float, moves: Bool) -> float | None:
-    """Of one robot's `track` f8[T,3]; None where it never moves or there are too few samples."""
+    """Normalised jerk of a robot's poses `track` f8[T,3]; None if it never moves or has too few samples."""
     moving = np.flatnonzero(moves)
     if not len(moving) or len(time) < 4:
         return None

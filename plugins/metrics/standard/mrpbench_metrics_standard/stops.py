@@ -1,4 +1,4 @@
-"""How often robots stop on their way, and how long they stand."""
+"""Stops of robots before they arrive, and the time that they stand."""
 
 import math
 from collections.abc import Mapping
@@ -11,18 +11,18 @@ from mrpbench_core.api import Column, Metric, Value, option
 from mrpbench_core.model.arrays import Bool
 from mrpbench_core.model.run import FinishedRun
 from mrpbench_metrics_standard.motion import steps, turns
+from mrpbench_metrics_standard.periods import periods
 from mrpbench_metrics_standard.progress import arrival_times, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
-from mrpbench_metrics_standard.spells import spells
 
 _POSITIVE = attrs.validators.gt(0)
 
 
 @attrs.frozen(kw_only=True)
 class Stops(Metric):
-    """Measures standing: from one sample to the next, both the mean speed and the mean turn rate are below limits.
+    """Measures standing: a robot stands if its mean speed and mean turn rate between two samples are below limits.
 
-    Only the time before a robot completes its path counts. Who turns on the spot does not stand.
+    Only the time before a robot completes its path counts. A robot that turns on the spot does not stand.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
@@ -30,17 +30,19 @@ class Stops(Metric):
             "count",
             "",
             "lower",
-            "sum over robots of the times they stood for at least `least` without a break, after having moved and "
-            "before completing their path; planned waits count",
+            "sum over robots of the number of periods of at least `least` in which they stand without interruption, "
+            "after their first move and before they complete their path; planned waits count",
         ),
-        Column("standing_s", "s", "lower", "sum over robots of the time standing before completing their path"),
-        Column("standing_max_s", "s", "lower", "the largest of the robots' times standing"),
+        Column(
+            "standing_s", "s", "lower", "sum over robots of the time that they stand before they complete their path"
+        ),
+        Column("standing_max_s", "s", "lower", "the longest time that a single robot stands"),
         Column(
             "standing_released_s",
             "s",
             "lower",
-            "the part of standing_s in which the robot was allowed a further segment of its path: at the sample "
-            "before, more segments were released than completed",
+            "the part of standing_s in which the robot may drive on: at the previous sample, more segments of its path "
+            "were released than completed",
             requires=frozenset({"released"}),
         ),
     )
@@ -60,7 +62,7 @@ class Stops(Metric):
         going = under_way(time, arrival_times(time, reached, run.context.routes))[:-1]
         standing: Bool = still & going
         moved = np.logical_or.accumulate(going & ~still, axis=0)
-        _, first, after = spells(standing & moved)
+        _, first, after = periods(standing & moved)
         lasted = np.where(standing, spent, 0.0)
         each = [math.fsum(own) for own in lasted.T]
         released = None

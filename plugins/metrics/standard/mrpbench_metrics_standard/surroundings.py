@@ -1,4 +1,4 @@
-"""How near each robot is to the nearest other robot, and to the nearest solid thing."""
+"""Distances of each robot from the nearest other robot and from the nearest solid thing."""
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -17,13 +17,14 @@ TOGETHER = 2**20
 def robot_gaps(position: Float, level: Int16, radii: Float, chosen: Bool) -> Float:
     """Gap in metres between the discs of each chosen robot and of the nearest other robot on its level.
 
-    Exact: robots of one radius are searched together, since among them the nearest centre has the nearest surface.
+    The result is exact: robots of one radius are searched together, and among them the nearest centre has the nearest
+    surface.
 
     Args:
         position: f8[T,n,2] metres.
         level: i2[T,n].
         radii: f8[n] metres.
-        chosen: bool[T,n]: whose gaps are wanted, at which samples.
+        chosen: bool[T,n], the robots and samples whose gaps are wanted.
 
     Returns:
         f8[k], by sample and robot; robots that are alone on their level are left out.
@@ -46,7 +47,7 @@ def robot_gaps(position: Float, level: Int16, radii: Float, chosen: Bool) -> Flo
 def solid_distances(points: Float, segments: Float) -> Float:
     """Distance f8[k] in metres of each of `points` f8[k,2] from the nearest of `segments` f8[S,4]; inf without any.
 
-    Exact: of the segments, each tile keeps those that may be nearest to a place in it. The distance of a place from
+    The result is exact: each tile keeps the segments that may be nearest to a place in it. The distance of a place from
     anything differs from that of the tile's centre by half a diagonal at most.
     """
     found = np.full(len(points), np.inf)

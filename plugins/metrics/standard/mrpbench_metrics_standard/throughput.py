@@ -1,4 +1,4 @@
-"""How many tasks a fleet completes in its time, and how long each takes."""
+"""Completed tasks per time, and service times."""
 
 from collections.abc import Mapping
 from typing import ClassVar
@@ -17,17 +17,17 @@ from mrpbench_metrics_standard.samples import measurable, nulls
 class Throughput(Metric):
     """Measures completed tasks: a robot's task is completed when the robot has completed its whole path.
 
-    The service time of a task runs from its release (or the start of the recording, if that is later). Tasks that are
-    never completed have none (theirs is censored): read service times beside `tasks`.
+    The service time of a task runs from its release (or the start of the recording, if that is later). A task
+    that is never completed has no service time (it is censored). Read service times together with `tasks`.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
-        Column("tasks", "", "higher", "tasks that were completed"),
+        Column("tasks", "", "higher", "number of completed tasks"),
         Column(
             "tasks_per_hour",
             "1/h",
             "higher",
-            "tasks completed per simulated hour, from the first sample to the last; null if there is but one",
+            "tasks completed per simulated hour, from the first sample to the last; null if there is only one",
         ),
         Column("service_mean_s", "s", "lower", "mean service time of completed tasks"),
         Column("service_p50_s", "s", "lower", "median service time of completed tasks"),

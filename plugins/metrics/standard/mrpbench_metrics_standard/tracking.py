@@ -1,4 +1,4 @@
-"""How far robots stray from the paths they were released to follow."""
+"""Distances of robots from the released parts of their paths."""
 
 from collections.abc import Mapping
 from typing import ClassVar
@@ -23,10 +23,10 @@ _SCOPE = (
 
 @attrs.frozen(kw_only=True)
 class Tracking(Metric):
-    """Measures the cross-track error: the distance of the true position from the part of the path at hand.
+    """Measures the cross-track error: the distance of the true position from the current part of the path.
 
-    Looking at no more than the neighbouring moves keeps other parts, which may pass near, from hiding an error. Errors
-    of localisation and control add up here. Each sample has the same weight.
+    Only the neighbouring moves count, so that other parts of the path, which may be close, do not hide an error. Errors
+    of localisation and control add up. Each sample has the same weight.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
@@ -53,7 +53,7 @@ class Tracking(Metric):
 
 
 def _cross_track(waypoint: Float, position: Float, reached: Int, released: Int) -> Float:
-    """Metres f8[T] of `position` f8[T,2] from the path at hand; waits are no part of it."""
+    """Metres f8[T] of `position` f8[T,2] from the current part of the path, which has no waits."""
     moves = (np.diff(waypoint, axis=0) != 0).any(axis=1)
     corner = waypoint[np.append(True, moves)]
     number = np.append(0, np.cumsum(moves))  # of moves among so many leading segments

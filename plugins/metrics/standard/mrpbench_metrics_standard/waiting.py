@@ -1,4 +1,4 @@
-"""How long robots wait for doors, lifts and mutexes, and how often doors and lifts move."""
+"""Waiting times for doors, lifts and mutexes, and movements of doors and lifts."""
 
 import math
 from collections.abc import Mapping
@@ -19,24 +19,30 @@ DOING = frozenset({"facility"})
 
 @attrs.frozen(kw_only=True)
 class Waiting(Metric):
-    """Measures waiting: a robot stands from one sample to the next, and has asked for what it may not use yet.
+    """Measures waiting: a robot waits if it stands between two samples and has requested a resource without getting it.
 
-    Who asks while it still drives does not wait, and who rides in a lift does not either.
+    A robot that requests a resource while it still drives does not wait, and neither does a robot that rides in a lift.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
-        Column("doors_s", "s", "lower", "sum over robots of the time they stood waiting for doors"),
-        Column("lifts_s", "s", "lower", "sum over robots of the time they stood waiting for lifts"),
-        Column("mutexes_s", "s", "lower", "sum over robots of the time they stood waiting for mutexes"),
-        Column("longest_s", "s", "lower", "the longest time that one robot waited in all, for whatever it was"),
-        Column("rides", "", "neither", "times a robot came to another level"),
+        Column("doors_s", "s", "lower", "sum over robots of the time that they wait for doors"),
+        Column("lifts_s", "s", "lower", "sum over robots of the time that they wait for lifts"),
+        Column("mutexes_s", "s", "lower", "sum over robots of the time that they wait for mutexes"),
+        Column("longest_s", "s", "lower", "the longest total time that a single robot waits, for any resource"),
+        Column("rides", "", "neither", "number of times that a robot changes its level"),
         Column(
             "riding_s",
             "s",
             "lower",
-            "sum over robots of the time in the cabin of a lift that has left, or is not open yet",
+            "sum over robots of the time in the cabin of a lift that has departed or has not opened yet",
         ),
-        Column("openings", "", "lower", "times a door, of a lift too, began to open from shut", requires=DOING),
+        Column(
+            "openings",
+            "",
+            "lower",
+            "number of times that a closed door, also of a lift, begins to open",
+            requires=DOING,
+        ),
     )
     requires: ClassVar[frozenset[str]] = frozenset({"time", "truth", "level", "waits_for"})
 
@@ -69,7 +75,7 @@ class Waiting(Metric):
 
 
 def _riding(run: FinishedRun) -> Bool:
-    """Tell bool[T,n] which robots are in the cabin of a lift that they may not leave now."""
+    """bool[T,n]: whether a robot is in the cabin of a lift that it may not leave at a sample."""
     truth, asked = run.channel("truth"), run.channel("waits_for")
     lifts = {lift.name: lift for lift in run.context.world.lifts}
     riding = np.zeros(asked.shape, bool)

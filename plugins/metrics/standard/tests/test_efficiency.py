@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_metrics_standard import Efficiency
-from mrpbench_metrics_standard.shortest import shortest_ways
+from mrpbench_metrics_standard.shortest import shortest_lengths
 
 from mrpbench_core.model.plan import Plan, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
@@ -54,7 +54,7 @@ def test_a_goal_out_of_reach_leaves_nothing_to_compare(executed):
     assert set(Efficiency().measure(run).values()) == {None}
 
 
-def test_shortest_ways_take_the_best_of_each_goal_set_in_order():
+def test_shortest_lengths_take_the_best_of_each_goal_set_in_order():
     """0 -> {1, 3} -> 2 on a line 0, 1, 2 of 3 m each with 3 at (0, 4) off 0, one way."""
     roadmap = Roadmap(
         position=[[0, 0], [3, 0], [6, 0], [0, 4]],
@@ -72,12 +72,12 @@ def test_shortest_ways_take_the_best_of_each_goal_set_in_order():
         ready=[0] * 4,
         goals=(((3, 1), (2,)), ((1, 3),), ((2,),), ((3,),)),
     )
-    assert shortest_ways(problem).tolist() == [6, 9, np.inf, 7]
+    assert shortest_lengths(problem).tolist() == [6, 9, np.inf, 7]
 
 
 @settings(deadline=None, max_examples=40)
 @given(st.integers(0, 2**32 - 1))
-def test_shortest_ways_are_those_of_floyd_and_warshall(seed):
+def test_shortest_lengths_are_those_of_floyd_and_warshall(seed):
     random = np.random.default_rng(seed)
     position = random.integers(0, 3, (6, 2)).astype(float)  # some at one place: edges of no length
     edges = random.integers(0, 6, (12, 2))
@@ -98,4 +98,4 @@ def test_shortest_ways_are_those_of_floyd_and_warshall(seed):
         ready=[0] * 4,
         goals=tuple(((int(vertex),),) for vertex in goal),
     )
-    assert shortest_ways(problem) == pytest.approx(length[start, goal])
+    assert shortest_lengths(problem) == pytest.approx(length[start, goal])
