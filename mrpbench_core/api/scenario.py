@@ -14,6 +14,9 @@ class ScenarioSource(Component):
     """Draws or reads starts and goals."""
 
     group: ClassVar[str] = "mrpbench.scenarios"
+    gives_goals: ClassVar[bool] = False
+    """Whether task i is the goal of robot i. The default assigner is then `identity`, and records count the robots to
+    which another assigner gives another goal."""
 
     @abstractmethod
     def size(self) -> int:

@@ -62,9 +62,21 @@ class Structure:
                 continue
             if planning_only and field.name in EXECUTION:
                 default = "none"
+            if field.name == "assigner" and self._gives_goals(given.get("scenario")):
+                default = "identity"
             place = attrs.evolve(root.location, line=None, column=None)
             added[field.name] = self._defaults.setdefault((field.name, default), from_data(default, place))
         return added
+
+    def _gives_goals(self, scenario: Item | None) -> bool:
+        """Tell whether a scenario gives each robot its goal, so that no assigner should change it by default."""
+        if scenario is None:
+            return False
+        try:
+            source = self._field(scenario, attrs.fields_dict(RunConfig)["scenario"], "scenario")
+        except InputErrors:  # reported with the other settings
+            return False
+        return bool(source.gives_goals)
 
     def _value(self, item: Item, expected: Expected, key: str) -> Any:
         known = (id(item), expected.kind, key)

@@ -43,6 +43,8 @@ def execute(
         if config.simulator is not None:
             require_free_doorways(instance)
         chosen = None if config.planner.assigns else assign(config, instance, announce, record["timing"])
+        if chosen is not None and config.scenario.gives_goals:
+            record["reassigned"] = sum(task != robot for robot, task in enumerate(chosen))
         problem = build_problem(instance, chosen, config.assigner)
         result, ended = _plan(config, problem, announce, record["timing"], observers)
         assigned = _assigned(instance, problem, result, chosen)

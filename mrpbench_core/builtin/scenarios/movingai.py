@@ -5,7 +5,7 @@ bucket, map, width, height, start x, start y, goal x, goal y, distance; x = colu
 """
 
 from pathlib import Path
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import attrs
 import numpy as np
@@ -24,7 +24,9 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class MovingAiScenario(ScenarioSource):
-    """The first rows of a MovingAI `.scen` file, on the map it was made for."""
+    """The first rows of a MovingAI `.scen` file, on the map it was made for. Each row gives a robot its goal."""
+
+    gives_goals: ClassVar[bool] = True
 
     file: Path = option(help="the .scen file")
     robots: int = option(help="number of robots: the first rows of the file", validator=attrs.validators.ge(1))

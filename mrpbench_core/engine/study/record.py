@@ -29,7 +29,7 @@ def complete_record(point: RunPoint, attempt: int, outcome: JobOutcome, workers:
         "timing": {**made["timing"], "concurrent_workers": workers},
         "provenance": {**code_of(point), "machine": outcome.machine or machine(), "live": live},
     }
-    for key in ("unmeasured", "unexported", "error"):
+    for key in ("unmeasured", "unexported", "reassigned", "error"):
         if made.get(key):
             record[key] = made[key]
     return record

@@ -37,6 +37,8 @@ class Runs:
     """Whether the run says something about the method."""
     config: Int
     """Index into `configs`."""
+    reassigned: Int
+    """Number of robots to which the assigner gave another goal than the scenario did."""
     configs: list[dict[str, Any]]
     """Different configurations, without what tells samples of one apart."""
     values: dict[str, Float]
@@ -102,7 +104,7 @@ class _Reader:
         self._status: list[str] = []
         self._message: list[str] = []
         self._integers: dict[str, array[int]] = {
-            name: array("q") for name in ("folder", "seed", "repeat", "scenario", "config", "planned")
+            name: array("q") for name in ("folder", "seed", "repeat", "scenario", "config", "planned", "reassigned")
         }
         self._limits = array("d")
         self._scenarios: dict[str, int] = {}
@@ -122,6 +124,7 @@ class _Reader:
             "scenario": -1 if scenario is None else self._scenarios.setdefault(scenario, len(self._scenarios)),
             "config": self._number(record["config"]),
             "planned": int(has_plan(record)),
+            "reassigned": int(record.get("reassigned") or 0),
         }
         for name, value in facts.items():
             self._integers[name].append(value)

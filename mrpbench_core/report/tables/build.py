@@ -44,7 +44,7 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
     unit = _unit(settings)
     return Table(
         key="outcome",
-        title="How the runs ended",
+        title="How the runs ended" + _reassigned(runs),
         headings=(*axes, "runs", unit, "succeeded", "success rate", "plans found", "else", "left out"),
         rows=tuple(rows),
         keys=len(axes),
@@ -54,6 +54,12 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
             f"Seeds: {spans(runs.seed)}; repeats: {spans(runs.repeat)}."
         ),
     )
+
+
+def _reassigned(runs: Runs) -> str:
+    """Return the part of a title that says in how many runs an assigner changed the goals of the scenario."""
+    count = np.count_nonzero(runs.reassigned)
+    return f" (the assigner changed the scenario's goals in {count} of {len(runs)} runs)" if count else ""
 
 
 def means_table(
