@@ -1,5 +1,6 @@
 """Writes building files of the RMF traffic editor, in metres, in the layout of our built-in worlds."""
 
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
@@ -22,9 +23,10 @@ class Level:
         self.models: list[str] = []
 
     def place(self, name: str, x: float, y: float, *parameters: str) -> str:
-        """A vertex of the navigation graph; parameters such as `is_charger`."""
+        """A vertex of the navigation graph; parameters such as `is_charger` or `pickup_dispenser=NAME`."""
         assert name not in self.places, name
-        stated = ", ".join(f"{parameter}: [4, true]" for parameter in parameters)
+        pairs = [parameter.split("=") for parameter in parameters]
+        stated = ", ".join(f"{key}: [1, {value[0]}]" if value else f"{key}: [4, true]" for key, *value in pairs)
         self.places[name] = (x, y, f", {{{stated}}}" if stated else "")
         return name
 
@@ -98,9 +100,9 @@ class Level:
         return text
 
 
-def write(file: Path, title: str, *levels: Level) -> None:
-    """A whole building file; `title` is its head comment."""
+def write(file: Path, title: str, *levels: Level, lifts: Sequence[str] = ()) -> None:
+    """A whole building file; `title` is its head comment, `lifts` are the lines of that section."""
     text = [*(f"# {line}" for line in title.splitlines()), f"name: {file.name.split('.')[0]}"]
-    text += ["coordinate_system: cartesian_meters", "lifts: {}", "levels:"]
+    text += ["coordinate_system: cartesian_meters", *(["lifts:", *lifts] if lifts else ["lifts: {}"]), "levels:"]
     text += [line for level in levels for line in level.lines()]
     file.write_text("\n".join(text) + "\n", encoding="utf-8")

@@ -109,7 +109,8 @@ def _stop(lift: Lift, level: int, world: World, roadmap: Roadmap) -> int:
 def _rides(lift: Lift, roadmap: Roadmap) -> Int:
     """Return the edges of a lift that lead from one level to another."""
     start, end = roadmap.edges[:, 0], roadmap.edges[:, 1]
-    between = np.flatnonzero(roadmap.level[start] != roadmap.level[end])
+    served = np.isin(roadmap.level, lift.levels)
+    between = np.flatnonzero((roadmap.level[start] != roadmap.level[end]) & served[start] & served[end])
     inside = np.array([lift.holds(x, y) for x, y in roadmap.position[start[between]].tolist()], bool)
     rides: Int = between[inside]
     return rides

@@ -53,6 +53,17 @@ class Household(WorldSource):
 
 
 @attrs.frozen(kw_only=True)
+class Hospital(WorldSource):
+    """A hospital of 26 × 12 m on three floors: fifteen rooms with doors, four lifts, a corridor with two lanes."""
+
+    doors: DoorState = doors_option()
+
+    def load(self) -> World:
+        """Read the packaged file."""
+        return Rmf(file=FOLDER / "hospital.building.yaml", doors=self.doors).load()
+
+
+@attrs.frozen(kw_only=True)
 class Bottlenecks(WorldSource):
     """Minimal hard cases in which robots have to give way to one another. Passages are 0.7 m wide.
 

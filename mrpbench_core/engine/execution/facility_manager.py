@@ -99,7 +99,10 @@ class FacilityManager:
             if resource.kind == "door":
                 commands[name] = float(any(self._passes(robot, name, int(reached[robot])) for robot in holders))
             elif resource.kind == "lift":
-                stop = self._stop(holders[0], int(reached[holders[0]]), int(released[holders[0]])) if holders else None
+                stop = None
+                if holders:
+                    robot = holders[0]
+                    stop = self._stop(robot, name, int(reached[robot]), int(released[robot]))
                 commands |= self._drive(self._lifts[name], stop, state.facilities)
         return commands
 
@@ -108,15 +111,21 @@ class FacilityManager:
         if kind == "door" and name in state:
             return state[name] == float(self._passes(robot, name, reached))
         if kind == "lift" and name in state:
-            lift, level = self._lifts[name], int(self._level[self._vertices[robot][reached]])
+            lift, level = self._lifts[name], self._stop(robot, name, reached, reached)
             here = self.facilities.is_at(lift, level, state)
             return here and all(state[gate.name] == 1 for gate in self._entrances[name] if level in gate.opens_on)
         return kind == "mutex"
 
-    def _stop(self, robot: int, reached: int, released: int) -> int:
-        """The level at which a robot is to get in, or out once it is allowed to ride."""
-        levels = self._level[self._vertices[robot][reached : reached + 2]]
-        return int(levels[-1] if reached < released else levels[0])
+    def _stop(self, robot: int, name: str, reached: int, released: int) -> int:
+        """Return the level at which a robot enters a lift, or leaves it once the ride is released.
+
+        A robot may hold a lift ahead of its use, while it is still on a level that the lift does not serve.
+        """
+        inside, _ = self._uses(robot, name)
+        ahead = np.flatnonzero(inside[reached:])
+        first = reached + (int(ahead[0]) if len(ahead) else 0)
+        levels = self._level[self._vertices[robot][first : first + 2]]
+        return int(levels[-1] if first < released and first == reached else levels[0])
 
     def _drive(self, lift: Lift, stop: int | None, state: Mapping[str, float]) -> dict[str, float]:
         """Shut the doors, go there, open; without a `stop`, shut the doors."""

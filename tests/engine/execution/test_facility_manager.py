@@ -12,8 +12,10 @@ from hypothesis import event, given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.api.dispatcher import DispatchError
+from mrpbench_core.builtin.worlds.shipped import Hospital
 from mrpbench_core.engine.execution.facility_manager import ExecutionError, FacilityManager
 from mrpbench_core.model.execution import FleetView, Orders, State
+from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.plan import Budget, Plan
 from mrpbench_core.model.roadmap import Resource
 
@@ -187,3 +189,17 @@ def test_a_lift_shuts_its_doors_comes_and_opens_before_anybody_gets_in():
         assert len(seen) < LONGEST
     assert max(height for height, _ in seen) == 3.0
     assert seen[-1] == (0.0, 0)
+
+
+def test_a_lift_that_is_requested_from_a_level_without_it_goes_to_where_the_robot_enters():
+    world = Hospital().load()
+    problem = problem_of(world, ["L3_north_18.6"], ["L1_south_10"])
+    number = {vertex.name: int(problem.roadmap.place[index]) for index, vertex in enumerate(world.vertices)}
+    corridor = ("L2_north_18.6", "L2_south_18.6", "L2_south_15.8", "L2_south_12.8", "L2_south_10")
+    names = ("L3_north_18.6", "L3_lift_b", "L2_lift_b", *corridor, "L2_lift_c", "L1_lift_c", "L1_south_10")
+    plan = Plan(paths=(path(problem.roadmap, *(number[name] for name in names)),))
+    facility_manager, view, state = stand(world, problem, plan, Facilities(world).initial_state())
+    zero = np.zeros(1, "i4")
+    facility_manager.take(Orders(released=zero, requests=((0, "lift_c"),)))
+    assert facility_manager.granted(view, state).granted == ()
+    assert facility_manager.commands(zero, zero, state)["lift_c"] == world.levels[1].elevation

@@ -80,11 +80,10 @@ def _place(node: Node, position: Float, level: int, lifts: Sequence[Lift], notes
     parameters = read_parameters(items[4], VERTEX, "vertex", notes) if len(items) > 4 else {}
     x, y = position.tolist()
     cabin = parameters.get("lift_cabin", "")
-    if cabin and cabin not in [lift.name for lift in lifts]:
-        notes.add(f"vertex names the lift_cabin {cabin!r}, which does not exist")
-        cabin = ""
     inside = [lift.name for lift in lifts if level in lift.levels and lift.holds(x, y)]
-    return Vertex(name=name, x=x, y=y, level=level, parameters=parameters, lift=cabin or (inside[0] if inside else ""))
+    if cabin and cabin not in inside:
+        notes.add(f"vertex names the lift_cabin {cabin!r}, which is not at that position of its level")
+    return Vertex(name=name, x=x, y=y, level=level, parameters=parameters, lift=inside[0] if inside else "")
 
 
 def _lanes(drawing: LevelDrawing, notes: Notes) -> list[Lane]:

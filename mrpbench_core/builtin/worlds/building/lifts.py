@@ -1,32 +1,72 @@
 """Lifts of a building file."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
 from mrpbench_core.builtin.worlds.building.coordinates import Frame
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
+from mrpbench_core.files.text import counted
 from mrpbench_core.model.world import Door, Lift
+
+TOUCHING = 1e-6
+"""metres: cabins that overlap by less than this only touch."""
 
 
 def read_lifts(building: Node, frames: Mapping[str, Frame], notes: Notes) -> tuple[Lift, ...]:
     """Return the lifts that serve a level of `frames`, in the order of the file. All their doors are double sliding."""
     section = building.fields().get("lifts")
-    lifts = []
+    heights = _heights(building, frames)
+    lifts: list[Lift] = []
     for name, node in ({} if section is None else section.fields()).items():
         lift = _lift(name, node, frames, building.fields()["levels"], notes)
-        if lift is not None:
-            lifts.append(lift)
+        if lift is None:
+            continue
+        for other in lifts:
+            if _share_shaft(lift, other, heights):
+                raise node.error(
+                    f"lifts {other.name!r} and {name!r} are in the same shaft",
+                    "move one of them, or let one lift serve the levels of both",
+                    key=True,
+                )
+        lifts.append(lift)
     return tuple(lifts)
+
+
+def _heights(building: Node, levels: Iterable[str]) -> list[float]:
+    """Return the elevations of the levels, or their numbers if some elevations are equal."""
+    fields = building.fields()["levels"].fields()
+    elevations = [_number(fields[level], "elevation", 0.0) for level in levels]
+    return elevations if len(set(elevations)) == len(elevations) else [float(index) for index in range(len(elevations))]
+
+
+def _share_shaft(lift: Lift, other: Lift, heights: Sequence[float]) -> bool:
+    """Tell whether the cabins of two lifts overlap at some height."""
+    (low, high), (bottom, top) = (
+        (min(heights[level] for level in one.levels), max(heights[level] for level in one.levels))
+        for one in (lift, other)
+    )
+    if high < bottom or top < low:
+        return False
+    # Separating axis theorem: two convex polygons are apart if and only if a side of one separates them.
+    for yaw in (lift.yaw, lift.yaw + math.pi / 2, other.yaw, other.yaw + math.pi / 2):
+        axis = np.array([math.cos(yaw), math.sin(yaw)])
+        first, second = lift.corners @ axis, other.corners @ axis
+        if min(first.max(), second.max()) - max(first.min(), second.min()) < TOUCHING:
+            return False
+    return True
 
 
 def _lift(name: str, node: Node, frames: Mapping[str, Frame], levels: Node, notes: Notes) -> Lift | None:
     fields = node.fields()
     width, depth = (_positive(node, key) for key in ("width", "depth"))
     number = {level: index for index, level in enumerate(frames)}
-    stops = _stops(node, levels)
+    for key in ("reference_floor_name", "initial_floor_name", "lowest_floor", "highest_floor"):
+        if key in fields and fields[key].text():
+            _known_level(fields[key], fields[key].text(), levels)
+    stops = _stops(name, node, levels)
     served = [level for level in stops if level in number]
     if not served:
         notes.add(f"lift {name!r} stops at no level that is loaded and is left out")
@@ -40,10 +80,6 @@ def _lift(name: str, node: Node, frames: Mapping[str, Frame], levels: Node, note
     yaw = _number(node, "yaw", 0.0) + frame.rotation
     initial = fields["initial_floor_name"].text() if "initial_floor_name" in fields else ""
     doors = {} if "doors" not in fields else fields["doors"].fields()
-    for level, names in stops.items():
-        for door in names:
-            if door not in doors:
-                raise node.error(f"lift {name!r} opens the door {door!r} on level {level!r}, which it does not have")
     return Lift(
         name=name,
         x=x,
@@ -58,15 +94,32 @@ def _lift(name: str, node: Node, frames: Mapping[str, Frame], levels: Node, note
     )
 
 
-def _stops(node: Node, levels: Node) -> dict[str, list[str]]:
-    """Return the doors that open on each level."""
-    section = node.fields().get("level_doors")
+def _stops(name: str, node: Node, levels: Node) -> dict[str, list[str]]:
+    """Return the doors that open on each level that the lift serves."""
+    fields = node.fields()
+    doors = {} if "doors" not in fields else fields["doors"].fields()
     stops = {}
-    for level, names in ({} if section is None else section.fields()).items():
-        if level not in levels.fields():
-            raise names.error(f"no level {level!r}", f"levels: {', '.join(levels.fields())}", key=True)
-        stops[level] = [name.text() for name in names.items()]
+    for level, names in ({} if "level_doors" not in fields else fields["level_doors"].fields()).items():
+        _known_level(names, level, levels, key=True)
+        stops[level] = [door.text() for door in names.items()]
+        if not stops[level]:
+            hint = f"doors: {', '.join(doors)}" if doors else "add a door to the lift"
+            raise names.error(f"lift {name!r} has no door on level {level!r}", hint, key=True)
+        for door in stops[level]:
+            if door not in doors:
+                raise names.error(f"lift {name!r} opens the door {door!r} on level {level!r}, which it does not have")
+    if len(stops) < 2:
+        raise node.error(
+            f"lift {name!r} serves {counted(len(stops), 'level')}, but a lift needs at least two",
+            "name the levels and their doors under level_doors",
+            key=True,
+        )
     return stops
+
+
+def _known_level(node: Node, level: str, levels: Node, *, key: bool = False) -> None:
+    if level not in levels.fields():
+        raise node.error(f"no level {level!r}", f"levels: {', '.join(levels.fields())}", key=key)
 
 
 def _door(name: str, x: float, y: float, yaw: float, node: Node) -> Door:

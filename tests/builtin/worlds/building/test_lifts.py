@@ -62,6 +62,10 @@ def test_a_lift_of_one_loaded_level_or_none_is_cut_or_noted(load):
         ("U: [front, back]}", "U: [side]}", "opens the door 'side' on level 'U', which it does not have"),
         ("level_doors: {G:", "level_doors: {X:", "no level 'X' (levels: G, U, V)"),
         ("x: 5, y", "x: here, y", "should be a number"),
+        ("U: [front, back]}", "U: []}", "lift 'up' has no door on level 'U' (doors: front, back)"),
+        (", U: [front, back]}", "}", "lift 'up' serves 1 level, but a lift needs at least two"),
+        ("initial_floor_name: U", "initial_floor_name: X", "no level 'X' (levels: G, U, V)"),
+        ("highest_floor: U", "highest_floor: X", "no level 'X' (levels: G, U, V)"),
     ],
 )
 def test_a_mistake_is_named_with_its_line(load, old, new, message):
@@ -70,3 +74,30 @@ def test_a_mistake_is_named_with_its_line(load, old, new, message):
         load(TOWER.replace(old, new))
     assert message in str(caught.value)
     assert caught.value.line >= 8
+
+
+SECOND = """
+  side:
+    {x: %s, y: 0, yaw: %s, width: 2, depth: 1.5, reference_floor_name: G,
+     doors: {front: {x: -1, y: 0, width: 1, motion_axis_orientation: 1.5708, door_type: 2}},
+     level_doors: {%s: [front], %s: [front]}}
+"""
+
+
+@pytest.mark.parametrize(("x", "yaw", "levels"), [(5, 0, "GU"), (6.5, 0, "UV"), (6.7, 0.8, "GU")])
+def test_lifts_in_one_shaft_are_refused(load, x, yaw, levels):
+    with pytest.raises(InputError, match="lifts 'up' and 'side' are in the same shaft") as caught:
+        load(TOWER + SECOND % (x, yaw, *levels))
+    assert caught.value.line == 15
+
+
+@pytest.mark.parametrize(("x", "yaw", "levels"), [(7, 0, "GU"), (7.3, 0.8, "GU"), (5, 0, "VW")])
+def test_lifts_that_only_touch_or_lie_above_one_another_are_two(load, x, yaw, levels):
+    text = TOWER.replace("  V: {}", "  V: {}\n  W: {}") + SECOND % (x, yaw, *levels)
+    assert [lift.name for lift in load(text).lifts] == ["up", "side"]
+
+
+def test_a_vertex_names_the_cabin_that_it_lies_in(load):
+    world = load(TOWER.replace("[0, 0, 0, attic]", "[0, 0, 0, attic, {lift_cabin: [1, up]}]"))
+    assert [vertex.lift for vertex in world.vertices if vertex.name == "attic"] == [""]
+    assert any("names the lift_cabin 'up', which is not at that position" in note for note in world.notes)
