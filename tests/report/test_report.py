@@ -135,8 +135,8 @@ def test_a_reviewer_recomputes_the_numbers_from_the_lines(results, record, tmp_p
 
 
 def test_the_heading_says_where_an_assigner_changed_given_goals(results, record):
-    kept = analyse([results([record(seed=seed) for seed in range(3)], "kept")]).tables()[0]
+    kept = make_report([results([record(seed=seed) for seed in range(3)], "kept")]).tables()[0]
     assert kept.title == "How the runs ended"
     changed = [record(seed=0), record(seed=1, reassigned=2), record(seed=2, reassigned=4)]
-    title = analyse([results(changed, "changed")]).tables()[0].title
+    title = make_report([results(changed, "changed")]).tables()[0].title
     assert title == "How the runs ended (the assigner changed the scenario's goals in 2 of 3 runs)"
