@@ -12,7 +12,7 @@ In pytest, subclass the suite and return your component from `make`:
 `mrpbench_core.testing.strategies`, problems drawn as text in `mrpbench_core.testing.drawing`.
 """
 
-from mrpbench_core.testing.checks import Check, run_checks
+from mrpbench_core.testing.checks import Check, failed_checks, run_checks
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.suites import SUITES, suite_for
 from mrpbench_core.testing.suites.assigner import AssignerConformance
@@ -55,6 +55,7 @@ __all__ = [
     "SimulatorConformance",
     "Skip",
     "WorldConformance",
+    "failed_checks",
     "require",
     "run_checks",
     "suite_for",

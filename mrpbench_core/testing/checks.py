@@ -38,6 +38,11 @@ def run_checks(suite: ComponentConformance) -> Iterator[Check]:
             yield Check(name, "ok")
 
 
+def failed_checks(suite: ComponentConformance) -> dict[str, str]:
+    """Why each check failed, by name; empty if none did."""
+    return {check.name: check.reason for check in run_checks(suite) if check.outcome == "failed"}
+
+
 def methods(suite: type[ComponentConformance]) -> list[str]:
     """The names of a suite's checks."""
     found = [name for owner in reversed(suite.__mro__) for name in vars(owner) if name.startswith("test_")]

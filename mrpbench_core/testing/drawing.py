@@ -11,12 +11,12 @@ capital its goal; `aB` is both; several cells with one capital are a goal set. L
 from collections.abc import Iterable
 from typing import Any
 
-import attrs
 import numpy as np
 
 from mrpbench_core.model.plan import Path
-from mrpbench_core.model.problem import Feature, Problem, features_of
+from mrpbench_core.model.problem import Feature, Problem
 from mrpbench_core.model.roadmap import Grid, Roadmap
+from mrpbench_core.testing.instances.problems import build
 
 BLOCKED = "#"
 STEPS = ((0, 1), (0, -1), (1, 0), (-1, 0))
@@ -57,30 +57,7 @@ def problem(drawing: str, radius: float = 0.1, features: Iterable[Feature] = (),
     starts = [next(vertex for vertex, token in enumerate(free) if robot in token) for robot in robots]
     goals = [tuple(vertex for vertex, token in enumerate(free) if robot.upper() in token) for robot in robots]
     roadmap = fields.pop("roadmap", roadmap)
-    return complete(roadmap, starts, goals, radius, features, **fields)
-
-
-def complete(
-    roadmap: Roadmap,
-    starts: Iterable[int],
-    goal_sets: Iterable[tuple[int, ...]],
-    radius: float = 0.1,
-    features: Iterable[Feature] = (),
-    **fields: Any,
-) -> Problem:
-    """A problem of like robots, each with one goal set; `fields` replace those of `Problem`."""
-    start = list(starts)
-    count = len(start)
-    default: dict[str, Any] = {
-        "roadmap": roadmap,
-        "profile": [0] * count,
-        "radius": [radius] * count,
-        "start": start,
-        "ready": [0] * count,
-        "goals": tuple((goal_set,) for goal_set in goal_sets),
-    }
-    made = Problem(**default | fields)
-    return attrs.evolve(made, features=features_of(made) | set(features))
+    return build(roadmap, starts, goals, radius, features, **fields)
 
 
 def unit_path(edges: Iterable[int]) -> Path:

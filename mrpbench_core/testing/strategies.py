@@ -17,7 +17,8 @@ from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Feature, Problem, Rules
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.testing.drawing import complete, grid, unit_path
+from mrpbench_core.testing.drawing import grid, unit_path
+from mrpbench_core.testing.instances.problems import build
 
 
 @st.composite
@@ -72,7 +73,7 @@ def problems(
         goals = [tuple(sorted(set(goal))) for goal in goals]
     footprints = Feature.FOOTPRINTS in features and draw(st.booleans())
     following = Feature.FOLLOWING_FORBIDDEN in features and draw(st.booleans())
-    return complete(
+    return build(
         chosen,
         starts,
         goals,
@@ -107,7 +108,7 @@ def plans(draw: st.DrawFn, most_robots: int = 4, most_ticks: int = 8) -> tuple[P
         for vertex, robot in taken.items():
             routes[robot].append(vertex)
     paths = [unit_path(edge_of.get(step, -1) for step in pairwise(route)) for route in routes]
-    made = complete(roadmap, starts, [(route[-1],) for route in routes])
+    made = build(roadmap, starts, [(route[-1],) for route in routes])
     plan = Plan(paths=tuple(paths))
     assert check_plan(made, plan).valid
     return made, plan

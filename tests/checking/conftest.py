@@ -9,26 +9,17 @@ import pytest
 from mrpbench_core.model.plan import Path
 from mrpbench_core.model.problem import Problem, features_of
 from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.testing.instances.roadmaps import two_way, two_way_grid
 
 
-def roadmap(points, pairs, ticks=1, level=None) -> Roadmap:
+def roadmap(points, pairs, ticks=1, level=0) -> Roadmap:
     """Two-way lanes `pairs` between `points`, all of `ticks`."""
-    edges = [edge for a, b in pairs for edge in ((a, b), (b, a))]
-    return Roadmap(
-        position=points,
-        level=np.zeros(len(points)) if level is None else level,
-        heading=np.full(len(points), np.nan),
-        edges=edges,
-        duration=np.full((1, len(edges)), ticks),
-        tick=1.0,
-    )
+    return two_way(points, pairs, ticks, level=level)
 
 
 def grid(rows: int, columns: int, ticks=1) -> Roadmap:
     """A four-connected unit grid; vertex = row * columns + column."""
-    cells = range(rows * columns)
-    pairs = [(v, v + 1) for v in cells if (v + 1) % columns] + [(v, v + columns) for v in cells[:-columns]]
-    return roadmap([(v % columns, v // columns) for v in cells], pairs, ticks)
+    return two_way_grid(rows, columns, duration=ticks)
 
 
 def path(roadmap: Roadmap, *steps) -> Path:

@@ -1,221 +1,125 @@
-"""The least sum of costs by brute force: a search over the joint states of all robots, one tick at a time.
+"""The least cost by brute force: A* over the joint states of all robots, one tick at a time.
 
-Plain on purpose, for a handful of robots on a dozen vertices: it shares no code with planners or validators, only the
-rules that `mrpbench_core.model.conflicts` states.
+Slow and plain on purpose, for a handful of robots on a dozen vertices: it shares no code with planners or validators,
+only the rules that `mrpbench_core.model.conflicts` states. Two robots are checked at each tick and between each two.
+From some tick on, what can follow depends on the joint state alone, so that the search can see all states and a problem
+without a plan is known to have none. The state includes how long each robot still uses each resource.
+
+Plans cross each edge in exactly its duration.
 """
 
 import heapq
-from collections.abc import Iterator
-from itertools import count
-from typing import NamedTuple
+import itertools
+import math
+from collections.abc import Callable, Iterable, Iterator
 
-import numpy as np
-
-from mrpbench_core.model.geometry import segment_distance
 from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.testing.oracles.conflict_rules import ConflictRules, Uses
+from mrpbench_core.testing.oracles.robot_steps import DONE, RobotState, RobotStep, RobotSteps
 
-UNKNOWN = frozenset({Feature.HORIZON, Feature.RESOURCES, Feature.HEADINGS})
-"""Features this search does not know."""
-MOST_STATES = 400_000
-
-
-class Robot(NamedTuple):
-    """Where one robot is at a tick."""
-
-    vertex: int
-    """where it stands, or where it goes to"""
-    edge: int = -1
-    """the edge it is on, -1 = it stands"""
-    left: int = 0
-    """ticks until it stands"""
-    visited: int = 0
-    """goals of its sequence it has visited"""
-    stopped: bool = False
-    """it stays for good, and costs nothing from then on"""
+UNSUPPORTED = frozenset({Feature.HORIZON, Feature.HEADINGS})
+"""Features that this search does not support."""
+MOST_STATES = 6_000
+"""States after which a search ends without an answer, by default."""
 
 
-class During(NamedTuple):
-    """What one robot does from a tick to the next."""
+def least_sum_of_costs(problem: Problem, most_states: int = MOST_STATES, assign: bool = False) -> float | None:
+    """The least sum of costs in ticks; inf if there is no plan, None if it is not known after `most_states` states.
 
-    tail: int
-    head: int
-    left: int
-    """ticks on its edge, counted from the earlier tick"""
-    enters: bool
-    present: bool
-    after: Robot
-    cost: int
-
-
-def least_sum_of_costs(problem: Problem) -> int | None:
-    """The optimum over plans that cross each edge in exactly its duration, in ticks; None if there is no plan.
+    Args:
+        problem: what to plan.
+        most_states: the number of joint states after which the search gives up.
+        assign: require that robots end at different goals, even where they disappear there: the optimum over all
+            assignments of robots to goals.
 
     Raises:
-        ValueError: the problem has a feature this search does not know, or too many states.
+        ValueError: the problem has a feature that this search does not support.
     """
-    if unknown := problem.features & UNKNOWN:
-        raise ValueError(f"cannot search problems with {', '.join(sorted(unknown))}")
-    return _Search(problem).least()
+    return _Search(problem, sum, assign).run(most_states)
+
+
+def least_makespan(problem: Problem, most_states: int = MOST_STATES) -> float | None:
+    """The least tick at which the last robot arrives; see `least_sum_of_costs`."""
+    return _Search(problem, max, assign=False).run(most_states)
+
+
+def earliest_arrival(problem: Problem, robot: int) -> float:
+    """The tick at which a robot with one goal set arrives if it is alone; inf if it cannot."""
+    steps = RobotSteps(problem)
+    return steps.earliest_arrival(robot, 0, steps.first[robot])
 
 
 class _Search:
-    def __init__(self, problem: Problem) -> None:
-        self.problem = problem
-        self.edges: list[tuple[int, int]] = [(tail, head) for tail, head in problem.roadmap.edges.tolist()]
-        self.out: list[list[int]] = [[] for _ in problem.roadmap.position]
-        for edge, (tail, _) in enumerate(self.edges):
-            self.out[tail].append(edge)
-        self.duration = [problem.duration(robot).tolist() for robot in range(len(problem))]
-        self.forced = [self._forced(robot) for robot in range(len(problem))]
-        # Beyond this tick nothing depends on time any more.
-        self.settled = max([0, *problem.ready.tolist(), *(tick + 1 for forced in self.forced for tick in forced)])
-        self.distances: dict[tuple[int, int, int, int], float] = {}
-        self.to_go = [self._to_go(robot) for robot in range(len(problem))]
+    def __init__(self, problem: Problem, total: Callable[[Iterable[float]], float], assign: bool) -> None:
+        if unsupported := problem.features & UNSUPPORTED:
+            raise ValueError(f"cannot search problems with {', '.join(sorted(unsupported))}")
+        self.total = total
+        self.assign = assign
+        self.robots = RobotSteps(problem)
+        self.rules = ConflictRules(problem, self.robots.edges)
 
-    def least(self) -> int | None:
-        starts = self.problem.start.tolist()
-        robots = tuple(Robot(vertex, visited=self._visited(i, vertex, 0)) for i, vertex in enumerate(starts))
-        standing = [
-            During(vertex, vertex, 0, False, True, robot, 0) for vertex, robot in zip(starts, robots, strict=True)
-        ]
-        if any(self._meet(i, j, one, other) for j, other in enumerate(standing) for i, one in enumerate(standing[:j])):
-            return None
-        order = count()
-        queue = [(self._estimate(robots), next(order), 0, 0, robots)]
+    def run(self, most_states: int) -> float | None:
+        first = self.robots.first
+        places = [state.place for state in first]
+        uses = self.rules.uses(self.rules.no_uses(), places)
+        if self.rules.any_conflict(places) or self.rules.over_capacity(uses):
+            return math.inf
+        order = itertools.count()
+        queue = [(self._bound(0, 0, first), next(order), 0, 0.0, first, uses)]
         closed = set()
         while queue:
-            _, _, cost, tick, robots = heapq.heappop(queue)
-            if all(robot.stopped for robot in robots):
+            _, _, tick, cost, states, uses = heapq.heappop(queue)
+            if all(state.phase == DONE for state in states):
                 return cost
-            state = min(tick, self.settled), robots
-            if state in closed:
+            key = min(tick, self.robots.settled), states, uses
+            if key in closed:
                 continue
-            closed.add(state)
-            if len(closed) > MOST_STATES:
-                raise ValueError("the problem is too large for brute force")
-            for joint in self._joint(tick, robots, ()):
-                after = tuple(during.after for during in joint)
-                paid = cost + sum(during.cost for during in joint)
-                estimate = self._estimate(after)
-                if estimate < np.inf:
-                    heapq.heappush(queue, (paid + estimate, next(order), paid, tick + 1, after))
-        return None
+            closed.add(key)
+            if len(closed) > most_states:
+                return None
+            for steps, later in self._successors(tick, states, uses):
+                after = tuple(step.then for step in steps)
+                paid = [self.robots.arrival(robot, tick) for robot, step in enumerate(steps) if step.ends]
+                spent = self.total([cost, *paid])
+                bound = self._bound(tick + 1, spent, after)
+                if bound < math.inf:
+                    heapq.heappush(queue, (bound, next(order), tick + 1, spent, after, later))
+        return math.inf
 
-    def _joint(self, tick: int, robots: tuple[Robot, ...], chosen: tuple[During, ...]) -> Iterator[tuple[During, ...]]:
-        index = len(chosen)
-        if index == len(robots):
+    def _bound(self, tick: int, cost: float, states: tuple[RobotState, ...]) -> float:
+        """A lower bound on the cost of all plans that pass through a joint state."""
+        to_come = [
+            self.robots.earliest_arrival(robot, tick, state)
+            for robot, state in enumerate(states)
+            if state.phase != DONE
+        ]
+        return self.total([cost, *to_come])
+
+    def _successors(
+        self, tick: int, states: tuple[RobotState, ...], uses: Uses
+    ) -> Iterator[tuple[tuple[RobotStep, ...], Uses]]:
+        """Joint steps without conflict, and the uses of resources after each."""
+        choices = [self.robots.steps(robot, tick, state) for robot, state in enumerate(states)]
+        for steps in self._joint((), choices):
+            if self.assign and self._share_a_goal(steps):
+                continue
+            if self.rules.overtaking(states, steps):
+                continue
+            between = self.rules.uses(uses, [step.during for step in steps])
+            later = self.rules.uses(between, [step.place for step in steps])
+            if not self.rules.over_capacity(between) and not self.rules.over_capacity(later):
+                yield steps, later
+
+    def _joint(self, chosen: tuple[RobotStep, ...], choices: list[list[RobotStep]]) -> Iterator[tuple[RobotStep, ...]]:
+        """All ways to add a step of each other robot to the steps of the first ones, without conflict."""
+        robot = len(chosen)
+        if robot == len(choices):
             yield chosen
             return
-        for during in self._choices(index, robots[index], tick):
-            if not any(self._meet(earlier, index, one, during) for earlier, one in enumerate(chosen)):
-                yield from self._joint(tick, robots, (*chosen, during))
+        for step in choices[robot]:
+            if not any(self.rules.conflict(other, robot, before, step) for other, before in enumerate(chosen)):
+                yield from self._joint((*chosen, step), choices)
 
-    def _choices(self, index: int, robot: Robot, tick: int) -> Iterator[During]:
-        at = robot.vertex
-        if robot.stopped:
-            stays = self.problem.rules.at_goal == "stay"
-            yield During(at, at, 0, False, stays, robot, 0)
-        elif robot.left > 0:
-            yield self._on_edge(index, robot, robot.edge, robot.left, False)
-        elif tick in self.forced[index]:
-            edge, ticks = self.forced[index][tick]
-            yield self._on_edge(index, robot, edge, ticks, True) if edge >= 0 else self._wait(robot)
-        else:
-            yield self._wait(robot)
-            if tick >= self.problem.ready[index]:
-                for edge in self.out[at]:
-                    if self.duration[index][edge] > 0:
-                        yield self._on_edge(index, robot, edge, self.duration[index][edge], True)
-        if self._may_stop(index, robot, tick):
-            stopped = robot._replace(stopped=True)
-            yield from self._choices(index, stopped, tick)
-
-    def _wait(self, robot: Robot) -> During:
-        return During(robot.vertex, robot.vertex, 0, False, True, robot, 1)
-
-    def _on_edge(self, index: int, robot: Robot, edge: int, left: int, enters: bool) -> During:
-        tail, head = self.edges[edge]
-        if left > 1:
-            after = Robot(head, edge, left - 1, robot.visited)
-        else:
-            after = Robot(head, visited=self._visited(index, head, robot.visited))
-        return During(tail, head, left, enters, True, after, 1)
-
-    def _may_stop(self, index: int, robot: Robot, tick: int) -> bool:
-        sequence = self.problem.goals[index]
-        there = robot.visited == len(sequence) and (not sequence or robot.vertex in sequence[-1])
-        free = all(edge < 0 for begin, (edge, _) in self.forced[index].items() if begin >= tick)
-        return there and free and robot.left == 0 and not robot.stopped
-
-    def _visited(self, index: int, vertex: int, visited: int) -> int:
-        sequence = self.problem.goals[index]
-        while visited < len(sequence) and vertex in sequence[visited]:
-            visited += 1
-        return visited
-
-    def _meet(self, i: int, j: int, one: During, other: During) -> bool:
-        """Tell whether two robots conflict between two ticks, or at the later one."""
-        if not (one.present and other.present):
-            return False
-        moves, other_moves = one.tail != one.head, other.tail != other.head
-        if one.after.left == 0 == other.after.left and one.head == other.head:
-            return True
-        if moves and other_moves:
-            if (one.tail, one.head) == (other.head, other.tail):
-                return True
-            if (one.tail, one.head) == (other.tail, other.head) and self._overtakes(one, other):
-                return True
-            if self.problem.rules.following == "forbidden" and (one.head == other.tail or other.head == one.tail):
-                return True
-        if not moves and not other_moves and one.head == other.head:
-            return True
-        if Feature.FOOTPRINTS not in self.problem.features:
-            return False
-        reach = float(self.problem.radius[i] + self.problem.radius[j])
-        return self._distance(one.tail, one.head, other.tail, other.head) < reach - 1e-9
-
-    def _overtakes(self, one: During, other: During) -> bool:
-        if self.problem.rules.following == "forbidden" or (one.enters and other.enters):
-            return True
-        if one.enters:
-            return one.left <= other.left
-        return other.enters and other.left <= one.left
-
-    def _distance(self, a: int, b: int, c: int, d: int) -> float:
-        key = a, b, c, d
-        if key not in self.distances:
-            roadmap = self.problem.roadmap
-            shared = {roadmap.level[a], roadmap.level[b]} & {roadmap.level[c], roadmap.level[d]}
-            points = (roadmap.position[vertex] for vertex in key)
-            self.distances[key] = float(segment_distance(*points)) if shared else np.inf
-        return self.distances[key]
-
-    def _forced(self, index: int) -> dict[int, tuple[int, int]]:
-        """What a robot has committed itself to begin at a tick: edge and ticks, (-1, 1) for each tick of a wait."""
-        forced = {}
-        if self.problem.commitments:
-            path = self.problem.commitments[index]
-            for edge, enter, leave in zip(path.edge.tolist(), path.enter.tolist(), path.leave.tolist(), strict=True):
-                if edge >= 0:
-                    forced[enter] = edge, leave - enter
-                else:
-                    forced |= dict.fromkeys(range(enter, leave), (-1, 1))
-        return forced
-
-    def _to_go(self, index: int) -> list[float]:
-        """A lower bound on a robot's cost from each vertex: ticks to its last goal set as if it were alone."""
-        sequence = self.problem.goals[index]
-        if not sequence:
-            return [0.0] * len(self.out)
-        ticks = [0.0 if vertex in sequence[-1] else np.inf for vertex in range(len(self.out))]
-        for _ in self.out:
-            for edge, (tail, head) in enumerate(self.edges):
-                if self.duration[index][edge] > 0:
-                    ticks[tail] = min(ticks[tail], self.duration[index][edge] + ticks[head])
-        return ticks
-
-    def _estimate(self, robots: tuple[Robot, ...]) -> float:
-        return sum(
-            0.0 if robot.stopped else ticks[robot.vertex] + robot.left
-            for robot, ticks in zip(robots, self.to_go, strict=True)
-        )
+    def _share_a_goal(self, steps: tuple[RobotStep, ...]) -> bool:
+        goals = [step.then.place for step in steps if step.then.phase == DONE]
+        return len(set(goals)) < len(goals)

@@ -1,49 +1,51 @@
-"""Asks a planner and stops waiting when it does not answer."""
+"""Calls a planner, and stops waiting when it does not answer."""
 
 import threading
 import time
 
 from mrpbench_core.api.planner import Planner
+from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
-from mrpbench_core.testing.faults import Fault, require
+from mrpbench_core.testing.faults import require
 
-AMPLE = 10.0
-"""seconds for problems that a pen solves."""
-MARGIN = 2.0
-"""seconds by which a planner may be late: machines are busy, and Python sleeps."""
+AMPLE_S = 10.0
+"""Wall seconds for the small problems of the kit."""
+LATE_S = 2.0
+"""Seconds by which a planner may exceed its budget: machines are busy, and Python sleeps."""
 ITERATIONS = 200
-"""steps of improvement of a planner that would go on until its time is over."""
-PATIENCE = 10.0
-"""seconds after which it is said to hang."""
+"""Iterations of a planner that improves its plan until its time is over."""
+HANGS_S = 10.0
+"""Further seconds after which the planner is said to hang."""
 
 
-def ask(planner: Planner, problem: Problem, wall_s: float = AMPLE) -> PlanResult:
-    """The planner's answer, which is one and in time.
+def call(planner: Planner, problem: Problem, wall_s: float = AMPLE_S) -> PlanResult:
+    """The planner's answer, well-formed and in time.
 
     Raises:
-        Fault: it is not.
+        Fault: the answer is late or malformed.
     """
     answers: list[PlanResult] = []
-    failures: list[BaseException] = []
+    errors: list[BaseException] = []
 
-    def call() -> None:
+    def target() -> None:
         try:
             answers.append(planner.plan(problem, Budget(wall_s=wall_s, memory_bytes=1 << 30, iterations=ITERATIONS)))
         except BaseException as error:  # noqa: BLE001 - raised again in the caller's thread
-            failures.append(error)
+            errors.append(error)
 
     begun = time.monotonic()
-    thread = threading.Thread(target=call, daemon=True)  # a daemon, so that one that hangs does not keep us
+    thread = threading.Thread(target=target, daemon=True)  # a planner that hangs must not keep the process alive
     thread.start()
-    thread.join(wall_s + MARGIN + PATIENCE)
+    thread.join(wall_s + LATE_S + HANGS_S)
     took = time.monotonic() - begun
-    if failures:
-        raise failures[0]
-    require(answers, f"still runs {took:.0f} s after it was given {wall_s:g} s")
-    require(took <= wall_s + MARGIN, f"took {took:.1f} s when it was given {wall_s:g} s")
+    if errors:
+        raise errors[0]
+    require(answers, f"still runs {took:.0f} s after it was given {wall_s:g} s: check `budget.wall_s` in every loop")
+    require(took <= wall_s + LATE_S, f"took {took:.1f} s when it was given {wall_s:g} s: check `budget.wall_s`")
     result = answers[0]
-    require(isinstance(result, PlanResult), f"returns {type(result).__name__} instead of PlanResult")
-    if (result.plan is not None) != (result.status is PlanStatus.SOLVED) and result.status is not PlanStatus.TIMEOUT:
-        raise Fault(f"says {result.status} {'with' if result.plan else 'without'} a plan")
+    fault = result_fault(result)
+    require(fault is None, str(fault))
+    solved_without_plan = result.status is PlanStatus.SOLVED and result.plan is None
+    require(not solved_without_plan, "returned the status solved without a plan")
     return result

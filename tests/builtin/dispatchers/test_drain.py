@@ -1,9 +1,4 @@
-"""Plans drain under random delays, without deadlock and without two robots in one place.
-
-The floor below moves robots along what is released, each as slowly as chance will have it, and watches them by rules of
-its own: who enters a vertex that another has not cleared must be part of a ring that starts together, robots come to
-each vertex in the plan's order, and footprints never overlap.
-"""
+"""Plans drain under random delays, without deadlock, without conflict, and in the order of the plan."""
 
 from collections import defaultdict
 from importlib.metadata import entry_points
@@ -12,7 +7,6 @@ from itertools import combinations, pairwise
 import attrs
 import numpy as np
 import pytest
-from delayed_floor import Floor, draw_plan, draw_problem, draw_roadmap, wander
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
 
@@ -22,31 +16,20 @@ from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.engine.execution.commitments import commitments
 from mrpbench_core.model.plan import Budget, Plan
 from mrpbench_core.model.problem import Feature, Rules, features_of
+from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
+from mrpbench_core.testing.execution.drain import drain
+from mrpbench_core.testing.instances.random_plans import random_lanes, random_plan, random_starts, wander
 
 SEEDS = st.integers(0, 2**32 - 1)
 
 
-def drain(make, session, floor, replans=None):
-    """Run until everybody has arrived; `replans` gives, by step, functions of what is released to problem and plan."""
-    released = np.zeros(len(floor.reached), int)
-    replans = dict(replans or {})
-    revision = 0
-    for now in range(20_000):
-        orders = session.update(float(now), make.view(floor.reached, floor.cleared, revision))
-        assert (orders.released >= released).all(), "took back what it had released"
-        released = orders.released
-        alive = floor.step(now, released)
-        if now in replans:
-            problem, plan = replans.pop(now)(released)
-            if accepted(problem, plan, lambda *new: session.adopt(*new) or True):
-                floor.adopt(problem, plan)
-                revision += 1
-        elif floor.done and not replans:
-            return
-        elif not alive and not replans:
-            again = session.update(float(now), make.view(floor.reached, floor.cleared, revision)).released
-            assert (again > released).any(), "deadlock"
-    raise AssertionError("not done in 20,000 steps")
+def released_under_delays(session, problem, plan, random):
+    """The executor, after all robots have arrived."""
+    executor = DelayedExecutor(problem, plan, random)
+    drain(session, executor)
+    assert executor.fault is None
+    assert not executor.reordered
+    return executor
 
 
 def accepted(problem, plan, take):
@@ -83,43 +66,43 @@ def cycle_in(problem, plan):
 
 @settings(deadline=None, max_examples=60)
 @given(SEEDS)
-def test_plans_of_chance_drain(make, seed):
+def test_plans_of_chance_drain(seed):
     random = np.random.default_rng(seed)
-    problem, plan = draw_plan(make, random)
+    problem, plan = random_plan(random)
     session = accepted(problem, plan, Adg().start)
     event(f"refused: {session is None}")
     if session is not None:
-        floor = Floor(problem, plan, random)
-        drain(make, session, floor)
-        event(f"rings: {floor.rings > 0}")
+        executor = released_under_delays(session, problem, plan, random)
+        event(f"rings: {executor.rings > 0}")
 
 
 @settings(deadline=None, max_examples=80)
 @given(SEEDS)
-def test_plans_that_change_on_the_way_drain(make, seed):
+def test_plans_that_change_on_the_way_drain(seed):
     random = np.random.default_rng(seed)
-    problem, plan = draw_plan(make, random)
+    problem, plan = random_plan(random)
 
     def replan(released):
-        now, due = floor.late, floor.late + int(random.integers(0, 40))
-        floor.late = due
+        now, due = late[-1], late[-1] + int(random.integers(0, 40))
+        late.append(due)
         ready = now + random.integers(0, 5, len(problem))
-        prefixes = commitments(problem, session.plan, released, floor.reached, ready, due)
+        prefixes = commitments(problem, session.plan, released, executor.reached, ready, due)
         committed = attrs.evolve(problem, commitments=prefixes)
         assert check_plan(committed, Plan(paths=prefixes)).valid, "what was released conflicts once it is retimed"
         return committed, wander(committed, random, list(prefixes), ticks=5)
 
     problem = attrs.evolve(problem, rules=attrs.evolve(problem.rules, at_goal="stay"))
     if check_plan(problem, plan).valid and (session := accepted(problem, plan, Adg().start)) is not None:
-        floor = Floor(problem, plan, random)
-        floor.late = int(random.integers(0, 40))
-        drain(make, session, floor, {int(step): replan for step in random.integers(0, 60, 3)})
+        executor = DelayedExecutor(problem, plan, random)
+        late = [int(random.integers(0, 40))]
+        drain(session, executor, replans={int(step): replan for step in random.integers(0, 60, 3)})
+        assert executor.fault is None
 
 
 @settings(deadline=None, max_examples=40)
 @given(SEEDS)
 @pytest.mark.parametrize("name", ["example", "prioritized", "cbs"])
-def test_plans_of_planners_drain(make, name, seed):
+def test_plans_of_planners_drain(name, seed):
     found = {point.name: point for point in entry_points(group="mrpbench.planners")}
     if name not in found:
         pytest.skip(f"no planner {name} is installed")
@@ -128,7 +111,7 @@ def test_plans_of_planners_drain(make, name, seed):
     except ImportError as error:
         pytest.skip(f"planner {name} cannot be imported: {error}")
     random = np.random.default_rng(seed)
-    problem = draw_problem(make, random, draw_roadmap(make, random))
+    problem = random_starts(random, random_lanes(random))
     if name == "cbs" and len(problem) > 5:
         return
     goals = random.permutation(len(problem.roadmap.position))[: len(problem)]
@@ -139,4 +122,4 @@ def test_plans_of_planners_drain(make, name, seed):
             result = planner.plan(asked, Budget(wall_s=0.2, memory_bytes=1 << 30))
             event(str(result.status))
             if result.plan is not None and (session := accepted(asked, result.plan, Adg().start)) is not None:
-                drain(make, session, Floor(asked, result.plan, random))
+                released_under_delays(session, asked, result.plan, random)

@@ -7,18 +7,19 @@ and what became of all of them.
 
 from collections.abc import Callable
 
-from mapf_instances import with_candidates
-from mapf_oracle import least_cost_assigned
 from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
-from soak_planners import KINDS, drawn_switches
-from soaking import Draw, Random, Soak, main
 
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.problem import Problem
+from mrpbench_core.testing.instances.kinds import KINDS, Draw
+from mrpbench_core.testing.instances.random_problems import Random
+from mrpbench_core.testing.instances.variations import with_candidates
+from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
+from mrpbench_core.testing.soak import Soak, drawn_switches, main
 
 BOUNDS = (1.0, 1.01, 1.05, 1.2, 1.5, 3.0)
-ORACLE_NODES = 2000
+ORACLE_STATES = 2000
 
 
 def drawn_planners(random: Random) -> list[Planner]:
@@ -43,7 +44,7 @@ def choosing(draw: Draw) -> Callable[[Random], Problem]:
 
 SOAK = Soak(
     {kind: choosing(draw) for kind, draw in KINDS.items()},
-    lambda asked: least_cost_assigned(asked, ORACLE_NODES),
+    lambda asked: least_sum_of_costs(asked, ORACLE_STATES, assign=True),
     drawn_planners,
 )
 

@@ -16,8 +16,6 @@ from collections import Counter
 from itertools import islice
 from pathlib import Path as File
 
-from mapf_claims import faults
-from mapf_instances import movingai
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
@@ -27,6 +25,8 @@ from mrpbench_planners_mapf.lns import Lns
 
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.plan import Budget
+from mrpbench_core.testing.instances.problems import movingai
+from mrpbench_core.testing.oracles.judge import answer_faults
 
 PLANNERS: dict[str, type[Planner]] = {
     "cbs": Cbs,
@@ -73,7 +73,7 @@ def main() -> int:
             result = planner.plan(asked, budget)
             seconds = time.process_time() - began
             spent += seconds
-            for fault in faults(asked, planner, result, optimum):
+            for fault in answer_faults(asked, planner, result, optimum):
                 wrong += 1
                 print(f"{name}, {arguments.planner}: {fault}", flush=True)
             if result.plan is None:

@@ -5,18 +5,6 @@ oracle that searches the joint space, and against one another.
 what became of all of them.
 """
 
-import attrs
-from mapf_instances import (
-    random_corridor_problem,
-    random_full_problem,
-    random_graph_problem,
-    random_grid_problem,
-    random_narrow_problem,
-    random_rules,
-    with_releases,
-    with_resources,
-)
-from mapf_oracle import least_cost, least_makespan, shortest
 from mrpbench_native import describe
 from mrpbench_planners_mapf.astar import Astar
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
@@ -27,51 +15,17 @@ from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.pibt import Pibt
 from mrpbench_planners_mapf.prioritized import Prioritized
 from mrpbench_planners_mapf.recipe import NativePlanner
-from soaking import BUDGET, Draw, Random, Soak, main
 
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.plan import PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
+from mrpbench_core.testing.instances.kinds import KINDS
+from mrpbench_core.testing.instances.random_problems import Random
+from mrpbench_core.testing.oracles.optimum import earliest_arrival, least_makespan, least_sum_of_costs
+from mrpbench_core.testing.soak import BUDGET, Soak, drawn_switches, main
 
 BOUNDS = (1.0, 1.01, 1.05, 1.1, 1.2, 1.5, 2.0, 5.0)
-ORACLE_NODES = 3000
-
-KINDS: dict[str, Draw] = {
-    "grid": lambda random: random_grid_problem(random, int(random.integers(2, 5)), size=int(random.integers(3, 5))),
-    "grid with rules": lambda random: random_grid_problem(
-        random, int(random.integers(2, 4)), size=int(random.integers(3, 5)), **random_rules(random)
-    ),
-    "full grid": random_full_problem,
-    "path, cycle or tree": lambda random: random_narrow_problem(random, int(random.integers(2, 5))),
-    "corridor": lambda random: random_corridor_problem(
-        random, int(random.integers(2, 4)), int(random.choice([1, 1, 3])), **random_rules(random)
-    ),
-    "unit graph": lambda random: random_graph_problem(
-        random, int(random.integers(2, 4)), longest=1, at_goal=str(random.choice(["stay", "disappear"]))
-    ),
-    "graph": lambda random: random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random)),
-    "graph, long lanes": lambda random: random_graph_problem(
-        random, int(random.integers(2, 4)), longest=8, radius=0.3, at_goal=str(random.choice(["stay", "disappear"]))
-    ),
-    "graph, late start": lambda random: random_graph_problem(
-        random, 2, ready=random.integers(0, 5, 2), **random_rules(random)
-    ),
-    "graph, released": lambda random: with_releases(
-        random, random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random))
-    ),
-    "graph, resources": lambda random: with_resources(
-        random, random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random))
-    ),
-}
-
-
-def drawn_switches(random: Random, planner: type[Planner]) -> dict[str, bool]:
-    """Techniques of a planner, each on or off by chance."""
-    return {
-        field.name: bool(random.integers(2))
-        for field in attrs.fields(planner)
-        if field.type in (bool, "bool") and field.name != "assign"
-    }
+ORACLE_STATES = 3000
 
 
 def drawn_planners(random: Random) -> list[Planner]:
@@ -114,7 +68,7 @@ def _one(random: Random, planner: type[NativePlanner], name: str) -> str:
 def more_faults(asked: Problem, planner: Planner, result: PlanResult) -> list[str]:
     """What only some planners claim: shortest paths of robots that are alone; the optimum when the search has ended."""
     if isinstance(planner, Astar) and result.plan is not None:
-        alone = sum(shortest(asked, robot) for robot in range(len(asked)))
+        alone = sum(earliest_arrival(asked, robot) for robot in range(len(asked)))
         return [f"cost {result.plan.sum_of_costs}, alone {alone}"] * (result.plan.sum_of_costs != alone)
     if isinstance(planner, Lacam) and planner.star and result.status is PlanStatus.SOLVED:
         return unfinished(asked, planner)
@@ -128,11 +82,11 @@ def unfinished(asked: Problem, planner: Lacam) -> list[str]:
         return []
     makespan = planner.objective == "makespan"
     cost = result.plan.makespan if makespan else result.plan.sum_of_costs
-    optimum = (least_makespan if makespan else least_cost)(asked, ORACLE_NODES)
+    optimum = (least_makespan if makespan else least_sum_of_costs)(asked, ORACLE_STATES)
     return [f"ended with {planner.objective} {cost}, optimum {optimum}"] * (optimum not in (None, cost))
 
 
-SOAK = Soak(KINDS, lambda asked: least_cost(asked, ORACLE_NODES), drawn_planners, more_faults)
+SOAK = Soak(KINDS, lambda asked: least_sum_of_costs(asked, ORACLE_STATES), drawn_planners, more_faults)
 
 if __name__ == "__main__":
     main(SOAK)

@@ -5,15 +5,17 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mapf_claims import ask
-from mapf_instances import grid, movingai, problem, random_graph_problem, random_grid_problem, random_rules
-from mapf_oracle import least_cost, least_makespan
 from mrpbench_planners_mapf.lacam import Lacam
 from mrpbench_planners_mapf.lns import Lns
 from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.pibt import Pibt
 
 from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.testing.instances.problems import movingai, problem_on
+from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_core.testing.instances.roadmaps import grid_of
+from mrpbench_core.testing.oracles.judge import ask
+from mrpbench_core.testing.oracles.optimum import least_makespan, least_sum_of_costs
 
 BUDGET = Budget(wall_s=20, memory_bytes=1 << 30, iterations=50)
 seeds = st.integers(0, 2**32 - 1)
@@ -23,7 +25,7 @@ seeds = st.integers(0, 2**32 - 1)
 @given(seed=seeds, robots=st.integers(2, 3))
 def test_lacam_ends_with_the_optimum_or_proves_that_there_is_no_plan(seed, robots):
     asked = random_grid_problem(np.random.default_rng(seed), robots, size=3)
-    optimum = least_cost(asked)
+    optimum = least_sum_of_costs(asked)
     if optimum is None:
         return
     result = ask(Lacam(seed=seed % 5), asked, optimum, attrs.evolve(BUDGET, iterations=None))
@@ -88,13 +90,13 @@ def test_the_curve_falls_to_the_cost_of_the_plan(planner):
 
 @pytest.mark.parametrize("planner", [Lacam(), Pibt()])
 def test_more_than_unit_moves_is_skipped_with_the_reason(planner):
-    road = grid(["..."])
-    assert planner.skip(problem(road, [0], [2])) is None
-    assert planner.skip(problem(attrs.evolve(road, duration=[[2, 2, 2, 2]]), [0], [2])) == (
+    road = grid_of(["..."])
+    assert planner.skip(problem_on(road, [0], [2])) is None
+    assert planner.skip(problem_on(attrs.evolve(road, duration=[[2, 2, 2, 2]]), [0], [2])) == (
         "does not support edge_durations"
     )
-    assert "disappear" in planner.skip(problem(road, [0], [2], at_goal="disappear"))
-    assert "footprints" in planner.skip(problem(road, [0], [2], radius=0.3))
+    assert "disappear" in planner.skip(problem_on(road, [0], [2], at_goal="disappear"))
+    assert "footprints" in planner.skip(problem_on(road, [0], [2], radius=0.3))
 
 
 @pytest.mark.parametrize("planner", [Lacam(), Lns(), Pibt()])

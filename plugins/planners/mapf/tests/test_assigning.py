@@ -1,28 +1,19 @@
 """Planners that assign: against all assignments one by one, against published optima, and against one another."""
 
-import time
-
 import numpy as np
 import pytest
-from assignment_data import Row, optima
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mapf_claims import AMPLE, ask
-from mapf_instances import (
-    endless_swap,
-    grid,
-    problem,
-    random_graph_problem,
-    random_grid_problem,
-    random_rules,
-    with_candidates,
-)
-from mapf_oracle import least_cost_assigned
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
 
 from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.testing.instances.problems import endless_swap, problem_on
+from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_core.testing.instances.roadmaps import grid_of
+from mrpbench_core.testing.instances.variations import with_candidates
+from mrpbench_core.testing.oracles.judge import AMPLE, ask, compare_with_optimum
 
 SLACK_S = 5.0
 """Far more than the planners need; other work may share the machine."""
@@ -39,16 +30,11 @@ planners = st.one_of(
 )
 
 
-def solve_and_compare(planner, asked) -> PlanStatus:
-    """Nothing is wrong with the answer, and the optimum is what an oracle says."""
-    return ask(planner, asked, least_cost_assigned(asked)).status
-
-
 @settings(max_examples=40, deadline=None)
 @given(planner=planners, seed=seeds, robots=st.integers(2, 3))
 def test_no_assignment_on_grids_is_better(planner, seed, robots):
     random = np.random.default_rng(seed)
-    solve_and_compare(planner, with_candidates(random, random_grid_problem(random, robots, size=4)))
+    compare_with_optimum(planner, with_candidates(random, random_grid_problem(random, robots, size=4)))
 
 
 @settings(max_examples=40, deadline=None)
@@ -56,7 +42,7 @@ def test_no_assignment_on_grids_is_better(planner, seed, robots):
 def test_no_assignment_on_graphs_is_better(planner, seed, robots):
     random = np.random.default_rng(seed)
     asked = random_graph_problem(random, robots, ready=random.integers(0, 3, robots), **random_rules(random))
-    solve_and_compare(planner, with_candidates(random, asked))
+    compare_with_optimum(planner, with_candidates(random, asked))
 
 
 @settings(max_examples=40, deadline=None)
@@ -76,7 +62,7 @@ def test_most_small_instances_are_solved(kind):
     statuses = []
     for seed in range(10):
         random = np.random.default_rng(seed)
-        statuses.append(solve_and_compare(kind(), with_candidates(random, random_grid_problem(random, 3, size=4))))
+        statuses.append(compare_with_optimum(kind(), with_candidates(random, random_grid_problem(random, 3, size=4))))
     assert statuses.count(PlanStatus.SOLVED) > 7
 
 
@@ -95,7 +81,7 @@ def test_with_one_goal_each_they_do_what_cbs_does(seed):
 @pytest.mark.parametrize("kind", KINDS)
 def test_robots_that_meet_take_one_anothers_goals(kind):
     # In a dead end they could never change places.
-    result = kind().plan(problem(grid(["......"]), [0, 5], [(0, 5), (0, 5)]), AMPLE)
+    result = kind().plan(problem_on(grid_of(["......"]), [0, 5], [(0, 5), (0, 5)]), AMPLE)
     assert result.status is PlanStatus.SOLVED
     assert result.plan.sum_of_costs == 0
 
@@ -111,17 +97,17 @@ def test_robots_that_meet_take_one_anothers_goals(kind):
     ],
 )
 def test_without_goals_for_all_there_is_no_solution(kind, goals, rows):
-    result = kind().plan(problem(grid(rows), list(range(len(goals))), goals), AMPLE)
+    result = kind().plan(problem_on(grid_of(rows), list(range(len(goals))), goals), AMPLE)
     assert result.status is PlanStatus.UNSOLVABLE
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_goals_too_near_one_another_are_not_taken_together(kind):
     # Robots of half a cell and more exclude one another on neighbouring cells.
-    road = grid(["......."])
-    asked = problem(road, [1, 5], [(2, 3), (3, 4)], radius=0.6)
+    road = grid_of(["......."])
+    asked = problem_on(road, [1, 5], [(2, 3), (3, 4)], radius=0.6)
     assert ask(kind(), asked, 2, AMPLE).status is PlanStatus.SOLVED
-    hopeless = problem(road, [1, 5], [(3,), (4, 3)], radius=0.6)
+    hopeless = problem_on(road, [1, 5], [(3,), (4, 3)], radius=0.6)
     assert kind().plan(hopeless, AMPLE).status is PlanStatus.UNSOLVABLE
 
 
@@ -143,30 +129,6 @@ def test_limits_hold_where_the_search_never_ends(kind):
     assert late.lower_bound >= 20
     planner = CbsTa(heuristic=False) if kind is CbsTa else kind()  # with it few nodes are made
     assert planner.plan(asked, Budget(wall_s=20, memory_bytes=1 << 21)).status is PlanStatus.OUT_OF_MEMORY
-
-
-def test_limits_hold_while_there_are_ever_more_assignments(shared_data):
-    asked = Row("32x32_obst204", 50, 1, "anon").load(shared_data)
-    began = time.monotonic()
-    assert CbsTa().plan(asked, Budget(wall_s=0.1, memory_bytes=1 << 30)).status is PlanStatus.TIMEOUT
-    assert time.monotonic() - began < 0.1 + SLACK_S
-    assert CbsTa().plan(asked, Budget(wall_s=20, memory_bytes=8 << 20)).status is PlanStatus.OUT_OF_MEMORY
-
-
-@pytest.mark.parametrize("kind", [ItaCbs, EcbsTa, ItaEcbs])
-def test_published_optima(kind, shared_data):
-    budget = Budget(wall_s=0.3, memory_bytes=1 << 30)
-    solved = 0
-    rows = list(optima(shared_data))
-    for row, optimum in rows:
-        solved += ask(kind(), row.load(shared_data), optimum, budget).status is PlanStatus.SOLVED
-    assert solved > 0.8 * len(rows)
-
-
-def test_published_optima_by_ranked_assignments(shared_data):
-    rows = [(row, optimum) for row, optimum in optima(shared_data) if row.agents <= 20]
-    for row, optimum in rows:
-        assert ask(CbsTa(), row.load(shared_data), optimum, AMPLE).status is PlanStatus.SOLVED
 
 
 def test_they_always_assign():

@@ -2,13 +2,15 @@
 
 import numpy as np
 import pytest
-from mapf_instances import grid, problem, random_graph_problem, random_rules
-from mapf_oracle import shortest
 from mrpbench_planners_mapf.astar import Astar
 
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.checking.plan import path_fault
 from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.testing.instances.problems import problem_on
+from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_rules
+from mrpbench_core.testing.instances.roadmaps import grid_of
+from mrpbench_core.testing.oracles.optimum import earliest_arrival
 
 BUDGET = Budget(wall_s=5, memory_bytes=1 << 30)
 
@@ -19,7 +21,7 @@ def test_every_robot_takes_a_shortest_path(heuristic):
     for _ in range(60):
         asked = random_graph_problem(random, 4, longest=9, ready=random.integers(0, 4, 4), **random_rules(random))
         result = Astar(heuristic=heuristic).plan(asked, BUDGET)
-        wanted = [shortest(asked, robot) for robot in range(4)]
+        wanted = [earliest_arrival(asked, robot) for robot in range(4)]
         if np.inf in wanted:
             assert result.status is PlanStatus.UNSOLVABLE
             continue
@@ -29,13 +31,13 @@ def test_every_robot_takes_a_shortest_path(heuristic):
 
 
 def test_paths_ignore_the_other_robots_and_it_does_not_promise_otherwise():
-    result = Astar().plan(problem(grid(["..."]), [0, 2], [2, 0]), BUDGET)
+    result = Astar().plan(problem_on(grid_of(["..."]), [0, 2], [2, 0]), BUDGET)
     assert [path.arrival for path in result.plan.paths] == [2, 2]
     assert Promise.CONFLICT_FREE not in Astar.promises
 
 
 def test_better_estimates_expand_less():
-    asked = problem(grid(["." * 20] * 20), [0], [399])
+    asked = problem_on(grid_of(["." * 20] * 20), [0], [399])
     effort = {
         name: Astar(heuristic=name).plan(asked, BUDGET).statistics["low_level_expansions"]
         for name in ("exact", "zero", "euclidean")

@@ -10,21 +10,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mapf_claims import AMPLE, ask
-from mapf_instances import (
-    grid,
-    movingai,
-    problem,
-    random_graph_problem,
-    random_grid_problem,
-    random_rules,
-    with_plan_released,
-)
-from mapf_oracle import least_cost
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
 
 from mrpbench_core.model.plan import PlanStatus
+from mrpbench_core.testing.instances.problems import movingai, problem_on
+from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_core.testing.instances.roadmaps import grid_of
+from mrpbench_core.testing.instances.variations import with_plan_released
+from mrpbench_core.testing.oracles.judge import AMPLE, ask, compare_with_optimum
 
 seeds = st.integers(0, 2**32 - 1)
 bounds = st.sampled_from([1.0, 1.01, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0])
@@ -48,15 +42,10 @@ planners = st.one_of(
 )
 
 
-def solve_and_compare(planner, asked) -> PlanStatus:
-    """Nothing is wrong with the answer, and the optimum is what an oracle says."""
-    return ask(planner, asked, least_cost(asked, limit=2000)).status
-
-
 @settings(max_examples=60, deadline=None)
 @given(planner=planners, seed=seeds, robots=st.integers(2, 4), size=st.integers(3, 4))
 def test_bounds_hold_on_grids(planner, seed, robots, size):
-    solve_and_compare(planner, random_grid_problem(np.random.default_rng(seed), robots, size=size))
+    compare_with_optimum(planner, random_grid_problem(np.random.default_rng(seed), robots, size=size))
 
 
 @settings(max_examples=50, deadline=None)
@@ -64,7 +53,7 @@ def test_bounds_hold_on_grids(planner, seed, robots, size):
 def test_bounds_hold_on_graphs_with_durations_profiles_goal_sets_and_footprints(planner, seed, robots):
     random = np.random.default_rng(seed)
     ready = random.integers(0, 3, robots)
-    solve_and_compare(planner, random_graph_problem(random, robots, ready=ready, **random_rules(random)))
+    compare_with_optimum(planner, random_graph_problem(random, robots, ready=ready, **random_rules(random)))
 
 
 @settings(max_examples=40, deadline=None)
@@ -73,7 +62,7 @@ def test_bounds_hold_on_graphs_of_unit_moves_with_one_way_lanes(planner, seed, r
     random = np.random.default_rng(seed)
     asked = random_graph_problem(random, robots, longest=1)
     goals = [int(goal) for goal in random.choice(len(asked.roadmap.position), robots, replace=False)]
-    solve_and_compare(planner, problem(asked.roadmap, asked.start, goals))
+    compare_with_optimum(planner, problem_on(asked.roadmap, asked.start, goals))
 
 
 @settings(max_examples=15, deadline=None)
@@ -96,7 +85,7 @@ def test_plans_begin_with_what_was_released(planner, seed):
 @pytest.mark.parametrize("planner", [Ecbs(w=1.0), Eecbs(w=1.0)])
 def test_a_bound_of_one_is_optimal(planner):
     statuses = [
-        solve_and_compare(planner, random_grid_problem(np.random.default_rng(seed), 3, size=4)) for seed in range(20)
+        compare_with_optimum(planner, random_grid_problem(np.random.default_rng(seed), 3, size=4)) for seed in range(20)
     ]
     assert statuses.count(PlanStatus.SOLVED) > 5
 
@@ -104,8 +93,8 @@ def test_a_bound_of_one_is_optimal(planner):
 @pytest.mark.parametrize("corridor", [True, False])
 def test_who_meets_in_a_corridor_lets_the_other_out(corridor):
     # Two robots meet head-on in a corridor of eight cells with a bay at each end.
-    road = grid(["#.########.#", "............"])
-    asked = problem(road, [2, 13], [13, 2])
+    road = grid_of(["#.########.#", "............"])
+    asked = problem_on(road, [2, 13], [13, 2])
     result = ask(Eecbs(w=1.0, corridor=corridor), asked, budget=AMPLE)
     assert result.status is PlanStatus.SOLVED
     assert result.plan.sum_of_costs == result.lower_bound
@@ -115,8 +104,8 @@ def test_who_meets_in_a_corridor_lets_the_other_out(corridor):
 
 def test_a_robot_that_has_arrived_makes_way():
     # Robot 0 arrives at once in the corridor through which robot 1 has to pass; the bay is beside its goal.
-    asked = problem(grid(["##.##", "....."]), [2, 1], [3, 5])
-    assert solve_and_compare(Eecbs(w=1.5), asked) is PlanStatus.SOLVED
+    asked = problem_on(grid_of(["##.##", "....."]), [2, 1], [3, 5])
+    assert compare_with_optimum(Eecbs(w=1.5), asked) is PlanStatus.SOLVED
 
 
 @pytest.mark.parametrize("seed", [1, 2, 4])
@@ -124,9 +113,9 @@ def test_a_robot_that_has_arrived_makes_way():
 def test_who_comes_later_to_a_crossing_of_long_lanes_waits_until_the_other_has_left_it(planner, seed):
     # Split lane by lane, the same conflicts take 12 to 360 expansions, and cbs at least 30.
     random = np.random.default_rng(seed)
-    road = grid(["...", "...", "..."])
+    road = grid_of(["...", "...", "..."])
     starts, goals = random.choice(9, 4, replace=False), random.choice(9, 4, replace=False).tolist()
-    result = planner.plan(problem(attrs.evolve(road, duration=20 * road.duration), starts, goals, radius=0.2), AMPLE)
+    result = planner.plan(problem_on(attrs.evolve(road, duration=20 * road.duration), starts, goals, radius=0.2), AMPLE)
     assert result.status is PlanStatus.SOLVED
     assert result.statistics["expansions"] <= 20
 

@@ -7,25 +7,18 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from mapf_claims import AMPLE, BUDGET, ask
-from mapf_instances import (
-    grid,
-    movingai,
-    problem,
-    random_graph_problem,
-    random_grid_problem,
-    random_rules,
-    with_late_release,
-    with_plan_released,
-)
-from mapf_oracle import least_cost, least_cost_assigned
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.cbs_ta import ItaCbs
 
 from mrpbench_core.model.plan import PlanStatus
 from mrpbench_core.model.problem import Rules
+from mrpbench_core.testing.instances.problems import movingai, problem_on
+from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_core.testing.instances.roadmaps import grid_of
+from mrpbench_core.testing.instances.variations import with_late_release, with_plan_released
+from mrpbench_core.testing.oracles.judge import AMPLE, BUDGET, ask, compare_with_optimum
+from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
-EVERYTHING = Cbs()
 TECHNIQUES = tuple(attrs.fields_dict(Cbs))
 ABLATIONS = [
     Cbs(**dict.fromkeys(TECHNIQUES, False)),
@@ -33,11 +26,6 @@ ABLATIONS = [
     *(Cbs(**{other: other == technique for other in TECHNIQUES}) for technique in TECHNIQUES),
 ]
 seeds = st.integers(0, 2**32 - 1)
-
-
-def solve_and_compare(asked, planner: Cbs = EVERYTHING) -> PlanStatus | None:
-    """Nothing is wrong with the answer, and the optimum is what an oracle says; None if it is skipped."""
-    return None if planner.skip(asked) else ask(planner, asked, least_cost(asked)).status
 
 
 def mostly_solved(statuses: list[PlanStatus]) -> bool:
@@ -48,7 +36,7 @@ def mostly_solved(statuses: list[PlanStatus]) -> bool:
 @pytest.mark.parametrize("rules", [{}, {"following": "forbidden"}, {"at_goal": "disappear"}, {"radius": 0.3}])
 def test_plans_on_grids_are_optimal(robots, rules):
     random = np.random.default_rng([robots, len(rules), len(str(rules))])
-    assert mostly_solved([solve_and_compare(random_grid_problem(random, robots, **rules)) for _ in range(8)])
+    assert mostly_solved([compare_with_optimum(Cbs(), random_grid_problem(random, robots, **rules)) for _ in range(8)])
 
 
 @settings(max_examples=50, deadline=None)
@@ -56,15 +44,17 @@ def test_plans_on_grids_are_optimal(robots, rules):
 @example(seed=7381721, robots=2)  # an early state of one cost was taken for the earliest
 def test_plans_on_graphs_with_durations_profiles_and_goal_sets_are_optimal(seed, robots):
     random = np.random.default_rng(seed)
-    solve_and_compare(random_graph_problem(random, robots, **random_rules(random)))
+    compare_with_optimum(Cbs(), random_graph_problem(random, robots, **random_rules(random)))
 
 
 @settings(max_examples=25, deadline=None)
 @given(seed=seeds, planner=st.sampled_from(ABLATIONS))
 def test_every_choice_of_techniques_is_optimal(seed, planner):
     random = np.random.default_rng(seed)
-    solve_and_compare(random_grid_problem(random, int(random.integers(2, 5)), size=int(random.integers(3, 5))), planner)
-    solve_and_compare(random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random)), planner)
+    compare_with_optimum(
+        planner, random_grid_problem(random, int(random.integers(2, 5)), size=int(random.integers(3, 5)))
+    )
+    compare_with_optimum(planner, random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random)))
 
 
 @settings(max_examples=30, deadline=None)
@@ -72,7 +62,7 @@ def test_every_choice_of_techniques_is_optimal(seed, planner):
 def test_robots_stand_until_they_are_ready(seed):
     random = np.random.default_rng(seed)
     ready = random.integers(0, 5, 2)
-    solve_and_compare(random_graph_problem(random, 2, ready=ready, **random_rules(random)))
+    compare_with_optimum(Cbs(), random_graph_problem(random, 2, ready=ready, **random_rules(random)))
 
 
 @settings(max_examples=30, deadline=None)
@@ -93,22 +83,22 @@ def test_plans_begin_with_what_was_released(seed):
 def test_delayed_releases_are_planned_around(seed):
     random = np.random.default_rng(seed)
     before = random_graph_problem(random, 2, **random_rules(random))
-    solve_and_compare(with_late_release(random, before))
+    compare_with_optimum(Cbs(), with_late_release(random, before))
 
 
 def test_a_slow_robot_is_not_overtaken_on_a_lane():
-    road = grid(["...."])
+    road = grid_of(["...."])
     slow, fast = np.full(len(road.edges), 3), np.full(len(road.edges), 1)
     road = attrs.evolve(road, duration=np.array([slow, fast]))
-    two = problem(road, [1, 0], [3, 2], profile=[0, 1])
-    assert solve_and_compare(two) is PlanStatus.SOLVED
+    two = problem_on(road, [1, 0], [3, 2], profile=[0, 1])
+    assert compare_with_optimum(Cbs(), two) is PlanStatus.SOLVED
     result = Cbs().plan(two, BUDGET)
     assert result.plan.paths[1].arrival == 4  # behind the slow robot, which leaves vertex 2 at tick 3
 
 
 def test_any_goal_of_a_set_will_do():
-    road = grid([".....", "##.##"])
-    result = Cbs().plan(problem(road, [0, 4], [(4, 1), (0, 3)]), BUDGET)
+    road = grid_of([".....", "##.##"])
+    result = Cbs().plan(problem_on(road, [0, 4], [(4, 1), (0, 3)]), BUDGET)
     assert [path.arrival for path in result.plan.paths] == [1, 1]
 
 
@@ -141,19 +131,19 @@ def test_techniques_save_expansions(shared_data):
 @pytest.mark.parametrize("goal", [21, 19])
 def test_who_ends_in_a_corridor_comes_there_after_the_other_has_left_it(goal):
     # Between two rooms; robot 1 is there first. Without the reasoning: 276 and 7,369 expansions.
-    road = grid(["....#########....", ".................", "....#########...."])
-    asked = problem(road, [8, 22], [24, goal])
-    result = ask(Cbs(heuristic=False), asked, least_cost(asked))
+    road = grid_of(["....#########....", ".................", "....#########...."])
+    asked = problem_on(road, [8, 22], [24, goal])
+    result = ask(Cbs(heuristic=False), asked, least_sum_of_costs(asked))
     assert result.status is PlanStatus.SOLVED
     assert result.statistics["expansions"] < 10
 
 
 def test_robots_that_disappear_could_share_a_task_so_assigning_them_is_refused():
-    asked = problem(grid(["....."]), [0, 1], [(2, 4), (2, 4)], at_goal="disappear")
+    asked = problem_on(grid_of(["....."]), [0, 1], [(2, 4), (2, 4)], at_goal="disappear")
     assert Cbs().skip(asked) is None
     assert Cbs(assign=True).skip(asked) == (
         "cannot `assign` where robots disappear at their goals; ita_cbs and cbs_ta can"
     )
     assert ask(ItaCbs(), asked).plan.sum_of_costs == 5
     stay = attrs.evolve(asked, rules=Rules())
-    assert ask(Cbs(assign=True), stay, least_cost_assigned(stay)).plan.sum_of_costs == 5
+    assert ask(Cbs(assign=True), stay, least_sum_of_costs(stay, assign=True)).plan.sum_of_costs == 5

@@ -6,9 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mapf_claims import faults
-from mapf_instances import endless_swap, grid, movingai, problem, random_grid_problem, roadmap
-from mapf_oracle import least_cost
 from mrpbench_planners_mapf.astar import Astar
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
@@ -19,6 +16,11 @@ from mrpbench_planners_mapf.pibt import Pibt
 from mrpbench_planners_mapf.prioritized import Prioritized
 
 from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.testing.instances.problems import endless_swap, movingai, problem_on
+from mrpbench_core.testing.instances.random_problems import random_grid_problem
+from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap
+from mrpbench_core.testing.oracles.judge import answer_faults
+from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
 PLANNERS = [Astar(), Prioritized(), Cbs()]
 COOPERATIVE = PLANNERS[1:]
@@ -52,7 +54,7 @@ def test_a_swap_that_nothing_rules_out_ends_at_the_deadline_with_a_bound():
     ],
 )
 def test_robots_that_can_never_pass_one_another_are_unsolvable(planner, rows, starts, goals):
-    asked = problem(grid(rows), starts, goals)
+    asked = problem_on(grid_of(rows), starts, goals)
     result = planner.plan(asked, Budget(wall_s=60, memory_bytes=1 << 30))
     assert result.status is PlanStatus.UNSOLVABLE
 
@@ -62,22 +64,22 @@ def test_robots_that_can_never_pass_one_another_are_unsolvable(planner, rows, st
 def test_what_is_called_unsolvable_where_nobody_may_follow_has_no_plan(seed, planner):
     random = np.random.default_rng(seed)
     rows = ["".join("#" if random.random() < 0.2 else "." for _ in range(3)) for _ in range(2)]
-    road = grid(rows)
+    road = grid_of(rows)
     vertices = len(road.position)
     robots = vertices - int(random.integers(0, 3))
     if robots < 1:
         return
     starts, goals = random.permutation(vertices)[:robots], random.permutation(vertices)[:robots]
-    asked = problem(road, starts, goals.tolist(), following="forbidden")
-    optimum = least_cost(asked)
+    asked = problem_on(road, starts, goals.tolist(), following="forbidden")
+    optimum = least_sum_of_costs(asked)
     budget = Budget(wall_s=0.2, memory_bytes=1 << 30, iterations=20)
-    assert not faults(asked, planner, planner.plan(asked, budget), optimum)
+    assert not answer_faults(asked, planner, planner.plan(asked, budget), optimum)
 
 
 @pytest.mark.parametrize("planner", [Prioritized(), Pbs(), Cbs()])
 def test_a_sliding_puzzle_of_the_wrong_parity_is_unsolvable(planner):
     goals = [1, 0, *range(2, 99)]
-    asked = problem(grid(["." * 10] * 10), range(99), goals, following="forbidden")
+    asked = problem_on(grid_of(["." * 10] * 10), range(99), goals, following="forbidden")
     assert planner.plan(asked, Budget(wall_s=60, memory_bytes=1 << 30)).status is PlanStatus.UNSOLVABLE
 
 
@@ -103,7 +105,7 @@ def test_memory_is_counted():
 
 @pytest.mark.parametrize("planner", PLANNERS)
 def test_a_goal_out_of_reach_is_unsolvable(planner):
-    result, seconds = timed(planner, problem(grid([".#."]), [0], [1]), BUDGET)
+    result, seconds = timed(planner, problem_on(grid_of([".#."]), [0], [1]), BUDGET)
     assert result.status is PlanStatus.UNSOLVABLE
     assert result.statistics["failed_robot"] == 0
     assert seconds < SLACK_S
@@ -121,30 +123,30 @@ def test_a_goal_out_of_reach_is_unsolvable(planner):
     ],
 )
 def test_robots_that_exclude_one_another_are_unsolvable(planner, starts, goals, radius):
-    result, seconds = timed(planner, problem(grid(["....."]), starts, goals, radius=radius), BUDGET)
+    result, seconds = timed(planner, problem_on(grid_of(["....."]), starts, goals, radius=radius), BUDGET)
     assert result.status is PlanStatus.UNSOLVABLE
     assert seconds < SLACK_S
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
 def test_no_robots_have_an_empty_plan(planner):
-    result = planner.plan(problem(grid(["."]), [], []), BUDGET)
+    result = planner.plan(problem_on(grid_of(["."]), [], []), BUDGET)
     assert result.status is PlanStatus.SOLVED
     assert result.plan.paths == ()
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
 def test_a_robot_at_its_goal_needs_no_path(planner):
-    result = planner.plan(problem(grid(["."]), [0], [0]), BUDGET)
+    result = planner.plan(problem_on(grid_of(["."]), [0], [0]), BUDGET)
     assert len(result.plan.paths[0]) == 0
     assert result.lower_bound == 0
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
 def test_what_is_not_supported_is_named(planner):
-    asked = problem(grid([".."]), [0], [1], horizon=5)
+    asked = problem_on(grid_of([".."]), [0], [1], horizon=5)
     assert planner.skip(asked) == "does not support horizon"
-    assert planner.skip(problem(grid([".."]), [0], [1], radius=0.1, following="forbidden")) is None
+    assert planner.skip(problem_on(grid_of([".."]), [0], [1], radius=0.1, following="forbidden")) is None
 
 
 @pytest.mark.parametrize(
@@ -157,4 +159,4 @@ def test_what_is_not_supported_is_named(planner):
 )
 def test_data_that_make_no_sense_are_refused(edges, duration, start, fault):
     with pytest.raises(ValueError, match=fault):
-        Cbs().plan(problem(roadmap([(0, 0), (1, 0)], edges, duration), [start], [1]), BUDGET)
+        Cbs().plan(problem_on(roadmap([(0, 0), (1, 0)], edges, duration), [start], [1]), BUDGET)

@@ -4,19 +4,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mapf_claims import AMPLE, BUDGET, ask
-from mapf_instances import (
-    grid,
-    problem,
-    random_graph_problem,
-    random_grid_problem,
-    random_rules,
-    with_plan_released,
-)
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.prioritized import Prioritized
 
 from mrpbench_core.model.plan import PlanStatus
+from mrpbench_core.testing.instances.problems import problem_on
+from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_core.testing.instances.roadmaps import grid_of
+from mrpbench_core.testing.instances.variations import with_plan_released
+from mrpbench_core.testing.oracles.judge import AMPLE, BUDGET, ask
 
 seeds = st.integers(0, 2**32 - 1)
 orders = st.sampled_from(["index", "longest_first", "shortest_first", "random"])
@@ -60,16 +56,16 @@ def test_plans_begin_with_what_was_released(seed):
 
 def test_a_robot_that_blocks_another_plans_after_it():
     # Robot 0 would park at once in the corridor that robot 1 has to take; in the bay it can wait.
-    road = grid(["####", "....", "#.##"])
-    asked = problem(road, [1, 0], [2, 3])
+    road = grid_of(["####", "....", "#.##"])
+    asked = problem_on(road, [1, 0], [2, 3])
     assert Prioritized(order="index", restarts=0).plan(asked, BUDGET).status is PlanStatus.GAVE_UP
     assert Prioritized(order="index", restarts=1).plan(asked, BUDGET).status is PlanStatus.SOLVED
 
 
 def test_robots_that_park_in_one_anothers_way_start_late_by_chance_and_are_hurried_afterwards():
     # Robot 0 has to be past 1 before robot 1 parks there, and robot 1 past 2 before robot 0 parks there.
-    road = grid(["#.#", "...", "#.#", "#.#"])  # 0; 1 2 3; 4; 5
-    asked = problem(road, [5, 1], [2, 4])
+    road = grid_of(["#.#", "...", "#.#", "#.#"])  # 0; 1 2 3; 4; 5
+    asked = problem_on(road, [5, 1], [2, 4])
     assert Prioritized(restarts=100).plan(asked, BUDGET).status is PlanStatus.GAVE_UP
     result = ask(Prioritized(), asked)
     assert 8 == Cbs().plan(asked, BUDGET).plan.sum_of_costs <= result.plan.sum_of_costs <= 10

@@ -5,42 +5,32 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mapf_claims import AMPLE, BUDGET, ask
-from mapf_instances import (
-    grid,
-    problem,
-    random_graph_problem,
-    random_grid_problem,
-    random_rules,
-    with_late_release,
-    with_resources,
-)
-from mapf_oracle import least_cost
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
 from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.prioritized import Prioritized
-from test_cbs import ABLATIONS
 
 from mrpbench_core.model.plan import PlanStatus
 from mrpbench_core.model.roadmap import Resource
+from mrpbench_core.testing.instances.problems import problem_on
+from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_core.testing.instances.roadmaps import grid_of
+from mrpbench_core.testing.instances.variations import with_late_release, with_resources
+from mrpbench_core.testing.oracles.judge import AMPLE, BUDGET, ask, compare_with_optimum
+from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
 BOUNDED = (Ecbs(w=1.0), Ecbs(w=1.5), Eecbs(w=1.0), Eecbs(w=1.05, flex=True), Eecbs(w=1.5, target=False))
-EVERYBODY = (*ABLATIONS, *BOUNDED, Pbs(), Prioritized(restarts=20))
+TECHNIQUES = ("heuristic", "target", "corridor", "rectangle", "prioritize", "bypass")
+ABLATIONS = (Cbs(), Cbs(**dict.fromkeys(TECHNIQUES, False)), *(Cbs(**{name: False}) for name in TECHNIQUES))
+PLANNERS = (*ABLATIONS, *BOUNDED, Pbs(), Prioritized(restarts=20))
 seeds = st.integers(0, 2**32 - 1)
-
-
-def solve_and_compare(planner, asked) -> None:
-    """Nothing is wrong with the answer, and the optimum is what an oracle says."""
-    if planner.skip(asked) is None:
-        ask(planner, asked, least_cost(asked, limit=3000))
 
 
 def hall(setup: int = 0, **fields):
     """Two rooms of four cells with a passage of three between them, which belongs to a door."""
-    road = grid(["..###..", "......."])  # 0 1 . . . 2 3 above 4 5 [6 7 8] 9 10
+    road = grid_of(["..###..", "......."])  # 0 1 . . . 2 3 above 4 5 [6 7 8] 9 10
     inside = {6, 7, 8}
     edges = tuple(edge for edge, ends in enumerate(road.edges.tolist()) if inside.issuperset(ends))
     door = Resource(name="door", kind="door", vertices=tuple(inside), edges=edges, setup_ticks=setup, **fields)
@@ -48,21 +38,21 @@ def hall(setup: int = 0, **fields):
 
 
 @settings(max_examples=60, deadline=None)
-@given(seed=seeds, planner=st.sampled_from(EVERYBODY))
+@given(seed=seeds, planner=st.sampled_from(PLANNERS))
 def test_plans_on_graphs_keep_to_resources_and_none_is_missed(seed, planner):
     random = np.random.default_rng(seed)
     asked = random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random))
-    solve_and_compare(planner, with_resources(random, asked))
+    compare_with_optimum(planner, with_resources(random, asked))
 
 
 @settings(max_examples=30, deadline=None)
-@given(seed=seeds, planner=st.sampled_from(EVERYBODY))
+@given(seed=seeds, planner=st.sampled_from(PLANNERS))
 def test_plans_on_grids_keep_to_resources_and_none_is_missed(seed, planner):
     random = np.random.default_rng(seed)
     asked = random_grid_problem(
         random, int(random.integers(2, 4)), size=3, at_goal=str(random.choice(["stay", "disappear"]))
     )
-    solve_and_compare(planner, with_resources(random, asked))
+    compare_with_optimum(planner, with_resources(random, asked))
 
 
 @settings(max_examples=30, deadline=None)
@@ -89,20 +79,20 @@ def test_what_has_a_simple_plan_is_solved(planner):
 def test_late_and_slow_releases_are_planned_around(seed, planner):
     random = np.random.default_rng(seed)
     before = with_resources(random, random_graph_problem(random, 2, **random_rules(random)))
-    solve_and_compare(planner, with_late_release(random, before))
+    compare_with_optimum(planner, with_late_release(random, before))
 
 
 @pytest.mark.parametrize("planner", [Cbs(), Ecbs(w=1.0), Eecbs(w=1.0)])
 @pytest.mark.parametrize("setup", [0, 5, 12])
 def test_two_robots_pass_a_door_one_after_the_other(planner, setup):
-    asked = problem(hall(setup), [4, 10], [3, 0])
-    optimum = least_cost(asked, limit=100_000)
+    asked = problem_on(hall(setup), [4, 10], [3, 0])
+    optimum = least_sum_of_costs(asked, most_states=100_000)
     assert ask(planner, asked, optimum, AMPLE).plan.sum_of_costs == optimum
 
 
 @pytest.mark.parametrize("planner", [Cbs(), Eecbs(w=1.0), Ecbs(w=1.0), Pbs(), Prioritized()])
 def test_who_parks_in_a_doorway_lets_the_others_through_first(planner):
-    asked = problem(hall(setup=3), [5, 0, 2], [7, 3, 1])
+    asked = problem_on(hall(setup=3), [5, 0, 2], [7, 3, 1])
     result = ask(planner, asked, budget=AMPLE)
     assert result.status is PlanStatus.SOLVED
 
@@ -110,19 +100,19 @@ def test_who_parks_in_a_doorway_lets_the_others_through_first(planner):
 @pytest.mark.parametrize("planner", [Cbs(), Cbs(target=False), Eecbs(), Ecbs(), Pbs(), Prioritized()])
 @pytest.mark.parametrize(("starts", "goals"), [([6, 8], [4, 10]), ([4, 10], [6, 8])])
 def test_more_robots_than_a_resource_holds_at_the_start_or_for_good_are_seen_at_once(planner, starts, goals):
-    assert planner.plan(problem(hall(), starts, goals), AMPLE).status is PlanStatus.UNSOLVABLE
+    assert planner.plan(problem_on(hall(), starts, goals), AMPLE).status is PlanStatus.UNSOLVABLE
 
 
 @pytest.mark.parametrize("planner", [CbsTa(), ItaCbs(), EcbsTa(), ItaEcbs()])
 def test_planners_that_assign_send_only_one_robot_into_a_resource(planner):
-    asked = problem(hall(setup=2), [4, 10], [(5, 6, 8), (5, 6, 8)])
+    asked = problem_on(hall(setup=2), [4, 10], [(5, 6, 8), (5, 6, 8)])
     result = ask(planner, asked, budget=AMPLE)
     assert result.status is PlanStatus.SOLVED
     assert result.plan.sum_of_costs == 3
 
 
 def test_conflict_based_search_says_that_it_knows_no_roomy_resources():
-    asked = problem(hall(capacity=2), [0, 3], [3, 0])
+    asked = problem_on(hall(capacity=2), [0, 3], [3, 0])
     assert Cbs().skip(asked) == Eecbs().skip(asked) == Ecbs().skip(asked) == "resource 'door' holds more than one robot"
     assert Pbs().skip(asked) is None
     assert Pbs().plan(asked, AMPLE).status is PlanStatus.SOLVED

@@ -1,16 +1,21 @@
 """The first instances of the soaks, and what the soaks would say of a planner that is wrong."""
 
+import runpy
+from pathlib import Path
+
 import attrs
 import pytest
-import soak_assigning
-import soak_planners
 from mrpbench_planners_mapf.cbs import Cbs
-from soaking import run
 
 from mrpbench_core.model.plan import PlanStatus
+from mrpbench_core.testing.soak import run
+
+PLANNING, ASSIGNING = (
+    runpy.run_path(str(Path(__file__).with_name(f"soak_{name}.py")))["SOAK"] for name in ("planners", "assigning")
+)
 
 
-@pytest.mark.parametrize(("soak", "count"), [(soak_planners.SOAK, 45), (soak_assigning.SOAK, 36)])
+@pytest.mark.parametrize(("soak", "count"), [(PLANNING, 45), (ASSIGNING, 36)])
 def test_nothing_is_wrong_with_the_first_instances(soak, count, capsys):
     assert run(soak, count, seed=1) == 0
     printed = capsys.readouterr().out
@@ -20,10 +25,10 @@ def test_nothing_is_wrong_with_the_first_instances(soak, count, capsys):
 
 def test_one_cost_too_many_is_noticed(capsys):
     def too_low(asked):
-        optimum = soak_planners.SOAK.optimum(asked)
+        optimum = PLANNING.optimum(asked)
         return None if optimum is None else optimum - 1
 
-    assert run(soak_planners.SOAK._replace(optimum=too_low), 8, seed=1) > 0
+    assert run(PLANNING._replace(optimum=too_low), 8, seed=1) > 0
     assert "lower bound" in capsys.readouterr().out
 
 
@@ -33,6 +38,6 @@ def test_without_the_oracle_planners_are_compared_with_one_another(capsys):
         def plan(self, problem, budget):
             return attrs.evolve(super().plan(problem, budget), status=PlanStatus.UNSOLVABLE, plan=None)
 
-    soak = soak_planners.SOAK._replace(optimum=lambda asked: None, planners=lambda random: [Cbs(), Denying()])
+    soak = PLANNING._replace(optimum=lambda asked: None, planners=lambda random: [Cbs(), Denying()])
     assert run(soak, 8, seed=1) > 0
-    assert "unsolvable, but Cbs" in capsys.readouterr().out
+    assert "says unsolvable, but Cbs" in capsys.readouterr().out

@@ -1,15 +1,15 @@
 """The suites catch faults of dispatchers: each plugin here has one and fails its check."""
 
 import numpy as np
-from faults import changed, failures
 
-from mrpbench_core import testing
 from mrpbench_core.api import (
     Dispatcher,
     DispatcherSession,
 )
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.model.execution import Orders
+from mrpbench_core.testing import DispatcherConformance, failed_checks, suite_for
+from mrpbench_core.testing.variant import variant
 
 
 class Session(DispatcherSession):
@@ -27,18 +27,18 @@ class Session(DispatcherSession):
 
 def session(**methods):
     made = type("Changed", (Session,), methods)
-    return changed(Dispatcher, start=lambda self, problem, plan: made(problem, plan))()
+    return variant(Dispatcher, start=lambda self, problem, plan: made(problem, plan))()
 
 
 def test_a_dispatcher_that_takes_back():
-    found = failures(
-        session(update=lambda self, now, view: Orders(released=self.length if now < 1 else 0 * self.length))
+    found = failed_checks(
+        suite_for(session(update=lambda self, now, view: Orders(released=self.length if now < 1 else 0 * self.length)))
     )
     assert "takes back" in found["releases ever more of each path"]
 
 
 def test_a_dispatcher_that_releases_nothing():
-    found = failures(session(update=lambda self, now, view: Orders(released=0 * self.length)))
+    found = failed_checks(suite_for(session(update=lambda self, now, view: Orders(released=0 * self.length))))
     assert "wait for ever" in found["plans drain under delays"]
     assert "goes on with a new plan" in found
 
@@ -48,17 +48,23 @@ def test_a_dispatcher_that_claims_to_keep_robots_apart():
         Adg().start(problem, plan)  # refuses conflicts
         return Session(problem, plan)
 
-    found = failures(changed(Dispatcher, start=start)())
-    assert set(found) == {"delays do not make robots meet"}
+    found = failed_checks(suite_for(variant(Dispatcher, start=start)()))
+    assert set(found) == {
+        "delays do not make robots meet",
+        "refuses plans through resources or requests the resources",
+    }
 
 
 def test_a_dispatcher_that_says_it_keeps_robots_apart():
-    class Suite(testing.DispatcherConformance):
+    class Suite(DispatcherConformance):
         keeps_apart = True
 
         def make(self):
             return made
 
     made = session()
-    found = {check.name for check in testing.run_checks(Suite()) if check.outcome == "failed"}
-    assert found == {"delays do not make robots meet", "refuses or survives plans with conflicts"}
+    assert failed_checks(Suite()).keys() == {
+        "delays do not make robots meet",
+        "refuses or survives plans with conflicts",
+        "refuses plans through resources or requests the resources",
+    }

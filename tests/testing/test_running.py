@@ -1,4 +1,4 @@
-"""The two doors to the suites: pytest, and no pytest."""
+"""Suites run under pytest and without it."""
 
 import subprocess
 import sys
@@ -44,7 +44,7 @@ def test_each_check_has_an_outcome_and_a_reason():
     assert found["fails"] == ("failed", "nothing there")
     assert found["does not apply"] == ("skipped", "not today")
     assert found["breaks"][1].startswith("raises ZeroDivisionError: by zero (")
-    assert "test_doors.py:" in found["breaks"][1]
+    assert "test_running.py:" in found["breaks"][1]
     assert found["survives pickling"][0] == "failed"
     assert list(found)[-4:] == ["holds", "fails", "does not apply", "breaks"]
 

@@ -2,17 +2,18 @@
 
 import numpy as np
 import pytest
-from faults import changed, failures
 
 from mrpbench_core.api import (
     Controller,
     ControllerSession,
 )
+from mrpbench_core.testing import failed_checks, suite_for
+from mrpbench_core.testing.variant import variant
 
 
 def controller(command):
     made = type("Changed", (ControllerSession,), {"command": command})
-    return changed(Controller, start=lambda self, robot, world, period: made())()
+    return variant(Controller, start=lambda self, robot, world, period: made())()
 
 
 @pytest.mark.parametrize(
@@ -32,7 +33,7 @@ def controller(command):
     ],
 )
 def test_a_controller(command, check):
-    assert check in failures(controller(command))
+    assert check in failed_checks(suite_for(controller(command)))
 
 
 def test_a_controller_with_memory_in_its_recipe():
@@ -43,5 +44,5 @@ def test_a_controller_with_memory_in_its_recipe():
             Shared.calls += 1
             return (0.1 if Shared.calls % 3 else 0.0), 0.0
 
-    found = failures(changed(Controller, start=lambda self, robot, world, period: Shared())())
+    found = failed_checks(suite_for(variant(Controller, start=lambda self, robot, world, period: Shared())()))
     assert "robots do not disturb one another" in found

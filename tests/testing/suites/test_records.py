@@ -1,8 +1,8 @@
 """The suites catch faults of metrics and exporters: each plugin here has one and fails its check."""
 
+import attrs
 import numpy as np
 import pytest
-from faults import changed, failures, frozen
 
 from mrpbench_core.api import (
     Column,
@@ -11,9 +11,11 @@ from mrpbench_core.api import (
     Metric,
     option,
 )
+from mrpbench_core.testing import failed_checks, suite_for
+from mrpbench_core.testing.variant import variant
 
 
-@frozen
+@attrs.frozen(kw_only=True)
 class First(Metric):
     """Where the first robot ended."""
 
@@ -46,10 +48,10 @@ def one(value, *names):
     ],
 )
 def test_a_metric(changes, check):
-    assert check in failures(changed(First, **changes)())
+    assert check in failed_checks(suite_for(variant(First, **changes)()))
 
 
-@frozen
+@attrs.frozen(kw_only=True)
 class Text(Exporter):
     """Counts samples in a text file."""
 
@@ -81,7 +83,7 @@ class TextSession(ExporterSession):
 
 
 def test_an_exporter():
-    assert not failures(Text())
-    assert set(failures(Text(mode="a"))) == {"replaces what is there"}
-    assert set(failures(Text(scratch=True))) == {"writes a run", "replaces what is there"}
-    assert set(failures(Text(careless=True))) == {"leaves nothing of a run that failed"}
+    assert not failed_checks(suite_for(Text()))
+    assert set(failed_checks(suite_for(Text(mode="a")))) == {"replaces what is there"}
+    assert set(failed_checks(suite_for(Text(scratch=True)))) == {"writes a run", "replaces what is there"}
+    assert set(failed_checks(suite_for(Text(careless=True)))) == {"leaves nothing of a run that failed"}

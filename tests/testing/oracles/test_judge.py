@@ -1,4 +1,4 @@
-"""The judge of the soaks finds every lie."""
+"""The judge of planners finds every false answer."""
 
 import math
 from itertools import count
@@ -6,14 +6,17 @@ from typing import ClassVar
 
 import attrs
 import pytest
-from mapf_claims import changes, contradictions, faults
-from mapf_instances import grid, problem
 
 from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.model.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.problem import Feature
+from mrpbench_core.testing.faults import Fault
+from mrpbench_core.testing.instances.problems import problem_on
+from mrpbench_core.testing.instances.roadmaps import grid_of
+from mrpbench_core.testing.oracles.judge import answer_faults, ask, changes, contradictions
 
 BUDGET = Budget(wall_s=1, memory_bytes=1 << 20)
-ASKED = problem(grid(["...", "..."]), [0], [2])  # 0 1 2 above 3 4 5
+ASKED = problem_on(grid_of(["...", "..."]), [0], [2])  # 0 1 2 above 3 4 5
 SHORTEST = [(0, 1), (1, 2)]
 ROUND = [(0, 3), (3, 4), (4, 5), (5, 2)]
 ROUND_CURVE = (AnytimePoint(seconds=0.1, cost=2), AnytimePoint(seconds=0.2, cost=4))
@@ -42,6 +45,13 @@ class Careless(Optimal):
     promises: ClassVar[frozenset[Promise]] = frozenset()
 
 
+@attrs.frozen(kw_only=True)
+class Assigning(Careless):
+    supports: ClassVar[frozenset[Feature]] = frozenset({Feature.GOAL_SETS})
+
+    assign: bool = True
+
+
 def path(steps, asked=ASKED) -> Path:
     edges = [tuple(edge) for edge in asked.roadmap.edges.tolist()]
     ticks = range(len(steps) + 1)
@@ -65,49 +75,49 @@ def answer(steps=SHORTEST, bound=2.0, **fields) -> PlanResult:
         (Careless(), answer(None, status=PlanStatus.GAVE_UP)),
     ],
 )
-def test_what_is_true_is_let_pass(planner, result, optimum):
-    assert faults(ASKED, planner, result, optimum) == []
+def test_true_answers_have_no_faults(planner, result, optimum):
+    assert answer_faults(ASKED, planner, result, optimum) == []
 
 
 @pytest.mark.parametrize(
     ("planner", "result", "optimum", "said"),
     [
-        (Optimal(), answer(ROUND), 2, "but optimal"),
-        (Optimal(), answer(ROUND, math.nan), None, "but optimal"),
-        (Optimal(), answer(ROUND, 4.0), 2, "lower bound 4.0, optimum 2"),
-        (Optimal(), answer(), 3, "cost 2, optimum 3"),
-        (Optimal(), answer(SHORTEST, 3.0), None, "cost 2, lower bound 3.0"),
+        (Optimal(), answer(ROUND), 2, "exceeds 1 times its lower bound 2"),
+        (Optimal(), answer(ROUND, math.nan), 2, "costs 4, the optimum is 2"),
+        (Optimal(), answer(ROUND, 4.0), 2, "proves the lower bound 4, the optimum is 2"),
+        (Optimal(), answer(), 3, "costs 2, the optimum is 3"),
+        (Optimal(), answer(SHORTEST, 3.0), None, "cost 2 is below its lower bound 3"),
         (Optimal(), answer(SHORTEST[:1]), None, "instead of its goal"),
-        (Optimal(), answer(None, 3.0), 2, "lower bound 3.0"),
-        (Optimal(), answer(None, status=PlanStatus.UNSOLVABLE), 2, "unsolvable, optimum 2"),
+        (Optimal(), answer(None, 3.0), 2, "lower bound 3,"),
+        (Optimal(), answer(None, status=PlanStatus.UNSOLVABLE), 2, "says unsolvable, the optimum is 2"),
         (Optimal(), answer(None, status=PlanStatus.GAVE_UP), None, "gave up"),
-        (Optimal(), answer(None, status=PlanStatus.SOLVED), None, "without plan"),
-        (Optimal(), answer(status=PlanStatus.TIMEOUT), None, "timeout with a plan"),
-        (Bounded(), answer(ROUND), None, "more than 1.5 times"),
-        (Bounded(), answer(ROUND, math.nan), None, "more than 1.5 times"),
+        (Optimal(), answer(None, status=PlanStatus.SOLVED), None, "gives no plan"),
+        (Optimal(), answer(status=PlanStatus.GAVE_UP), None, "a plan with the status gave_up"),
+        (Bounded(), answer(ROUND), None, "exceeds 1.5 times"),
+        (Bounded(), answer(ROUND, math.nan), None, "proves no lower bound"),
         (Careless(), answer(SHORTEST[1:]), None, "starts at vertex 1"),
         (Careless(), answer(ROUND, history=ROUND_CURVE), None, "rise"),
     ],
 )
-def test_lies_are_found(planner, result, optimum, said):
-    assert any(said in fault for fault in faults(ASKED, planner, result, optimum))
+def test_false_answers_have_faults(planner, result, optimum, said):
+    assert any(said in fault for fault in answer_faults(ASKED, planner, result, optimum))
 
 
-def test_robots_in_one_anothers_way_are_found():
-    asked = problem(grid(["..."]), [0, 2], [2, 0])
+def test_conflicts_are_faults_of_those_that_promise_none():
+    asked = problem_on(grid_of(["..."]), [0, 2], [2, 0])
     crossing = Plan(paths=(path([(0, 1), (1, 2)], asked), path([(2, 1), (1, 0)], asked)))
     result = PlanResult(status=PlanStatus.SOLVED, plan=crossing, lower_bound=4)
-    assert "Conflict" in faults(asked, Optimal(), result)[0]
-    assert faults(asked, Careless(), result) == []
+    assert "vertex conflict" in answer_faults(asked, Optimal(), result)[0]
+    assert answer_faults(asked, Careless(), result) == []
 
 
 def test_answers_that_cannot_both_be_true_are_found():
     some, better = (Bounded(w=9.0), answer(ROUND)), (Optimal(), answer())
     assert contradictions([some, better]) == []
     (high,) = contradictions([(Bounded(), answer(None, 3.0)), better])
-    assert "lower bound 3.0" in high
+    assert "lower bound 3," in high
     (denied,) = contradictions([(Bounded(), answer(None, status=PlanStatus.UNSOLVABLE)), better])
-    assert "unsolvable, but Optimal" in denied
+    assert "says unsolvable, but Optimal" in denied
     assert contradictions([(Careless(), answer()), (Optimal(), answer(ROUND, 4.0))]) == []
 
 
@@ -126,3 +136,18 @@ def test_answers_that_cannot_both_be_true_are_found():
 def test_another_answer_to_the_same_question_is_found(second, changed):
     assert bool(changes(ASKED, Optimal(answers=(second,)), BUDGET, answer())) is changed
     assert changes(ASKED, Careless(answers=(second,)), BUDGET, answer()) == []
+
+
+def test_a_problem_that_a_planner_skips_is_no_question_for_it():
+    asked = problem_on(grid_of(["..."]), [0], [2], horizon=5)
+    with pytest.raises(Fault, match="skips, because it does not support horizon"):
+        ask(Optimal(answers=(answer(),)), asked)
+
+
+def test_a_task_belongs_to_one_robot_even_where_robots_disappear():
+    asked = problem_on(grid_of(["..."]), [0, 1], [(1, 2), (1, 2)], at_goal="disappear")
+    both = Plan(paths=(path([(0, 1), (1, 2)], asked), path([(1, 2)], asked)))
+    result = PlanResult(status=PlanStatus.SOLVED, plan=both, lower_bound=3)
+    assert answer_faults(asked, Careless(), result) == []
+    (fault,) = answer_faults(asked, Assigning(), result)
+    assert "robots 0 and 1 take the same goal, vertex 2" in fault

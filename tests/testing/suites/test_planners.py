@@ -1,8 +1,8 @@
 """The suites catch faults of planners: each plugin here has one and fails its check."""
 
+import attrs
 import numpy as np
 import pytest
-from faults import changed, failures, frozen
 
 from mrpbench_core.api import (
     Planner,
@@ -10,12 +10,14 @@ from mrpbench_core.api import (
 )
 from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Feature
+from mrpbench_core.testing import failed_checks, suite_for
 from mrpbench_core.testing.drawing import problem
 from mrpbench_core.testing.faults import Fault
-from mrpbench_core.testing.oracles.planner_call import ask
+from mrpbench_core.testing.oracles.planner_call import call
+from mrpbench_core.testing.variant import variant
 
 
-@frozen
+@attrs.frozen(kw_only=True)
 class Still(Planner):
     """Plans that nobody moves."""
 
@@ -87,11 +89,11 @@ PLANNERS = {
 
 @pytest.mark.parametrize("check", PLANNERS)
 def test_a_planner(check):
-    assert check in failures(changed(Still, **PLANNERS[check])())
+    assert check in failed_checks(suite_for(variant(Still, **PLANNERS[check])()))
 
 
 def test_a_planner_that_leaves_robots_where_they_are():
-    assert "ends at vertex 0 instead of its goal" in failures(Still())["plans are valid"]
+    assert "ends at vertex 0 instead of its goal" in failed_checks(suite_for(Still()))["plans are valid"]
 
 
 def test_a_planner_whose_optimum_is_none():
@@ -104,7 +106,9 @@ def test_a_planner_whose_optimum_is_none():
         )
         return PlanResult(status=PlanStatus.SOLVED, plan=Plan(paths=(late,)))
 
-    found = failures(changed(Still, plan=slow, promises=frozenset({Promise.CONFLICT_FREE, Promise.OPTIMAL}))())
+    found = failed_checks(
+        suite_for(variant(Still, plan=slow, promises=frozenset({Promise.CONFLICT_FREE, Promise.OPTIMAL}))())
+    )
     assert found["is optimal"] == "a robot alone: costs 4, the optimum is 3"
     assert "plans are valid" not in found
 
@@ -116,12 +120,12 @@ def test_a_planner_that_changes_its_mind():
         return alone(self, asked, budget) if next(calls) % 2 else gives_up(self, asked, budget)
 
     promises = frozenset({Promise.DETERMINISTIC})
-    assert "gives the same plan again" in failures(changed(Still, plan=moody, promises=promises)())
+    assert "gives the same plan again" in failed_checks(suite_for(variant(Still, plan=moody, promises=promises)()))
 
 
 def test_a_planner_that_ignores_its_budget(monkeypatch):
-    monkeypatch.setattr("mrpbench_core.testing.oracles.planner_call.MARGIN", 0.05)
-    monkeypatch.setattr("mrpbench_core.testing.oracles.planner_call.PATIENCE", 0.1)
+    monkeypatch.setattr("mrpbench_core.testing.oracles.planner_call.LATE_S", 0.05)
+    monkeypatch.setattr("mrpbench_core.testing.oracles.planner_call.HANGS_S", 0.1)
     from threading import Event
 
     woken = Event()
@@ -131,7 +135,7 @@ def test_a_planner_that_ignores_its_budget(monkeypatch):
         return PlanResult(status=PlanStatus.GAVE_UP)
 
     with pytest.raises(Fault, match="still runs"):
-        ask(changed(Still, plan=sleeps)(), problem("a A"), wall_s=0.05)
+        call(variant(Still, plan=sleeps)(), problem("a A"), wall_s=0.05)
     woken.set()
 
 
@@ -139,6 +143,6 @@ def test_a_planner_that_raises_is_located():
     def breaks(self, asked, budget):
         raise KeyError("left")
 
-    reason = failures(changed(Still, plan=breaks)())["plans are valid"]
+    reason = failed_checks(suite_for(variant(Still, plan=breaks)()))["plans are valid"]
     assert reason.startswith("raises KeyError: 'left' (")
     assert "test_planners.py:" in reason

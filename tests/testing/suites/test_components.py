@@ -1,7 +1,6 @@
 """The suites catch faults of components: each plugin here has one and fails its check."""
 
 import attrs
-from faults import failures, frozen
 
 from mrpbench_core.api import (
     Column,
@@ -9,9 +8,10 @@ from mrpbench_core.api import (
     option,
 )
 from mrpbench_core.builtin.assigners.identity import Identity
+from mrpbench_core.testing import failed_checks, suite_for
 
 
-@frozen
+@attrs.frozen(kw_only=True)
 class Silent(Identity):
     """It has an option without help, and one that cannot be hashed."""
 
@@ -30,7 +30,7 @@ class Soft(Metric):
         return {"level": self.level}
 
 
-@frozen
+@attrs.frozen(kw_only=True)
 class Private(Identity):
     """It has an option that no file can express."""
 
@@ -38,17 +38,17 @@ class Private(Identity):
 
 
 def test_an_option_without_help_and_one_without_hash():
-    found = failures(Silent())
+    found = failed_checks(suite_for(Silent()))
     assert "mute" in found["is documented with all its options"]
     assert "hash" in found["equal components are equal and print alike"]
 
 
 def test_a_component_that_can_be_changed():
-    found = failures(Soft())
+    found = failed_checks(suite_for(Soft()))
     assert "frozen" in found["keeps the contract of components"]
     assert found["cannot be changed"] == "option level can be set"
 
 
 def test_an_option_that_no_file_can_express():
-    found = failures(Private())
+    found = failed_checks(suite_for(Private()))
     assert {"has a schema for editors", "can be written in a configuration"} <= found.keys()

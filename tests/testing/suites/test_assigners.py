@@ -1,16 +1,18 @@
 """The suites catch faults of assigners: each plugin here has one and fails its check."""
 
+import attrs
 import numpy as np
-from faults import changed, failures, frozen
 
 from mrpbench_core.api import (
     Assigner,
     AssignmentError,
 )
 from mrpbench_core.model.assignment import Assignment
+from mrpbench_core.testing import failed_checks, suite_for
+from mrpbench_core.testing.variant import variant
 
 
-@frozen
+@attrs.frozen(kw_only=True)
 class Greedy(Assigner):
     """Takes the cheapest pair that is left: feasible but not optimal."""
 
@@ -27,7 +29,7 @@ class Greedy(Assigner):
 
 
 def test_an_assigner_that_is_greedy():
-    found = failures(Greedy())
+    found = failed_checks(suite_for(Greedy()))
     assert "is optimal" in found
     assert "gives each task to one robot" not in found
     assert "raises an assignment error when nothing is feasible" not in found
@@ -37,7 +39,7 @@ def test_an_assigner_that_gives_all_the_first_task():
     def assign(self, problem):
         return Assignment(task=np.zeros(len(problem.costs), int), cost=0.0)
 
-    found = failures(changed(Greedy, assign=assign)())
+    found = failed_checks(suite_for(variant(Greedy, assign=assign)()))
     assert {
         "gives each task to one robot",
         "is optimal",

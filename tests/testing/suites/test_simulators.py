@@ -3,11 +3,12 @@
 import attrs
 import numpy as np
 import pytest
-from faults import changed, failures
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.builtin.worlds.shipped import Office
+from mrpbench_core.testing import failed_checks, suite_for
 from mrpbench_core.testing.fixtures.room import fleet
+from mrpbench_core.testing.variant import variant
 
 
 def simulator(**methods):
@@ -18,7 +19,7 @@ def simulator(**methods):
         inner.__class__ = type("Changed", (type(inner),), methods)
         return inner
 
-    return changed(Kinematic, open=opened)()
+    return variant(Kinematic, open=opened)()
 
 
 PLANE = type(Kinematic().open(Office().load(), fleet(1), np.ones((1, 3)), 0, 0.05))
@@ -81,4 +82,4 @@ def noisy(self, inputs):
     ],
 )
 def test_a_simulator(methods, checks):
-    assert checks <= failures(simulator(**methods)).keys()
+    assert checks <= failed_checks(suite_for(simulator(**methods))).keys()

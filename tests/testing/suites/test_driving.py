@@ -2,13 +2,14 @@
 
 import attrs
 import numpy as np
-from faults import changed, failures
 
 from mrpbench_core.api import (
     Crowd,
 )
 from mrpbench_core.builtin.localizers.ground_truth import GroundTruth
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
+from mrpbench_core.testing import failed_checks, suite_for
+from mrpbench_core.testing.variant import variant
 
 
 def test_a_localizer_that_is_lost():
@@ -25,7 +26,7 @@ def test_a_localizer_that_is_lost():
         )
         return inner
 
-    assert "follows robots whose sensors are exact" in failures(changed(GroundTruth, start=start)())
+    assert "follows robots whose sensors are exact" in failed_checks(suite_for(variant(GroundTruth, start=start)()))
 
 
 def test_a_navigator_that_stands_still():
@@ -35,7 +36,7 @@ def test_a_navigator_that_stands_still():
         inner.step = lambda *seen: attrs.evolve(step(*seen), twist=np.zeros((2, 2)))
         return inner
 
-    found = failures(changed(Waypoints, start=start)())
+    found = failed_checks(suite_for(variant(Waypoints, start=start)()))
     assert {"drives robots to the ends of their routes", "goes on with longer routes"} <= found.keys()
 
 
@@ -51,7 +52,7 @@ def test_a_crowd():
             return np.array([(self.x, 0.0, self.speed, 0.0)])
 
     def crowd(speed):
-        return changed(Crowd, start=lambda self, world, seed: Walk(speed))()
+        return variant(Crowd, start=lambda self, world, seed: Walk(speed))()
 
-    assert not failures(crowd(1.0))
-    assert set(failures(crowd(3.0))) == {"speeds are those of the motion"}
+    assert not failed_checks(suite_for(crowd(1.0)))
+    assert set(failed_checks(suite_for(crowd(3.0)))) == {"speeds are those of the motion"}

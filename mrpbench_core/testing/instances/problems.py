@@ -1,0 +1,75 @@
+"""Problems on a given roadmap, and those of the MovingAI benchmark."""
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path as File
+from typing import Any
+
+import attrs
+import numpy as np
+from numpy.typing import ArrayLike
+
+from mrpbench_core.model.problem import Feature, Problem, Rules, features_of
+from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap
+
+
+def build(
+    road: Roadmap,
+    starts: Iterable[int],
+    goal_sets: Iterable[tuple[int, ...]],
+    radius: ArrayLike = 0.1,
+    features: Iterable[Feature] = (),
+    **fields: Any,
+) -> Problem:
+    """A problem of like robots, each with one goal set; `features` are added, `fields` replace those of `Problem`."""
+    start = np.array(list(starts), np.int32)
+    count = len(start)
+    given: dict[str, Any] = {
+        "roadmap": road,
+        "profile": np.zeros(count, np.int32),
+        "radius": np.broadcast_to(radius, count).astype(float),
+        "start": start,
+        "ready": np.zeros(count, np.int64),
+        "goals": tuple((tuple(goal_set),) for goal_set in goal_sets),
+    }
+    made = Problem(**given | fields)
+    return attrs.evolve(made, features=features_of(made) | set(features))
+
+
+def problem_on(
+    road: Roadmap,
+    starts: Iterable[int],
+    goals: Iterable[int | Sequence[int]],
+    *,
+    radius: ArrayLike | None = None,
+    following: str = "allowed",
+    at_goal: str = "stay",
+    **fields: Any,
+) -> Problem:
+    """Robots on a roadmap, each with a goal or several to choose from; with a `radius`, footprints count."""
+    return build(
+        road,
+        starts,
+        [(goal,) if isinstance(goal, int) else tuple(goal) for goal in goals],
+        radius=0.0 if radius is None else radius,
+        features=() if radius is None else (Feature.FOOTPRINTS,),
+        rules=Rules(following=following, at_goal=at_goal),
+        **fields,
+    )
+
+
+def endless_swap(vertices: int) -> Problem:
+    """Two robots that swap the ends of a path: no plan, and no quick proof of that, since moves take two ticks."""
+    road = grid_of(["." * vertices])
+    return problem_on(roadmap(road.position, road.edges, 2), [0, vertices - 1], [vertices - 1, 0])
+
+
+def movingai(data: File, name: str, scen: str, robots: int) -> Problem:
+    """The first `robots` tasks of a scenario of the MovingAI benchmark, from `data`/movingai."""
+    lines = (data / "movingai" / "maps" / f"{name}.map").read_text().splitlines()[4:]
+    road = grid_of(["".join("." if cell in ".G" else "#" for cell in line) for line in lines])
+    index = {(int(x), int(-y)): vertex for vertex, (x, y) in enumerate(road.position)}
+    table = (data / "movingai" / "scens" / f"{name}-{scen}.scen").read_text().splitlines()[1 : robots + 1]
+    tasks = [[int(value) for value in line.split()[4:8]] for line in table]
+    assert len(tasks) == robots
+    return problem_on(road, [index[x, y] for x, y, _, _ in tasks], [index[x, y] for _, _, x, y in tasks])
