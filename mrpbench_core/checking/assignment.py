@@ -1,4 +1,4 @@
-"""Validates an assignment against its problem, and what a planner that assigns has chosen."""
+"""Validates assignments, and the goals that a planner with the option `assign` has chosen."""
 
 from collections import defaultdict
 
@@ -10,7 +10,11 @@ from mrpbench_core.model.problem import Problem
 
 
 def check_assignment(problem: AssignmentProblem, assignment: Assignment) -> list[str]:
-    """What is wrong with an assignment, one sentence each: every task at most once, none forbidden, min(n, m) given."""
+    """The faults of an assignment, one sentence each.
+
+    A valid assignment gives each task to at most one robot, gives no forbidden pair (cost inf), and assigns min(n, m)
+    of n robots and m tasks.
+    """
     robots, tasks = problem.costs.shape
     task = assignment.task
     if task.shape != (robots,):
@@ -32,9 +36,10 @@ def check_assignment(problem: AssignmentProblem, assignment: Assignment) -> list
 
 
 def check_choice(problem: Problem, plan: Plan) -> list[str]:
-    """Which robots took the same goal where the planner chose, one sentence each; the paths have to be sound.
+    """The robots that share a goal in a plan whose planner assigned the tasks, one sentence each.
 
-    Where robots disappear at their goals that is no conflict, but a task is done by one robot, and so another is not.
+    A task belongs to exactly one robot. Where robots disappear at their goals, two robots at one goal do not conflict,
+    but another task is left undone. The paths must have no faults.
     """
     robots = defaultdict(list)
     for robot, path in enumerate(plan.paths):

@@ -1,7 +1,7 @@
-"""Whether robots, as discs, keep clear of everything solid on a level: walls, obstacles, holes, blocked cells.
+"""Tells whether robots, as discs, keep clear of walls, obstacles, holes and blocked cells of a level.
 
-Solid things are closed polygons. A disc of radius r that moves straight from p to q keeps clear of one when p is
-outside and no side of the polygon is nearer than r to the segment p-q; touching at exactly r is allowed.
+Each of these is a closed polygon. A disc of radius r that moves straight from p to q keeps clear of a polygon if p is
+outside and no side is closer than r to the segment p-q; touching at exactly r is allowed.
 """
 
 import numpy as np
@@ -14,11 +14,11 @@ from mrpbench_core.model.solids import wall_boxes
 from mrpbench_core.model.world import Level
 
 TOLERANCE = 1e-9
-"""metres by which a disc may reach into something solid: rounding, not contact."""
+"""Metres by which a disc may overlap a polygon because of rounding."""
 
 
 def solids(level: Level) -> list[Float]:
-    """Outlines f8[k,2] of walls, obstacles and holes in the floor; a raster is not among them."""
+    """Outlines f8[k,2] of walls, obstacles and holes in the floor; blocked cells are not included."""
     boxes = wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4)[:, :, :2]
     return [*boxes, *(obstacle.polygon for obstacle in level.obstacles), *(hole.polygon for hole in level.holes)]
 
@@ -42,7 +42,7 @@ def keeps_clear(level: Level, start: Float, end: Float, radius: float) -> Bool:
 
 
 def touches(outline: Float, start: Float, end: Float, radius: float) -> Bool:
-    """Tell bool[k] whether a disc that moves from `start` to `end` f8[k,2] meets a polygon f8[c,2], even a flat one."""
+    """Tell bool[k] whether a disc moving from `start` to `end` f8[k,2] touches a polygon f8[c,2], even a flat one."""
     low, high = np.minimum(start, end) - radius, np.maximum(start, end) + radius
     near = np.flatnonzero((high >= outline.min(axis=0)).all(axis=1) & (low <= outline.max(axis=0)).all(axis=1))
     met = np.zeros(len(start), bool)
@@ -51,7 +51,7 @@ def touches(outline: Float, start: Float, end: Float, radius: float) -> Bool:
 
 
 def _touches(outline: Float, start: Float, end: Float, radius: float) -> Bool:
-    """bool[k] for outlines f8[k or 1,sides,2]: does the swept disc meet the polygon?"""
+    """bool[k] for outlines f8[k or 1,sides,2]: whether the moving disc touches the polygon."""
     after = np.roll(outline, -1, axis=1)
     gap = segment_distance(outline, after, start[:, None], end[:, None]).min(axis=1)
     touching: Bool = inside(outline, start) | (gap <= max(radius - TOLERANCE, 0.0))
@@ -59,7 +59,7 @@ def _touches(outline: Float, start: Float, end: Float, radius: float) -> Bool:
 
 
 def _clear_of_cells(occupancy: Occupancy, start: Float, end: Float, radius: float) -> Bool:
-    """The same for the blocked cells of a raster; long sweeps are cut into pieces so that their boxes stay small."""
+    """bool[k] for blocked cells; long moves are cut into pieces so that their bounding boxes stay small."""
     size = occupancy.cell_size
     pieces = np.maximum(1, np.ceil(np.hypot(*(end - start).T) / (4 * size))).astype(np.int64)
     sweep = np.repeat(np.arange(len(start)), pieces)
@@ -89,7 +89,7 @@ def _pieces_touch(occupancy: Occupancy, start: Float, end: Float, radius: float)
 
 
 def _blocked(occupancy: Occupancy, cells: Int) -> Bool:
-    """bool[k]; all cells beyond the raster are."""
+    """bool[k]; cells outside the raster count as blocked."""
     rows, columns = occupancy.shape
     row, column = cells[:, 0], cells[:, 1]
     inside = (row >= 0) & (row < rows) & (column >= 0) & (column < columns)

@@ -7,7 +7,7 @@ from mrpbench_core.model.arrays import Int
 
 
 def components(count: int, edges: ArrayLike) -> Int:
-    """Label i8[count] of every vertex: the least vertex it is connected with, edges i[E,2] taken both ways.
+    """Label i8[count] of every vertex: the least vertex of its component; edges i[E,2] count in both directions.
 
     Every round hooks each component to its least neighbour and then halves all chains (pointer jumping), after Shiloach
     and Vishkin, "An O(log n) parallel connectivity algorithm", Journal of Algorithms, 1982.

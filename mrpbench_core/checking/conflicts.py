@@ -1,4 +1,4 @@
-"""Finds the conflicts of a plan by direct comparison of intervals; `mrpbench_core.model.conflicts` has the rules."""
+"""Finds the conflicts of a plan by comparing intervals directly; `mrpbench_core.model.conflicts` states the rules."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -17,13 +17,13 @@ FOREVER = np.iinfo(np.int64).max
 
 
 class Conflict(NamedTuple):
-    """Two robots in one another's way."""
+    """Two robots that break a rule of `mrpbench_core.model.conflicts`."""
 
     kind: str
     """vertex | swap | overtaking | following | footprint | resource."""
     robots: tuple[int, int]
     where: tuple[int, int]
-    """Vertices where they meet: the two ends of the first robot's element (equal for a vertex)."""
+    """The two ends of the element that the first robot occupies; equal for a vertex."""
     tick: int
 
     def __str__(self) -> str:
@@ -31,7 +31,7 @@ class Conflict(NamedTuple):
         return f"{self.kind} conflict of robots {self.robots[0]} and {self.robots[1]} at {place}, tick {self.tick}"
 
 
-class Stay(NamedTuple):
+class Occupation(NamedTuple):
     """A robot's time on one element: at a vertex (`tail == head`, closed interval) or on an edge (open interval)."""
 
     robot: int
@@ -47,15 +47,15 @@ class Stay(NamedTuple):
 
 
 def find_conflicts(problem: Problem, plan: Plan, limit: int | None = None) -> list[Conflict]:
-    """The first `limit` conflicts (None = all) between robots of a plan whose paths are sound, in order of time."""
-    stays = [stay for robot in range(len(problem)) for stay in _stays(problem, plan, robot)]
+    """The first `limit` conflicts (None = all) of a plan whose paths have no faults, in order of time."""
+    occupations = [occupation for robot in range(len(problem)) for occupation in _occupations(problem, plan, robot)]
     horizon = FOREVER if problem.horizon is None else problem.horizon
-    pairs = chain(_pairs(problem, stays), _crowded(problem, stays))
+    pairs = chain(_pairs(problem, occupations), _over_capacity(problem, occupations))
     found = [conflict for conflict in pairs if conflict.tick <= horizon]
     return sorted(set(found), key=lambda conflict: (conflict.tick, conflict))[:limit]
 
 
-def _stays(problem: Problem, plan: Plan, robot: int) -> Iterator[Stay]:
+def _occupations(problem: Problem, plan: Plan, robot: int) -> Iterator[Occupation]:
     path = plan.paths[robot]
     at = int(problem.start[robot])
     since = 0
@@ -63,44 +63,44 @@ def _stays(problem: Problem, plan: Plan, robot: int) -> Iterator[Stay]:
         if edge < 0:
             continue
         tail, head = (int(vertex) for vertex in problem.roadmap.edges[edge])
-        yield Stay(robot, at, at, since, enter)
-        yield Stay(robot, tail, head, enter, leave)
+        yield Occupation(robot, at, at, since, enter)
+        yield Occupation(robot, tail, head, enter, leave)
         at, since = head, leave
     last = int(path.leave[-1]) if len(path) else 0
-    yield Stay(robot, at, at, since, FOREVER if problem.rules.at_goal == "stay" else max(since, last))
+    yield Occupation(robot, at, at, since, FOREVER if problem.rules.at_goal == "stay" else max(since, last))
 
 
-def _pairs(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
+def _pairs(problem: Problem, occupations: list[Occupation]) -> Iterator[Conflict]:
     footprints = Feature.FOOTPRINTS in problem.features
     following = problem.rules.following == "forbidden"
-    together: dict[tuple[int, ...], list[Stay]] = defaultdict(list)
-    for stay in stays:
-        together[tuple(sorted((stay.tail, stay.head)))].append(stay)
+    together: dict[tuple[int, ...], list[Occupation]] = defaultdict(list)
+    for occupation in occupations:
+        together[tuple(sorted((occupation.tail, occupation.head)))].append(occupation)
     for group in together.values():
         for one, other in _overlapping(group):
             kind = _kind_on_one_element(one, other, following)
             if kind:
                 yield _conflict(kind, one, other)
     if following:
-        yield from _following(stays)
+        yield from _following(occupations)
     if footprints:
-        yield from _footprints(problem, stays)
+        yield from _footprints(problem, occupations)
 
 
-def _overlapping(group: list[Stay]) -> Iterator[tuple[Stay, Stay]]:
-    """Pairs of different robots whose closed intervals meet, the earlier first."""
-    active: list[Stay] = []
-    for stay in sorted(group, key=lambda stay: (stay.begin, stay.end)):
-        active = [earlier for earlier in active if earlier.end >= stay.begin]
-        yield from ((earlier, stay) for earlier in active if earlier.robot != stay.robot)
-        active.append(stay)
+def _overlapping(group: list[Occupation]) -> Iterator[tuple[Occupation, Occupation]]:
+    """Pairs of occupations by different robots whose closed intervals meet, the earlier first."""
+    active: list[Occupation] = []
+    for occupation in sorted(group, key=lambda occupation: (occupation.begin, occupation.end)):
+        active = [earlier for earlier in active if earlier.end >= occupation.begin]
+        yield from ((earlier, occupation) for earlier in active if earlier.robot != occupation.robot)
+        active.append(occupation)
 
 
-def _open_overlap(one: Stay, other: Stay) -> bool:
+def _open_overlap(one: Occupation, other: Occupation) -> bool:
     return max(one.begin, other.begin) < min(one.end, other.end)
 
 
-def _kind_on_one_element(one: Stay, other: Stay, following: bool) -> str | None:
+def _kind_on_one_element(one: Occupation, other: Occupation, following: bool) -> str | None:
     if not one.moving:
         return "vertex"
     if not _open_overlap(one, other):
@@ -112,12 +112,12 @@ def _kind_on_one_element(one: Stay, other: Stay, following: bool) -> str | None:
     return "following" if following else None
 
 
-def _following(stays: list[Stay]) -> Iterator[Conflict]:
-    around: dict[int, list[Stay]] = defaultdict(list)
-    for stay in stays:
-        if stay.moving:
-            around[stay.tail].append(stay)
-            around[stay.head].append(stay)
+def _following(occupations: list[Occupation]) -> Iterator[Conflict]:
+    around: dict[int, list[Occupation]] = defaultdict(list)
+    for occupation in occupations:
+        if occupation.moving:
+            around[occupation.tail].append(occupation)
+            around[occupation.head].append(occupation)
     for vertex, group in around.items():
         for one, other in _overlapping(group):
             into_and_out = {one.head == vertex, other.head == vertex} == {True, False}
@@ -126,17 +126,17 @@ def _following(stays: list[Stay]) -> Iterator[Conflict]:
                 yield _conflict("following", one, other)
 
 
-def _footprints(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
-    """Rule 5 by brute force over pairs that overlap in time: plain on purpose."""
-    stays = sorted(stays, key=lambda stay: (stay.begin, stay.end))
-    robot, tail, head, begin, end = np.array(stays, np.int64).reshape(-1, 5).T
+def _footprints(problem: Problem, occupations: list[Occupation]) -> Iterator[Conflict]:
+    """Rule 5 by brute force over pairs that overlap in time; simple so that it is easy to verify."""
+    occupations = sorted(occupations, key=lambda occupation: (occupation.begin, occupation.end))
+    robot, tail, head, begin, end = np.array(occupations, np.int64).reshape(-1, 5).T
     moving = tail != head
     position, level = problem.roadmap.position, problem.roadmap.level
     for one, other in _together(begin, end):
         kept = robot[one] != robot[other]
-        # Standing robots meet at a single tick too, moving ones only while both are on their way.
+        # Two standing robots conflict at a single tick too; a moving robot only while both intervals overlap.
         kept &= ~(moving[one] | moving[other]) | ((begin[one] < end[other]) & (begin[other] < end[one]))
-        kept &= moving[one] | moving[other] | (tail[one] != tail[other])  # rule 1 has named it
+        kept &= moving[one] | moving[other] | (tail[one] != tail[other])  # rule 1 covers it
         one, other = one[kept], other[kept]
         levels = [level[ends[pair]] for pair in (one, other) for ends in (tail, head)]
         shared = (
@@ -146,7 +146,7 @@ def _footprints(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
         a, b, c, d = (position[ends[pair]] for pair in (one, other) for ends in (tail, head))
         reach = problem.radius[robot[one]] + problem.radius[robot[other]]
         for index in np.flatnonzero(segment_distance(a, b, c, d) < reach - TOLERANCE).tolist():
-            yield _conflict("footprint", stays[one[index]], stays[other[index]])
+            yield _conflict("footprint", occupations[one[index]], occupations[other[index]])
 
 
 def _together(begin: Int, end: Int, chunk: int = 1 << 18) -> Iterator[tuple[Int, Int]]:
@@ -162,26 +162,26 @@ def _together(begin: Int, end: Int, chunk: int = 1 << 18) -> Iterator[tuple[Int,
         row = until
 
 
-def _crowded(problem: Problem, stays: list[Stay]) -> Iterator[Conflict]:
+def _over_capacity(problem: Problem, occupations: list[Occupation]) -> Iterator[Conflict]:
     """Rule 6 in half ticks: even ones are instants, odd ones lie between, and all intervals are closed."""
     edges = problem.roadmap.edges
     for resource in problem.roadmap.resources:
         parts = {(vertex, vertex) for vertex in resource.vertices} | {tuple(edges[edge]) for edge in resource.edges}
         uses = []
-        for stay in stays:
-            if (stay.tail, stay.head) in parts:
-                first, last = 2 * stay.begin + stay.moving, 2 * stay.end - stay.moving
-                uses.append((first, last + 2 * resource.setup_ticks, stay))
-        holding: dict[int, tuple[int, Stay]] = {}
-        for first, last, stay in sorted(uses, key=lambda use: use[:2]):
+        for occupation in occupations:
+            if (occupation.tail, occupation.head) in parts:
+                first, last = 2 * occupation.begin + occupation.moving, 2 * occupation.end - occupation.moving
+                uses.append((first, last + 2 * resource.setup_ticks, occupation))
+        holding: dict[int, tuple[int, Occupation]] = {}
+        for first, last, occupation in sorted(uses, key=lambda use: use[:2]):
             holding = {robot: (end, since) for robot, (end, since) in holding.items() if end >= first}
-            others = [since for robot, (_, since) in holding.items() if robot != stay.robot]
+            others = [since for robot, (_, since) in holding.items() if robot != occupation.robot]
             if len(others) >= resource.capacity:
-                yield _conflict("resource", max(others, key=lambda other: other.begin), stay)
-            end = max(last, holding[stay.robot][0]) if stay.robot in holding else last
-            holding[stay.robot] = end, stay
+                yield _conflict("resource", max(others, key=lambda other: other.begin), occupation)
+            end = max(last, holding[occupation.robot][0]) if occupation.robot in holding else last
+            holding[occupation.robot] = end, occupation
 
 
-def _conflict(kind: str, one: Stay, other: Stay) -> Conflict:
+def _conflict(kind: str, one: Occupation, other: Occupation) -> Conflict:
     first, second = (one, other) if one.robot < other.robot else (other, one)
     return Conflict(kind, (first.robot, second.robot), (first.tail, first.head), max(one.begin, other.begin))

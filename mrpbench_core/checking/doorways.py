@@ -1,4 +1,4 @@
-"""Whether robots start where doors would hit them."""
+"""Finds robots that start where doors would hit them."""
 
 from collections.abc import Iterator, Sequence
 
@@ -16,17 +16,17 @@ from mrpbench_core.model.world import World
 def check_doorways(
     world: World, roadmap: Roadmap, start: Int, radii: Float, start_names: Sequence[str] = ()
 ) -> list[str]:
-    """The robots that start in a shut door, or where the leaf of a door in use would hit them, one sentence each.
+    """The robots that start in a closed door, or where the leaf of a door in use would hit them, one sentence each.
 
-    A leaf stops before a robot, so who stands in its swing keeps the door from opening. Doors that no edge leads
-    through stay shut: only to be in them is a fault.
+    A leaf stops before it hits a robot, so a robot in its path keeps the door from opening. Doors that no edge passes
+    stay closed: starting inside them is the only fault.
 
     Args:
-        world: whose doors they are.
+        world: has the doors.
         roadmap: says which doors are in use.
-        start: vertices i4[n], -1 = not on the roadmap, which others say.
+        start: vertices i4[n], -1 = not on the roadmap (`check_scenario` reports it).
         radii: of the robots f8[n], metres.
-        start_names: where known, the names of the starts.
+        start_names: names of the starts; where missing or empty, coordinates are shown.
     """
     faults = []
     for robot in np.flatnonzero(start >= 0).tolist():
@@ -42,15 +42,15 @@ def _troubles(world: World, roadmap: Roadmap, level: int, place: Float, radius: 
     used = {resource.name for resource in roadmap.resources}
     for operated in Facilities(world).doors:
         if level in operated.levels:
-            if _meets(_shut_leaves(operated), place, radius):
-                yield f"in the shut door {operated.name}"
-            elif operated.name in used and _meets(swept_areas(operated.door), place, radius):
+            if _touch(_closed_leaves(operated), place, radius):
+                yield f"in the closed door {operated.name}"
+            elif operated.name in used and _touch(swept_areas(operated.door), place, radius):
                 yield f"where the leaf of door {operated.name} opens"
 
 
-def _shut_leaves(operated: OperatedDoor) -> Sequence[Float]:
+def _closed_leaves(operated: OperatedDoor) -> Sequence[Float]:
     return list(wall_boxes(leaf_segments(operated.door, 0.0), operated.door.thickness).reshape(-1, 4, 4)[:, :, :2])
 
 
-def _meets(outlines: Sequence[Float], place: Float, radius: float) -> bool:
+def _touch(outlines: Sequence[Float], place: Float, radius: float) -> bool:
     return any(bool(touches(outline, place, place, radius)[0]) for outline in outlines)

@@ -1,4 +1,4 @@
-"""The navigation graph as it is drawn: its edges, and where it fails to connect what seems connected."""
+"""Finds places where a drawn navigation graph looks connected but is not."""
 
 import numpy as np
 
@@ -7,13 +7,13 @@ from mrpbench_core.model.geometry import point_segment_distance, side
 from mrpbench_core.model.world import World
 
 TOLERANCE = 0.05
-"""metres: a vertex nearer than this to a lane looks as if it lay on it."""
+"""Metres: a vertex closer than this to a lane looks as if it were on the lane."""
 
 Pair = tuple[int, int]
 
 
 def unique_edges(world: World) -> list[Pair]:
-    """The lanes as sorted pairs of vertices, each once; of vertices in one position the last stands for all."""
+    """The lanes as sorted pairs of vertices, each once; the last of several vertices at one position stands for all."""
     last = {(vertex.x, vertex.y, vertex.level): index for index, vertex in enumerate(world.vertices)}
     number = [last[vertex.x, vertex.y, vertex.level] for vertex in world.vertices]
     pairs = {(number[lane.start], number[lane.end]) for lane in world.lanes}
@@ -21,7 +21,7 @@ def unique_edges(world: World) -> list[Pair]:
 
 
 def duplicates(world: World) -> list[tuple[int, ...]]:
-    """Groups of vertices in one position."""
+    """Groups of vertices at one position."""
     groups: dict[tuple[float, float, int], list[int]] = {}
     for index, vertex in enumerate(world.vertices):
         groups.setdefault((vertex.x, vertex.y, vertex.level), []).append(index)
@@ -29,7 +29,7 @@ def duplicates(world: World) -> list[tuple[int, ...]]:
 
 
 def vertices_on_lanes(world: World) -> list[tuple[int, Pair]]:
-    """Vertices that lie on an edge of which they are not an end, with that edge."""
+    """Vertices on an edge that does not end there, with that edge."""
     point, level = _positions(world)
     found = []
     for a, b in unique_edges(world):
@@ -54,7 +54,7 @@ def crossings(world: World) -> list[tuple[Pair, Pair]]:
 
 
 def called(world: World, index: int) -> str:
-    """A vertex by its name, or its position if it has none."""
+    """The name of a vertex, or its position if it has none."""
     vertex = world.vertices[index]
     return vertex.name or f"({vertex.x:.2f}, {vertex.y:.2f})"
 

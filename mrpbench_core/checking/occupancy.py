@@ -1,4 +1,4 @@
-"""A level as a raster: which cells hold something solid."""
+"""Rasterises a level: finds the cells that contain something solid."""
 
 import math
 from typing import Literal
@@ -16,7 +16,7 @@ from mrpbench_core.model.world import Level
 LIMIT = 100_000_000
 """Cells."""
 HAIR = 1e-9
-"""Share of a cell: what only touches the border of a cell is not in it."""
+"""Share of a cell by which something must reach over the border of a cell to be in it."""
 
 
 def rasterise(
@@ -31,13 +31,13 @@ def rasterise(
     Args:
         level: the level.
         cell_size: metres.
-        rule: a cell is blocked when its `centre` lies in something solid, as a vertical ray finds it; or when anything
-            solid reaches into it.
-        origin: of the raster; by default the lower left corner of everything solid.
-        shape: rows and columns; by default as many as reach over everything solid.
+        rule: `centre`: a cell is blocked if its centre lies in something solid, as a vertical ray finds it; `touched`:
+            a cell is blocked if anything solid reaches into it.
+        origin: lower left corner of the raster; by default that of everything solid.
+        shape: rows and columns; by default enough to cover everything solid.
 
     Raises:
-        InputError: it would have more than `LIMIT` cells.
+        InputError: the raster would have more than `LIMIT` cells.
     """
     own = level.occupancy
     outlines = solids(level)
@@ -67,7 +67,7 @@ def rasterise(
 
 
 def bounds(level: Level) -> tuple[Float, Float]:
-    """Lower left and upper right corner of everything solid; of an empty level, the origin twice."""
+    """Lower left and upper right corner of everything solid; both are (0, 0) for an empty level."""
     corners = solids(level)
     if level.occupancy is not None:
         rows, columns = level.occupancy.shape
@@ -77,7 +77,7 @@ def bounds(level: Level) -> tuple[Float, Float]:
 
 
 def _reach(raster: Occupancy, outline: Float) -> tuple[Int, Int]:
-    """First row and column that an outline may reach, and the ones after the last."""
+    """The first row and column that an outline may reach, and the row and column after the last."""
     first = np.clip(raster.cells(outline.min(axis=0))[0], 0, raster.shape)
     last = np.clip(raster.cells(outline.max(axis=0))[0] + 1, 0, raster.shape)
     return first, last

@@ -1,4 +1,4 @@
-"""Gaps between walls and furniture that look like passages but are too narrow for a robot."""
+"""Finds gaps between walls and furniture that look like passages but are too narrow for a robot."""
 
 import attrs
 import numpy as np
@@ -9,15 +9,15 @@ from mrpbench_core.model.arrays import Bool, Float
 from mrpbench_core.model.world import Level
 
 LEAST = 1 / 3
-"""Share of the width: what is narrower than this nobody takes for a passage."""
+"""Share of the width below which a gap does not look like a passage."""
 FAR = 2.0
-"""metres from a gap to where a robot must fit on both sides, for the gap to be a passage."""
+"""Metres from a gap within which a robot must fit on both sides, for the gap to be a passage."""
 _STEPS = 20
 
 
 @attrs.frozen
 class Passage:
-    """The narrowest place between two solids."""
+    """The narrowest place between two outlines."""
 
     x: float
     y: float
@@ -26,10 +26,10 @@ class Passage:
 
 
 def narrow_passages(level: Level, width: float) -> list[Passage]:
-    """Passages narrower than `width` metres between walls and obstacles, by width; a raster has none.
+    """Passages narrower than `width` metres between walls and obstacles, the narrowest first.
 
-    A gap is a passage when a robot of that width fits on both sides of it and could drive straight through, were it
-    wider.
+    A gap is a passage if a robot of that width fits on both sides and could drive straight through a wider gap. Blocked
+    cells of a raster are ignored.
     """
     outlines = solids(level)
     if len(outlines) < 2:
@@ -59,7 +59,7 @@ def _gap(one: Float, other: Float) -> Float:
 
 
 def _nearest(corners: Float, outline: Float) -> tuple[Float, Float]:
-    """The corner that is nearest to the sides of an outline, and the point there."""
+    """The corner that is nearest to the sides of an outline, and the nearest point on a side."""
     along = np.roll(outline, -1, axis=0) - outline
     offset = corners[:, None] - outline
     squared = (along * along).sum(axis=-1)
@@ -70,7 +70,7 @@ def _nearest(corners: Float, outline: Float) -> tuple[Float, Float]:
 
 
 def _leads_through(level: Level, gaps: Float, width: float) -> Bool:
-    """bool[k]: whether nothing else is in a gap f8[k,2,2] and a robot fits on both sides of it."""
+    """bool[k]: whether a gap f8[k,2,2] is empty and a robot fits on both sides."""
     middle, across = gaps.mean(axis=1), gaps[:, 1] - gaps[:, 0]
     ahead = across[:, ::-1] * (-1.0, 1.0) / np.hypot(*across.T)[:, None]
     inside = 0.01 * across

@@ -1,4 +1,4 @@
-"""Validates a plan against its problem, without using the code of any planner or dispatcher."""
+"""Validates a plan against its problem, without code of planners or dispatchers."""
 
 import attrs
 import numpy as np
@@ -13,18 +13,26 @@ class PlanReport:
     """What is wrong with a plan."""
 
     faults: tuple[str, ...] = ()
-    """Paths that are not paths of this problem: one sentence each."""
+    """Why paths are not paths of this problem, one sentence each."""
     conflicts: tuple[Conflict, ...] = ()
-    """Pairs of robots in one another's way; empty if there are faults."""
+    """Conflicts between robots; not searched for, so empty, if there are faults."""
 
     @property
     def valid(self) -> bool:
-        """True when there is neither fault nor conflict."""
+        """True if there are neither faults nor conflicts."""
         return not self.faults and not self.conflicts
 
 
 def check_plan(problem: Problem, plan: Plan, conflict_limit: int | None = None) -> PlanReport:
-    """Check every path and, if all are sound, every pair of robots; keeps `conflict_limit` conflicts, None = all."""
+    """Check every path and, if none has a fault, every pair of robots.
+
+    All rules of `mrpbench_core.model.conflicts` are checked, resources included; headings of vertices are not.
+
+    Args:
+        problem: what was planned.
+        plan: what to check.
+        conflict_limit: the number of conflicts to report, the earliest first; None = all.
+    """
     if len(plan.paths) != len(problem):
         return PlanReport(faults=(f"{len(plan.paths)} paths for {len(problem)} robots",))
     faults = [
@@ -38,7 +46,7 @@ def check_plan(problem: Problem, plan: Plan, conflict_limit: int | None = None) 
 
 
 def path_fault(problem: Problem, robot: int, path: Path) -> str | None:
-    """The first thing wrong with one path, or None."""
+    """The first fault of one path, or None."""
     if not len(path.edge) == len(path.enter) == len(path.leave):
         return "edge, enter and leave differ in length"
     if ((path.edge < -1) | (path.edge >= len(problem.roadmap.edges))).any():
@@ -69,7 +77,7 @@ def _move_fault(problem: Problem, robot: int, path: Path) -> str | None:
         return f"jumps to another vertex at segment {segment}"
     hasty = path.leave[moves] - path.enter[moves] < duration
     if hasty.any():
-        return f"segment {int(moves[hasty][0])} is quicker than its edge allows"
+        return f"segment {int(moves[hasty][0])} is shorter than the duration of its edge"
     if len(moves) and path.enter[moves[0]] < problem.ready[robot]:
         return f"moves at tick {path.enter[moves[0]]}, before it is ready at {problem.ready[robot]}"
     if problem.commitments:
@@ -89,6 +97,6 @@ def _goal_fault(problem: Problem, robot: int, vertices: np.ndarray) -> str | Non
         return f"ends at vertex {vertices[-1]} instead of its goal {' or '.join(map(str, sequence[-1]))}"
     position = 0
     for vertex in vertices:
-        while position < len(sequence) and vertex in sequence[position]:  # one visit serves equal goals in a row
+        while position < len(sequence) and vertex in sequence[position]:  # one visit counts for equal goals in a row
             position += 1
     return None if position == len(sequence) else f"does not visit goal {position} of its sequence in order"

@@ -1,4 +1,4 @@
-"""Tells whether what a planner returned is a result at all; `check_plan` then looks at its paths."""
+"""Checks the types of what a planner returned; `check_plan` then checks its paths."""
 
 import numbers
 from collections.abc import Mapping
@@ -7,15 +7,15 @@ from typing import Any
 from mrpbench_core.model.plan import AnytimePoint, Path, Plan, PlanResult, PlanStatus
 
 RETURNED = tuple(status for status in PlanStatus if status != PlanStatus.UNKNOWN)
-"""What a planner may say."""
+"""The statuses that a planner may return."""
 
 
 def result_fault(result: Any) -> str | None:
-    """The first thing of a wrong type in what a planner returned, or None."""
+    """The first fault in the types of what a planner returned, or None."""
     if not isinstance(result, PlanResult):
         return f"returned {_kind(result)} instead of a PlanResult"
     if result.status not in RETURNED:
-        return f"returned the status {str(result.status)[:40]!r}, which does not exist"
+        return f"returned the status {str(result.status)[:40]!r}, which is not one a planner may return"
     if result.plan is not None and (fault := _plan_fault(result.plan)):
         return fault
     if not isinstance(result.lower_bound, numbers.Real):
@@ -45,7 +45,7 @@ def _plan_fault(plan: Any) -> str | None:
 
 
 def _kind(value: Any) -> str:
-    """A value in a few words."""
+    """A short description of a value."""
     if value is None:
         return "None"
     return f"the class {value.__name__}" if isinstance(value, type) else f"a value of type {type(value).__name__}"

@@ -1,4 +1,4 @@
-"""Who can get where on a roadmap, without the code of any planner."""
+"""Finds which vertices of a roadmap robots can reach, without code of planners."""
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from mrpbench_core.model.roadmap import Roadmap
 
 
 def reachable(roadmap: Roadmap, profile: int, source: int) -> Bool:
-    """Which vertices bool[V] a robot of a motion profile can reach from `source` (itself included)."""
+    """Tell bool[V] which vertices a robot of a motion profile can reach from `source` (included)."""
     edges = _usable(roadmap, profile)
     order = np.argsort(edges[:, 0], kind="stable")
     first = np.searchsorted(edges[order, 0], np.arange(len(roadmap.position) + 1))
@@ -25,7 +25,7 @@ def reachable(roadmap: Roadmap, profile: int, source: int) -> Bool:
 
 
 def round_trips(roadmap: Roadmap, profile: int) -> Int:
-    """Label i8[V] of each vertex: equal where robots of a motion profile can drive there *and back*."""
+    """Label i8[V] of each vertex: equal for vertices between which a motion profile can drive both ways."""
     edges = _usable(roadmap, profile)
     count = len(roadmap.position)
     forth = np.sort(edges[:, 0].astype(np.int64) * count + edges[:, 1])
@@ -44,7 +44,7 @@ def _usable(roadmap: Roadmap, profile: int) -> Int32:
 
 
 def _rows(first: Int, rows: Int) -> Int:
-    """The positions of all elements of some rows of a compressed sparse matrix."""
+    """The indices of all elements of some rows of a compressed sparse matrix."""
     counts = first[rows + 1] - first[rows]
     skipped = np.cumsum(counts) - counts
     positions: Int = np.repeat(first[rows] - skipped, counts) + np.arange(counts.sum())

@@ -1,4 +1,4 @@
-"""Validates a recording against what its channels mean; see `mrpbench_core.model.recording`."""
+"""Validates a recording; `mrpbench_core.model.recording` says what its channels mean."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -10,7 +10,7 @@ from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.recording import PERIODIC
 
 WIDTH = {"truth": 3, "truth_twist": 2, "estimate": 3, "odometry": 5, "command": 2}
-"""Numbers per robot and sample; the other periodic channels have one."""
+"""Numbers for each robot and sample; other periodic channels have one."""
 TIMES = {
     "contact_time": ("contact",),
     "scan_time": ("scan_robot", "scan_ranges"),
@@ -19,19 +19,19 @@ TIMES = {
 }
 """Channels with a time axis of their own."""
 SLACK = 1.5
-"""How many times its limit a robot may appear to exceed: physics pushes robots, and drops them into place."""
+"""Factor by which a robot may exceed its speed limit: physics pushes robots, and drops them into place."""
 NUDGE = 0.02
-"""metres a robot may move between two samples in any case."""
+"""Metres that a robot may always move between two samples."""
 
 Channels = Mapping[str, NDArray[Any]]
 
 
 def check_recording(channels: Channels, fleet: Fleet) -> list[str]:
-    """What is wrong with a recording, one sentence each; at most one for each robot, channel and rule.
+    """The faults of a recording, one sentence each; at most one for each robot, channel and rule.
 
-    Times increase; shapes fit the fleet; poses and commands are finite; `released`, `reached` and `cleared` never
-    decrease, nothing is reached before it is released, and no start vertex is cleared before the segment to it is
-    reached; no robot jumps farther than its speed allows.
+    In a valid recording, times increase and shapes match the fleet; poses and commands are finite; `released`,
+    `reached` and `cleared` never decrease; a robot reaches only segments that are released, and clears the start of a
+    segment only after it has reached that vertex; no robot moves faster than its speed limit allows.
     """
     if "time" not in channels:
         return ["has no channel time"]
@@ -65,7 +65,7 @@ def _axes(channels: Channels) -> Iterator[str]:
         elif name == "time" and (np.diff(values) <= 0).any():
             yield f"time does not increase after {values[int((np.diff(values) <= 0).argmax())]:g} s"
         elif (np.diff(values) < 0).any():
-            yield f"{name} runs backward after {values[int((np.diff(values) < 0).argmax())]:g} s"
+            yield f"{name} decreases after {values[int((np.diff(values) < 0).argmax())]:g} s"
 
 
 def _finite(channels: Channels) -> Iterator[str]:
@@ -84,10 +84,10 @@ def _order(channels: Channels) -> Iterator[str]:
             )
     if "released" in channels and "reached" in channels:
         early = channels["reached"] > channels["released"]
-        yield from _first(early, time, "robot {robot} reached at {time:g} s what was not released")
+        yield from _first(early, time, "robot {robot} reached a segment at {time:g} s that was not released")
     if "reached" in channels and "cleared" in channels:
         early = channels["cleared"] > channels["reached"] + 1
-        yield from _first(early, time, "robot {robot} cleared at {time:g} s what it had not reached")
+        yield from _first(early, time, "robot {robot} cleared a segment at {time:g} s that it had not reached")
 
 
 def _indices(channels: Channels, robots: int) -> Iterator[str]:
@@ -109,10 +109,10 @@ def _jumps(channels: Channels, fleet: Fleet) -> Iterator[str]:
     moved = np.hypot(*np.moveaxis(np.diff(truth[..., :2], axis=0), -1, 0))
     limit = np.array([robot.max_speed for robot in fleet.robots])
     far = moved > SLACK * np.diff(time)[:, None] * limit + NUDGE
-    yield from _first(far, time[1:], "robot {robot} jumps at {time:g} s, faster than it can drive")
+    yield from _first(far, time[1:], "robot {robot} moves at {time:g} s faster than its speed limit allows")
 
 
 def _first(bad: NDArray[np.bool_], time: NDArray[Any], sentence: str) -> Iterator[str]:
-    """The first sample at which each robot is bad, in words."""
+    """The first bad sample of each robot, in words."""
     for robot in np.flatnonzero(bad.any(axis=0)).tolist():
         yield sentence.format(robot=robot, time=time[int(bad[:, robot].argmax())])

@@ -1,4 +1,4 @@
-"""Finds what makes a scenario impossible for every planner, before any is asked."""
+"""Finds faults that make a scenario impossible for every planner, before one is called."""
 
 from collections.abc import Iterator, Sequence
 
@@ -12,11 +12,11 @@ from mrpbench_core.model.roadmap import Roadmap
 
 
 def check_scenario(problem: Problem, start_names: Sequence[str] = (), goal_names: Sequence[str] = ()) -> list[str]:
-    """What is wrong with starts and goals, one sentence each, naming robots and places.
+    """The faults of starts and goals, one sentence each, with the names of robots and places.
 
-    Two robots that start on one vertex or (with the feature `footprints`) closer than the sum of their radii; the same
-    for final goals where robots stay; places that are not on the roadmap (vertex -1); goals that a robot's motion
-    profile cannot reach from its start in order.
+    Faults are: two robots that start on one vertex or (with the feature `footprints`) closer than the sum of their
+    radii; the same for final goals where robots stay; places that are not on the roadmap (vertex -1); goals that a
+    robot's motion profile cannot reach from its start in order.
 
     Args:
         problem: may hold -1 for a start or goal that is not on the roadmap.
@@ -28,21 +28,27 @@ def check_scenario(problem: Problem, start_names: Sequence[str] = (), goal_names
         f"robot {robot} starts at {starts[robot]}, which is not on the roadmap"
         for robot in np.flatnonzero(problem.start < 0).tolist()
     ]
-    faults += _crowding(problem, starts, "both start at", "start at")
+    faults += _too_close(problem, starts, "both start at", "start at")
     if problem.rules.at_goal == "stay":
-        faults += _crowding(problem, goals, "share the goal", "have the goals")
+        faults += _too_close(problem, goals, "share the goal", "have the goals")
     return [*faults, *_unreachable(problem, starts, goals)]
 
 
 def check_reach(problem: Problem, start_names: Sequence[str] = (), goal_names: Sequence[str] = ()) -> list[str]:
-    """Of what `check_scenario` finds, the goals that robots cannot reach from their starts."""
+    """The goals that robots cannot reach from their starts: a part of what `check_scenario` finds."""
     return list(_unreachable(problem, *_places(problem, start_names, goal_names)))
 
 
 def check_travel(costs: Float, start_names: Sequence[str] = (), goal_names: Sequence[str] = ()) -> list[str]:
-    """What no assignment can mend, given true travel times `costs` f8[n,m] (inf = no way), one sentence each.
+    """Robots and tasks that no assignment can serve, one sentence each.
 
-    Robots that can reach no task, where every robot needs one; tasks that no robot can reach, where each is to be done.
+    Robots that can reach no task count if there are at least as many tasks as robots, tasks that no robot can reach if
+    there are at least as many robots as tasks.
+
+    Args:
+        costs: true travel times f8[n,m], inf = no way.
+        start_names: see `check_scenario`.
+        goal_names: names of the tasks' goals.
     """
     reach = np.isfinite(costs)
     robots, tasks = costs.shape
@@ -80,13 +86,13 @@ class _Places:
 
 
 def _final(problem: Problem, robot: int) -> int:
-    """The one vertex at which a robot must end, -1 if it has a choice."""
+    """The vertex at which a robot must end, -1 if it may choose."""
     sequence = problem.goals[robot]
     return sequence[-1][0] if sequence and len(sequence[-1]) == 1 else -1
 
 
-def _crowding(problem: Problem, places: _Places, same: str, near: str) -> Iterator[str]:
-    """Pairs of robots that stand on one vertex, or whose discs overlap."""
+def _too_close(problem: Problem, places: _Places, same: str, near: str) -> Iterator[str]:
+    """Pairs of robots on one vertex, or with overlapping discs."""
     known = np.flatnonzero(places.vertex >= 0)
     vertex = places.vertex[known]
     position, level = problem.roadmap.position[vertex], problem.roadmap.level[vertex]
@@ -128,7 +134,7 @@ def _unreachable(problem: Problem, starts: _Places, goals: _Places) -> Iterator[
 
 
 class _Reach:
-    """Answers who can get where; searches only where driving there does not imply driving back."""
+    """Tells whether a vertex can be reached; searches only if the two vertices are not connected both ways."""
 
     def __init__(self, roadmap: Roadmap) -> None:
         self._roadmap = roadmap

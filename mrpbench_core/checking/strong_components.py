@@ -1,18 +1,18 @@
-"""Cycles of a directed graph: Tarjan, "Depth-first search and linear graph algorithms", SIAM J. Computing 1972."""
+"""Strongly connected components: Tarjan, "Depth-first search and linear graph algorithms", SIAM J. Computing 1972."""
 
 from collections.abc import Iterator
 
 
 def strong_components(before: list[int], after: list[int]) -> list[tuple[int, ...]]:
-    """Sets of nodes that reach one another along arcs `before[i] -> after[i]`, in order; those of one node left out."""
+    """The sorted components of at least two nodes, of a graph with arcs `before[i] -> after[i]`."""
     next_of: dict[int, list[int]] = {}
     for one, other in zip(before, after, strict=True):
         next_of.setdefault(one, []).append(other)
     number: dict[int, int] = {}
     lowest: dict[int, int] = {}
-    open_nodes: dict[int, None] = {}  # a stack that can tell quickly what is on it
+    open_nodes: dict[int, None] = {}  # a stack with quick look-up
     found = []
-    trail: list[tuple[int, Iterator[int]]] = []  # instead of recursion, which a long train of robots would exhaust
+    trail: list[tuple[int, Iterator[int]]] = []  # instead of recursion, which a long convoy of robots would exhaust
 
     def enter(node: int) -> None:
         number[node] = lowest[node] = len(number)

@@ -1,4 +1,4 @@
-"""Finds those of many boxes that are near another box."""
+"""Finds the boxes, among many, that may overlap a given box."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from mrpbench_core.model.arrays import Float, Int
 
 
 class Tiles:
-    """Boxes from `low` to `high` f8[k,2], filed by the tile that holds their lower left corner."""
+    """Boxes from `low` to `high` f8[k,2], indexed by the tile that contains their lower left corner."""
 
     def __init__(self, low: Float, high: Float) -> None:
         self._widest = (high - low).max(axis=0, initial=0.0)
@@ -23,8 +23,8 @@ class Tiles:
         return key
 
     def __call__(self, least: Float, most: Float) -> Int:
-        """Indices of the boxes that may meet the box from `least` to `most`, and some more."""
-        # a hair lower: where rounding makes a box wider than `widest`, its tile lies one before
+        """Indices of all boxes that overlap the box from `least` to `most`, and of some others."""
+        # slightly lower: if rounding makes a box wider than `widest`, its tile is the one before
         first = np.maximum(np.floor((least - self._widest) / self._size - 1e-9).astype(np.int64), self._first)
         last = np.minimum(np.floor(most / self._size).astype(np.int64), self._last)
         if (first > last).any():

@@ -45,7 +45,7 @@ class Exclusions(NamedTuple):
 
 
 def exclusions(roadmap: Roadmap, distance: float) -> Exclusions:
-    """Find all pairs of elements of one level closer than `distance` metres (rule 5), both ways round."""
+    """Find all pairs of elements of one level closer than `distance` metres (rule 5), each in both orders."""
     vertices = np.arange(len(roadmap.position))
     start = np.concatenate([vertices, roadmap.edges[:, 0]]).astype(np.int64)
     end = np.concatenate([vertices, roadmap.edges[:, 1]]).astype(np.int64)

@@ -1,4 +1,4 @@
-"""Conformance kit for plugin authors: what every plugin of a kind must keep, as one suite for each kind.
+"""Conformance kit for plugin authors: for each kind of plugin, a suite of checks that every plugin must pass.
 
 In pytest, subclass the suite and return your component from `make`:
 
@@ -8,8 +8,14 @@ In pytest, subclass the suite and return your component from `make`:
         def make(self):
             return Mine()
 
-`mrpbench check NAME` runs the same checks and needs no pytest. Hypothesis strategies for tests of your own are in
-`mrpbench_core.testing.strategies`, problems drawn as text in `mrpbench_core.testing.drawing`.
+`mrpbench check NAME` runs the same checks without pytest. For tests of your own:
+
+- `strategies`: Hypothesis strategies for roadmaps, problems, plans, fleets and scenarios;
+- `drawing`: problems drawn as text;
+- `instances`: named problems, and random ones drawn with NumPy;
+- `oracles`: the optimum by brute force, and a judge of planners' answers;
+- `execution`: robots that execute plans with delays, and grants of resources;
+- `fixtures`: worlds, robots and finished runs.
 """
 
 from mrpbench_core.testing.checks import Check, failed_checks, run_checks

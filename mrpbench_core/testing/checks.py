@@ -16,13 +16,13 @@ class Check:
     """The outcome of one check."""
 
     name: str
-    """What holds if it is ok, as a sentence."""
+    """What the component does if the check is ok, in words."""
     outcome: Literal["ok", "failed", "skipped"]
     reason: str = ""
 
 
 def run_checks(suite: ComponentConformance) -> Iterator[Check]:
-    """Run every check of a suite, those of all kinds first, in the order of the source."""
+    """Run every check of a suite in the order of the source, beginning with the checks of all kinds."""
     for method in methods(type(suite)):
         name = method.removeprefix("test_").replace("_", " ")
         try:
@@ -31,7 +31,7 @@ def run_checks(suite: ComponentConformance) -> Iterator[Check]:
             yield Check(name, "skipped", str(skip))
         except (Fault, InputError) as fault:
             yield Check(name, "failed", str(fault))
-        except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a plugin raises is a finding
+        except (Exception, SystemExit) as error:  # noqa: BLE001 - any exception of a plugin is a fault
             last = traceback.extract_tb(error.__traceback__)[-1]
             yield Check(name, "failed", f"raises {one_line(error)} ({last.filename}:{last.lineno})")
         else:

@@ -1,11 +1,11 @@
-"""Problems drawn as text: short to write, and seen at a glance.
+"""Problems drawn as text.
 
 `problem(\"\"\"
     a  .  B
     .  #  .
     b  .  A
 \"\"\")` is two robots on a four-connected grid of cells of 1 m around a block. A small letter is a robot's start, the
-capital its goal; `aB` is both; several cells with one capital are a goal set. Letters are robots in order.
+capital its goal; `aB` is both; several cells with one capital are a goal set. Robots are in the order of their letters.
 """
 
 from collections.abc import Iterable

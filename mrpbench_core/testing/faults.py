@@ -1,12 +1,12 @@
-"""How a check says that something is wrong, or that it does not apply."""
+"""What checks raise: a fault, or that the check does not apply."""
 
 from unittest import SkipTest
 
 Skip = SkipTest
-"""Raised where a check does not apply; pytest knows it too."""
+"""Raised where a check does not apply; pytest reports it as skipped."""
 
 
-class Fault(AssertionError):  # noqa: N818 - what is at fault is the component
+class Fault(AssertionError):  # noqa: N818 - the fault is the component's
     """What is wrong with a component, in one sentence."""
 
 

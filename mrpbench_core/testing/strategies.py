@@ -1,4 +1,4 @@
-"""Hypothesis strategies: grids and roadmaps, fleets, problems, plans, scenarios. Small by default, and they shrink.
+"""Hypothesis strategies for grids and roadmaps, problems, plans, fleets and scenarios, small by default.
 
 Needs Hypothesis: `pip install hypothesis`.
 """
@@ -32,7 +32,7 @@ def grids(draw: st.DrawFn, most_rows: int = 4, most_columns: int = 5, walls: boo
 
 @st.composite
 def roadmaps(draw: st.DrawFn, most_rows: int = 4, most_columns: int = 5, most_ticks: int = 3) -> Roadmap:
-    """Grids whose steps take up to `most_ticks` ticks, and some of which are closed one way."""
+    """Grids whose edges take up to `most_ticks` ticks, some of them closed in one direction."""
     drawn = draw(grids(most_rows, most_columns))
     ticks = st.sampled_from([*range(1, most_ticks + 1), -1])
     count = len(drawn.edges)
@@ -55,7 +55,7 @@ def problems(
     most_robots: int = 4,
     features: frozenset[Feature] = frozenset(),
 ) -> Problem:
-    """Robots with distinct starts, and distinct goals, on a roadmap; not every one has a solution.
+    """Robots with distinct starts and distinct goals on a roadmap; not every problem has a plan.
 
     Args:
         draw: from Hypothesis.
@@ -87,7 +87,7 @@ def problems(
 
 @st.composite
 def plans(draw: st.DrawFn, most_robots: int = 4, most_ticks: int = 8) -> tuple[Problem, Plan]:
-    """A problem on a grid, and a plan of it without conflicts: robots that walked about and call it their goal."""
+    """A problem on a grid and a plan without conflicts: a random walk, whose ends become the goals."""
     roadmap = draw(grids())
     vertices = range(len(roadmap.position))
     starts = draw(st.permutations(vertices))[: draw(st.integers(1, min(most_robots, len(vertices))))]
@@ -102,7 +102,7 @@ def plans(draw: st.DrawFn, most_robots: int = 4, most_ticks: int = 8) -> tuple[P
         here = {route[-1]: robot for robot, route in enumerate(routes)}
         for robot, route in enumerate(routes):
             wanted = draw(st.sampled_from(neighbours[route[-1]]))
-            # A vertex is free when nobody stands there now: no robot need know what a later one will choose.
+            # A vertex counts as free only if no robot stands there now, since later robots have not chosen yet.
             free = wanted not in taken and here.get(wanted, robot) == robot
             taken[wanted if free else route[-1]] = robot
         for vertex, robot in taken.items():

@@ -9,17 +9,18 @@ import pytest
 from mrpbench_core.model.plan import Path
 from mrpbench_core.model.problem import Problem, features_of
 from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.testing.instances.roadmaps import two_way, two_way_grid
+from mrpbench_core.testing.instances.roadmaps import roadmap, two_way_grid
 
 
-def roadmap(points, pairs, ticks=1, level=0) -> Roadmap:
-    """Two-way lanes `pairs` between `points`, all of `ticks`."""
-    return two_way(points, pairs, ticks, level=level)
+def two_way(points, pairs, ticks=1, level=0) -> Roadmap:
+    """Two-way lanes `pairs` between `points`; all of `ticks`, or each edge of its own."""
+    return roadmap(points, [edge for a, b in pairs for edge in ((a, b), (b, a))], ticks, level=level)
 
 
 def grid(rows: int, columns: int, ticks=1) -> Roadmap:
     """A four-connected unit grid; vertex = row * columns + column."""
-    return two_way_grid(rows, columns, duration=ticks)
+    made = two_way_grid(rows, columns)
+    return attrs.evolve(made, duration=np.broadcast_to(ticks, made.duration.shape))
 
 
 def path(roadmap: Roadmap, *steps) -> Path:
@@ -45,5 +46,5 @@ def problem(roadmap: Roadmap, starts, goals=None, features=frozenset(), radius=0
 
 @pytest.fixture(scope="session")
 def make() -> SimpleNamespace:
-    """The functions of this file."""
-    return SimpleNamespace(roadmap=roadmap, grid=grid, path=path, problem=problem)
+    """Return functions that build them."""
+    return SimpleNamespace(roadmap=two_way, grid=grid, path=path, problem=problem)

@@ -30,7 +30,7 @@ def faults(door, place, used=True, level=0, radius=0.1):
 @pytest.mark.parametrize(
     ("place", "found"),
     [
-        ("in it", ["robot 0 starts at in it, in the shut door ward"]),
+        ("in it", ["robot 0 starts at in it, in the closed door ward"]),
         ("in the swing", ["robot 0 starts at in the swing, where the leaf of door ward opens"]),
         ("beyond the swing", []),
         ("below", []),
@@ -43,7 +43,7 @@ def test_who_starts_in_a_door_or_in_its_swing_is_named(place, found):
 def test_a_door_that_slides_or_is_not_in_use_opens_in_nobodys_way():
     assert faults(attrs.evolve(HINGED, motion="sliding"), "in the swing") == []
     assert faults(HINGED, "in the swing", used=False) == []
-    assert faults(HINGED, "in it", used=False) == ["robot 0 starts at in it, in the shut door ward"]
+    assert faults(HINGED, "in it", used=False) == ["robot 0 starts at in it, in the closed door ward"]
 
 
 def test_larger_robots_reach_farther_and_other_levels_do_not():

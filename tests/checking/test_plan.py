@@ -41,7 +41,7 @@ def test_a_sound_path_has_no_fault(make, lane):
         ({"enter": [0, 1, 0], "leave": [1, 0, 4]}, "segment 1 ends before it begins"),
         ({"edge": [2, -1, 2]}, "starts at vertex 1 instead of 0"),
         ({"edge": [0, -1, 4]}, "jumps to another vertex at segment 2"),
-        ({"leave": [1, 3, 3]}, "segment 2 is quicker than its edge allows"),
+        ({"leave": [1, 3, 3]}, "segment 2 is shorter than the duration of its edge"),
     ],
 )
 def test_each_fault_of_a_path_is_named(make, lane, change, said):
@@ -58,7 +58,7 @@ def test_a_slow_edge_must_be_given_its_time(make):
     slow = make.grid(1, 2, ticks=3)
     asked = make.problem(slow, [0], goals=(((1,),),))
     assert fault(asked, make.path(slow, (0, 1, 3))) is None
-    assert fault(asked, make.path(slow, (0, 1, 2))) == "segment 0 is quicker than its edge allows"
+    assert fault(asked, make.path(slow, (0, 1, 2))) == "segment 0 is shorter than the duration of its edge"
 
 
 def test_each_robot_is_held_to_its_own_profile(make, lane):
@@ -68,7 +68,7 @@ def test_each_robot_is_held_to_its_own_profile(make, lane):
     other = attrs.evolve(quick, profile=[1])
     assert fault(other, make.path(two, (0, 1, 2))) == "uses edge 0, which its motion profile forbids"
     back = attrs.evolve(other, start=[1], goals=(((0,),),))
-    assert fault(back, make.path(two, (1, 0, 1))) == "segment 0 is quicker than its edge allows"
+    assert fault(back, make.path(two, (1, 0, 1))) == "segment 0 is shorter than the duration of its edge"
     assert fault(back, make.path(two, (1, 0, 2))) is None
 
 

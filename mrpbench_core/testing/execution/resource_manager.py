@@ -1,4 +1,4 @@
-"""Grants resources to robots: when chance allows, and with interruptions, as a lift on its way does."""
+"""Grants resources to robots at random times and with interruptions, as a lift between levels does."""
 
 import numpy as np
 

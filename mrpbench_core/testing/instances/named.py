@@ -1,4 +1,4 @@
-"""A fixed set of small problems: what every planner must master, and one or more for each feature it may support."""
+"""Small named problems: some for every planner, and at least one for each feature that a planner may support."""
 
 from collections.abc import Callable
 
@@ -29,7 +29,7 @@ CONVOY = "b  a  .  B  A"
 
 
 def one_way() -> Problem:
-    """Lanes to the left are closed below, those to the right above: robots must go round."""
+    """Only the lower row leads to the right and only the upper row to the left, so that robots drive in a circle."""
     drawn = problem("""
         .   a  B
         bA  .  .
@@ -59,14 +59,14 @@ def profiles() -> Problem:
 
 
 def commitments() -> Problem:
-    """The first robot is on its way already, the second has broken down for three ticks."""
+    """The first robot has begun its path, the second cannot move for three ticks."""
     drawn = problem(CROSSING)
     down = edge_between(drawn, (1.5, 2.5), (1.5, 1.5))
     return problem(CROSSING, ready=[0, 3], commitments=(unit_path([down]), unit_path([])))
 
 
 def goal_sequences() -> Problem:
-    """The first robot must first visit the other end."""
+    """The robot must visit the left end before its goal."""
     drawn = problem(". a . A")
     return problem(". a . A", goals=(((0,), drawn.goals[0][0]),))
 
@@ -80,7 +80,7 @@ def resources() -> Problem:
 
 
 def headings() -> Problem:
-    """One vertex prescribes a yaw."""
+    """A roadmap with a vertex that prescribes a yaw."""
     line = grid(1, 3)
     return problem("a . A", roadmap=attrs.evolve(line, heading=np.array([np.nan, 0.0, np.nan])))
 
@@ -133,15 +133,15 @@ _UNSOLVABLE: dict[str, Callable[[], Problem]] = {
 
 
 def solvable() -> dict[str, Problem]:
-    """Problems with a solution, by name."""
+    """Problems with a plan, by name."""
     return {name: make() for name, make in _SOLVABLE.items()}
 
 
 def choices() -> dict[str, Problem]:
-    """Problems in which a planner that assigns chooses who goes where."""
+    """Problems in which a planner that assigns chooses the goal of each robot, by name."""
     return {name: make() for name, make in _CHOICES.items()}
 
 
 def unsolvable() -> dict[str, Problem]:
-    """Problems without one."""
+    """Problems without a plan, by name."""
     return {name: make() for name, make in _UNSOLVABLE.items()}

@@ -1,7 +1,7 @@
 """Roadmaps of tests: from points and edges, or drawn as rows of text."""
 
 from collections.abc import Sequence
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -63,10 +63,12 @@ def grid_of(rows: Sequence[str]) -> Roadmap:
 
 
 def path_through(road: Roadmap, vertices: Sequence[int]) -> Path:
-    """A path of one tick for each step through `vertices`; a repeated vertex is a wait."""
+    """A path through `vertices`, each edge in its duration; a repeated vertex is a wait of one tick."""
     index = {(tail, head): edge for edge, (tail, head) in enumerate(road.edges.tolist())}
     steps = [index[a, b] if a != b else -1 for a, b in pairwise(map(int, vertices))]
-    return timed_path(steps, range(len(steps)), range(1, len(steps) + 1))
+    ticks = [1 if edge < 0 else int(road.duration[0, edge]) for edge in steps]
+    times = [0, *accumulate(ticks)]
+    return timed_path(steps, times[:-1], times[1:])
 
 
 def timed_path(edge: Sequence[int], enter: Sequence[int], leave: Sequence[int]) -> Path:

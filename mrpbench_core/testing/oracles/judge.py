@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from mrpbench_core.api.planner import Planner, Promise
-from mrpbench_core.engine.planning import judge
+from mrpbench_core.engine.stages.judge import judge
 from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.testing.faults import require

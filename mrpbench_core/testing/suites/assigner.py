@@ -1,4 +1,4 @@
-"""What every assigner must keep."""
+"""Checks that every assigner must pass."""
 
 from collections.abc import Iterator
 from itertools import permutations
@@ -25,10 +25,10 @@ class AssignerConformance(ComponentConformance):
         raise NotImplementedError("define make(self) and return the assigner to check")
 
     def value(self, paid: Float) -> float:
-        """The objective of an assignment whose pairs cost `paid`. Override it for an objective of your own."""
+        """The objective of an assignment whose pairs cost `paid`. Override it for another objective."""
         objective = getattr(self.make(), "objective", "sum")
         if objective not in ("sum", "bottleneck"):
-            raise Skip(f"objective {objective!r} is not known here: override `value` in a subclass of this suite")
+            raise Skip(f"objective {objective!r} is unknown to this suite: override `value` in a subclass")
         return float(paid.sum() if objective == "sum" else paid.max(initial=-INF if len(paid) else 0.0))
 
     def test_gives_each_task_to_one_robot(self) -> None:
@@ -40,7 +40,7 @@ class AssignerConformance(ComponentConformance):
     def test_gives_the_same_assignment_again(self) -> None:
         for name, problem in problems():
             one, other = assigned(self.make(), problem), assigned(self.make(), problem)
-            require((one.task == other.task).all(), f"{name}: assigns differently the second time")
+            require((one.task == other.task).all(), f"{name}: returns another assignment the second time")
 
     def test_avoids_what_is_forbidden(self) -> None:
         assigner = self.reading_costs()
@@ -56,8 +56,10 @@ class AssignerConformance(ComponentConformance):
             value = self.value(problem.costs[rows, found.task[rows]])
             best = min(self.value(paid) for paid in assignments(problem.costs))
             close = 1e-6 * max(1.0, abs(best))
-            require(value <= best + close, f"{name}: its assignment is worth {value:g}, the best {best:g}")
-            require(abs(found.cost - value) <= close, f"{name}: says {found.cost:g} of an assignment worth {value:g}")
+            require(value <= best + close, f"{name}: its assignment costs {value:g}, the best costs {best:g}")
+            require(
+                abs(found.cost - value) <= close, f"{name}: says {found.cost:g} for an assignment that costs {value:g}"
+            )
 
     def test_raises_an_assignment_error_when_nothing_is_feasible(self) -> None:
         assigner = self.reading_costs()
@@ -67,17 +69,22 @@ class AssignerConformance(ComponentConformance):
                 found = assigned(assigner, problem)
             except AssignmentError:
                 continue
-            raise Fault(f"assigns {found.task.tolist()} where costs {costs} allow no assignment")
+            raise Fault(
+                f"assigns {found.task.tolist()} although costs {costs} allow no assignment: raise `AssignmentError`"
+            )
 
     def test_does_not_change_the_problem(self) -> None:
         assigner = self.make()
         for name, problem in problems():
             before = problem.costs.copy()
             assigned(assigner, problem)
-            require(np.array_equal(problem.costs, before), f"{name}: changes the costs")
+            require(
+                np.array_equal(problem.costs, before),
+                f"{name}: changes the costs of the problem: copy them before writing",
+            )
 
     def reading_costs(self) -> Assigner:
-        """The assigner, if it looks at costs."""
+        """The assigner, if it reads costs."""
         assigner = self.make()
         if not assigner.reads_costs:
             raise Skip("it does not read costs")
@@ -98,7 +105,7 @@ def make_problem(costs: Float) -> AssignmentProblem:
 
 
 def problems() -> Iterator[tuple[str, AssignmentProblem]]:
-    """Square and rectangular problems, some with ties, one without robots' preferences, one with large costs."""
+    """Square and rectangular problems, some with ties, one with equal costs, one with large costs."""
     random = np.random.default_rng(0)
     for robots, tasks in SHAPES:
         yield f"{robots} robots, {tasks} tasks", make_problem(random.uniform(0, 20, (robots, tasks)))
@@ -119,7 +126,7 @@ def forbidding() -> Iterator[tuple[str, AssignmentProblem]]:
 
 
 def assignments(costs: Float) -> Iterator[Float]:
-    """What the pairs cost in every feasible assignment: all permutations."""
+    """The costs of the pairs of every feasible assignment, by enumeration."""
     robots, tasks = costs.shape
     if robots > tasks:
         costs, robots, tasks = costs.T, tasks, robots

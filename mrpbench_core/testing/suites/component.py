@@ -1,4 +1,4 @@
-"""What every component must keep, of whatever kind."""
+"""Checks that every component must pass."""
 
 import json
 import pickle
@@ -33,7 +33,10 @@ class ComponentConformance:
 
     def test_is_documented_with_all_its_options(self) -> None:
         cls = type(self.make())
-        require("__doc__" in vars(cls) and (cls.__doc__ or "").strip(), f"{cls.__name__} has no docstring")
+        require(
+            "__doc__" in vars(cls) and (cls.__doc__ or "").strip(),
+            f"{cls.__name__} has no docstring: say in one sentence what it does",
+        )
         silent = [field.alias for field in options(cls) if not field.metadata.get("help")]
         require(not silent, f"options without help: {', '.join(silent)} (declare them with `option(..., help=...)`)")
 
@@ -41,7 +44,7 @@ class ComponentConformance:
         cls = type(self.make())
         if needed := required_options(cls):
             raise Skip(f"it has no defaults for: {', '.join(needed)}")
-        require(isinstance(cls(), cls), "its defaults make something else")
+        require(isinstance(cls(), cls), "its constructor returns an object of another class")
 
     def test_equal_components_are_equal_and_print_alike(self) -> None:
         one, other = self.make(), self.make()
@@ -66,16 +69,16 @@ class ComponentConformance:
         made = self.make()
         cls = type(made)
         if "<locals>" in cls.__qualname__:
-            raise Skip("a class inside a function has no name that a configuration could say")
+            raise Skip("a class inside a function has no name that a configuration can use")
         folder = Path.cwd()
-        # `canonical` takes any attrs object apart; a single component is not what its annotation has in mind.
+        # `canonical` accepts any attrs object, although its annotation names a configuration.
         written: Any = canonical(cast("RunConfig", made), folder)
         json.dumps(written, allow_nan=False)
         try:
             read = structure_component(kind_class(cls), from_data(written, Location()), "", folder)
         except InputErrors as several:
             raise Fault(f"a configuration cannot say {written}: {several.errors[0].message}") from None
-        require(read == made, f"read back from a configuration it is another: {read!r} instead of {made!r}")
+        require(read == made, f"read back from a configuration, it is {read!r} instead of {made!r}")
 
     def test_has_a_schema_for_editors(self) -> None:
         cls = type(self.make())

@@ -1,4 +1,4 @@
-"""What every controller must keep: one TurtleBot3 Burger that does exactly what it is told."""
+"""Checks that every controller must pass: one TurtleBot3 Burger that does exactly what it is told."""
 
 import math
 from collections.abc import Sequence
@@ -18,25 +18,25 @@ START = np.array([1.0, 1.0, 0.0])
 STRAIGHT = ((1.5, 1.0), (2.0, 1.0), (2.5, 1.0))
 CORNER = ((1.6, 1.0), (2.2, 1.0), (2.2, 1.6), (2.2, 2.2))
 PASSED = 0.12
-"""metres from a waypoint at which the next one is the nearest ahead"""
+"""Metres from a waypoint at which the path ahead begins with the next one."""
 REACHED = 0.15
-"""metres from the end of the path at which a robot should stop"""
+"""Metres from the end of the path within which a robot must stop."""
 PATIENCE = 40.0
-"""simulated seconds for paths of less than 3 m"""
+"""Simulated seconds for paths of less than 3 m."""
 
 
 @attrs.frozen
 class Drive:
-    """What a robot did."""
+    """Poses and commands of a robot, one for each control period."""
 
     pose: Float
     """f8[t,3]"""
     twist: Float
-    """f8[t,2] commanded"""
+    """f8[t,2] commands in m/s, rad/s"""
 
 
 class Track:
-    """What lies ahead on a path from `START`, as the navigator `waypoints` tells it."""
+    """The part of a path from `START` that is ahead, as the navigator `waypoints` passes it on."""
 
     def __init__(self, path: Sequence[Point]) -> None:
         self.points = [START[:2], *map(np.array, path)]
@@ -90,12 +90,13 @@ class ControllerConformance(ComponentConformance):
             turned = side * drive(self.start(), (target,), seconds=3.0).pose[-1, 2]
             word = "left" if side > 0 else "right"
             require(
-                turned > 0.2, f"the path leads to the {word}, but after 3 s it has turned {turned:.2f} rad to that side"
+                turned > 0.2,
+                f"the path leads to the {word}, but after 3 s the robot has turned {turned:.2f} rad to that side",
             )
 
     def test_a_robot_at_the_end_stays(self) -> None:
         twist = drive(self.start(), (tuple(START[:2].tolist()),), seconds=2.0).twist
-        require(np.abs(twist[-10:, 0]).max() < 0.05, "drives on at the end of its path")
+        require(np.abs(twist[-10:, 0]).max() < 0.05, "keeps driving at the end of its path")
 
     def test_the_same_observations_give_the_same_commands(self) -> None:
         one, other = drive(self.start(), CORNER), drive(self.start(), CORNER)
@@ -117,7 +118,7 @@ class ControllerConformance(ComponentConformance):
         first = np.array(said)
         for robot in range(2):
             same = np.allclose(first[: len(alone[robot]), robot], alone[robot][: len(first)], atol=1e-9)
-            require(same, "a robot gets other commands when a second one is controlled too")
+            require(same, "a robot gets other commands when a second robot is controlled in the same call")
 
     def test_answers_the_optional_questions(self) -> None:
         session = self.start()
@@ -126,24 +127,26 @@ class ControllerConformance(ComponentConformance):
         session.clear()
         poses = np.array([START, (2.0, 1.0, 1.0), (2.5, 1.5, -1.0)])
         free = np.asarray(session.is_free(poses))
-        require(free.shape == (3,) and free.dtype == bool, f"is_free answers {free!r} to three poses")
+        require(free.shape == (3,) and free.dtype == bool, f"is_free returns {free!r} for three poses")
         for question, way in (("reroute", session.reroute(seen)), ("approach", session.approach(seen, 0.5))):
             right = way is None or (np.asarray(way).ndim == 2 and np.asarray(way).shape[1] == 2)
             require(right, f"{question} returns {way!r} instead of f8[k,2] or None")
 
 
 def comes_to_the_end(driving: Drive, path: Sequence[Point]) -> None:
-    """Require that a robot came to the end and stopped there."""
+    """Require that a robot reached the end of its path and stopped there."""
     away = float(np.hypot(*(driving.pose[-1, :2] - path[-1])))
-    require(away < REACHED, f"after {len(driving.pose) * PERIOD:.0f} s it is {away:.2f} m from the end of the path")
+    require(
+        away < REACHED, f"after {len(driving.pose) * PERIOD:.0f} s the robot is {away:.2f} m from the end of the path"
+    )
     speed = float(np.abs(driving.twist[-1, 0]))
-    require(speed < 0.02, f"at the end of its path it drives on at {speed:.3f} m/s")
+    require(speed < 0.02, f"at the end of its path the robot drives at {speed:.3f} m/s")
 
 
 def drive(
     session: ControllerSession, path: Sequence[Point], seconds: float = PATIENCE, speed: float = math.inf
 ) -> Drive:
-    """Let a robot do exactly what its controller says, until it rests at the end or time is over."""
+    """Execute commands exactly, until the robot rests at the end of its path or time is over."""
     pose, twist = START.copy(), np.zeros(2)
     poses, twists = [], []
     at_rest = 0
@@ -184,6 +187,6 @@ def observations(step: int, poses: Float, twists: Float, tracks: Sequence[Track]
 
 
 def observation(step: int, pose: Float, twist: Float, path: Float, speed: float = math.inf) -> Observation:
-    """What a controller sees; without scans, which may be missing in any period."""
+    """What a controller sees, without scans, which may be missing in any period."""
     yaw = math.remainder(pose[2], math.tau)
     return Observation(now=step * PERIOD, pose=np.array([pose[0], pose[1], yaw]), twist=twist, path=path, speed=speed)

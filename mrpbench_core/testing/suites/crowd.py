@@ -1,4 +1,4 @@
-"""What every crowd must keep."""
+"""Checks that every crowd must pass."""
 
 import numpy as np
 
@@ -33,13 +33,13 @@ class CrowdConformance(ComponentConformance):
         return np.array(steps)
 
     def test_movers_have_places_and_speeds(self) -> None:
-        require(np.isfinite(self.walk(0)).all(), "a mover has no place or speed")
+        require(np.isfinite(self.walk(0)).all(), "a mover has a position or velocity that is not finite")
 
     def test_the_same_seed_moves_them_the_same_way(self) -> None:
-        require(np.array_equal(self.walk(1), self.walk(1)), "movers go elsewhere the second time")
+        require(np.array_equal(self.walk(1), self.walk(1)), "the same seed moves them differently the second time")
 
     def test_speeds_are_those_of_the_motion(self) -> None:
         walk = self.walk(0)
         moved, said = np.diff(walk[..., :2], axis=0) / PERIOD, walk[1:, :, 2:]
         off = float(np.abs(moved - said).max(initial=0.0))
-        require(off < 0.5, f"movers say a velocity that is {off:.2f} m/s from how they move")
+        require(off < 0.5, f"the velocity of a mover differs by {off:.2f} m/s from its motion")

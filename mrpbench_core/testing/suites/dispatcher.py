@@ -1,4 +1,4 @@
-"""What every dispatcher must keep, and what a dispatcher that keeps robots apart must keep."""
+"""Checks that every dispatcher must pass, and what a dispatcher that keeps robots apart must keep."""
 
 import contextlib
 from typing import Any, ClassVar

@@ -1,4 +1,4 @@
-"""What every executor must keep."""
+"""Checks that every executor must pass."""
 
 from concurrent.futures import Executor
 
@@ -17,7 +17,10 @@ class ExecutorConformance(ComponentConformance):
 
     def test_is_an_executor_of_the_standard_library(self) -> None:
         with self.make().open(1) as executor:
-            require(isinstance(executor, Executor), f"opens {type(executor).__name__}: no concurrent.futures.Executor")
+            require(
+                isinstance(executor, Executor),
+                f"opens {type(executor).__name__} instead of a concurrent.futures.Executor",
+            )
 
     def test_opens_with_several_workers_or_says_why_not(self) -> None:
         try:
@@ -38,11 +41,14 @@ class ExecutorConformance(ComponentConformance):
         with self.make().open(1) as executor:
             futures = [executor.submit(object) for _ in range(5)]
             found = [future.result(timeout=60) for future in futures]
-        require(len({id(each) for each in found}) == 5, "equal calls were made once: repeated runs would not be run")
+        require(
+            len({id(each) for each in found}) == 5,
+            "equal calls were made only once, so that repeated runs would be lost",
+        )
 
     def test_hands_on_what_calls_raise(self) -> None:
         with self.make().open(1) as executor:
             error = executor.submit(divmod, 1, 0).exception(timeout=60)
             require(isinstance(error, ZeroDivisionError), f"a call that raises ZeroDivisionError gave {error!r}")
             if executor.submit(divmod, 9, 2).result(timeout=60) != (4, 1):
-                raise Fault("works no more after a call has raised")
+                raise Fault("fails after a call has raised")

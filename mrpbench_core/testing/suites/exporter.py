@@ -1,4 +1,4 @@
-"""What every exporter must keep."""
+"""Checks that every exporter must pass."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -24,14 +24,14 @@ class ExporterConformance(ComponentConformance):
         with folder() as here:
             self.export(here)
             require(written(here), f"wrote nothing called {NAME} or {NAME}.<suffix>")
-            require(not leftovers(here), f"left behind {', '.join(leftovers(here))}")
+            require(not leftovers(here), f"leaves other files behind: {', '.join(leftovers(here))}")
 
     def test_writes_a_run_in_one_piece_or_many(self) -> None:
         with folder() as whole, folder() as pieces:
             self.export(whole, 100.0)
             self.export(pieces, 0.35)
             one, many = written(whole), written(pieces)
-            require(one.keys() == many.keys(), f"in one piece it writes {sorted(one)}, in many {sorted(many)}")
+            require(one.keys() == many.keys(), f"writes {sorted(one)} from one chunk and {sorted(many)} from many")
 
     def test_writes_a_run_in_which_nothing_happened(self) -> None:
         with folder() as here:
@@ -46,8 +46,8 @@ class ExporterConformance(ComponentConformance):
             after = written(here)
             require(after.keys() == before.keys(), f"after a second export there is {sorted(after)}")
             grown = [name for name, size in after.items() if size > 1.5 * before[name] + 64]
-            require(not grown, f"a second export is added to the first: {', '.join(grown)}")
-            require(not leftovers(here), f"left behind {', '.join(leftovers(here))}")
+            require(not grown, f"a second export appends to the first: {', '.join(grown)}")
+            require(not leftovers(here), f"leaves other files behind: {', '.join(leftovers(here))}")
 
     def test_leaves_nothing_of_a_run_that_failed(self) -> None:
         with folder() as here:
@@ -55,10 +55,10 @@ class ExporterConformance(ComponentConformance):
             session.write(chunks(100.0)[0])
             session.abandon()
             left = sorted(path.name for path in here.iterdir())
-            require(not left, f"left behind {', '.join(left)}")
+            require(not left, f"`abandon` leaves files behind: {', '.join(left)}")
 
     def export(self, here: Path, seconds: float = 1.0) -> None:
-        """Write the run in pieces of so many seconds."""
+        """Write the run in chunks of so many seconds."""
         session = self.make().open(context(), here / NAME)
         for chunk in chunks(seconds):
             session.write(chunk)
@@ -73,13 +73,13 @@ def folder() -> Iterator[Path]:
 
 
 def written(here: Path) -> dict[str, int]:
-    """Sizes of the files of an export, by path."""
+    """Sizes in bytes of the files of an export, by path."""
     files = [path for path in here.rglob("*") if path.is_file()]
     return {str(path.relative_to(here)): path.stat().st_size for path in files if belongs(path.relative_to(here))}
 
 
 def leftovers(here: Path) -> list[str]:
-    """What else is in the folder."""
+    """Files in the folder that do not belong to the export."""
     return sorted(path.name for path in here.iterdir() if not belongs(path.relative_to(here)))
 
 

@@ -1,4 +1,4 @@
-"""What every importer must keep."""
+"""Checks that every importer must pass."""
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -37,8 +37,8 @@ def refuses(importer: Importer, path: Path) -> None:
     try:
         importer.read(path)
     except InputError as error:
-        require("\n" not in str(error), f"its message has several lines: {error}")
+        require("\n" not in str(error), f"its message has several lines, not one: {error}")
     except Exception as error:
         raise Fault(f"{path.name}: raises {type(error).__name__}, not InputError: {error}") from error
     else:
-        raise Fault(f"{path.name}: reads what is no recording")
+        raise Fault(f"{path.name}: reads a file that holds no recording")

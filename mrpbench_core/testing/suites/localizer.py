@@ -1,4 +1,4 @@
-"""What every localizer must keep: robots that drive about in a room, measured without noise."""
+"""Checks that every localizer must pass: robots that drive about in a room, measured without noise."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ PLACES = np.array([(1.0, 1.0, 0.0), (3.0, 2.0, 3.0)])
 TWISTS = np.array([(0.15, 0.15), (0.1, 0.1)])
 SECONDS = 8.0
 FAR = 0.3
-"""metres and radians by which an estimate may be off"""
+"""Metres and radians by which an estimate may be wrong."""
 
 
 class LocalizerConformance(ComponentConformance):
@@ -39,15 +39,15 @@ class LocalizerConformance(ComponentConformance):
             off = estimate.pose - truth
             off[:, 2] = np.remainder(off[:, 2] + np.pi, 2 * np.pi) - np.pi
             worst = float(np.abs(off).max())
-            require(worst < FAR, f"after {step * PERIOD:.2f} s an estimate is {worst:.2f} (m, rad) off")
+            require(worst < FAR, f"after {step * PERIOD:.2f} s an estimate is wrong by {worst:.2f} (m, rad)")
 
     def test_the_same_seed_gives_the_same_estimates(self) -> None:
         one, other = (np.array([estimate.pose for estimate in self.drive(3)[0]]) for _ in range(2))
-        require(np.array_equal(one, other), "estimates differ the second time")
+        require(np.array_equal(one, other), "the same seed gives other estimates the second time")
 
     def test_does_not_need_the_truth(self) -> None:
         if self.make().needs_truth:
-            raise Skip("it declares that it needs the truth")
+            raise Skip("it declares `needs_truth`")
         self.drive(0)
 
     def drive(self, seed: int) -> tuple[list[Estimate], list[Float]]:
@@ -67,7 +67,7 @@ class LocalizerConformance(ComponentConformance):
 
 
 def in_odometry_frames(pose: Float) -> Float:
-    """Poses f8[n,3] as seen from where each robot was placed."""
+    """Poses f8[n,3] relative to the pose at which each robot was placed."""
     offset, angle = pose[:, :2] - PLACES[:, :2], PLACES[:, 2]
     along = offset[:, 0] * np.cos(angle) + offset[:, 1] * np.sin(angle)
     aside = offset[:, 1] * np.cos(angle) - offset[:, 0] * np.sin(angle)

@@ -1,4 +1,4 @@
-"""What every metric must keep."""
+"""Checks that every metric must pass."""
 
 import math
 from collections.abc import Mapping
@@ -20,7 +20,10 @@ class MetricConformance(ComponentConformance):
 
     def test_describes_its_columns(self) -> None:
         columns = self.make().columns
-        require(columns and all(isinstance(column, Column) for column in columns), "`columns` holds no columns")
+        require(
+            columns and all(isinstance(column, Column) for column in columns),
+            "`columns` is not a tuple of at least one `Column`",
+        )
         names = [column.name for column in columns]
         require(len(set(names)) == len(names), f"two columns have one name: {names}")
         for column in columns:
@@ -37,13 +40,13 @@ class MetricConformance(ComponentConformance):
         metric = self.make()
         required = metric.requires.union(*(column.requires for column in metric.columns))
         unknown = sorted(required - {*channels(), "plan", "path"})
-        require(not unknown, f"requires what no recording holds: {', '.join(unknown)}")
+        require(not unknown, f"requires channels that no recording has: {', '.join(unknown)}")
 
     def test_gives_exactly_its_columns(self) -> None:
         metric = self.make()
         given, wanted = set(measured(metric, finished())), {column.name for column in metric.columns}
-        require(given <= wanted, f"gives what is no column: {', '.join(sorted(given - wanted))}")
-        require(wanted <= given, f"gives nothing for: {', '.join(sorted(wanted - given))}")
+        require(given <= wanted, f"returns values that are no columns: {', '.join(sorted(given - wanted))}")
+        require(wanted <= given, f"returns no value for: {', '.join(sorted(wanted - given))}")
 
     def test_needs_no_channel_that_it_does_not_require(self) -> None:
         metric = self.make()
@@ -63,23 +66,23 @@ class MetricConformance(ComponentConformance):
 
     def test_measures_the_same_again(self) -> None:
         one, other = measured(self.make(), finished()), measured(self.make(), finished())
-        require(one == other, f"measures differently the second time: {differences(one, other)}")
+        require(one == other, f"returns other values the second time: {differences(one, other)}")
 
     def test_does_not_depend_on_the_order_of_robots(self) -> None:
         metric = self.make()
         one, other = measured(metric, finished()), measured(metric, permuted((2, 0, 1)))
         found = differences(one, other)
-        require(not found, f"robots in another order are measured differently: {found}")
+        require(not found, f"the values depend on the order of robots: {found}")
 
 
 def measured(metric: Metric, run: FinishedRun) -> Mapping[str, Value]:
-    """The metric's values, each a finite number, a truth value or None."""
+    """The metric's values, each a finite number, a bool or None."""
     values = metric.measure(run)
     for name, value in values.items():
         right = value is None or isinstance(value, bool | int | float)
-        require(right, f"column {name} is {value!r}, a {type(value).__name__}: give float, int, bool or None")
+        require(right, f"column {name} is {value!r}, a {type(value).__name__}: return float, int, bool or None")
         finite = not isinstance(value, float) or math.isfinite(value)
-        require(finite, f"column {name} is {value}: give None for what cannot be measured")
+        require(finite, f"column {name} is {value}: return None for what cannot be measured")
     return values
 
 
@@ -91,7 +94,7 @@ def differences(one: Mapping[str, Value], other: Mapping[str, Value]) -> str:
 
 
 def close(one: Value, other: Value) -> bool:
-    """Equal but for rounding."""
+    """Tell whether two values are equal up to rounding."""
     if one is None or other is None:
         return one is other
     return math.isclose(one, other, rel_tol=1e-9, abs_tol=1e-9)

@@ -1,4 +1,4 @@
-"""What every navigator must keep: two robots with a plain controller in a room."""
+"""Checks that every navigator must pass: two robots with a plain controller in a room."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -40,7 +40,7 @@ Release = Callable[[float], Int32]
 
 @attrs.frozen(kw_only=True)
 class TurnThenDrive(Controller):
-    """Turns towards the first waypoint that is not underfoot, then drives there, slower as it comes near."""
+    """Turns towards the first waypoint that is not at the robot's place, then drives there and slows down."""
 
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:  # noqa: ARG002
         """Begin to control one robot."""
@@ -73,16 +73,23 @@ class NavigatorConformance(ComponentConformance):
     def test_drives_robots_to_the_ends_of_their_routes(self) -> None:
         motions, states = self.drive(lambda _: LENGTHS)
         reached = motions[-1].reached
-        require((reached == LENGTHS).all(), f"after {len(motions) * PERIOD:.0f} s it says {reached.tolist()} of 3 each")
+        require(
+            (reached == LENGTHS).all(),
+            f"after {len(motions) * PERIOD:.0f} s `reached` is {reached.tolist()}, the routes have 3 segments each",
+        )
         ends = np.array([each.waypoint[-1, :2] for each in ROUTES])
         away = float(np.hypot(*(states[-1].pose[:, :2] - ends).T).max())
-        require(away < 0.4, f"says that all have arrived, but one is {away:.2f} m from the end of its route")
+        require(
+            away < 0.4, f"`reached` says that all have arrived, but a robot is {away:.2f} m from the end of its route"
+        )
 
     def test_robots_stop_at_the_end_of_what_is_released(self) -> None:
         motions, states = self.drive(lambda _: np.array([1, 0], np.int32), seconds=20.0)
         away = np.hypot(*(states[-1].pose[:, :2] - [ROUTES[0].waypoint[1, :2], ROUTES[1].waypoint[0, :2]]).T)
         require(away.max() < 0.35, f"robots are {away.round(2).tolist()} m from the end of what was released")
-        require((motions[-1].reached <= (1, 0)).all(), f"says {motions[-1].reached.tolist()}, released were [1, 0]")
+        require(
+            (motions[-1].reached <= (1, 0)).all(), f"`reached` is {motions[-1].reached.tolist()}, released were [1, 0]"
+        )
 
     def test_says_how_far_robots_got(self) -> None:
         motions, _ = self.drive(lambda now: np.minimum(LENGTHS, int(now // 5)).astype(np.int32))
@@ -91,10 +98,11 @@ class NavigatorConformance(ComponentConformance):
             released = np.minimum(LENGTHS, int(step * PERIOD // 5))
             now = np.array([motion.reached, motion.cleared])
             require(
-                (motion.reached <= released).all(), f"says {motion.reached.tolist()} of {released.tolist()} released"
+                (motion.reached <= released).all(),
+                f"`reached` is {motion.reached.tolist()}, released were {released.tolist()}",
             )
             require((now >= before).all(), f"reached and cleared decrease: {before.tolist()}, then {now.tolist()}")
-            require((motion.cleared <= motion.reached + 1).all(), "cleared a segment that is not begun")
+            require((motion.cleared <= motion.reached + 1).all(), "`cleared` counts a segment that has not begun")
             before = now
 
     def test_motions_have_the_shapes_of_the_contract(self) -> None:
@@ -117,7 +125,10 @@ class NavigatorConformance(ComponentConformance):
         ]
         motions, _ = self.drive(lambda now: np.minimum(LENGTHS, 1 if now < 15 else 3), routes=short, adopt_at=15.0)
         reached = motions[-1].reached
-        require((reached == LENGTHS).all(), f"after adopting longer routes it says {reached.tolist()} of 3 each")
+        require(
+            (reached == LENGTHS).all(),
+            f"after adopting longer routes `reached` is {reached.tolist()}, the routes have 3 segments each",
+        )
 
     def drive(
         self,
@@ -126,7 +137,7 @@ class NavigatorConformance(ComponentConformance):
         routes: Sequence[Route] = ROUTES,
         adopt_at: float = math.inf,
     ) -> tuple[list[Motion], list[State]]:
-        """Motions and true states until all have arrived, or time is over; the routes become `ROUTES` at `adopt_at`."""
+        """Motions and true states until all robots have arrived or time is over; `ROUTES` are adopted at `adopt_at`."""
         robots = fleet(2)
         session = self.make().start(robots, room(), routes, TurnThenDrive(), PERIOD, 0)
         motions, states = [], []

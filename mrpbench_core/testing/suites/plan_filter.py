@@ -1,4 +1,4 @@
-"""What every plan filter must keep, on paths drawn by chance."""
+"""Checks that every plan filter must pass, on random paths."""
 
 import numpy as np
 
@@ -22,5 +22,5 @@ class PlanFilterConformance(ComponentConformance):
             kept = np.asarray(self.make().keep(waypoint))
             require(kept.dtype == bool, f"keep returns {kept.dtype} instead of bool")
             require(kept.shape == (length,), f"keep returns shape {kept.shape} for {length} waypoints")
-            require(bool(kept[0] and kept[-1]), "leaves out the start or the end of a path")
-            require(np.array_equal(waypoint, before), "changes the waypoints that it is shown")
+            require(bool(kept[0] and kept[-1]), "drops the start or the end of a path")
+            require(np.array_equal(waypoint, before), "changes the waypoints that it is given")

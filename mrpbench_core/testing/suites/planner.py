@@ -1,4 +1,4 @@
-"""What every planner must keep."""
+"""Checks that every planner must pass."""
 
 import math
 import pickle
@@ -22,13 +22,13 @@ UNCHECKED = frozenset({Feature.HEADINGS})
 MOST_STATES = 400_000
 """Joint states that the search for an optimum may see; the problems here need far fewer."""
 SHORT = 1.0
-"""seconds for problems that some planners search until their time is over."""
+"""Wall seconds for problems that some planners search until their time is over."""
 
 
 class PlannerConformance(ComponentConformance):
     """Checks of planners: `class TestMine(PlannerConformance)`.
 
-    The problems are those of `mrpbench_core.testing.instances.named`; the planner is asked those that it does not skip.
+    The problems are those of `mrpbench_core.testing.instances.named` that the planner does not skip.
     """
 
     def make(self) -> Planner:
@@ -40,16 +40,22 @@ class PlannerConformance(ComponentConformance):
         for name, kind in (("supports", Feature), ("promises", Promise)):
             declared = getattr(planner, name)
             right = isinstance(declared, frozenset) and all(isinstance(entry, kind) for entry in declared)
-            require(right, f"{name} is {declared!r} instead of a frozenset of {kind.__name__}")
+            require(
+                right,
+                f"{name} is {declared!r} instead of a frozenset of {kind.__name__}",
+            )
 
     def test_skips_what_it_does_not_support(self) -> None:
         planner = self.make()
         for name, problem in solvable().items():
             reason = planner.skip(problem)
-            require(reason is None or reason, f"skip({name}) returns {reason!r}")
+            require(
+                reason is None or reason,
+                f"skip returns {reason!r} for {name}: return a reason or None",
+            )
             lacking = sorted(problem.features - planner.supports)
             if lacking and reason is None:
-                raise Fault(f"takes {name}, though it does not support {', '.join(lacking)}")
+                raise Fault(f"does not skip {name}, but does not support {', '.join(lacking)}")
 
     def test_has_a_problem_for_every_feature_it_supports(self) -> None:
         planner = self.make()
@@ -58,7 +64,7 @@ class PlannerConformance(ComponentConformance):
             raise Skip(f"it skips every problem here, the first because it {planner.skip(solvable()['a robot alone'])}")
         tried = frozenset().union(*(problem.features for _, problem in taken))
         idle = sorted(planner.supports - tried)
-        require(not idle, f"supports {', '.join(idle)} but skips every problem with it")
+        require(not idle, f"supports {', '.join(idle)}, but skips every problem with it")
 
     def test_finds_the_way_of_a_robot_alone(self) -> None:
         planner = self.make()
@@ -66,7 +72,7 @@ class PlannerConformance(ComponentConformance):
         if reason := planner.skip(problem):
             raise Skip(f"it {reason}")
         result = call(planner, problem)
-        require(result.status is PlanStatus.SOLVED, f"says {result.status} to a robot alone in a corridor")
+        require(result.status is PlanStatus.SOLVED, f"returns {result.status} for a robot alone in a corridor")
 
     def test_plans_are_valid(self) -> None:
         planner = self.make()
@@ -80,7 +86,7 @@ class PlannerConformance(ComponentConformance):
                     not (promised and report.conflicts), f"{name}: {'; '.join(str(each) for each in report.conflicts)}"
                 )
         if unchecked := sorted(planner.supports & UNCHECKED):
-            raise Skip(f"valid as far as can be told: {' and '.join(unchecked)} cannot be validated yet")
+            raise Skip(f"the plans are valid, but {' and '.join(unchecked)} cannot be validated yet")
 
     def test_gives_every_robot_a_task_of_its_own(self) -> None:
         planner = self.make()
@@ -88,13 +94,16 @@ class PlannerConformance(ComponentConformance):
             raise Skip("it leaves the tasks to an assigner")
         for name, problem in choices().items():
             if planner.skip(problem) is None and (plan := call(planner, problem).plan) is not None:
-                require(not check_plan(problem, plan).faults, f"{name}: gives paths that are none")
+                require(not check_plan(problem, plan).faults, f"{name}: {'; '.join(check_plan(problem, plan).faults)}")
                 require(not (faults := check_choice(problem, plan)), f"{name}: {'; '.join(faults)}")
 
     def test_does_not_claim_that_a_solvable_problem_is_unsolvable(self) -> None:
         planner = self.make()
         for name, problem in asked(planner):
-            require(call(planner, problem).status is not PlanStatus.UNSOLVABLE, f"calls {name} unsolvable")
+            require(
+                call(planner, problem).status is not PlanStatus.UNSOLVABLE,
+                f"returns unsolvable for {name}, which has a plan: return it only when proved",
+            )
 
     def test_says_so_when_there_is_no_plan(self) -> None:
         planner = self.make()
@@ -104,7 +113,7 @@ class PlannerConformance(ComponentConformance):
                 if result.plan is not None:
                     report = check_plan(problem, result.plan)
                     broken = report.faults or (Promise.CONFLICT_FREE in planner.promises)
-                    require(not broken, f"gives a plan for {name}, which has none")
+                    require(not broken, f"returns a plan for {name}, which has none")
 
     def test_keeps_its_deadline(self) -> None:
         planner = self.make()
@@ -122,7 +131,7 @@ class PlannerConformance(ComponentConformance):
         for name, problem in asked(planner):
             before = pickle.loads(pickle.dumps(problem))  # noqa: S301 - our own
             call(planner, problem)
-            require(problem == before, f"changes the problem {name}")
+            require(problem == before, f"changes the problem {name}: copy arrays before writing to them")
 
     def test_gives_the_same_plan_again(self) -> None:
         planner = self.make()
@@ -131,7 +140,10 @@ class PlannerConformance(ComponentConformance):
         copy = pickle.loads(pickle.dumps(planner))  # noqa: S301 - our own
         for name, problem in asked(planner):
             first = answer(call(planner, problem))
-            require(answer(call(planner, problem)) == first, f"plans {name} differently the second time")
+            require(
+                answer(call(planner, problem)) == first,
+                f"plans {name} differently the second time: draw random numbers from `Budget.seed` only",
+            )
             require(answer(call(copy, problem)) == first, f"a pickled copy plans {name} differently")
 
     def test_is_complete(self) -> None:
@@ -140,13 +152,13 @@ class PlannerConformance(ComponentConformance):
             raise Skip("it does not promise to be complete")
         for name, problem in asked(planner):
             status = call(planner, problem).status
-            require(status is PlanStatus.SOLVED, f"says {status} to {name}, which has a plan")
+            require(status is PlanStatus.SOLVED, f"returns {status} for {name}, which has a plan")
 
     def test_bounds_hold(self) -> None:
         planner = self.make()
         for name, problem, optimum in compared(planner):
             bound = call(planner, problem).lower_bound
-            require(not bound > optimum, f"proves a lower bound of {bound:g} for {name}, whose optimum is {optimum}")
+            require(not bound > optimum, f"returns the lower bound {bound:g} for {name}, whose optimum is {optimum:g}")
 
     def test_is_optimal(self) -> None:
         planner = self.make()
@@ -155,33 +167,33 @@ class PlannerConformance(ComponentConformance):
         for name, problem, optimum in compared(planner):
             plan = call(planner, problem).plan
             cost = None if plan is None else plan.sum_of_costs
-            require(cost in (None, optimum), f"{name}: costs {cost}, the optimum is {optimum}")
+            require(cost in (None, optimum), f"{name}: costs {cost}, the optimum is {optimum:g}")
 
     def test_is_within_its_bound(self) -> None:
         planner = self.make()
         if Promise.BOUNDED not in planner.promises:
             raise Skip("it does not promise to be bounded")
         w = getattr(planner, "w", None)
-        require(isinstance(w, int | float), "promises to be bounded but has no option `w`")
+        require(isinstance(w, int | float), "promises to be bounded, but has no option `w`")
         for name, problem, optimum in compared(planner):
             result = call(planner, problem)
             if result.plan is not None and w is not None:
                 cost, bound = result.plan.sum_of_costs, result.lower_bound
                 require(cost <= w * bound + 1e-9, f"{name}: costs {cost}, more than {w:g} times its bound {bound:g}")
                 require(
-                    cost <= w * optimum + 1e-9, f"{name}: costs {cost}, more than {w:g} times the optimum {optimum}"
+                    cost <= w * optimum + 1e-9, f"{name}: costs {cost}, more than {w:g} times the optimum {optimum:g}"
                 )
 
 
 def asked(planner: Planner) -> Iterator[tuple[str, Problem]]:
-    """Problems with a solution that the planner does not skip, by name."""
+    """Problems with a plan that the planner does not skip, by name."""
     for name, problem in solvable().items():
         if planner.skip(problem) is None:
             yield name, problem
 
 
 def compared(planner: Planner) -> Iterator[tuple[str, Problem, float]]:
-    """Those whose optimum brute force can tell, with it."""
+    """Those whose optimum brute force finds, with it."""
     for name, problem in asked(planner):
         if not problem.features & UNSUPPORTED:
             optimum = least_sum_of_costs(problem, MOST_STATES)
@@ -191,5 +203,5 @@ def compared(planner: Planner) -> Iterator[tuple[str, Problem, float]]:
 
 
 def answer(result: PlanResult) -> tuple[object, ...]:
-    """What of a result must not differ from call to call; statistics may hold times."""
+    """The parts of a result that must not differ from call to call; statistics may hold times."""
     return result.status, result.plan

@@ -1,4 +1,4 @@
-"""What every builder of roadmaps must keep, on the built-in office."""
+"""Checks that every builder of roadmaps must pass, on the built-in office."""
 
 import numpy as np
 
@@ -32,7 +32,7 @@ class RoadmapConformance(ComponentConformance):
         roadmap = self.build()
         vertices, edges = len(roadmap.position), len(roadmap.edges)
         require(vertices and edges, f"has {vertices} vertices and {edges} edges")
-        require(np.isfinite(roadmap.position).all(), "a vertex has no place")
+        require(np.isfinite(roadmap.position).all(), "a vertex has a position that is not finite")
         require(len(roadmap.level) == vertices == len(roadmap.heading), "position, level and heading differ in length")
         require(
             ((roadmap.edges >= 0) & (roadmap.edges < vertices)).all(), "an edge leads to a vertex that does not exist"
@@ -57,12 +57,15 @@ class RoadmapConformance(ComponentConformance):
         start, end = roadmap.position[usable[:, 0]], roadmap.position[usable[:, 1]]
         hits = np.flatnonzero(~keeps_clear(level, start, end, ROBOT.radius))
         where = [tuple(point.round(2).tolist()) for index in hits[:1] for point in (start[index], end[index])]
-        require(not len(hits), f"{len(hits)} edges pass a wall nearer than {ROBOT.radius:.3f} m, e.g. {where}")
+        require(
+            not len(hits), f"{len(hits)} edges pass a wall closer than the radius {ROBOT.radius:.3f} m, e.g. {where}"
+        )
 
     def test_most_places_can_be_reached(self) -> None:
         roadmap = self.build()
         _, sizes = np.unique(round_trips(roadmap, 0), return_counts=True)
         share = sizes.max() / len(roadmap.position)
         require(
-            share > 0.5, f"the largest part in which one can drive everywhere has {100 * share:.0f} % of the vertices"
+            share > 0.5,
+            f"the largest strongly connected part has {100 * share:.0f} % of the vertices",
         )

@@ -1,4 +1,4 @@
-"""What every source of scenarios must keep, on the built-in office."""
+"""Checks that every source of scenarios must pass, on the built-in office."""
 
 import numpy as np
 
@@ -46,10 +46,10 @@ class ScenarioConformance(ComponentConformance):
         require(drawn.start.shape == (robots, 3), f"starts of {robots} robots have shape {drawn.start.shape}")
         require(drawn.start_level.shape == (robots,), f"start_level has shape {drawn.start_level.shape}")
         require(drawn.tasks, "draws no tasks")
-        require(np.isfinite(drawn.start[:, :2]).all(), "a start has no place")
+        require(np.isfinite(drawn.start[:, :2]).all(), "a start has a position that is not finite")
         for index, task in enumerate(drawn.tasks):
             require(len(task.goals) == len(task.levels) > 0, f"task {index}: goals and levels differ in number")
-            require(np.isfinite(task.goals[:, :2]).all(), f"task {index} has a goal without a place")
+            require(np.isfinite(task.goals[:, :2]).all(), f"task {index} has a goal with a position that is not finite")
 
     def test_starts_lie_on_the_roadmap(self) -> None:
         drawn = self.draw(0)

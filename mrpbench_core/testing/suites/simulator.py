@@ -1,4 +1,4 @@
-"""What every simulator must keep: two TurtleBot3 Burgers in a room of 4 × 3 m."""
+"""Checks that every simulator must pass: two TurtleBot3 Burgers in a room of 4 × 3 m."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -37,7 +37,7 @@ class SimulatorConformance(ComponentConformance):
     def test_begins_with_the_placements(self) -> None:
         with self.open() as simulation:
             off = np.abs(simulation.state.pose - PLACES).max()
-            require(off < 1e-3, f"before the first step robots are {off:g} (m, rad) from their placements")
+            require(off < 1e-3, f"before the first step, robots are {off:g} (m, rad) away from their placements")
 
     def test_states_have_the_shapes_of_the_contract(self) -> None:
         with self.open() as simulation:
@@ -47,7 +47,7 @@ class SimulatorConformance(ComponentConformance):
                 require(shapes == [(2, 3), (2, 2), (2,)], f"pose, twist, level of two robots have shapes {shapes}")
                 require(np.isfinite(state.pose).all() and np.isfinite(state.twist).all(), "poses or twists not finite")
             latest, given = simulation.step(inputs(STILL, STILL)), simulation.state
-            require(np.array_equal(latest.pose, given.pose), "`state` is not what the last step returned")
+            require(np.array_equal(latest.pose, given.pose), "`state` is not the state that the last step returned")
 
     def test_robots_without_a_command_stay(self) -> None:
         with self.open() as simulation:
@@ -61,9 +61,9 @@ class SimulatorConformance(ComponentConformance):
             (x, y, yaw), other = simulation.state.pose
             ahead, aside = x - PLACES[0][0], abs(y - PLACES[0][1])
             wanted = 5.0 * CRUISE
-            require(0.85 * wanted < ahead < 1.05 * wanted, f"at {CRUISE:g} m/s it came {ahead:.3f} m far in 5 s")
-            require(aside < 0.03, f"it came {aside:.3f} m off its straight line")
-            require(abs(yaw) < 0.05, f"it turned by {yaw:.3f} rad")
+            require(0.85 * wanted < ahead < 1.05 * wanted, f"at {CRUISE:g} m/s the robot moved {ahead:.3f} m in 5 s")
+            require(aside < 0.03, f"the robot left its straight line by {aside:.3f} m")
+            require(abs(yaw) < 0.05, f"the robot turned by {yaw:.3f} rad")
             require(np.abs(other - PLACES[1]).max() < 0.01, "the other robot, without a command, moved too")
 
     def test_a_positive_turn_rate_turns_counter_clockwise(self) -> None:
@@ -93,24 +93,25 @@ class SimulatorConformance(ComponentConformance):
         with self.open([(WIDTH - 0.6, 1.0, 0.3), (WIDTH - 0.6, 2.0, 0.0)]) as simulation:
             states = drive(simulation, [(ROBOT.max_speed, 0.0)] * 2, 6.0)
             far = max(float(state.pose[:, 0].max()) for state in states)
-            require(far < WIDTH - HALF_WALL, f"a robot's centre came to x = {far:.3f} m, into the wall or behind it")
+            require(far < WIDTH - HALF_WALL, f"a robot's centre moved to x = {far:.3f} m, into the wall or beyond")
             touched = {int(robot) for state in states for robot, other in state.contacts.tolist() if other == -1}
             require(
-                touched == {0, 1}, f"two robots drove into a wall; a contact with it is reported of {touched or 'none'}"
+                touched == {0, 1},
+                f"two robots drove into a wall, but contacts with it are reported for {touched or 'none'}",
             )
 
     def test_robots_do_not_pass_through_one_another(self) -> None:
         with self.open([(1.5, 1.5, 0.0), (2.1, 1.5, math.pi)]) as simulation:
             states = drive(simulation, [(ROBOT.max_speed, 0.0)] * 2, 4.0)
             closest = min(float(np.hypot(*(state.pose[0] - state.pose[1])[:2])) for state in states)
-            require(closest > 2 * INNER - 0.01, f"the centres of two robots came within {closest:.3f} m")
+            require(closest > 2 * INNER - 0.01, f"the centres of two robots were within {closest:.3f} m")
             met = any([0, 1] in state.contacts.tolist() for state in states)
-            require(met, "two robots drove into one another; no contact (0, 1) is reported")
+            require(met, "two robots drove into one another, but no contact (0, 1) is reported")
 
     def test_scans_come_once_and_in_order(self) -> None:
         with self.open() as simulation:
             taken = list(simulation.scans())
-            require(not simulation.scans(), "the same scans are handed out twice")
+            require(not simulation.scans(), "`scans` returns the same scans twice")
             for period in range(1, 61):
                 simulation.step(inputs(STILL, STILL))
                 new = simulation.scans()
@@ -134,7 +135,7 @@ class SimulatorConformance(ComponentConformance):
             for _ in range(40):
                 simulation.step(inputs(STILL, STILL, movers=[(2.0, 1.0, 0.0, 0.0)]))
             newest = [scan for scan in simulation.scans() if 0 in scan.robot]
-            require(newest, "robot 0 has a lidar but takes no scans")
+            require(newest, "robot 0 has a lidar, but there are no scans of it")
             ranges = of(newest[-1], 0)
             beams = len(ranges)
             require(beams == ROBOT.lidar.beams, f"a scan has {beams} beams instead of {ROBOT.lidar.beams}")
@@ -158,25 +159,27 @@ class SimulatorConformance(ComponentConformance):
             assert ROBOT.lidar is not None
             wanted = 2.0 - DOOR.thickness / 2 - 1.5 - ROBOT.lidar.mount[0]
             require(
-                abs(newest - wanted) < 0.03, f"the beam to a shut door reads {newest:.3f} m instead of {wanted:.3f}"
+                abs(newest - wanted) < 0.03, f"the beam to a closed door reads {newest:.3f} m instead of {wanted:.3f}"
             )
             drive(simulation, [(ROBOT.max_speed, 0.0)], 4.0)
             x = simulation.state.pose[0, 0]
-            require(x < 2.0, f"a robot came through a shut door, to x = {x:.2f} m")
+            require(x < 2.0, f"a robot passed a closed door, to x = {x:.2f} m")
             opened = [state.facilities["door"] for state in drive(simulation, [STILL], 3.0, {"door": 1.0})]
-            require(opened == sorted(opened) and opened[-1] == 1, "a door that is told to open does not")
+            require(opened == sorted(opened) and opened[-1] == 1, "a door does not open when it is commanded to")
             soonest = opening_time(DOOR) / PERIOD
-            require(opened.index(1) + 1 >= soonest - 1, f"a door opens in less than its {opening_time(DOOR):g} s")
+            require(opened.index(1) + 1 >= soonest - 1, f"a door opens faster than in its {opening_time(DOOR):g} s")
             drive(simulation, [(ROBOT.max_speed, 0.0)], 6.0)
             x = simulation.state.pose[0, 0]
-            require(x > 2.3, f"a robot does not come through an open door: it is at x = {x:.2f} m")
+            require(x > 2.3, f"a robot does not pass an open door: it is at x = {x:.2f} m")
 
-    def test_lifts_carry_who_is_in_them(self) -> None:
+    def test_lifts_carry_the_robots_in_them(self) -> None:
         with self.open_building([(*CABIN, 0.0), (1.0, 1.0, 0.0)], [0, 0]) as simulation:
             self.knows_facilities(simulation)
             before = simulation.state.pose
             states = drive(simulation, [STILL, STILL], RISE + 1.0, {"lift": RISE})
-            require(states[-1].facilities["lift"] == RISE, "a lift does not go where it is told to go")
+            require(
+                states[-1].facilities["lift"] == RISE, "a lift does not go to the elevation that it is commanded to"
+            )
             require(states[-1].level.tolist() == [1, 0], f"the robots are on levels {states[-1].level} after the ride")
             moved = np.abs(states[-1].pose - before).max()
             require(moved < 0.02, f"a ride in a lift moved a robot by {moved:.3f} (m, rad) in its cabin")
@@ -186,15 +189,15 @@ class SimulatorConformance(ComponentConformance):
             self.knows_facilities(simulation)
             states = [simulation.state, *drive(simulation, [STILL, STILL], 1.0)]
             touched = any(len(state.contacts) for state in states)
-            require(not touched, "two robots at one place of two levels touch one another")
+            require(not touched, "two robots at one position on two levels touch one another")
             for scan in simulation.scans():
-                require(scan.ranges.min() > 0.5, "a robot sees what is on another level")
+                require(scan.ranges.min() > 0.5, "a robot sees objects on another level")
             require(states[-1].level.tolist() == [0, 1], "a robot did not stay on its level")
 
     def knows_facilities(self, simulation: Simulation) -> None:
-        """Skip unless the simulator knows doors and lifts."""
+        """Skip unless the simulator supports doors and lifts."""
         if not simulation.state.facilities:
-            raise Skip("it knows neither doors nor lifts: its states have no facilities")
+            raise Skip("it supports neither doors nor lifts: its states have no facilities")
 
     def open_building(self, places: Sequence[tuple[float, float, float]], levels: Sequence[int]) -> Simulation:
         """A simulation of a building of two levels."""
@@ -203,7 +206,7 @@ class SimulatorConformance(ComponentConformance):
 
     def test_runs_are_equal_to_the_last_bit(self) -> None:
         first, second = self.history(), self.history()
-        require(first == second, "the same inputs led to other states or scans the second time")
+        require(first == second, "the same inputs lead to other states or scans the second time")
 
     def test_simulations_do_not_disturb_one_another(self) -> None:
         alone = self.history()
@@ -219,7 +222,7 @@ class SimulatorConformance(ComponentConformance):
         simulation.close()
 
     def history(self) -> bytes:
-        """All that happens to two robots that drive about, bump into a wall and into one another."""
+        """States and scans of two robots that drive into a wall and into one another."""
         said = []
         with self.open([(0.5, 1.4, -math.pi / 2), (1.2, 1.5, math.pi)]) as simulation:
             for step in range(80):
@@ -230,7 +233,7 @@ class SimulatorConformance(ComponentConformance):
 
 
 def inputs(*twists: tuple[float, float], movers: Sequence[tuple[float, float, float, float]] | None = None) -> Inputs:
-    """Commands, and where movers are."""
+    """Commands, and the positions and velocities of movers."""
     return Inputs(twist=np.array(twists), movers=None if movers is None else np.array(movers, float))
 
 
@@ -240,7 +243,7 @@ def drive(
     seconds: float,
     facilities: Mapping[str, float] | None = None,
 ) -> list[State]:
-    """The states that constant commands lead to."""
+    """The states after each period of constant commands."""
     given = attrs.evolve(inputs(*twists), facilities=facilities or {})
     return [simulation.step(given) for _ in range(round(seconds / PERIOD))]
 

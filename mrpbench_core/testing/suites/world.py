@@ -1,4 +1,4 @@
-"""What every source of worlds must keep."""
+"""Checks that every source of worlds must pass."""
 
 import numpy as np
 
@@ -12,8 +12,8 @@ class WorldConformance(ComponentConformance):
     """Checks of worlds: `class TestMine(WorldConformance)`."""
 
     def make(self) -> WorldSource:
-        """Return the source of a world to check."""
-        raise NotImplementedError("define make(self) and return the source of a world to check")
+        """Return the source of worlds to check."""
+        raise NotImplementedError("define make(self) and return the source of worlds to check")
 
     def test_loads_a_world(self) -> None:
         world = self.make().load()
@@ -29,10 +29,15 @@ class WorldConformance(ComponentConformance):
         world = self.make().load()
         for level in world.levels:
             shapes = [level.walls, *(obstacle.polygon for obstacle in level.obstacles)]
-            require(all(np.isfinite(shape).all() for shape in shapes), f"level {level.name} has walls without a place")
-            require(level.wall_thickness > 0, f"level {level.name} has walls of no thickness")
+            require(
+                all(np.isfinite(shape).all() for shape in shapes),
+                f"level {level.name} has walls or obstacles with coordinates that are not finite",
+            )
+            require(level.wall_thickness > 0, f"level {level.name} has walls without thickness")
         for vertex in world.vertices:
-            require(np.isfinite([vertex.x, vertex.y]).all(), f"vertex {vertex.name!r} has no place")
+            require(
+                np.isfinite([vertex.x, vertex.y]).all(), f"vertex {vertex.name!r} has a position that is not finite"
+            )
             require(0 <= vertex.level < len(world.levels), f"vertex {vertex.name!r} is on level {vertex.level}")
 
     def test_lanes_join_vertices_that_exist(self) -> None:
@@ -40,6 +45,7 @@ class WorldConformance(ComponentConformance):
         for lane in world.lanes:
             ends = {lane.start, lane.end}
             require(
-                ends <= set(range(len(world.vertices))), f"a lane from {lane.start} to {lane.end}: no such vertices"
+                ends <= set(range(len(world.vertices))),
+                f"a lane from {lane.start} to {lane.end}: there are no such vertices",
             )
             require(len(ends) == 2, f"a lane from vertex {lane.start} to itself")

@@ -1,9 +1,7 @@
 """Who is let through doors and into lifts, and what these do."""
 
-import sys
 from importlib.metadata import entry_points
 from itertools import product
-from pathlib import Path as File
 
 import attrs
 import numpy as np
@@ -18,9 +16,9 @@ from mrpbench_core.model.execution import FleetView, Orders, State
 from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.plan import Budget, Plan
 from mrpbench_core.model.roadmap import Resource
-
-sys.path.insert(0, str(File(__file__).parent))
-from building_site import PLACES, Site, path, problem_of, site
+from mrpbench_core.testing.execution.facility_executor import FacilityExecutor
+from mrpbench_core.testing.fixtures.places import PLACES, furnished_building, problem_between
+from mrpbench_core.testing.instances.roadmaps import path_through
 
 ENDS = [f"{name}_{level}" for name, level in product(PLACES, (0, 1)) if name not in ("landing", "cabin")]
 LONGEST = 6000
@@ -44,15 +42,15 @@ def planner():
 )
 def test_everybody_gets_through_and_no_leaf_ever_touches_anybody(planner, seed, robots, motion, direction):
     random = np.random.default_rng(seed)
-    world = site(motion, direction)
+    world = furnished_building(motion, direction)
     starts, goals = (random.permutation(ENDS)[:robots].tolist() for _ in range(2))
-    problem = problem_of(world, starts, goals)
+    problem = problem_between(world, starts, goals)
     result = planner.plan(problem, Budget(wall_s=2, memory_bytes=1 << 30))
     event(str(result.status))
     if result.plan is None:
         return
     try:
-        run = Site(world, problem, result.plan, random)
+        run = FacilityExecutor(world, problem, result.plan, random)
     except DispatchError:
         event("robots turn in a ring through the door")
         return
@@ -70,11 +68,14 @@ def test_everybody_gets_through_and_no_leaf_ever_touches_anybody(planner, seed, 
 
 
 def test_a_door_opens_for_who_passes_and_stays_shut_for_who_drives_by():
-    world = site("hinged")
-    through = problem_of(world, ["middle_0"], ["landing_0"])
+    world = furnished_building("hinged")
+    through = problem_between(world, ["middle_0"], ["landing_0"])
     goal = through.goals[0][0][0]
-    run = Site(
-        world, through, Plan(paths=(path(through.roadmap, int(through.start[0]), goal),)), np.random.default_rng(0)
+    run = FacilityExecutor(
+        world,
+        through,
+        Plan(paths=(path_through(through.roadmap, [int(through.start[0]), goal]),)),
+        np.random.default_rng(0),
     )
     openings = []
     while not run.done:
@@ -107,13 +108,13 @@ def stand(world, problem, plan, facilities):
 
 
 def two_before_the_door():
-    world = site()
-    problem = problem_of(world, ["middle_0", "window_0"], ["landing_0", "shelf_0"])
+    world = furnished_building()
+    problem = problem_between(world, ["middle_0", "window_0"], ["landing_0", "shelf_0"])
     number = [goal[0][0] for goal in problem.goals]
     middle = int(problem.start[0])
     paths = (
-        path(problem.roadmap, middle, number[0]),
-        path(problem.roadmap, int(problem.start[1]), middle, number[0], number[1]),
+        path_through(problem.roadmap, [middle, number[0]]),
+        path_through(problem.roadmap, [int(problem.start[1]), middle, number[0], number[1]]),
     )
     return world, problem, Plan(paths=paths)
 
@@ -173,12 +174,14 @@ def test_a_simulator_without_doors_cannot_let_anybody_through_one():
 
 
 def test_a_lift_shuts_its_doors_comes_and_opens_before_anybody_gets_in():
-    world = site()
-    problem = problem_of(world, ["landing_1"], ["landing_0"])
+    world = furnished_building()
+    problem = problem_between(world, ["landing_1"], ["landing_0"])
     roadmap = problem.roadmap
     number = {vertex.name: int(roadmap.place[index]) for index, vertex in enumerate(world.vertices)}
     route = (number["cabin_1"], number["cabin_0"], number["landing_0"])
-    run = Site(world, problem, Plan(paths=(path(roadmap, number["landing_1"], *route),)), np.random.default_rng(1))
+    run = FacilityExecutor(
+        world, problem, Plan(paths=(path_through(roadmap, [number["landing_1"], *route]),)), np.random.default_rng(1)
+    )
     seen = []
     while not run.done:
         before = dict(run.doing)

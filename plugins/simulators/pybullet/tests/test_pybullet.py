@@ -14,13 +14,12 @@ from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.execution import Inputs
 from mrpbench_core.model.fleet import Fleet, Lidar
 from mrpbench_core.model.world import Door, Level, World
-from mrpbench_core.testing.fixtures.drive import EMPTY, FURNISHED, RASTER, drive
+from mrpbench_core.testing.fixtures.drive import BURGER, EMPTY, FURNISHED, RASTER, drive
 from mrpbench_core.testing.fixtures.room import PERIOD
 
 pytest.importorskip("pybullet", reason="PyBullet has no wheel for this Python")
 
 MODELS = pytest.mark.parametrize("model", ["wheels", "body"])
-BURGER = load_robot("turtlebot3_burger")
 
 
 def run(simulator, world, robots, starts, command, seconds, movers=(), place=None):

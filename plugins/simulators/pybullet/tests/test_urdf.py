@@ -13,23 +13,22 @@ from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.execution import Inputs
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.world import Level, World
+from mrpbench_core.testing.fixtures.drive import EMPTY
+from mrpbench_core.testing.fixtures.drive import drive as drive_simulator
+from mrpbench_core.testing.fixtures.room import PERIOD
 
 pytest.importorskip("pybullet", reason="PyBullet has no wheel for this Python")
 
-PERIOD = 0.05
 FOLDER = Path(__file__).parent / "robots"
 CART = load_robot("cart.yaml", FOLDER)
-EMPTY = World(name="empty", levels=(Level(name="L1"),))
 
 
 def drive(commands, seconds, starts=None, world=EMPTY, robot=CART):
     """Poses f8[T,n,3], twists f8[T,n,2] and contacts of each period."""
-    fleet = Fleet(robots=(robot,) * len(commands))
+    robots = [robot] * len(commands)
     if starts is None:
         starts = [[20.0 * index, 1.0, 0.4] for index in range(len(commands))]
-    with PyBullet().open(world, fleet, np.array(starts, float), 0, PERIOD) as simulation:
-        twist = np.array(commands, float)
-        states = [simulation.state, *(simulation.step(Inputs(twist=twist)) for _ in range(round(seconds / PERIOD)))]
+    states, _ = drive_simulator(PyBullet(), world, robots, starts, commands, round(seconds / PERIOD))
     return (
         np.array([state.pose for state in states]),
         np.array([state.twist for state in states]),
