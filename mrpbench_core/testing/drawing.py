@@ -11,12 +11,13 @@ capital its goal; `aB` is both; several cells with one capital are a goal set. R
 from collections.abc import Iterable
 from typing import Any
 
+import attrs
 import numpy as np
+from numpy.typing import ArrayLike
 
 from mrpbench_core.model.plan import Path
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.problem import Feature, Problem, features_of
 from mrpbench_core.model.roadmap import Grid, Roadmap
-from mrpbench_core.testing.instances.problems import build
 
 BLOCKED = "#"
 STEPS = ((0, 1), (0, -1), (1, 0), (-1, 0))
@@ -58,6 +59,29 @@ def problem(drawing: str, radius: float = 0.1, features: Iterable[Feature] = (),
     goals = [tuple(vertex for vertex, token in enumerate(free) if robot.upper() in token) for robot in robots]
     roadmap = fields.pop("roadmap", roadmap)
     return build(roadmap, starts, goals, radius, features, **fields)
+
+
+def build(
+    road: Roadmap,
+    starts: Iterable[int],
+    goal_sets: Iterable[tuple[int, ...]],
+    radius: ArrayLike = 0.1,
+    features: Iterable[Feature] = (),
+    **fields: Any,
+) -> Problem:
+    """A problem of like robots, each with one goal set; `features` are added, `fields` replace those of `Problem`."""
+    start = np.array(list(starts), np.int32)
+    count = len(start)
+    given: dict[str, Any] = {
+        "roadmap": road,
+        "profile": np.zeros(count, np.int32),
+        "radius": np.broadcast_to(radius, count).astype(float),
+        "start": start,
+        "ready": np.zeros(count, np.int64),
+        "goals": tuple((tuple(goal_set),) for goal_set in goal_sets),
+    }
+    made = Problem(**given | fields)
+    return attrs.evolve(made, features=features_of(made) | set(features))
 
 
 def unit_path(edges: Iterable[int]) -> Path:

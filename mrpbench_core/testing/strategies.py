@@ -17,8 +17,7 @@ from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Feature, Problem, Rules
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.testing.drawing import grid, unit_path
-from mrpbench_core.testing.instances.problems import build
+from mrpbench_core.testing.drawing import build, grid, unit_path
 
 
 @st.composite

@@ -4,36 +4,12 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path as File
 from typing import Any
 
-import attrs
-import numpy as np
 from numpy.typing import ArrayLike
 
-from mrpbench_core.model.problem import Feature, Problem, Rules, features_of
+from mrpbench_core.model.problem import Feature, Problem, Rules
 from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.testing.drawing import build
 from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap
-
-
-def build(
-    road: Roadmap,
-    starts: Iterable[int],
-    goal_sets: Iterable[tuple[int, ...]],
-    radius: ArrayLike = 0.1,
-    features: Iterable[Feature] = (),
-    **fields: Any,
-) -> Problem:
-    """A problem of like robots, each with one goal set; `features` are added, `fields` replace those of `Problem`."""
-    start = np.array(list(starts), np.int32)
-    count = len(start)
-    given: dict[str, Any] = {
-        "roadmap": road,
-        "profile": np.zeros(count, np.int32),
-        "radius": np.broadcast_to(radius, count).astype(float),
-        "start": start,
-        "ready": np.zeros(count, np.int64),
-        "goals": tuple((tuple(goal_set),) for goal_set in goal_sets),
-    }
-    made = Problem(**given | fields)
-    return attrs.evolve(made, features=features_of(made) | set(features))
 
 
 def problem_on(

@@ -9,10 +9,9 @@ from mrpbench_core.checking.assignment import check_choice
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.plan import PlanResult, PlanStatus
 from mrpbench_core.model.problem import Feature, Problem
-from mrpbench_core.testing.drawing import grid
+from mrpbench_core.testing.drawing import build, grid
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.instances.named import choices, solvable, unsolvable
-from mrpbench_core.testing.instances.problems import build
 from mrpbench_core.testing.oracles.optimum import UNSUPPORTED, least_sum_of_costs
 from mrpbench_core.testing.oracles.planner_call import call
 from mrpbench_core.testing.suites.component import ComponentConformance

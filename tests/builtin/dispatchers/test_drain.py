@@ -97,6 +97,7 @@ def test_plans_that_change_on_the_way_drain(seed):
         late = [int(random.integers(0, 40))]
         drain(session, executor, replans={int(step): replan for step in random.integers(0, 60, 3)})
         assert executor.fault is None
+        assert not executor.reordered
 
 
 @settings(deadline=None, max_examples=40)

@@ -32,6 +32,7 @@ def released_under_delays(session, problem, plan, random, replans=None):
     executor, manager = DelayedExecutor(problem, plan, random), ResourceManager(problem, random)
     drain(session, executor, manager, replans)
     assert executor.fault is None
+    assert not executor.reordered
     assert manager.fault is None
 
 
