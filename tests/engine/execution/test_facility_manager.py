@@ -196,11 +196,11 @@ def test_a_lift_shuts_its_doors_comes_and_opens_before_anybody_gets_in():
 
 def test_a_lift_that_is_requested_from_a_level_without_it_goes_to_where_the_robot_enters():
     world = Hospital().load()
-    problem = problem_of(world, ["L3_north_18.6"], ["L1_south_10"])
+    problem = problem_between(world, ["L3_north_18.6"], ["L1_south_10"])
     number = {vertex.name: int(problem.roadmap.place[index]) for index, vertex in enumerate(world.vertices)}
     corridor = ("L2_north_18.6", "L2_south_18.6", "L2_south_15.8", "L2_south_12.8", "L2_south_10")
     names = ("L3_north_18.6", "L3_lift_b", "L2_lift_b", *corridor, "L2_lift_c", "L1_lift_c", "L1_south_10")
-    plan = Plan(paths=(path(problem.roadmap, *(number[name] for name in names)),))
+    plan = Plan(paths=(path_through(problem.roadmap, [number[name] for name in names]),))
     facility_manager, view, state = stand(world, problem, plan, Facilities(world).initial_state())
     zero = np.zeros(1, "i4")
     facility_manager.take(Orders(released=zero, requests=((0, "lift_c"),)))
