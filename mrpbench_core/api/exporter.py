@@ -14,21 +14,21 @@ class ExporterSession(ABC):
 
     @abstractmethod
     def write(self, chunk: Chunk) -> None:
-        """Append what happened since the last chunk."""
+        """Append the samples since the last chunk."""
 
     @abstractmethod
     def close(self) -> None:
-        """Finish the file; until then it has a temporary name or is readable as it stands."""
+        """Finish the file; until then it has a temporary name or is readable at any time."""
 
     def abandon(self) -> None:  # noqa: B027 - optional: there may be nothing to remove
-        """Drop the unfinished file, because the run failed."""
+        """Remove the unfinished file, because the run failed."""
 
 
 class Exporter(Component):
-    """Writes runs in another program's format; serves live runs and stored recordings alike."""
+    """Writes runs in the format of another program, during the run or from a stored recording."""
 
     group: ClassVar[str] = "mrpbench.exporters"
 
     @abstractmethod
     def open(self, context: RunContext, destination: Path) -> ExporterSession:
-        """Begin to write to `destination`, a path without suffix in an existing folder; replaces what is there."""
+        """Begin to write to `destination`, a path without suffix in an existing folder; replace an existing file."""

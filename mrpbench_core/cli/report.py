@@ -1,4 +1,4 @@
-"""`mrpbench report DIR…`: tables with intervals, and one page to put before a reviewer."""
+"""`mrpbench report DIR…`: print tables with intervals and tests, and write them as one HTML page."""
 
 import argparse
 from pathlib import Path
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from mrpbench_core.report.report import Report
 
 REPLAYS = 8
-"""Replays that are written unless asked otherwise: a look at what went wrong, in seconds."""
+"""Number of replays that are written by default."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -25,7 +25,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "folders", nargs="+", metavar="DIR", help="results folders; of one run in several, the later wins"
     )
-    parser.add_argument("--metrics", metavar="A,B", help="columns to show, or `all` (default: a few that matter)")
+    parser.add_argument("--metrics", metavar="A,B", help="columns to show, or `all` (default: the primary columns)")
     parser.add_argument(
         "--by",
         metavar="A,B",

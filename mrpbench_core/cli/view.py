@@ -1,4 +1,4 @@
-"""`mrpbench view RUN`: a replay that any browser opens."""
+"""`mrpbench view RUN`: write a replay of a run, which any browser opens."""
 
 import argparse
 from pathlib import Path
@@ -13,13 +13,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("run", metavar="RUN", help=HELP)
     parser.add_argument("--out", metavar="FILE", help="the page (default: replay-<run id>.html in the results)")
     parser.add_argument(
-        "--png", metavar="FILE", help="also a picture of the planned and driven paths, further levels beside it"
+        "--png", metavar="FILE", help="also write a picture of the planned and driven paths, one file per level"
     )
-    parser.add_argument("--gif", metavar="FILE", help="also an animation of a few seconds")
+    parser.add_argument("--gif", metavar="FILE", help="also write an animation of a few seconds")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write the page, and what else is asked for."""
+    """Write the page, and the picture and the animation if requested."""
     results, record = find_run(arguments.run)
     run_id = record["run_id"]
     page = Path(arguments.out) if arguments.out else replay_file(results, run_id)

@@ -1,4 +1,4 @@
-"""The numbers of a report as plain data: one entry per group and column, one per comparison."""
+"""The numbers of a report as plain data for JSON and CSV: an entry per group and column, an entry per comparison."""
 
 import csv
 from collections.abc import Iterable, Mapping
@@ -21,7 +21,7 @@ PAIR_COLUMNS = (
 
 
 def groups_of(report: Report) -> list[dict[str, Any]]:
-    """Of each group: axes, counts, and estimates by column, over all its units and over those in common."""
+    """Return for each group its axes, counts, and estimates by column over all units and over common units."""
     found = []
     for setting, entries in zip(report.settings, report.numbers, strict=True):
         for group, numbers in zip(setting.groups, entries, strict=True):
@@ -42,7 +42,7 @@ def groups_of(report: Report) -> list[dict[str, Any]]:
 
 
 def pairs_of(comparisons: Iterable[Comparison]) -> list[dict[str, Any]]:
-    """Every comparison with its numbers."""
+    """Return the numbers of every comparison."""
     return [
         {
             "setting": entry.setting,
@@ -72,7 +72,7 @@ def pairs_of(comparisons: Iterable[Comparison]) -> list[dict[str, Any]]:
 
 
 def write_estimates(report: Report, file: Path) -> None:
-    """Write a CSV file with one line per group and column, over all units and over those in common."""
+    """Write a CSV file with one line per group and column, over all units and over common units."""
     axes = axes_of(report.settings)
     units = {column.name: column.unit for column in report.columns}
     rows = [
@@ -87,7 +87,7 @@ def write_estimates(report: Report, file: Path) -> None:
 
 
 def write_rows(file: Path, rows: Iterable[Mapping[str, Any]], columns: list[str]) -> None:
-    """Write a CSV file; what is missing stays empty."""
+    """Write a CSV file; missing values stay empty."""
     try:
         with file.open("w", newline="", encoding="utf-8") as stream:
             writer = csv.DictWriter(stream, columns, restval="")

@@ -1,4 +1,4 @@
-"""Two results folders, configuration by configuration, on the scenarios that both have."""
+"""Compares two results folders, configuration by configuration, on the scenarios that both have."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -19,15 +19,15 @@ from mrpbench_core.store.results import Results
 
 @attrs.frozen(kw_only=True)
 class FolderComparison:
-    """What became of A in B."""
+    """Folder B compared with folder A."""
 
     comparisons: tuple[Comparison, ...]
     differing: dict[str, tuple[str, str]]
-    """Options, versions and machines that are one thing throughout A and another throughout B."""
+    """Options, versions and machines that have one value throughout A and another throughout B."""
     unmatched: tuple[tuple[str, ...], tuple[str, ...]]
-    """Configurations of A and of B that the other lacks."""
+    """Configurations of A that B lacks, and of B that A lacks."""
     no_common_scenario: tuple[str, ...]
-    """Configurations of both that share no scenario."""
+    """Configurations in both folders that share no scenario."""
 
 
 def compare_folders(
@@ -35,8 +35,8 @@ def compare_folders(
 ) -> FolderComparison:
     """Compare B with A.
 
-    Configurations match where they agree in every option that varies within a folder; options that are one thing in A
-    and another in B are what is compared.
+    Configurations match where they agree in every option that varies within a folder; options with one
+    value in A and another in B are compared.
 
     Args:
         first: A.

@@ -1,4 +1,4 @@
-"""Runs as a Parquet file: one row each, flat."""
+"""Writes runs to a Parquet file, one row per run."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,7 +10,7 @@ from mrpbench_core.report.reading.runs import each_once
 from mrpbench_core.store.results import Results, flatten
 
 _AT_ONCE = 2000
-"""Rows of a row group, which bounds memory."""
+"""Number of rows in a row group, which limits memory."""
 
 
 def write_parquet(folders: Sequence[Results], file: Path) -> None:
@@ -50,7 +50,7 @@ def _row(record: dict[str, Any]) -> dict[str, Any]:
 
 
 def _arrow(pa: Any, kinds: set[type]) -> Any:
-    """The type of a column: text where values are of several kinds."""
+    """Return the type of a column: text if its values have several types."""
     if kinds <= {bool}:
         return pa.bool_() if kinds else pa.null()
     if kinds <= {int}:

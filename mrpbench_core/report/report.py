@@ -1,4 +1,4 @@
-"""All numbers of a report, made once."""
+"""Computes all numbers of a report once."""
 
 from collections.abc import Sequence
 
@@ -20,7 +20,7 @@ from mrpbench_core.store.results import Results
 
 @attrs.frozen(kw_only=True)
 class Report:
-    """Runs of results folders with what can be said of them."""
+    """The runs of results folders with their estimates and comparisons."""
 
     folders: tuple[Results, ...]
     runs: Runs
@@ -28,13 +28,13 @@ class Report:
     numbers: tuple[tuple[Numbers, ...], ...]
     """Of each group of each setting."""
     columns: tuple[Column, ...]
-    """What is shown beside success."""
+    """Columns that are shown in addition to success."""
     profiled: tuple[Column, ...]
-    """Primary and shown columns that also have a performance profile."""
+    """Primary and shown columns that have a performance profile."""
     comparisons: tuple[Comparison, ...]
 
     def tables(self, brief: bool = False) -> list[Table]:
-        """What a report prints; `brief` counts comparisons that could not be significant instead of showing them."""
+        """Return the tables; `brief` counts the comparisons that cannot be significant instead of showing them."""
         means = means_table(self.settings, self.numbers, self.columns, self.runs) if self.columns else None
         common = common_table(self.settings, self.numbers, self.columns, self.runs)
         found = (
@@ -49,12 +49,12 @@ class Report:
 def make_report(
     folders: Sequence[Results], metrics: Sequence[str] | None = None, by: Sequence[str] | None = None
 ) -> Report:
-    """Read folders and estimate and compare everything.
+    """Read folders, estimate all columns and compare all groups.
 
     Args:
-        folders: of a run in several, the last counts.
-        metrics: columns to look at; None = a few that matter, `["all"]` = all.
-        by: options that tell groups apart; None = all that vary.
+        folders: the last record of a run that is in several counts.
+        metrics: columns to show; None = the primary columns, `["all"]` = all.
+        by: options that distinguish groups; None = all that vary.
 
     Raises:
         InputError: there are no runs, or none has a column or option that is asked for.
@@ -77,7 +77,7 @@ def make_report(
 
 
 def choose_columns(runs: Runs, known: Columns, metrics: Sequence[str] | None) -> tuple[Column, ...]:
-    """Columns to show, without those that every table has.
+    """Return the columns to show, without those that every table has.
 
     Args:
         runs: which hold the values.
@@ -101,7 +101,7 @@ def choose_columns(runs: Runs, known: Columns, metrics: Sequence[str] | None) ->
 
 
 def profiled_columns(runs: Runs, known: Columns, shown: Sequence[Column]) -> tuple[Column, ...]:
-    """Columns with a performance profile, which needs values of which less is better, none below 0."""
+    """Return the columns with a performance profile, whose values must not be below 0 and less of which is better."""
     return tuple(
         column
         for column in dict.fromkeys([*primary_columns(known), *shown])
@@ -113,9 +113,9 @@ def profiled_columns(runs: Runs, known: Columns, shown: Sequence[Column]) -> tup
 
 
 def tested(runs: Runs, known: Columns, columns: Sequence[Column]) -> list[Column]:
-    """Columns that are compared: success, plans found (where that is not the same), and others that have a direction.
+    """Return the columns that are compared: success, plans found if that differs, and others that have a direction.
 
-    Planning time is compared as PAR2 where that is there: it counts what a limit cut off.
+    Planning time is compared as PAR2 if possible, which counts the runs that a limit ended.
     """
     penalised = any(column.name == "timing.planning_par2_s" for column in columns)
     rates = RATES if (runs.values["succeeded"] != runs.values["planned"]).any() else RATES[:1]

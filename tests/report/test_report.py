@@ -70,7 +70,7 @@ def test_pairs_are_made_on_common_scenarios_only(results, record):
     assert cost.verdict == "worse"  # lower is better; the only test that could be significant
 
 
-def test_a_mean_that_points_the_other_way_is_told(results, record):
+def test_a_mean_that_points_the_other_way_is_reported(results, record):
     """Nineteen pairs a little dearer and one far cheaper: worse by the ranks, cheaper on average."""
     records = [record("a", seed, cost=500.0 if seed == 19 else 10.0) for seed in range(20)]
     records += [record("b", seed, cost=100.0 if seed == 19 else 11.0 + seed) for seed in range(20)]

@@ -43,7 +43,7 @@ matrix: {planner: [astar, prioritized], seed: 0..1}
 
 
 @pytest.fixture(scope="module")
-def told(tmp_path_factory):
+def reported(tmp_path_factory):
     """Run, report and view in processes in which the metric is installed; return the folder and what was printed."""
     folder = tmp_path_factory.mktemp("third")
     info = folder / "site" / "acme_strain-1.0.dist-info"
@@ -69,14 +69,14 @@ def told(tmp_path_factory):
     return folder / "out", *printed
 
 
-def test_the_summary_of_a_run_has_its_primary_column(told):
-    _, summary, _ = told
+def test_the_summary_of_a_run_has_its_primary_column(reported):
+    _, summary, _ = reported
     (row,) = (line.split() for line in summary.splitlines() if line.startswith("strain."))
     assert row == ["strain.wear_mm", "2", "2"]
 
 
-def test_tables_figures_and_the_list_of_runs_have_its_primary_column(told):
-    folder, _, tables = told
+def test_tables_figures_and_the_list_of_runs_have_its_primary_column(reported):
+    folder, _, tables = reported
     assert "strain.wear_mm" in tables
     assert "strain.hidden" not in tables
     page = (folder / "report.html").read_text()
@@ -88,8 +88,8 @@ def test_tables_figures_and_the_list_of_runs_have_its_primary_column(told):
     ]
 
 
-def test_the_replay_has_its_primary_column(told):
-    folder, _, _ = told
+def test_the_replay_has_its_primary_column(reported):
+    folder, _, _ = reported
     (replay,) = folder.glob("replay-*.html")
     data = re.search(r'<script type="application/json" id="run">(.*?)</script>', replay.read_text(), re.DOTALL)
     metrics = {metric.pop("name"): metric for metric in json.loads(data[1])["facts"]["metrics"]}
@@ -98,8 +98,8 @@ def test_the_replay_has_its_primary_column(told):
     assert "primary" not in metrics["strain.hidden"]
 
 
-def test_a_folder_tells_of_columns_whose_metric_is_not_installed_here(told, tmp_path):
-    folder, _, _ = told
+def test_a_folder_describes_columns_whose_metric_is_not_installed(reported, tmp_path):
+    folder, _, _ = reported
     found = make_report([load(folder)])
     (column,) = (column for column in found.columns if column.name == "strain.wear_mm")
     assert (column.unit, column.better, column.drawn) == ("mm", "lower", "cactus")

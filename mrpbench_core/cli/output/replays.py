@@ -1,4 +1,4 @@
-"""Replays that a report links to."""
+"""Writes replays, for `mrpbench view` and for the links of a report."""
 
 import os
 from collections.abc import Sequence
@@ -23,18 +23,18 @@ from mrpbench_core.store.results import Results
 
 
 def replay_file(results: Results, run_id: str) -> Path:
-    """Where the replay of a run lies unless another place is asked for."""
+    """Return the default path of the replay of a run."""
     return results.folder.path / f"replay-{run_id[:12]}.html"
 
 
 def write_replay(recording: Recording, results: Results, record: dict[str, Any], page: Path) -> None:
-    """Write the page of a recorded run, with its metrics' units and its planner's options."""
+    """Write the page of a recorded run, with the units of its metrics and the options of its planner."""
     planner = _planner(record["config"].get("planner", "none"))
     write_page(recording, record, page, columns=_columns(results, record), planner=planner)
 
 
 def _columns(results: Results, record: dict[str, Any]) -> Columns:
-    """The columns of a run's metrics and timing, as declared by the invocation that did the run."""
+    """Return the columns of a run's metrics and timing, as declared by the invocation of the run."""
     entry = results.entry(record["run_id"])
     assert entry is not None
     try:
@@ -46,7 +46,7 @@ def _columns(results: Results, record: dict[str, Any]) -> Columns:
 
 
 def _planner(block: Any) -> str:
-    """The planner's name, and the plain options that are not at their defaults if it is here to tell."""
+    """Return the planner's name, and the plain options that differ from their defaults if it is installed."""
     if not isinstance(block, dict):
         return str(block)
     name = str(block["plugin"])
@@ -63,9 +63,9 @@ def _planner(block: Any) -> str:
 
 
 def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
-    """Write replays of up to `most` runs that have none; returns the addresses of all, relative to `page`.
+    """Write replays of up to `most` runs without one; return the addresses of all replays, relative to `page`.
 
-    Failed runs come first, and every configuration gets its turn before another gets a second one.
+    Failed runs come first, and every configuration gets one before another gets a second one.
     """
     found: dict[str, str] = {}
     lacking: list[tuple[Results, str, Path]] = []

@@ -1,4 +1,4 @@
-"""The table at the end of `mrpbench run`: counts and means; intervals and comparisons are `mrpbench report`'s."""
+"""Prints the table at the end of `mrpbench run`: counts and means, without intervals and comparisons."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -17,7 +17,7 @@ from mrpbench_core.report.reading.runs import PAR2, Runs, read_runs
 from mrpbench_core.store.results import Results
 
 ABREAST = 4
-"""Groups that stand side by side, one row for each column of the table."""
+"""Number of groups up to which each group is a column of the table."""
 
 
 def plugins_line(studies: Sequence[Study]) -> str:
@@ -34,7 +34,7 @@ def plugins_line(studies: Sequence[Study]) -> str:
 
 
 def print_summary(results: Results, limit: int | None = None) -> None:
-    """Print a column for each group while they are few, else a row for each, at most `limit` of them."""
+    """Print a column for each group if there are few, otherwise a row for each, at most `limit` rows."""
     shown = [column.name for column in primary_columns(read_columns([results])) if column.name != PAR2]
     runs = read_runs([results], shown)
     if not len(runs):

@@ -1,4 +1,4 @@
-"""Groups compared in pairs, on the units that both have."""
+"""Compares groups in pairs, on the units that both have."""
 
 from collections.abc import Iterable, Sequence
 from itertools import combinations
@@ -14,12 +14,12 @@ from mrpbench_core.report.reading.runs import Runs
 from mrpbench_core.report.statistics.paired import Difference, adjust, compare_rates, compare_values
 
 SIGNIFICANT = 0.05
-"""Adjusted p below which a difference is called one."""
+"""Adjusted p below which a difference is significant."""
 
 
 @attrs.frozen(kw_only=True)
 class Comparison:
-    """One column of two groups, second against first."""
+    """One column of two groups: the second compared with the first."""
 
     setting: str
     first: str
@@ -29,12 +29,12 @@ class Comparison:
     is_rate: bool
     found: Difference
     unpaired: tuple[int, int]
-    """Units of each group that have a value and no partner."""
+    """Number of units of each group that have a value but no partner."""
     p_adjusted: float = 1.0
 
     @property
     def is_mixed(self) -> bool:
-        """Whether the mean points one way and the ranks, by which the verdict goes, the other."""
+        """Whether the mean and the ranks, which decide the verdict, have different signs."""
         return self.found.effect * self.found.difference.value < 0
 
     @property
@@ -53,7 +53,7 @@ def compare_pair(
     names: tuple[str, str, str],
     columns: Iterable[Column],
 ) -> list[Comparison]:
-    """Compare two groups in every column of which both have values for some common unit.
+    """Compare two groups in every column in which both have values for a common unit.
 
     Args:
         runs: of both groups.
@@ -86,7 +86,7 @@ def compare_pair(
 
 
 def compare_settings(runs: Runs, settings: Sequence[Setting], columns: Sequence[Column]) -> list[Comparison]:
-    """All pairs of groups of a setting that differ in one choice only, adjusted for being that many."""
+    """Compare all pairs of groups of a setting that differ in one choice; p is adjusted for the number of tests."""
     found = []
     for setting in settings:
         for (i, first), (j, second) in combinations(enumerate(setting.groups), 2):
@@ -97,6 +97,6 @@ def compare_settings(runs: Runs, settings: Sequence[Setting], columns: Sequence[
 
 
 def adjusted(comparisons: Sequence[Comparison]) -> list[Comparison]:
-    """The same, with p adjusted for all of them."""
+    """Return the comparisons with p adjusted for the number of tests."""
     p = adjust([entry.found for entry in comparisons])
     return [attrs.evolve(entry, p_adjusted=value) for entry, value in zip(comparisons, p, strict=True)]

@@ -1,4 +1,4 @@
-"""Estimates for groups of runs: over all their units, and over the units that a setting's groups have in common."""
+"""Estimates for groups of runs, over all units and over the units that all groups of a setting have in common."""
 
 from collections.abc import Iterable
 from functools import reduce
@@ -16,7 +16,7 @@ from mrpbench_core.report.statistics.rates import rate
 
 @attrs.frozen(kw_only=True)
 class Numbers:
-    """What the tables say of a group, by column."""
+    """Estimates of a group, by column."""
 
     overall: dict[str, IntervalEstimate | None]
     """Over every unit of the group that has a value."""
@@ -35,10 +35,10 @@ def estimate(runs: Runs, group: RunGroup, units: Int, column: str, only: Int | N
 
 
 def common_units(runs: Runs, setting: Setting, column: str) -> Int:
-    """Units for which every group has a value; for success: for which every run of every group has a plan.
+    """Units for which every group has a value; for success, units for which every run of every group has a plan.
 
-    A group that plans but never has the value cannot have it (it was not executed, say) and is not asked. One that
-    never finds a plan is, and leaves nothing in common.
+    A group that has plans but never the value, for example because it was not executed, does not count. A group that
+    never finds a plan counts, so that no unit is common to all groups.
     """
     having = []
     for group in setting.groups:

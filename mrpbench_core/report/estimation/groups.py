@@ -1,4 +1,4 @@
-"""Runs that differ only in seed and repeat, and the settings in which such groups met the same scenarios."""
+"""Groups of runs that differ in seed and repeat only, and settings: groups that have scenarios in common."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -13,21 +13,21 @@ from mrpbench_core.report.reading.runs import Runs
 
 @attrs.frozen(kw_only=True, eq=False)
 class RunGroup:
-    """Runs of one configuration, or of several that are looked at as one."""
+    """Runs of one configuration, or of several that are pooled."""
 
     axes: Axes
-    """What sets it apart, by dotted option."""
+    """Options in which it differs from other groups, by dotted name."""
     members: Int
     """Indices of all its runs."""
     counted: Int
-    """Those that say something about the method."""
+    """Indices of the runs that say something about the method."""
 
     def statuses(self, runs: Runs) -> Counter[str]:
-        """How many runs ended in each status."""
+        """Count the runs of each status."""
         return Counter(runs.status[index] for index in self.members)
 
     def by_unit(self, runs: Runs, units: Int, column: str) -> tuple[Int, Float, int]:
-        """Units that have a value, their means over their runs, and the number of these runs."""
+        """Return the units with a value, the mean over the runs of each unit, and the number of these runs."""
         found = runs.values[column][self.counted]
         having = np.isfinite(found)
         numbers, place = np.unique(units[self.counted][having], return_inverse=True)
@@ -41,22 +41,22 @@ class Setting:
     """Groups that share scenarios, so that they can be compared pair by pair."""
 
     name: str
-    """What sets it apart from the other settings."""
+    """The options in which it differs from other settings."""
     groups: tuple[RunGroup, ...]
     names: tuple[str, ...]
-    """Of each group, what sets it apart from the others here."""
+    """For each group, the options in which it differs from the others."""
     units: Int
-    """Of each run of the folders, what it is a sample of (see `Runs.units`)."""
+    """The unit of each run of the folders; see `Runs.units`."""
     unit: str
     """`scenarios` or `runs`."""
 
 
 def group_runs(runs: Runs, by: Sequence[str] | None = None) -> list[RunGroup]:
-    """Groups in the order in which their first runs come.
+    """Group the runs, in the order of the first run of each group.
 
     Args:
         runs: of one or several folders.
-        by: options that tell groups apart; None = all that vary.
+        by: options that distinguish groups; None = all that vary.
     """
     axes = runs.axes(by)
     numbers: dict[str, int] = {}
@@ -72,7 +72,7 @@ def group_runs(runs: Runs, by: Sequence[str] | None = None) -> list[RunGroup]:
 
 
 def find_settings(runs: Runs, groups: Sequence[RunGroup]) -> list[Setting]:
-    """Put together groups that share scenarios, directly or through others."""
+    """Collect groups that share scenarios, directly or through other groups."""
     parts: list[tuple[set[int], list[RunGroup]]] = []
     for group in groups:
         scenarios = set(np.unique(runs.scenario[group.members]).tolist()) - {-1}
@@ -92,7 +92,7 @@ def find_settings(runs: Runs, groups: Sequence[RunGroup]) -> list[Setting]:
 
 
 def differing_factors(first: Axes, second: Axes) -> list[str]:
-    """Blocks in which two groups differ; a planner and its options are one."""
+    """Return the blocks in which two groups differ; a planner and its options are one block."""
     one, other = factors(first), factors(second)
     return [name for name in dict.fromkeys([*one, *other]) if repr(one.get(name)) != repr(other.get(name))]
 

@@ -1,1 +1,1 @@
-"""The page of a report: one HTML file that loads nothing. Only its list of runs needs a script."""
+"""The page of a report: one HTML file that loads no other file. Only its list of runs needs a script."""

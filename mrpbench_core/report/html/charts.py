@@ -1,4 +1,4 @@
-"""Charts as SVG. Groups are told apart by colour and by dashes or marks, so that no reader depends on colour."""
+"""Charts as SVG. Groups differ in colour and in dashes or marks, so that no reader depends on colour."""
 
 from collections.abc import Sequence
 from html import escape
@@ -11,7 +11,7 @@ from mrpbench_core.report.statistics.estimate import IntervalEstimate
 from mrpbench_core.report.tables.table import Shown
 
 STYLES = 8
-"""Colours, dashes and marks that differ; the ninth group looks like the first."""
+"""Number of different colours, dashes and marks; the ninth group looks like the first."""
 _WIDTH, _HEIGHT = 440, 280
 _LEFT, _RIGHT, _TOP, _BOTTOM = 56, 14, 12, 44
 _ROW = 26
@@ -29,7 +29,7 @@ class Curve:
 
 
 def steps(curves: Sequence[Curve], x_label: str, y_label: str, *, log_x: bool, start: float, top: float | None) -> str:
-    """Step curves with a legend below.
+    """Draw step curves.
 
     Args:
         curves: x ascending.
@@ -65,7 +65,7 @@ def steps(curves: Sequence[Curve], x_label: str, y_label: str, *, log_x: bool, s
 def intervals(
     rows: Sequence[tuple[str, int, IntervalEstimate | None]], label: str, *, percent: bool, log: bool = False
 ) -> str:
-    """One row per group: a mark at the estimate and a line over its interval."""
+    """Draw one row per group: a mark at the estimate and a line over its interval."""
     found = [entry for _, _, entry in rows if entry is not None]
     if not found:
         return ""
@@ -95,7 +95,7 @@ def intervals(
 
 
 def legend(names: Sequence[str]) -> str:
-    """Names beside a line and a mark of their style."""
+    """Draw each name next to a line and a mark in its style."""
     entries = []
     for style, name in enumerate(names):
         sample = f'<svg width="34" height="14" aria-hidden="true"><path class="line s{style % STYLES}" d="M0,7H34"/>'

@@ -1,4 +1,4 @@
-"""Which charts a setting gets."""
+"""The charts of each setting."""
 
 from collections.abc import Sequence
 from html import escape
@@ -16,7 +16,7 @@ from mrpbench_core.report.report import Report
 from mrpbench_core.report.statistics.profiles import cactus, profiles
 
 _DONE = {"planning": ("planned", "had a plan"), "execution": ("succeeded", "succeeded")}
-"""For each stage the rate that says which runs are done with it, and words for that."""
+"""For each stage, the rate whose runs completed it, and the words for that."""
 
 
 def figures(report: Report) -> str:
@@ -42,11 +42,11 @@ def _rates(setting: Setting, numbers: Sequence[Numbers]) -> list[tuple[str, str]
     charts = [
         (
             intervals(rows["planned"], "plans found [%]", percent=True),
-            "Runs with a plan, of all that count; Wilson 95 %.",
+            "Share of runs with a plan, of all runs that count; Wilson 95 %.",
         ),
         (
             intervals(rows["succeeded"], "succeeded [%]", percent=True),
-            "Runs that succeeded, of all that count; Wilson 95 %.",
+            "Share of runs that succeeded, of all runs that count; Wilson 95 %.",
         ),
     ]
     same = all(entry.overall["succeeded"] == entry.overall["planned"] for entry in numbers)
@@ -61,7 +61,7 @@ def _means(report: Report, setting: Setting, numbers: Sequence[Numbers]) -> list
         rows = [(name, index, numbers[index].common[column.name]) for index, name in enumerate(setting.names)]
         count = max((entry.n for _, _, entry in rows if entry is not None), default=0)
         best = {1: " More is better.", -1: " Less is better."}.get(direction(column), "")
-        text = f"Mean over the {count} {setting.unit} that all have in common; bootstrap 95 %.{best}"
+        text = f"Mean over the {count} {setting.unit} that all groups have in common; bootstrap 95 %.{best}"
         found.append((intervals(rows, heading(column), percent=False), text))
     return found
 
@@ -80,7 +80,7 @@ def _curves(report: Report, setting: Setting) -> list[tuple[str, str]]:
             curves = [Curve(name, index, *cactus(table[index])) for index, name in enumerate(setting.names)]
             y_label = f"{setting.unit} {rate}"
             chart = steps(curves, heading(column), y_label, log_x=True, start=0.0, top=float(len(units)))
-            text = f"Cactus plot: of {len(units)} {setting.unit}, how many {done} with at most each {column.name}."
+            text = f"Cactus plot: how many of the {len(units)} {setting.unit} {done} within each {column.name}."
             found.append((chart, text))
         curves = [
             Curve(name, index, *curve)
@@ -88,7 +88,7 @@ def _curves(report: Report, setting: Setting) -> list[tuple[str, str]]:
         ]
         x_label, y_label = f"{column.name}, ratio to the best", f"share of {setting.unit}"
         chart = steps(curves, x_label, y_label, log_x=_wide(curves), start=0.0, top=1.0)
-        over = f"over {len(units)} {setting.unit}; those without a value count as never"
+        over = f"over {len(units)} {setting.unit}; those without a value never count"
         found.append((chart, f"Performance profile (Dolan and Moré 2002) {over}."))
     return found
 
@@ -99,7 +99,7 @@ def _wide(curves: Sequence[Curve]) -> bool:
 
 
 def _on(runs: Runs, setting: Setting, group: RunGroup, column: Column, units: Float) -> Float:
-    """A group's mean for each unit; NaN where the stage failed in some run, so that the unit is not done."""
+    """Mean of a group for each unit; NaN if a run of the unit failed in the stage."""
     numbers, values, _ = group.by_unit(runs, setting.units, column.name)
     asked, done, _ = group.by_unit(runs, setting.units, _DONE[column.stage][0])
     whole = np.isin(numbers, asked[done == 1])

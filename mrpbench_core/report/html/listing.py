@@ -1,4 +1,4 @@
-"""The list of runs, packed: the page opens with 10^5 of them."""
+"""Packs the list of runs, so that a page can hold 10^5 of them."""
 
 import base64
 import json
@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from mrpbench_core.model.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.reading.columns import heading
 from mrpbench_core.report.report import Report
 
@@ -17,7 +18,7 @@ FIGURES = 6
 
 
 def packed_runs(report: Report, replays: Mapping[str, str]) -> str:
-    """All runs as deflated JSON in base64: columns, with texts that repeat given once.
+    """Return all runs as deflated JSON in base64, in columns; a repeated text is stored once.
 
     Args:
         report: its runs, groups and columns.
@@ -47,13 +48,19 @@ def packed_runs(report: Report, replays: Mapping[str, str]) -> str:
         "values": [[_rounded(value) for value in runs.values[column.name].tolist()] for column in columns],
         "replays": {run_id[:SHORT]: address for run_id, address in replays.items()},
     }
+    data |= {"tones": [tone(status) for status in statuses.known]}
     data |= {"statuses": list(statuses.known), "messages": list(messages.known)}
     text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return base64.b64encode(zlib.compress(text.encode(), 7)).decode()
 
 
+def tone(status: str) -> str:
+    """Return the style of a status: `good`, `bad`, or `out` for runs that do not count."""
+    return "good" if status == RunStatus.SUCCEEDED else "out" if status in LEFT_OUT else "bad"
+
+
 class _Texts:
-    """Numbers texts in the order in which they come."""
+    """Numbers texts in the order of their appearance."""
 
     def __init__(self) -> None:
         self.known: dict[str, int] = {}

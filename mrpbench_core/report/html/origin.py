@@ -1,4 +1,4 @@
-"""How to make the results again, and what they were made with."""
+"""The section that says how to reproduce the results: versions, machines, configurations, files."""
 
 import hashlib
 from collections.abc import Iterable, Sequence
@@ -51,7 +51,7 @@ def _invocations(invocations: Iterable[dict[str, Any]]) -> str:
         )
         rows.append("".join(f"<td>{escape(str(cell or '–'))}</td>" for cell in cells))
     if not rows:
-        return "<p>The folders hold no invocations: versions and machine are unknown.</p>"
+        return "<p>The folders contain no invocations, so the versions and the machine are unknown.</p>"
     heads = "".join(f"<th>{name}</th>" for name in ("started", "node", "machine", "system", "Python", "overrides"))
     body = "".join(f"<tr>{row}</tr>" for row in rows)
     return f'<div class="wide"><table><thead><tr>{heads}</tr></thead><tbody>{body}</tbody></table></div>'

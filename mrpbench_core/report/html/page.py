@@ -11,22 +11,22 @@ from mrpbench_core.files.text import counted
 from mrpbench_core.model.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.comparison import SIGNIFICANT, Comparison
 from mrpbench_core.report.html.figures import figures
-from mrpbench_core.report.html.listing import packed_runs
+from mrpbench_core.report.html.listing import packed_runs, tone
 from mrpbench_core.report.html.origin import origin
 from mrpbench_core.report.report import Report
 from mrpbench_core.report.rules import RULES
 from mrpbench_core.report.tables.table import Shown, Table, p_value, text
 
 FINDINGS = 12
-"""Differences that the summary tells."""
+"""Number of differences in the summary."""
 
 
 def write_report(report: Report, file: Path, replays: Mapping[str, str] | None = None) -> None:
     """Write one self-contained HTML page.
 
     Args:
-        report: what it tells.
-        file: where to.
+        report: the numbers.
+        file: the page.
         replays: addresses of replays relative to the page, by run id.
 
     Raises:
@@ -61,11 +61,11 @@ def _summary(report: Report) -> str:
         counts[status] = counts.get(status, 0) + 1
     ordered = sorted(counts.items(), key=lambda item: (item[0] != RunStatus.SUCCEEDED, item[0] in LEFT_OUT, -item[1]))
     bar = "".join(
-        f'<span class="part {_tone(status)}" style="flex-grow:{count}" title="{count} {status}"></span>'
+        f'<span class="part {tone(status)}" style="flex-grow:{count}" title="{count} {status}"></span>'
         for status, count in ordered
     )
     words = "".join(
-        f'<li class="{_tone(status)}"><b>{count}</b> {status.replace("_", " ")}</li>' for status, count in ordered
+        f'<li class="{tone(status)}"><b>{count}</b> {status.replace("_", " ")}</li>' for status, count in ordered
     )
     scenarios = len(set(runs.scenario[runs.scenario >= 0].tolist()))
     return (
@@ -76,10 +76,6 @@ def _summary(report: Report) -> str:
     )
 
 
-def _tone(status: str) -> str:
-    return "good" if status == RunStatus.SUCCEEDED else "out" if status in LEFT_OUT else "bad"
-
-
 def _findings(comparisons: tuple[Comparison, ...]) -> str:
     if not comparisons:
         return ""
@@ -87,7 +83,7 @@ def _findings(comparisons: tuple[Comparison, ...]) -> str:
     if not found:
         return (
             f"<p>None of {counted(len(comparisons), 'paired comparison')} shows a difference at adjusted p &lt;"
-            f" {SIGNIFICANT:g}: the data do not establish a ranking.</p>"
+            f" {SIGNIFICANT:g}. The data do not establish a ranking.</p>"
         )
     items = []
     for entry in found[:FINDINGS]:

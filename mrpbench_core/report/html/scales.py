@@ -1,4 +1,4 @@
-"""Axes of charts: where values stand, and which of them are written."""
+"""Axes of charts: positions of values, and ticks."""
 
 import math
 
@@ -26,7 +26,7 @@ class Scale:
         return self.start + min(1.0, max(0.0, share)) * (self.end - self.start)
 
     def ticks(self, count: int = 5) -> list[float]:
-        """Round values, about `count` of them."""
+        """Return about `count` round values."""
         if self.log:
             first, last = math.ceil(math.log10(self.low) - 1e-9), math.floor(math.log10(self.high) + 1e-9)
             step = max(1, math.ceil((last - first + 1) / (count + 1)))
@@ -42,7 +42,7 @@ class Scale:
 def spread(
     values: "list[float] | np.ndarray[tuple[int], np.dtype[np.float64]]", log: bool = False
 ) -> tuple[float, float]:
-    """Ends of an axis for these values, with room at both."""
+    """Return the ends of an axis for these values, with a margin."""
     low, high = float(min(values)), float(max(values))
     if log:
         return 10 ** math.floor(math.log10(low) + 1e-9), 10 ** max(

@@ -1,1 +1,1 @@
-"""Results folders as columns of numbers: which runs count, what each column means, what sets configurations apart."""
+"""Reads results folders: runs as columns of numbers, the meaning of each column, the differences of configurations."""

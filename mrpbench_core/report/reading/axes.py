@@ -1,4 +1,4 @@
-"""What tells configurations apart: the axes of their study, found in the configurations themselves."""
+"""Finds the axes of a study: the options in which its configurations differ."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -9,21 +9,21 @@ from mrpbench_core.files.suggestions import suggest
 from mrpbench_core.store.results import flatten
 
 SAMPLES = ("seed", "repeat")
-"""Options that tell the samples of one configuration apart."""
+"""Options that distinguish the samples of one configuration."""
 NO_AXES = (*NOT_IDENTIFYING, *SAMPLES)
 NAMES = ("plugin", "robot")
-"""Main options of a block: their value alone says what they are."""
+"""Main options of a block, which are shown by their value alone."""
 
 Axes = dict[str, Any]
 """Values by dotted option; an option that a configuration does not have is missing."""
 
 
 def find_axes(configs: Sequence[dict[str, Any]], by: Sequence[str] | None = None) -> list[Axes]:
-    """What sets each configuration apart from the others.
+    """Return the options in which each configuration differs from the others.
 
     Args:
-        configs: as records keep them. Those of analysed bags lack what nobody knows.
-        by: options, or blocks of options, to which to keep; None = all that vary.
+        configs: as records keep them; those of recorded bags lack options that are unknown.
+        by: options, or blocks of options, that count; None = all that vary.
 
     Raises:
         InputError: an option in `by` is in no configuration.
@@ -40,7 +40,7 @@ def find_axes(configs: Sequence[dict[str, Any]], by: Sequence[str] | None = None
 
 
 def name_axes(axes: Axes) -> str:
-    """Axes in few words: `ecbs w=1.2 robots=9`."""
+    """Describe axes briefly: `ecbs w=1.2 robots=9`."""
     words = []
     for key, value in axes.items():
         last = key.rpartition(".")[2]
@@ -49,7 +49,7 @@ def name_axes(axes: Axes) -> str:
 
 
 def factors(axes: Axes) -> dict[str, Axes]:
-    """Axes by the block they belong to: a planner and its options are one choice."""
+    """Group axes by their block, so that a planner and its options are one choice."""
     found: dict[str, Axes] = {}
     for key, value in axes.items():
         found.setdefault(key.partition(".")[0], {})[key] = value
@@ -57,7 +57,7 @@ def factors(axes: Axes) -> dict[str, Axes]:
 
 
 def word(value: Any) -> str:
-    """One value in few characters: a block by its plugin and options."""
+    """Write a value briefly; a block as its plugin and options."""
     if value is None:
         return "none"
     if isinstance(value, dict):
@@ -70,7 +70,7 @@ def word(value: Any) -> str:
 
 
 def _flat(config: dict[str, Any]) -> Axes:
-    """Options by dotted key; `plugin` is None of a stage that is not there, unless that follows from another's."""
+    """Options by dotted key; `plugin` is None for a missing stage, unless it is missing because another stage is."""
     blocks = {key: {"plugin": None} for key, value in config.items() if value is None and key not in EXECUTION}
     return {key: value for key, value in flatten(config | blocks).items() if not _is_below(key, NO_AXES)}
 
@@ -85,7 +85,7 @@ def _with_blocks(key: str) -> list[str]:
 
 
 def _varying(flat: Sequence[Axes]) -> list[str]:
-    """Options that are not the same in all configurations that have them."""
+    """Options that differ between the configurations that have them."""
     first: dict[str, str] = {}
     varying: dict[str, None] = {}
     for entry in flat:
@@ -96,7 +96,7 @@ def _varying(flat: Sequence[Axes]) -> list[str]:
 
 
 def _without_implied(varying: Sequence[str], flat: Sequence[Axes]) -> list[str]:
-    """Leave out options that say no more than which plugin their block names: each plugin's own defaults, mostly."""
+    """Leave out options that follow from the plugin that their block names, such as the plugin's own defaults."""
     kept = []
     for key in varying:
         plugins = [f"{block}.plugin" for block in _with_blocks(key)[:-1]]

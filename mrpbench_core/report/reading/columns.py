@@ -1,4 +1,4 @@
-"""What is known of each column of numbers: unit, direction, meaning, and how reports show it."""
+"""Describes the columns of numbers: unit, direction, meaning, and how reports show them."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any, get_args
@@ -63,7 +63,7 @@ def describe_columns(declared: Mapping[str, Any], names: Iterable[str] = ()) -> 
 
 
 def primary_columns(known: Columns) -> list[Column]:
-    """The columns to show where no others are asked for: those of the planning, then those of the execution."""
+    """The columns that are shown by default: those of the planning, then those of the execution."""
     stages = get_args(ColumnStage)
     return sorted((column for column in known.values() if column.primary), key=lambda c: stages.index(c.stage))
 
@@ -96,7 +96,7 @@ def _column(name: str, declared: Any, installed: Column | None) -> Column:
 
 
 def _timing(name: str) -> tuple[str, Any]:
-    """Unit and direction of a timing that only another version measures, by the end of its name."""
+    """Unit and direction of a timing that another version measures, from the end of its name."""
     unit = {"s": "s", "bytes": "B"}.get(name.rpartition("_")[2], "") if name.startswith("timing.") else ""
     return unit, "lower" if unit else "neither"
 

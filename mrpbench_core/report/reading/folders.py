@@ -1,4 +1,4 @@
-"""Reads results folders: their runs as columns of numbers, and what each column means."""
+"""Reads the runs of results folders together with the descriptions of their columns."""
 
 from collections.abc import Sequence
 
@@ -11,14 +11,14 @@ from mrpbench_core.store.results import Results
 
 
 def read_folders(folders: Sequence[Results], *, once: bool = True) -> tuple[Runs, Columns]:
-    """Read the runs of folders, and the columns for which they have values; see `read_runs`."""
+    """Read the runs of folders and describe the columns for which they have values; see `read_runs`."""
     runs = read_runs(folders, once=once)
     known = read_columns(folders, runs.values)
     return merge_aliases(runs, known), known
 
 
 def merge_aliases(runs: Runs, known: Columns) -> Runs:
-    """Put values that older versions stored under other names where they belong now.
+    """Move values that older versions stored under other names to the current columns.
 
     Values under both names that differ, as where two metrics had different options, stay apart.
     """

@@ -1,4 +1,4 @@
-"""What the invocations in results folders say: with what, where and how their runs were made."""
+"""Reads the invocations in results folders: versions, machines and configurations of their runs."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -9,7 +9,7 @@ from mrpbench_core.store.results import Results
 
 
 def read_invocations(folders: Iterable[Results]) -> list[dict[str, Any]]:
-    """Facts of each invocation, oldest first; one that cannot be read, as in a half-copied folder, says nothing."""
+    """Return the documents of all invocations, oldest first; skip unreadable ones, as in a half-copied folder."""
     found = []
     for results in folders:
         for file in sorted((results.folder.path / "invocations").glob("*.yaml")):
@@ -23,7 +23,7 @@ def read_invocations(folders: Iterable[Results]) -> list[dict[str, Any]]:
 
 
 def made_with(invocations: Iterable[dict[str, Any]]) -> dict[str, tuple[str, ...]]:
-    """Every version of each distribution, and every processor, that took part."""
+    """Return all versions of each distribution, and all processors, with which the runs were made."""
     parts: dict[str, dict[str, None]] = {}
     for entry in invocations:
         facts = dict(entry.get("versions") or {})

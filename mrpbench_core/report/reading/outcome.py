@@ -6,7 +6,7 @@ from typing import Any
 from mrpbench_core.model.status import AFTER_PLANNING, PLANNED
 
 PENALTY = 2.0
-"""PAR2: without a plan, planning counts as this many times its limit."""
+"""Factor of PAR2: a run without a plan counts as this many times the planning limit."""
 
 
 def has_plan(record: Mapping[str, Any]) -> bool:

@@ -1,4 +1,4 @@
-"""The runs of results folders as columns of numbers: small enough for 10^5 of them."""
+"""The runs of results folders as columns of numbers, which hold 10^5 runs in little memory."""
 
 from array import array
 from collections.abc import Collection, Iterator, Sequence
@@ -15,24 +15,24 @@ from mrpbench_core.report.reading.outcome import PENALTY, has_plan
 from mrpbench_core.store.results import Results
 
 PAR2 = "timing.planning_par2_s"
-"""Planning time in which a run without a plan counts with PENALTY times its limit."""
+"""Planning time; a run without a plan counts as PENALTY times its limit."""
 _PLANNING = "timing.planning_"
 
 
 @attrs.frozen(kw_only=True)
 class Runs:
-    """Runs as columns: entry i of each is run i."""
+    """Runs as columns: entry i of each column belongs to run i."""
 
     run_id: list[str]
     folder: Int
     """Index into the folders that were read."""
     status: list[str]
     message: list[str]
-    """What went wrong, else empty."""
+    """Message of the error, or empty."""
     seed: Int
     repeat: Int
     scenario: Int
-    """Number of the scenario; -1 = none was drawn."""
+    """Number of the scenario; -1 if none was drawn."""
     counted: Bool
     """Whether the run says something about the method."""
     config: Int
@@ -40,23 +40,23 @@ class Runs:
     reassigned: Int
     """Number of robots to which the assigner gave another goal than the scenario did."""
     configs: list[dict[str, Any]]
-    """Different configurations, without what tells samples of one apart."""
+    """The different configurations, without seed and repeat."""
     values: dict[str, Float]
-    """Succeeded and planned as 0 or 1, metrics and timing; NaN = null. Planning's time and memory only of runs with a
-    plan."""
+    """`succeeded` and `planned` as 0 or 1, metrics, timing; NaN for null. Time and memory of the planning are those of
+    runs with a plan only."""
     flags: frozenset[str]
-    """Those of `values` that are yes or no."""
+    """Names of the columns that are yes or no."""
 
     def __len__(self) -> int:
         return len(self.run_id)
 
     def units(self, members: Int) -> tuple[Int, str]:
-        """What each run is a sample of, and the word for that: the scenario, or the run where all have the same one.
+        """Return the unit of each run, and the word for units: scenarios, or runs if all runs have the same scenario.
 
-        Runs whose scenario was never drawn are units of their own, which nothing can be paired with.
+        A run whose scenario was never drawn is a unit of its own, without a partner.
 
         Args:
-            members: the runs that are looked at together.
+            members: the runs that are evaluated together.
         """
         known = self.scenario[members]
         lone = self.scenario < 0
@@ -70,7 +70,7 @@ class Runs:
         return number, "runs" if one else "scenarios"
 
     def axes(self, by: Sequence[str] | None = None) -> list[Axes]:
-        """What sets each of `configs` apart."""
+        """Return the options in which each of `configs` differs from the others."""
         return find_axes(self.configs, by)
 
 
@@ -80,7 +80,7 @@ def read_runs(folders: Sequence[Results], columns: Collection[str] | None = None
     Args:
         folders: where to read.
         columns: metrics and timing to keep; None = all.
-        once: of a run in several folders keep only the last.
+        once: keep only the last record of a run that is in several folders.
     """
     reader = _Reader(columns)
     everything = ((index, record) for index, results in enumerate(folders) for record in results)
@@ -90,7 +90,7 @@ def read_runs(folders: Sequence[Results], columns: Collection[str] | None = None
 
 
 def each_once(folders: Sequence[Results]) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Index of the folder, and record; of a run in several folders the last."""
+    """Yield the index of the folder and the record of each run; the last one of a run in several folders."""
     for index, results in enumerate(folders):
         for record in results:
             if not any(record["run_id"] in later for later in folders[index + 1 :]):
@@ -142,7 +142,7 @@ class _Reader:
                 column.append(np.nan)
 
     def _number(self, config: dict[str, Any]) -> int:
-        """Which of the configurations this is, whatever its seed and repeat."""
+        """Return the number of the configuration, regardless of seed and repeat."""
         own = {key: value for key, value in config.items() if key not in NO_AXES}
         if "limits" in own:
             own["limits"] = {key: value for key, value in own["limits"].items() if key != "wall"}

@@ -1,4 +1,4 @@
-"""A run as a GIF of a few seconds, for papers and web pages."""
+"""Writes a run as a GIF of a few seconds."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -19,19 +19,19 @@ from mrpbench_core.store.recording import Recording
 PIXELS = 800
 FRAME_MS = 80
 LENGTH_S = 10.0
-"""seconds that the animation lasts at most."""
+"""Longest duration of the animation, seconds."""
 HOLD_MS = 1500
-"""How long the last frame stays."""
+"""Duration of the last frame."""
 LEAST = 5.0
-"""pixels of radius: smaller robots are drawn this large."""
+"""Smallest radius in pixels with which a robot is drawn."""
 WORLD_COLOURS, SHADES = 128, 12
-"""How the 256 colours of a GIF are shared out: to the world, and to shades of each robot's colour."""
+"""How many of the 256 colours of a GIF the world gets, and how many shades each robot gets."""
 CROWD = 60
-"""Robots beyond which trails are thinner."""
+"""Number of robots above which trails are thinner."""
 
 
 def write_gif(recording: Recording, file: Path) -> None:
-    """Animate the robots, with their trails, on the level where they are most.
+    """Animate the robots and their trails on the level with most robots.
 
     Raises:
         InputError: matplotlib is missing, nothing was recorded, or the file cannot be written.
@@ -58,10 +58,10 @@ def write_gif(recording: Recording, file: Path) -> None:
 
 
 def _doors(recording: Recording, level: int) -> Callable[[int], list[Float]]:
-    """The leaves on a level at a sample, as lines f8[2,2]; where nothing was recorded of doors, none."""
+    """Return a function that gives the door leaves on a level at a sample, as lines f8[2,2]; none if not recorded."""
     facilities = Facilities(recording.context().world)
     if "facility" not in recording.channels:
-        return lambda sample: []  # noqa: ARG005 - nobody knows
+        return lambda sample: []  # noqa: ARG005 - not recorded
     doing = recording.channel("facility")
     here = [door for door in facilities.doors if level in door.levels]
 
@@ -74,7 +74,7 @@ def _doors(recording: Recording, level: int) -> Callable[[int], list[Float]]:
 
 
 def _share_palette(images: list[Any]) -> list[Any]:
-    """The same colours in all frames, or they would flicker: the world's, and each robot's from faint to full."""
+    """Use the same colours in all frames, which would flicker otherwise: the world's, and shades of each robot's."""
     from PIL import Image
 
     world = images[0].quantize(colors=WORLD_COLOURS).getpalette()[: 3 * WORLD_COLOURS]
@@ -86,7 +86,7 @@ def _share_palette(images: list[Any]) -> list[Any]:
 
 
 class _Frames:
-    """Draws the robots again and again over one picture of the world."""
+    """Draws the robots of each frame over the same picture of the world."""
 
     def __init__(self, figure: Any, axes: Any, fleet: Fleet, robots: int) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -114,7 +114,7 @@ class _Frames:
         self.shapes = [robot.footprint * max(1.0, LEAST / (robot.radius * metre)) for robot in fleet.robots]
 
     def draw(self, poses: Float, times: Float, moment: float, text: str, doors: Callable[[int], list[Float]]) -> Any:
-        """The frame of a moment, as a Pillow image."""
+        """Draw the frame of a moment as a Pillow image."""
         from PIL import Image
 
         sample = max(int(np.searchsorted(times, moment, side="right")) - 1, 0)

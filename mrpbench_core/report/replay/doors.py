@@ -1,4 +1,4 @@
-"""Doors and lifts, as the page moves them."""
+"""Packs doors and lifts for the page, which moves them."""
 
 from typing import Any
 
@@ -9,14 +9,14 @@ from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording
 
 OPENING = 0.005
-"""Step of what doors and cabins do, shares or metres."""
+"""Resolution of the openings of doors (shares) and the heights of cabins (metres)."""
 
 
 def pack_facilities(recording: Recording, world: World, packing: Packing) -> dict[str, Any]:
-    """What the page needs to draw doors and cabins; what they do is packed as `facility`, if it was recorded.
+    """Return what the page needs to draw doors and cabins; pack their recorded states as `facility`.
 
-    A leaf is `[x1, y1, x2, y2, dx, dy, turn]`: shut it is the line from 1 to 2; open it is moved by dx, dy metres and
-    turned by `turn` radians around 1; in between by a share of that.
+    A leaf is `[x1, y1, x2, y2, dx, dy, turn]`: the shut leaf is the line from point 1 to point 2. The open leaf is
+    moved by dx, dy metres and turned by `turn` radians around point 1; in between, by a share of that.
     """
     facilities = Facilities(world)
     if "facility" in recording.channels and facilities.names:
@@ -39,7 +39,7 @@ def _door(door: OperatedDoor, lifts: list[str]) -> dict[str, Any]:
 
 
 def _leaves(door: Door) -> list[list[float]]:
-    """How each leaf lies and moves; hinged ones turn at their first point, the others slide."""
+    """Return position and motion of each leaf: hinged leaves turn around their first point, the others slide."""
     found = []
     hinged = "hinged" in door.motion
     for index, (shut, open_) in enumerate(zip(leaf_segments(door, 0.0), leaf_segments(door, 1.0), strict=True)):

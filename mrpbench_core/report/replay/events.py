@@ -1,4 +1,4 @@
-"""What happened at one moment: events, contacts, arrivals."""
+"""Reads events, contacts and arrivals of a recording."""
 
 from typing import Any
 
@@ -9,11 +9,11 @@ from mrpbench_core.model.run import RunContext
 from mrpbench_core.store.recording import Recording
 
 PAUSE = 0.5
-"""seconds without contact after which the same two robots touch anew."""
+"""Seconds without touching after which another contact of the same two robots begins."""
 
 
 def read_events(recording: Recording, context: RunContext) -> list[list[Any]]:
-    """Events and arrivals as [seconds, kind, robot, detail], in the order of time."""
+    """Return events and arrivals as [seconds, kind, robot, detail], in the order of time."""
     found: list[list[Any]] = []
     names = ("event_time", "event_kind", "event_robot", "event_detail")
     if set(names) <= recording.channels.keys():
@@ -35,7 +35,7 @@ def _arrivals(times: Float, reached: Int, context: RunContext) -> list[list[Any]
 
 
 def read_contacts(recording: Recording) -> list[list[Any]]:
-    """Contacts as [first second, last second, robot, other robot or -1], in the order of time."""
+    """Return contacts as [first second, last second, robot, other robot or -1], in the order of time."""
     if not {"contact_time", "contact"} <= recording.channels.keys():
         return []
     times, pairs = recording.channel("contact_time"), recording.channel("contact")

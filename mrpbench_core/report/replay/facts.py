@@ -1,4 +1,4 @@
-"""What the page says about a run: identity, choices, figures."""
+"""The facts of a run on the page: identity, choices, numbers."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -18,16 +18,16 @@ STAGES = (
     "localizer",
 )
 FEW = 2
-"""Options of a stage up to which they are shown beside its name."""
+"""Number of options up to which they are shown with the name of the component."""
 
 
 def facts_of(record: Mapping[str, Any], columns: Columns, planner: str) -> dict[str, Any]:
-    """The parts of a run's record that the page shows.
+    """Return the parts of a run's record that the page shows.
 
     Args:
         record: as in `mrpbench_core.store.results`.
         columns: those of its metrics and timing, as `mrpbench_core.report.reading.columns` describes them.
-        planner: what to call the planner.
+        planner: name of the planner on the page.
     """
     config = record.get("config") or {}
     named = {stage: _summary(config[stage]) for stage in STAGES if config.get(stage)} | {"planner": planner}
@@ -57,7 +57,7 @@ def _facts(column: Column | None) -> dict[str, Any]:
 
 
 def _summary(block: Any) -> str:
-    """`lanes cell_size=0.4`: a component, and its plain options if they are few."""
+    """Write a component with its plain options, if they are few: `lanes cell_size=0.4`."""
     if not isinstance(block, Mapping):
         return str(block)
     options = {key: value for key, value in block.items() if key != "plugin" and _is_plain(value)}

@@ -1,4 +1,4 @@
-"""How the robots of a recording moved, as arrays for the page: one row per robot, one column per sample."""
+"""Packs the motion of robots for the page: one row per robot, one column per sample."""
 
 import numpy as np
 
@@ -8,15 +8,15 @@ from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording
 
 ANGLE = 0.001
-"""radians per step."""
+"""Resolution in radians."""
 ASTRAY = 0.02
-"""metres: estimates that are never further from the truth are not packed."""
+"""Metres; estimates that never differ from the truth by more are not packed."""
 COUNTS = {"reached": None, "released": None, "mode": None, "level": 0, "waits_for": -1}
-"""Channels of whole numbers, and the value that says nothing: a channel of it alone is not packed."""
+"""Channels of integers, and a value without information: a channel with this value only is not packed."""
 
 
 def read_poses(recording: Recording) -> tuple[Float, Float]:
-    """Times f8[T] and poses f8[T,n,3]: the truth, or what is known instead.
+    """Return times f8[T] and poses f8[T,n,3] in metres and radians: the truth, or the estimates if there is none.
 
     Raises:
         InputError: the recording holds no samples.
@@ -28,7 +28,7 @@ def read_poses(recording: Recording) -> tuple[Float, Float]:
 
 
 def read_levels(recording: Recording) -> tuple[Float, dict[int, Float]]:
-    """Times f8[T] and, for each level where robots were, where most are first, poses f8[T,n,3], NaN elsewhere."""
+    """Return times f8[T] and poses f8[T,n,3] by level, NaN on other levels; the level with most robots is first."""
     times, poses = read_poses(recording)
     if "level" not in recording.channels:
         return times, {0: poses}
@@ -53,7 +53,7 @@ def pack_motion(recording: Recording, packing: Packing) -> None:
 
 
 def _pack_poses(packing: Packing, prefix: str, poses: Float) -> None:
-    """Yaw is unwrapped, so that the page may interpolate it like a length; unknown poses repeat the last known one."""
+    """Pack poses: yaw is unwrapped so that the page can interpolate it, and unknown poses repeat the last known one."""
     known: Bool = np.asarray(np.isfinite(poses).all(axis=2))
     if not known.all():
         packing.add(f"{prefix}known", known.T)

@@ -1,4 +1,4 @@
-"""Packs integer arrays small and quick to read in a browser.
+"""Packs integer arrays for a browser: small, and fast to read.
 
 Differences along the last axis, zigzag, bytes of equal weight side by side, deflate. `page/data.js` reads it back.
 """
@@ -19,11 +19,11 @@ _TYPES = (("Uint8Array", 0, 2**8), ("Int16Array", -(2**15), 2**15), ("Int32Array
 
 
 class Packing:
-    """Named arrays that become one text."""
+    """Named arrays that are packed into one text."""
 
     def __init__(self) -> None:
         self.layout: dict[str, dict[str, Any]] = {}
-        """What the page needs to read each array."""
+        """Layout of each array, with which the page reads it."""
         self._parts: list[bytes] = []
         self._size = 0
 
@@ -31,7 +31,7 @@ class Packing:
         return name in self.layout
 
     def add(self, name: str, values: ArrayLike, scale: float = 1.0, offset: float = 0.0) -> None:
-        """Append whole numbers of 32 bits; the page may read them as `offset + scale * value`."""
+        """Append integers of 32 bits; their real values are `offset + scale * value`."""
         array = np.ascontiguousarray(values, dtype=np.int32)
         order, codes = _shortest(array.reshape(prod(array.shape[:-1]), -1) if array.size else array.reshape(1, 0))
         width = next(width for width in (1, 2, 4) if width == 4 or codes.max(initial=0) < 256**width)
@@ -53,7 +53,7 @@ class Packing:
 
 
 def quantise(values: Float, quantum: float) -> tuple[Int32, float, float]:
-    """Whole numbers, and the scale and offset that give the values back to within half a scale."""
+    """Return integers, scale and offset, which give the values back within half a scale."""
     if not values.size:
         return values.astype(np.int32), quantum, 0.0
     low, high = float(values.min()), float(values.max())
@@ -63,7 +63,7 @@ def quantise(values: Float, quantum: float) -> tuple[Int32, float, float]:
 
 
 def _shortest(rows: Int32) -> tuple[int, NDArray[np.uint32]]:
-    """How often to take differences (0, 1 or 2 times) for the smallest numbers, and those numbers, zigzag coded."""
+    """Return the order of differences (0, 1 or 2) that gives the smallest numbers, and these numbers, zigzag coded."""
     best: tuple[float, int, NDArray[np.uint32]] | None = None
     with np.errstate(over="ignore"):  # what wraps here unwraps in the page
         for order in range(3):

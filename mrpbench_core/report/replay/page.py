@@ -1,4 +1,4 @@
-"""Writes the page: markup, style, modules and data in one file that loads nothing."""
+"""Writes the page: markup, style, modules and data in one file that loads no other file."""
 
 import base64
 import html
@@ -34,9 +34,9 @@ def write_page(
     Args:
         recording: with at least `time` and `truth` (or `estimate`).
         record: the run's record.
-        file: where to.
-        columns: what is known of its metrics and timing.
-        planner: what to call the planner.
+        file: the page.
+        columns: descriptions of its metrics and timing.
+        planner: name of the planner on the page.
 
     Raises:
         InputError: nothing was recorded, or the file cannot be written.
@@ -63,7 +63,7 @@ def write_page(
 
 
 def _fill(title: str, data: Mapping[str, Any], packings: Mapping[str, Packing]) -> str:
-    """The template with its marks replaced; modules find one another by an import map of `data:` addresses."""
+    """Fill the marks of the template; an import map of `data:` addresses connects the modules."""
     folder = resources.files(__package__) / "page"
     modules = {entry.name: entry.read_text(encoding="utf-8") for entry in folder.iterdir() if entry.name.endswith("js")}
     imports = {f"replay/{name}": _address(name, modules[name]) for name in sorted(modules)}
@@ -91,7 +91,7 @@ def _address(name: str, code: str) -> str:
 
 
 def _json(data: Any) -> str:
-    """JSON that may stand in a script element; what JSON lacks (NaN, infinity) becomes null."""
+    """Return JSON for a script element; NaN and infinity become null."""
     return json.dumps(_plain(data), ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")
 
 

@@ -1,4 +1,4 @@
-"""Scans of a recording, thinned to what a page can carry."""
+"""Packs the scans of a recording, thinned out if there are too many for a page."""
 
 from collections.abc import Iterator
 
@@ -9,18 +9,18 @@ from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording
 
 RANGES = 16_000_000
-"""Ranges a page carries at most, but for one scan of each robot."""
+"""Largest number of ranges on a page; one scan per robot is always kept."""
 BEAMS = 120
-"""Beams of a scan that are kept at least."""
+"""Smallest number of beams of a scan that are kept."""
 QUANTUM = 0.01
-"""metres."""
+"""Resolution in metres."""
 
 
 def pack_scans(recording: Recording, packing: Packing, ranges: int = RANGES) -> dict[str, int] | None:
     """Pack the scans by robot, in the order of time; a range of 0 means that nothing was hit.
 
     Returns:
-        `beam_step` and `scan_step`: of how many beams and scans one was kept; None if there are no scans.
+        `beam_step` and `scan_step`: one of so many beams and scans is kept; None if there are no scans.
     """
     if not {"scan_time", "scan_robot", "scan_ranges"} <= recording.channels.keys():
         return None
@@ -41,7 +41,7 @@ def pack_scans(recording: Recording, packing: Packing, ranges: int = RANGES) -> 
 
 
 def _chosen(recording: Recording, chosen: Int, beam_step: int, beams: int) -> Int32:
-    """The chosen rows, chunk by chunk: all scans of a long run may not fit into memory."""
+    """Read the chosen rows chunk by chunk, since the scans of a long run may not fit into memory."""
     rows = np.zeros((len(chosen), -(-beams // beam_step)), np.int32)
     place = np.argsort(chosen)
     wanted = chosen[place]

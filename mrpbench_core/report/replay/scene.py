@@ -1,4 +1,4 @@
-"""World, robots and routes, as the page reads them."""
+"""Packs world, robots and routes for the page."""
 
 from typing import Any
 
@@ -13,13 +13,13 @@ from mrpbench_core.model.world import Level, World
 from mrpbench_core.report.replay.packing import Packing
 
 Plans = list[tuple[float, tuple[Route, ...]]]
-"""Routes with the simulated second since which they hold; see `mrpbench_core.model.run.all_routes`."""
+"""Routes with the simulated second from which they are valid; see `mrpbench_core.model.run.all_routes`."""
 MOST_WAYPOINTS = 1_000_000
-"""If all plans together have more, only the last is shown."""
+"""Number of waypoints above which only the last plan is shown."""
 
 
 def pack_world(world: World, packing: Packing) -> dict[str, Any]:
-    """Names and small parts as JSON; walls and rasters packed."""
+    """Return names and small parts as JSON; pack walls and rasters."""
     return {
         "name": world.name,
         "levels": [_level(level, number, packing) for number, level in enumerate(world.levels)],
@@ -45,7 +45,7 @@ def _level(level: Level, number: int, packing: Packing) -> dict[str, Any]:
 
 
 def pack_robots(context: RunContext, packing: Packing, plans: Plans | None = None) -> dict[str, Any]:
-    """Robot models as JSON; each robot's model, and its routes by plan (by default only the last), packed."""
+    """Return robot models as JSON; pack the model of each robot and its routes by plan (by default the last only)."""
     models, kind = context.fleet.profiles
     packing.add("kind", kind)
     plans = plans or [(0.0, context.routes)]
@@ -80,5 +80,5 @@ def _points(polygon: Float) -> list[list[float]]:
 
 
 def _mm(metres: float) -> float:
-    """Rounded to millimetres."""
+    """Round to millimetres."""
     return round(float(metres), 3)

@@ -1,4 +1,4 @@
-"""Estimates and tests, by SciPy and statsmodels: each rule in one place. They see numbers, nothing of runs.
+"""Estimates and tests, computed by SciPy and statsmodels. They know numbers only, no runs.
 
 SciPy and statsmodels take seconds to import, so functions import them when they are called.
 """

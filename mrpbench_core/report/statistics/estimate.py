@@ -3,7 +3,7 @@
 import attrs
 
 LEVEL = 0.95
-"""Of all intervals."""
+"""Confidence level of all intervals."""
 
 
 @attrs.frozen
@@ -13,11 +13,11 @@ class IntervalEstimate:
     value: float
     low: float
     high: float
-    """Ends of the interval; NaN where there are too few units for one."""
+    """Ends of the interval; NaN if there are too few units."""
     n: int
-    """Units it is over: scenarios, or runs where there is but one scenario."""
+    """Number of units: scenarios, or runs if there is only one scenario."""
 
     @property
     def has_interval(self) -> bool:
-        """Whether the ends are numbers."""
+        """Whether there is an interval."""
         return self.low == self.low and self.high == self.high

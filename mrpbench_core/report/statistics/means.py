@@ -10,17 +10,17 @@ from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
 
 RESAMPLES = 1999
 SEED = 0
-"""Of the resampling, the same for every interval."""
+"""Seed of the resampling, the same for every interval."""
 LEAST = 5
-"""Units below which no interval is given: a bootstrap of so few is far too narrow."""
+"""Number of units below which there is no interval, since a bootstrap interval would be too narrow."""
 MANY = 5000
-"""Units above which the ends are plain percentiles: the correction vanishes, and its jackknife takes units squared."""
+"""Number of units above which the ends are percentiles: the correction vanishes, and its jackknife is quadratic."""
 AT_ONCE = 4_000_000
-"""Numbers drawn at once, which bounds memory."""
+"""Number of values drawn at once, which limits memory."""
 
 
 def mean(values: Float) -> IntervalEstimate | None:
-    """The mean over units; None without units."""
+    """Return the mean over units; None without units."""
     from scipy.stats import bootstrap
 
     count = len(values)

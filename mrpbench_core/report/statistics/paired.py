@@ -1,4 +1,4 @@
-"""Differences between two treatments that met the same units.
+"""Differences between two treatments of the same units.
 
 - Rates: McNemar's exact test (Q. McNemar, Psychometrika 12, 1947). Where units were run several times their success is
   a fraction, and the test flips the signs of the units' differences, of which McNemar's exact test is the special case.
@@ -22,35 +22,35 @@ from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
 from mrpbench_core.report.statistics.means import AT_ONCE, SEED, mean
 
 FLIPS = 9999
-"""Sign flips drawn where there are too many to try all."""
+"""Number of random sign flips if there are too many to try all."""
 TIE = 1e-9
-"""Relative difference up to which two values count as equal: what rounding leaves of equal sums."""
+"""Relative difference up to which two values count as equal, because sums are rounded."""
 
 
 @attrs.frozen(kw_only=True)
 class Difference:
-    """Second treatment less first, over the units that both have."""
+    """Second treatment minus first, over the units that both have."""
 
     difference: IntervalEstimate
     first: float
     second: float
     """Means of both over these units."""
     above: int
-    """Units where the second is the larger."""
+    """Number of units in which the second is larger."""
     below: int
     effect: float
-    """From -1 (second smaller everywhere) to 1; 0 = as often and as much above as below."""
+    """Rank-biserial correlation from -1 (second smaller in every unit) to 1; 0 if differences of both signs balance."""
     p: float
     """Two-sided; 1 where no unit differs."""
 
     @property
     def ties(self) -> int:
-        """Units without a difference."""
+        """Number of units without a difference."""
         return self.difference.n - self.above - self.below
 
     @property
     def can_be_significant(self) -> bool:
-        """Whether the test could be, with so many units that differ, had all differed in one direction."""
+        """Whether the test would be significant if all units that differ did so in the same direction."""
         return bool(2.0 ** (1 - self.above - self.below) <= 1 - LEVEL)
 
 
@@ -79,9 +79,9 @@ def compare_values(first: Float, second: Float) -> Difference | None:
 
 
 def adjust(found: Sequence[Difference]) -> list[float]:
-    """p-values adjusted for being that many.
+    """Return p-values adjusted for the number of tests.
 
-    Tests that could not be significant, as too few units differ, are not counted and get 1.
+    Tests that cannot be significant, because too few units differ, do not count and get 1.
     """
     from statsmodels.stats.multitest import multipletests
 
@@ -93,7 +93,7 @@ def adjust(found: Sequence[Difference]) -> list[float]:
 
 
 def _steps(first: Float, second: Float) -> Float:
-    """Differences, those within rounding exactly 0."""
+    """Differences; those within rounding errors are exactly 0."""
     steps = second - first
     steps[np.abs(steps) <= TIE * np.maximum(np.abs(first), np.abs(second))] = 0.0
     return steps
@@ -136,7 +136,7 @@ def _signed_rank_test(steps: Float) -> float:
 
 
 def _rank_biserial(steps: Float) -> float:
-    """Share of the ranks of differences that are above 0, less that below."""
+    """Share of the ranks of differences above 0, minus the share of those below 0."""
     from scipy.stats import rankdata
 
     moved = steps[steps != 0]

@@ -1,4 +1,4 @@
-"""Curves over all units, in which those without a result count.
+"""Curves over all units, including those without a result.
 
 Performance profiles: E. D. Dolan, J. J. Moré, "Benchmarking optimization software with performance profiles",
 Mathematical Programming 91, 2002.
@@ -12,17 +12,17 @@ from mrpbench_core.model.arrays import Float
 
 
 def cactus(times: Float) -> tuple[Float, Float]:
-    """Times in ascending order, and how many units were done within each; NaN = never done."""
+    """Return the times in ascending order, and the number of units done within each; NaN means never done."""
     done = np.sort(times[np.isfinite(times)])
     return done, np.arange(1, len(done) + 1, dtype=float)
 
 
 def profiles(values: Sequence[Float]) -> list[tuple[Float, Float]]:
-    """For each treatment: ratios to the best in ascending order, and the share of units within each.
+    """Return for each treatment the ratios to the best in ascending order, and the share of units within each.
 
     Args:
-        values: of each treatment, its values, none below 0, for the same units; smaller is better, NaN = none. Units
-            without a value of any treatment count as undone by all.
+        values: for each treatment its values for the same units, not below 0; smaller is better, NaN means none. Units
+            without a value of any treatment count as never done.
     """
     table = np.array(values, float).reshape(len(values), -1)
     best = np.fmin.reduce(table, axis=0, initial=np.inf)

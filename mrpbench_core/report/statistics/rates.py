@@ -13,7 +13,7 @@ from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
 
 
 def rate(fractions: Float, runs: int) -> IntervalEstimate | None:
-    """The mean of the units' success fractions; None without units.
+    """Return the mean of the units' success fractions; None without units.
 
     Args:
         fractions: of each unit, the share of its runs that succeeded.
@@ -31,7 +31,7 @@ def rate(fractions: Float, runs: int) -> IntervalEstimate | None:
 
 
 def effective_size(fractions: Float, runs: int) -> float:
-    """How many independent runs would tell as much: at least one, at most all, of each unit's runs."""
+    """Number of independent runs with the same information: at least one, at most all runs of each unit."""
     units, mean = len(fractions), float(fractions.mean())
     variance = float(fractions.var(ddof=1)) / units if units > 1 else 0.0
     if mean in (0.0, 1.0) or variance == 0.0:  # nothing shows how alike the runs of one unit are

@@ -1,1 +1,1 @@
-"""Tables of estimates: made once, written as text, Markdown, LaTeX, CSV, HTML or JSON."""
+"""Tables of estimates, and their text as Markdown and LaTeX."""

@@ -1,4 +1,4 @@
-"""The tables of a report."""
+"""Builds the tables of a report."""
 
 from collections.abc import Sequence
 
@@ -20,7 +20,7 @@ RATES = ("succeeded", "planned")
 
 
 def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]]) -> Table:
-    """How the runs of each group ended."""
+    """Build the table of the statuses of each group."""
     axes = axes_of(settings)
     rows: list[tuple[Cell, ...]] = []
     for setting, group, found in _groups(settings, numbers):
@@ -49,8 +49,8 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
         rows=tuple(rows),
         keys=len(axes),
         note=(
-            "Rates: Wilson intervals, 95 %. Infeasible and skipped runs leave the denominator"
-            " and stand in the last column. "
+            "Rates: Wilson intervals, 95 %. Infeasible and skipped runs do not count in the denominator;"
+            " the last column lists them. "
             f"Seeds: {spans(runs.seed)}; repeats: {spans(runs.repeat)}."
         ),
     )
@@ -65,7 +65,7 @@ def _reassigned(runs: Runs) -> str:
 def means_table(
     settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]], columns: Sequence[Column], runs: Runs
 ) -> Table:
-    """Means over all units of each group that have a value."""
+    """Build the table of means over all units of each group that have a value."""
     axes = axes_of(settings)
     rows = [
         (
@@ -81,8 +81,8 @@ def means_table(
         rows=tuple(rows),
         keys=len(axes),
         note=(
-            f"Mean over {_unit(settings)} [95 % bootstrap interval]; n is given where not all have the value."
-            " Groups may have values for different scenarios: compare them in the next tables only."
+            f"Mean over {_unit(settings)} [95 % bootstrap interval]; n is given if some have no value."
+            " Groups may have values for different scenarios: compare groups in the next tables only."
         ),
     )
 
@@ -90,7 +90,7 @@ def means_table(
 def common_table(
     settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]], columns: Sequence[Column], runs: Runs
 ) -> Table | None:
-    """The same over the units that all groups of a setting have in common; None where there is nothing to compare."""
+    """Build the same table over the units that all groups of a setting have in common; None if there is one group."""
     compared = [(setting, found) for setting, found in zip(settings, numbers, strict=True) if len(setting.groups) > 1]
     if not compared:
         return None
@@ -107,7 +107,7 @@ def common_table(
     ]
     note = (
         f"Success over the {_unit(settings)} for which every group found a plan in every run; each other column over"
-        " those for which every group has a value (n is given where they are others)."
+        " those for which every group has a value (n is given if it differs)."
     )
     everything = (
         _n(value) == _n(entry.overall[name])
@@ -116,7 +116,7 @@ def common_table(
         for name, value in entry.common.items()
     )
     if all(everything):
-        rows, note = [], f"{note} Here these are all of them: the figures are those of the overall table."
+        rows, note = [], f"{note} Here these are all units, so the numbers are those of the overall table."
     return Table(
         key="common",
         title="Normalised: over what all groups of a setting have in common",
@@ -128,20 +128,18 @@ def common_table(
 
 
 def pairs_table(comparisons: Sequence[Comparison], brief: bool = False) -> Table | None:
-    """Paired differences and tests; None where nothing was compared.
+    """Build the table of paired differences and tests; None if nothing was compared.
 
     Args:
         comparisons: all of one family.
-        brief: only count those that could not be significant.
+        brief: only count the comparisons that cannot be significant.
     """
     if not comparisons:
         return None
     able = [entry for entry in comparisons if entry.found.can_be_significant]
     shown = able if brief else comparisons
     hidden = len(comparisons) - len(shown)
-    others = f" (the other {hidden}, in which fewer than six pairs differ, are on the page and in the files)" * bool(
-        hidden
-    )
+    others = f" (the page and the files have the other {hidden}, in which fewer than six pairs differ)" * bool(hidden)
     sides = len({(entry.first, entry.second) for entry in comparisons}) > 1
     named = any(entry.setting for entry in comparisons)
     rows = []

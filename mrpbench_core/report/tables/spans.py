@@ -1,4 +1,4 @@
-"""Many whole numbers in few words."""
+"""Writes many integers briefly."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from mrpbench_core.model.arrays import Int
 
 
 def spans(numbers: Int) -> str:
-    """Whole numbers as ranges: `0..53, 60`."""
+    """Write integers as ranges: `0..53, 60`."""
     values = np.unique(numbers)
     parts = np.split(values, np.flatnonzero(np.diff(values) != 1) + 1)
     return ", ".join(f"{part[0]}" if len(part) == 1 else f"{part[0]}..{part[-1]}" for part in parts if len(part))

@@ -1,4 +1,4 @@
-"""A table before it is written in some format."""
+"""A table, independent of the format in which it is written."""
 
 import math
 from typing import Any
@@ -13,12 +13,12 @@ Cell = Any
 
 @attrs.frozen
 class Shown:
-    """An estimate as a table shows it."""
+    """An estimate as a cell of a table."""
 
     estimate: IntervalEstimate
     percent: bool = False
     usual: int | None = None
-    """Number of units that the table gives elsewhere in the row; another one is written behind the interval."""
+    """Number of units that another cell of the row gives; a different number is written after the interval."""
 
     def __str__(self) -> str:
         found, factor = self.estimate, 100.0 if self.percent else 1.0
@@ -35,18 +35,18 @@ class Table:
     """Rows of cells under headings."""
 
     key: str
-    """Names it in files."""
+    """Name in files."""
     title: str
     headings: tuple[str, ...]
     rows: tuple[tuple[Cell, ...], ...]
     keys: int
-    """How many of the first columns say what the row is about."""
+    """Number of leading columns that identify the row."""
     note: str
-    """How to read it."""
+    """How to read the table."""
 
 
 def text(cell: Cell) -> str:
-    """A cell in words."""
+    """Return the text of a cell."""
     if cell is None:
         return "–"
     if isinstance(cell, float):
@@ -55,12 +55,12 @@ def text(cell: Cell) -> str:
 
 
 def p_value(p: float) -> str:
-    """As journals print it."""
+    """Write a p-value as journals do."""
     return "< 0.001" if p < 0.001 else f"{p:.3f}"
 
 
 def decimals(value: float, width: float) -> int:
-    """Decimals that show two figures of an interval's width and of the value, or four of a value without interval."""
+    """Number of decimals that show two digits of the interval's width and of the value, or four of a bare value."""
     if not width > 0:
         return max(0, 3 - _magnitude(value))
     places = 1 - _magnitude(width)
@@ -70,7 +70,7 @@ def decimals(value: float, width: float) -> int:
 
 
 def fixed(number: float, places: int) -> str:
-    """With so many decimals, or in powers of ten where that is too long; never -0."""
+    """Write a number with `places` decimals, or with a power of ten if that is too long; never as -0."""
     if abs(number) >= 1e7:
         return f"{number:.3g}"
     written = f"{number:.{places}f}"

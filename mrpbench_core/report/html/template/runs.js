@@ -1,7 +1,6 @@
 // The list of runs: filtered, sorted, a part at a time. Data as `listing.py` packs it.
 "use strict";
 const PART = 200;
-const LEFT_OUT = new Set(["scenario_infeasible", "skipped"]);
 const root = document.documentElement;
 const element = (id) => document.getElementById(id);
 
@@ -32,10 +31,6 @@ function list(runs) {
     { name: "message", of: (i) => runs.messages[runs.message[i]] },
   ];
   const state = { sort: -1, down: false, shown: PART, found: [], open: -1 };
-
-  function tone(status) {
-    return status === "succeeded" ? "good" : LEFT_OUT.has(status) ? "out" : "bad";
-  }
 
   function matches(i, group, status, words) {
     if (group !== "" && runs.group[i] !== Number(group)) return false;
@@ -105,7 +100,7 @@ function list(runs) {
       row.dataset.run = i;
       for (const { name, number, of } of columns) {
         const value = of(i);
-        const kind = number ? "number" : name === "status" ? tone(value) : name === "message" ? "message" : "words";
+        const kind = number ? "number" : name === "status" ? runs.tones[runs.status[i]] : name === "message" ? "message" : "words";
         cell(row, value === null ? "–" : name === "status" ? value.replaceAll("_", " ") : String(value), kind);
       }
       if (i === state.open) detail(body, i);

@@ -1,4 +1,4 @@
-// What the run was: header, key figures, metrics, configuration, events.
+// Facts of the run: header, key figures, metrics, configuration, events.
 
 import { clockText } from "replay/clock.js";
 import { List, make } from "replay/list.js";
@@ -38,13 +38,13 @@ export function fillAbout(run, thinning) {
     page.append(section(title, rows, metrics.some(({ primary }) => primary)));
   }
   if (thinning && (thinning.beam_step > 1 || thinning.scan_step > 1)) {
-    page.append(make("p", "note", `Of the lidar scans, one in ${thinning.scan_step} is here, with one beam in ${thinning.beam_step}.`));
+    page.append(make("p", "note", `This page has one in ${thinning.scan_step} lidar scans, with one in ${thinning.beam_step} beams.`));
   }
   const configuration = make("pre", "", JSON.stringify(facts.config, null, 2));
   page.append(make("details", "", make("summary", "", "configuration"), configuration));
 }
 
-/** The name of a metric's column without the unit, which stands beside the value. */
+/** The name of a metric's column without the unit, which follows the value. */
 function label({ name, unit }) {
   const words = name.slice(name.lastIndexOf(".") + 1);
   return (unit && words.endsWith(`_${unit}`) ? words.slice(0, -unit.length - 1) : words).replaceAll("_", " ");
@@ -88,21 +88,21 @@ export class EventPanel {
     const contacts = run.contacts.map(([first, last, robot, other]) => [first, "contact", robot, other < 0 ? "wall" : run.names[other], last]);
     this.items = [...run.events, ...contacts].sort((left, right) => left[0] - right[0]);
     const fill = (button, item) => this.#fill(button, item);
-    this.list = new List(document.getElementById("event-list"), 34, fill, choose, "Nothing happened but driving.");
+    this.list = new List(document.getElementById("event-list"), 34, fill, choose, "No events were recorded.");
     this.list.show(this.items);
   }
 
   #fill(button, [time, kind, robot, detail]) {
     button.className = "event";
     button.dataset.kind = kind;
-    const who = robot < 0 ? "" : this.run.names[robot];
+    const name = robot < 0 ? "" : this.run.names[robot];
     const what = [kind.replaceAll("_", " "), detail].filter(Boolean).join(": ");
-    button.replaceChildren(make("time", "", clockText(time)), make("span", "what", what), make("span", "who", who));
+    button.replaceChildren(make("time", "", clockText(time)), make("span", "what", what), make("span", "actor", name));
     button.classList.toggle("past", time <= this.run.now);
   }
 
   /** The first event after, or the last before, a time; undefined if there is none. */
-  beside(time, forward) {
+  next(time, forward) {
     const away = (item) => (forward ? item[0] > time + 1e-3 : item[0] < time - 1e-3);
     return forward ? this.items.find(away) : this.items.findLast(away);
   }

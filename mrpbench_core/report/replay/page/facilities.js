@@ -1,4 +1,4 @@
-// Doors and lifts: leaves where they are now, and where each cabin is.
+// Doors and lifts: the current positions of leaves and cabins.
 
 const AT = 0.02; // metres by which a cabin may miss a level and still be there
 

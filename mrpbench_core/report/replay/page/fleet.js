@@ -26,7 +26,7 @@ export class FleetPanel {
     this.#filter();
   }
 
-  /** A number finds the robot of that number first, then those whose name contains it. */
+  /** A number finds the robot of that number first, then the robots with a name that contains it. */
   #filter() {
     const wanted = this.search.value.trim().toLowerCase();
     const found = this.run.names.map((_, robot) => robot).filter((robot) => this.run.names[robot].toLowerCase().includes(wanted));

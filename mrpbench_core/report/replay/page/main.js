@@ -173,7 +173,7 @@ function step(by) {
 }
 
 function nextEvent(forward) {
-  const found = events.beside(clock.now, forward);
+  const found = events.next(clock.now, forward);
   if (found) clock.seek(found[0]);
 }
 

@@ -89,7 +89,7 @@ export class Robots {
     context.setLineDash([]);
   }
 
-  /** Rings that widen while robots touch; still rings for those who want less motion. */
+  /** Rings that widen while robots touch; static rings for readers who prefer reduced motion. */
   #drawContacts(context, view, theme, calm) {
     const { run } = this;
     context.strokeStyle = theme.alarm;

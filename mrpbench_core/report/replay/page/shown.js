@@ -9,7 +9,7 @@ export const LAYERS = [
   { key: "estimate", label: "Estimate", letter: "m" },
   { key: "lidar", label: "Lidar", letter: "l" },
 ];
-const FEW = 40; // robots whose paths can all be told apart
+const FEW = 40; // number of robots whose paths a reader can distinguish
 
 export class Shown extends EventTarget {
   constructor(run, hasScans) {

@@ -1,4 +1,4 @@
-// The time line: how many robots do what, contacts and events, and where we are. A range input lies over it.
+// The time line: states of robots, contacts, events and the current time. A range input covers it.
 
 import { clockText } from "replay/clock.js";
 import { lastAtMost } from "replay/data.js";
