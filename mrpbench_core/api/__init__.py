@@ -1,4 +1,4 @@
-"""The contracts plugin authors read: one short file per kind of component."""
+"""The contracts for plugin authors: one short file per kind of component."""
 
 from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.api.component import Component, option
@@ -38,7 +38,7 @@ KINDS: dict[str, type[Component]] = {
     "importer": Importer,
     "executor": ExecutorSource,
 }
-"""Every kind by its one word; the entry-point group is the class's `group`."""
+"""The class of each kind, by the word for the kind; `group` of the class is its entry-point group."""
 
 __all__ = [
     "KINDS",

@@ -17,10 +17,11 @@ class Assigner(Component):
 
     group: ClassVar[str] = "mrpbench.assigners"
     reads_costs: ClassVar[bool] = True
-    """False for an assigner that ignores the cost matrix, which is then not computed."""
+    """False if the assigner ignores the cost matrix, which is then not computed."""
 
     cost: Cost = option(
-        "euclidean", help="what the cost matrix holds: straight-line or Manhattan metres, or true shortest paths (s)"
+        "euclidean",
+        help="cost of a pair: straight-line or Manhattan distance (m), or duration of the shortest path (s)",
     )
 
     @abstractmethod

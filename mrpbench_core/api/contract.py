@@ -1,5 +1,5 @@
-"""What is raised when a component does not keep its contract."""
+"""The exception for a component that breaks its contract."""
 
 
 class BrokenContractError(Exception):
-    """A component returned what its contract rules out; says which and what."""
+    """A component returned something that its contract forbids; the message names the component and the value."""

@@ -9,25 +9,25 @@ from mrpbench_core.api.component import Component
 
 
 class WorkerLost(Exception):  # noqa: N818 - not an error of the call
-    """What a call raises whose worker was lost: the engine does the run again, as its next attempt, and says so."""
+    """The worker of a call was lost: the engine repeats the run as the next attempt and reports it."""
 
 
 class RemoteExecutor(Executor):
     """An executor whose calls run in other processes, which may outlive it.
 
-    It must not repeat a call on its own: a call whose worker was lost raises `WorkerLost`.
+    It must not repeat a call by itself; a call raises `WorkerLost` if its worker was lost.
     """
 
     @abstractmethod
     def everywhere(self, function: Callable[..., object], *arguments: Any) -> None:
-        """Call `function` once in each process that may have executed calls; those that are gone are passed over."""
+        """Call `function` once in each process that may have executed calls; skip processes that are gone."""
 
 
 class ExecutorSource(Component):
-    """Where runs execute."""
+    """Executes runs."""
 
     group: ClassVar[str] = "mrpbench.executors"
 
     @abstractmethod
     def open(self, workers: int) -> Executor:
-        """Return an executor that runs up to `workers` calls at once; it is used as a context manager."""
+        """Return an executor that runs up to `workers` calls at a time; it is used as a context manager."""

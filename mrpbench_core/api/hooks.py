@@ -1,4 +1,4 @@
-"""Lifecycle hooks, group `mrpbench.hooks`: for watching only. One that raises is switched off for that run."""
+"""Lifecycle hooks, group `mrpbench.hooks`. They only observe; one that raises is disabled for the rest of the run."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -48,11 +48,11 @@ def mrpbench_executing(context: RunContext) -> None:
 def mrpbench_stepped(now: float, state: State, observation: FleetObservation, routes: Sequence[Route]) -> None:
     """A control period ended; `now` in simulated seconds (the run's process).
 
-    `state` is the truth, `observation` what robots sense and believe, `routes` are those in force: the same object
-    until there is a new plan.
+    `state` is the ground truth, `observation` what the robots sense and estimate, and `routes` are the current routes:
+    the same object until there is a new plan.
     """
 
 
 @hookspec
 def mrpbench_executed() -> None:
-    """The execution ended, however it did (the run's process)."""
+    """The execution ended, with or without success (the run's process)."""

@@ -10,7 +10,7 @@ from mrpbench_core.model.problem import Feature, Problem
 
 
 class Promise(StrEnum):
-    """What holds for every plan of a planner; the engine checks what can be checked."""
+    """A property of every plan of a planner; the engine checks each property that can be checked."""
 
     CONFLICT_FREE = "conflict_free"
     OPTIMAL = "optimal"
@@ -18,7 +18,7 @@ class Promise(StrEnum):
     BOUNDED = "bounded"
     """The sum of costs is at most the planner's option `w` times `PlanResult.lower_bound`."""
     COMPLETE = "complete"
-    """Finds a plan if one exists, given time."""
+    """Finds a plan, given enough time, if one exists."""
     DETERMINISTIC = "deterministic"
     """The same problem, options and `Budget.seed` give the same plan, unless the clock ended the search
     (`PlanResult.clock_bound`)."""
@@ -33,18 +33,18 @@ class Planner(Component):
 
     @abstractmethod
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
-        """Return a plan or say definitely why there is none, within `budget`. Does not change `problem`."""
+        """Return a plan, or the reason why there is none, within `budget`. Do not change `problem`."""
 
     @property
     def assigns(self) -> bool:
-        """Whether it also decides which robot does which task: it has the option `assign`, it is on, and it can.
+        """Whether the planner also assigns tasks to robots.
 
-        A planner that always does overrides this.
-        Such a planner takes the assigner's place: every robot's goal set holds the goals of all tasks.
+        By default it does if it supports goal sets and its option `assign` is on; a planner that always assigns
+        overrides this. It replaces the assigner: the goal set of every robot contains the goals of all tasks.
         """
         return getattr(self, "assign", False) is True and Feature.GOAL_SETS in self.supports
 
     def skip(self, problem: Problem) -> str | None:
-        """Why this planner must not be given `problem`, or None. By default: the features it does not support."""
+        """Return why this planner cannot be given `problem`, or None. By default: the features it does not support."""
         lacking = sorted(problem.features - self.supports)
         return f"does not support {', '.join(lacking)}" if lacking else None

@@ -18,8 +18,8 @@ class RoadmapBuilder(Component):
     def build(self, world: World, fleet: Fleet) -> Roadmap:
         """Return a roadmap on which each robot of `fleet` keeps clear of walls.
 
-        `Roadmap.duration` has one row per `fleet.profiles`. What had to be left out stands in `Roadmap.notes`.
+        `Roadmap.duration` has one row per profile of `fleet.profiles`. `Roadmap.notes` lists what was left out.
 
         Raises:
-            InputError: nothing drivable is left.
+            InputError: no drivable vertex is left.
         """

@@ -20,15 +20,15 @@ class ScenarioSource(Component):
 
     @abstractmethod
     def size(self) -> int:
-        """Number of robots, known before anything is loaded.
+        """Return the number of robots before anything is loaded.
 
         Raises:
-            InputError: a file that says it is missing or malformed.
+            InputError: the file that contains the number is missing or malformed.
         """
 
     @abstractmethod
     def draw(self, world: World, roadmap: Roadmap, fleet: Fleet, seed: int) -> Scenario:
-        """Return starts and goals in metres for `len(fleet) == size()` robots; the same for the same arguments.
+        """Return starts and goals in metres for `len(fleet) == size()` robots; equal arguments give equal results.
 
         Raises:
             InputError: the world cannot hold the scenario (too few vertices, unknown names).

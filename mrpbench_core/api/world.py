@@ -8,7 +8,7 @@ from mrpbench_core.model.world import World
 
 
 class WorldSource(Component):
-    """Loads or makes a world."""
+    """Loads or generates a world."""
 
     group: ClassVar[str] = "mrpbench.worlds"
 
@@ -17,5 +17,5 @@ class WorldSource(Component):
         """Return the world.
 
         Raises:
-            InputError: the file is missing, malformed, or holds what is not understood; names file and line.
+            InputError: the file is missing, malformed or not supported; the error names file and line.
         """

@@ -1,1 +1,1 @@
-"""Strict YAML 1.2 with line marks, JSON lines, and the one exception for a user's mistake."""
+"""File formats: strict YAML 1.2 with line marks, JSON lines, URDF, rasters, and the error for the user."""

@@ -1,4 +1,4 @@
-"""Model objects to JSON and back; arrays travel beside it as `.npy`."""
+"""Encode model objects as JSON and decode them; arrays are stored separately as `.npy`."""
 
 from collections.abc import Callable
 from enum import Enum
@@ -13,7 +13,7 @@ Kept = TypeVar("Kept")
 
 
 def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
-    """JSON-able form of an attrs object; `keep` stores an array and returns its name.
+    """Return an attrs object as JSON data; `keep` stores an array and returns its name.
 
     Fields with the metadata `recorded: False` are left out; they need a default.
     """
@@ -36,7 +36,7 @@ def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
 
 
 def decode(data: Any, kind: type[Kept], fetch: Callable[[str], NDArray[Any]]) -> Kept:
-    """The object of class `kind` that `encode` gave `data` for; `fetch` loads an array by name."""
+    """Return the object of class `kind` that `encode` turned into `data`; `fetch` loads an array by name."""
     converter = cattrs.Converter()
     converter.register_structure_hook_func(
         lambda wanted: cast(Any, get_origin(wanted)) is np.ndarray,

@@ -1,15 +1,15 @@
-"""A full disk is no fault of what was being written: the same again succeeds once there is room."""
+"""Recognise a full disk, after which the same operation succeeds once there is space."""
 
 import errno
 
 REFUSED = frozenset({errno.ENOSPC, errno.EDQUOT, errno.EFBIG})
-"""No space, a user's quota, a limit of file sizes."""
+"""No space, quota exceeded, file size limit exceeded."""
 SQLITE_REFUSED = frozenset({10, 13})
-"""SQLite's primary result codes IOERR and FULL (sqlite.org/rescode.html): it says FULL for ENOSPC alone."""
+"""Primary result codes IOERR and FULL of SQLite (sqlite.org/rescode.html), which uses FULL for ENOSPC only."""
 
 
 def is_full(error: BaseException) -> bool:
-    """Tell whether `error` says that a file system took no more, also in SQLite's words."""
+    """Tell whether `error` means that a file system is full; errors of SQLite are recognised too."""
     if isinstance(error, OSError):
         return error.errno in REFUSED
     return getattr(error, "sqlite_errorcode", 0) & 0xFF in SQLITE_REFUSED

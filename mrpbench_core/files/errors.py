@@ -1,15 +1,15 @@
-"""The one exception for a user's mistake: what is wrong, where, and what to do."""
+"""The exception for errors of the user: what is wrong, where, and what to do."""
 
 from collections.abc import Iterable
 from pathlib import Path
 
 
 class InputError(Exception):
-    """A mistake in something the user wrote; printed as one line, never as a traceback.
+    """An error in the user's input; printed as one line, never as a traceback.
 
     Attributes:
         message: what is wrong.
-        file: the file it stands in, if any.
+        file: the file that contains it, if any.
         line, column: counted from 1, where known.
         hint: what to do, e.g. `did you mean 'eecbs'?`.
     """
@@ -55,6 +55,6 @@ def in_reading_order(errors: Iterable[InputError]) -> list[InputError]:
 
 
 def one_line(error: BaseException) -> str:
-    """Type and words of an exception that somebody else's code raised."""
+    """Return type and message of an exception from foreign code as one line."""
     text = " ".join(str(error).split())
     return f"{type(error).__name__}: {text}" if text else type(error).__name__

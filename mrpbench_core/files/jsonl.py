@@ -1,4 +1,4 @@
-"""JSON lines: one object a line, written so that a crash loses at most the line being written."""
+"""JSON lines: one object per line; a crash loses at most the line that is being written."""
 
 import json
 import os
@@ -29,11 +29,11 @@ def numbered(path: Path | str) -> Iterator[tuple[int, dict[str, Any]]]:
 
 
 def line(value: Mapping[str, Any]) -> str:
-    """The one line, without its end, that says `value`.
+    """Return `value` as one line without its end.
 
     Raises:
-        ValueError: a number is not finite, which JSON cannot say.
-        TypeError: a value or key that JSON does not know.
+        ValueError: a number is not finite, which JSON cannot express.
+        TypeError: a value or key has a type that JSON does not have.
     """
     return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
 
@@ -41,7 +41,7 @@ def line(value: Mapping[str, Any]) -> str:
 class Writer:
     """Appends objects to a file; each is on disk when `write` returns.
 
-    A line that a crash cut off is removed when the file is opened again, so that what follows it stays readable.
+    A line that a crash truncated is removed when the file is opened again, so that later lines stay readable.
     """
 
     def __init__(self, path: Path | str, *, exclusive: bool = False) -> None:

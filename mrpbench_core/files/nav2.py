@@ -1,6 +1,6 @@
-"""Parameter files of Nav2: ROS 2 parameter files, of which blocks are read one parameter at a time.
+"""Read blocks of Nav2 parameter files (ROS 2 parameter files), one parameter at a time.
 
-A parameter `scale` of the critic `PathAlign` is written `PathAlign.scale: 32.0`, or nested, which means the same.
+A parameter `scale` of the critic `PathAlign` may be written `PathAlign.scale: 32.0` or nested.
 """
 
 import math
@@ -16,12 +16,12 @@ PARAMETERS = "ros__parameters"
 
 
 class Nav2Block:
-    """A block of parameters. It remembers what was taken, so that what nobody knows can be named at the end.
+    """A block of parameters that records which of them were read, so that unknown ones can be reported at the end.
 
     Args:
-        title: the words for it in messages, e.g. `FollowPath`.
+        title: its name in messages, e.g. `FollowPath`.
         data: names and values, nested or dotted.
-        document: the file it stands in, if any, and `steps` to it.
+        document: the file that contains it, if any, and `steps` to it.
     """
 
     def __init__(
@@ -36,10 +36,10 @@ class Nav2Block:
         return name in self._values
 
     def take(self, name: str, kind: type, default: Any = None) -> Any:
-        """The value of a parameter as `kind` (bool, int, float, str or tuple), or `default` where it is not given.
+        """Return a parameter as `kind` (bool, int, float, str or tuple), or `default` if it is not given.
 
         Raises:
-            InputError: it is something else.
+            InputError: it has another type.
         """
         self._taken.add(name)
         if name not in self._values:
@@ -55,13 +55,13 @@ class Nav2Block:
         return value
 
     def ignore(self, *names: str) -> None:
-        """Take note that these parameters, and all below them, mean nothing here."""
+        """Accept these parameters, and all below them, although they have no effect."""
         for name in self._values:
             if any(name == other or name.startswith(f"{other}.") for other in names):
                 self._taken.add(name)
 
     def refuse_unknown(self, known: Collection[str] = ()) -> None:
-        """Raise InputError, naming them all, when there are parameters that nobody took; `known` ones are proposed."""
+        """Raise an InputError that names all parameters that were not read; suggest `known` ones."""
         unknown = [name for name in self._values if name not in self._taken]
         if not unknown:
             return
@@ -71,7 +71,7 @@ class Nav2Block:
         raise self.error(f"unknown parameter{'s' * several} {names}", unknown[0], hint=hint)
 
     def error(self, message: str, name: str, hint: str | None = None) -> InputError:
-        """An InputError located at a parameter."""
+        """Return an InputError with the location of a parameter."""
         words = f"{self.title}: {name}: {message}" if not message.startswith("unknown") else f"{self.title}: {message}"
         if self._document is None:
             return InputError(words, hint=hint)
@@ -80,7 +80,7 @@ class Nav2Block:
 
 
 def nav2_block(file: Path, node: str, *prefix: str) -> Nav2Block | None:
-    """The parameters of a node, or of a plugin of it, e.g. `controller_server`, `FollowPath`; None = there are none.
+    """Return the parameters of a node or one of its plugins, e.g. `controller_server`, `FollowPath`; None = none.
 
     Raises:
         InputError: the file cannot be read or is not a ROS 2 parameter file.
@@ -104,11 +104,11 @@ def nav2_block(file: Path, node: str, *prefix: str) -> Nav2Block | None:
     return Nav2Block(".".join((node, *prefix)), data, document, steps)
 
 
-_WORDS = {bool: "true or false", int: "a whole number", float: "a number", str: "a text", tuple: "a list"}
+_WORDS = {bool: "true or false", int: "a whole number", float: "a number", str: "text", tuple: "a list"}
 
 
 def _find(data: Any, node: str) -> Steps | None:
-    """Steps to the parameters of a node, in whichever namespace it stands."""
+    """Return the steps to the parameters of a node, in any namespace."""
     if not isinstance(data, dict):
         return None
     for key, value in data.items():
@@ -126,7 +126,7 @@ def _has_parameters(data: Any) -> bool:
 
 
 def _flat(data: Mapping[str, Any], steps: Steps) -> dict[str, tuple[Any, Steps]]:
-    """Values and their steps by dotted name."""
+    """Return values and their steps by dotted name."""
     found: dict[str, tuple[Any, Steps]] = {}
     for key, value in data.items():
         here = (*steps, key)

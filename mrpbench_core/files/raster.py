@@ -1,4 +1,4 @@
-"""Writes rasters as files of others: ROS map_server (`.yaml` with `.pgm`) and MovingAI (`.map`)."""
+"""Write rasters as maps for ROS map_server (`.yaml` with `.pgm`) and MovingAI (`.map`)."""
 
 from pathlib import Path
 
@@ -8,11 +8,11 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.occupancy import Occupancy
 
 FREE, OCCUPIED = 254, 0
-"""Grey values that map_saver of Nav2 writes."""
+"""Grey values of Nav2's map_saver."""
 
 
 def write_ros_map(file: Path, occupancy: Occupancy) -> None:
-    """Write `file` (.yaml) and the image beside it; row 0 of the image is the highest y.
+    """Write `file` (.yaml) and its image in the same folder; row 0 of the image is the highest y.
 
     Raises:
         InputError: it cannot be written.

@@ -1,4 +1,4 @@
-"""Robots as data: `robots/*.yaml` of this package, or a file of the user's own in the same form."""
+"""Read robots from `robots/*.yaml` of this package, or from a user's file of the same format."""
 
 import math
 from importlib import resources
@@ -19,12 +19,12 @@ _MAY_BE_ZERO = {"min_range"}
 
 
 def robot_names() -> tuple[str, ...]:
-    """The robots that this package describes."""
+    """Return the names of the built-in robots."""
     return tuple(sorted(file.stem for file in _ROBOTS.glob("*.yaml")))
 
 
 def robot_file(name_or_path: str, folder: Path | None = None) -> Path:
-    """The file that describes a robot; anything that ends in `.yaml` is a path, relative to `folder`.
+    """Return the file of a robot; a name that ends in `.yaml` is a path, relative to `folder`.
 
     Raises:
         InputError: no robot has that name.
@@ -41,11 +41,11 @@ def robot_file(name_or_path: str, folder: Path | None = None) -> Path:
 def load_robot(name_or_path: str, folder: Path | None = None) -> RobotModel:
     """Read a robot by name, or from a file relative to `folder`.
 
-    The keys are the fields of `RobotModel` and, under `lidar` and `urdf`, of `Lidar` and `Urdf`; all lengths in metres,
-    SI units throughout. What a URDF tells of mass and wheels is taken from there.
+    The keys are the fields of `RobotModel` and, under `lidar` and `urdf`, of `Lidar` and `Urdf`; all in
+    SI units. Mass and wheels come from the URDF if there is one.
 
     Raises:
-        InputError: unknown name, unreadable file, or a key that is unknown, missing or wrong; names file and line.
+        InputError: the name is unknown, the file unreadable, or a key unknown, missing or wrong.
     """
     document = load(robot_file(name_or_path, folder))
     values = _fields(document, RobotModel, ())
@@ -61,7 +61,7 @@ def load_robot(name_or_path: str, folder: Path | None = None) -> RobotModel:
 
 
 def robot_reads(file: Path) -> tuple[Path, ...]:
-    """The files that a robot's file names: its URDF and the meshes that collide; none of a file with mistakes."""
+    """Return the files that a robot's file names: its URDF and collision meshes; none if the file has errors."""
     try:
         model = load_robot(str(file))
     except InputError:
@@ -73,7 +73,7 @@ def robot_reads(file: Path) -> tuple[Path, ...]:
 
 
 def _described(document: Document) -> dict[str, Any]:
-    """The URDF, and what it tells, which must not be told twice."""
+    """Return the URDF and the values that it contains, which the YAML file must not contain too."""
     steps: Steps = ("urdf",)
     values = _fields(document, Urdf, steps)
     if not (isinstance(values["file"], str) and values["file"]):
@@ -90,9 +90,9 @@ def _described(document: Document) -> dict[str, Any]:
     told = {"mass": drive.mass, "wheel_separation": drive.separation, "wheel_radius": drive.radius}
     for key, value in told.items():
         if value is not None and key in document.data:
-            raise document.error(f"{key} is {value:g} by the URDF", (key,), hint="leave it out here")
+            raise document.error(f"the URDF already gives {key} = {value:g}", (key,), hint="remove it here")
     if drive.radius is None and "wheel_radius" not in document.data:
-        raise document.error("wheel_radius is missing: the URDF's wheels are no spheres or cylinders", steps)
+        raise document.error("wheel_radius is missing: the wheels of the URDF are not spheres or cylinders", steps)
     return {"urdf": urdf} | {key: value for key, value in told.items() if value is not None}
 
 
@@ -112,7 +112,7 @@ def _lidar(document: Document) -> Lidar:
 
 
 def _fields(document: Document, kind: type[attrs.AttrsInstance], steps: Steps) -> dict[str, Any]:
-    """The mapping at `steps`, whose keys are fields of `kind`; plain numbers are checked."""
+    """Return the mapping at `steps`, whose keys are fields of `kind`; numbers are checked."""
     data = document.data[steps[0]] if steps else document.data
     if not isinstance(data, dict):
         raise document.error("must be a mapping of a robot's properties", steps)
@@ -136,12 +136,12 @@ def _fields(document: Document, kind: type[attrs.AttrsInstance], steps: Steps) -
 def _name(document: Document) -> str:
     name = document.data["name"]
     if not (isinstance(name, str) and name):
-        raise document.error("must be a text", ("name",))
+        raise document.error("must be text", ("name",))
     return name
 
 
 def _footprint(document: Document, points: Any) -> np.ndarray[Any, np.dtype[np.float64]]:
-    """The polygon, counter-clockwise."""
+    """Return the polygon, counter-clockwise."""
     if not (isinstance(points, list) and len(points) >= 3):
         raise document.error("must be a polygon: at least three points [x, y] in metres", ("footprint",))
     for index, point in enumerate(points):

@@ -2,13 +2,13 @@
 
 ```yaml
 mrpbench_scenario: 1          # version of the format
-robots:                       # where each robot starts: metres; yaw in radians, absent = any
+robots:                       # start of each robot in metres; yaw in radians, absent = any
   - {name: "puffin", x: 1.5, y: 2.0, yaw: 0.0}
-tasks:                        # task i is robot i's own under the assigner `identity`
+tasks:                        # the assigner `identity` assigns task i to robot i
   - {name: "dugong", goals: [{x: 3.0, y: 4.5}]}
 ```
 `level` (index into the world's levels) is absent when 0, `release` (simulated seconds) when 0, names when empty.
-Numbers are written with as many digits as give back the same double, so that `Scenario.id` survives.
+Numbers have enough digits to restore the same double, so that `Scenario.id` does not change.
 """
 
 import math
@@ -28,7 +28,7 @@ _LEVELS = np.iinfo(np.int16)
 
 
 def write_scenario(path: Path, scenario: Scenario) -> None:
-    """Write a scenario; `read_scenario` gives back an equal one."""
+    """Write a scenario; `read_scenario` returns an equal one."""
     names = scenario.start_names or ("",) * len(scenario.start)
     lines = [f"mrpbench_scenario: {VERSION}", "robots:" if len(scenario.start) else "robots: []"]
     for name, pose, level in zip(names, scenario.start, scenario.start_level, strict=True):
@@ -57,13 +57,13 @@ def read_scenario(path: Path) -> Scenario:
     """Read a scenario.
 
     Raises:
-        InputError: it cannot be read or is malformed; names file, line and column.
+        InputError: it cannot be read or is malformed; the error names file, line and column.
     """
     reader = _ScenarioReader(load(path))
     top = reader.mapping((), {"mrpbench_scenario", "robots", "tasks"}, {"mrpbench_scenario", "robots", "tasks"})
     if top["mrpbench_scenario"] != VERSION:
         raise reader.document.error(
-            f"format version {top['mrpbench_scenario']!r} is not known", ("mrpbench_scenario",), hint=f"use {VERSION}"
+            f"format version {top['mrpbench_scenario']!r} is unknown", ("mrpbench_scenario",), hint=f"use {VERSION}"
         )
     robots = [reader.robot(("robots", index)) for index in range(reader.length(("robots",)))]
     names = tuple(name for name, _, _ in robots)
@@ -76,7 +76,7 @@ def read_scenario(path: Path) -> Scenario:
 
 
 class _ScenarioReader:
-    """Takes a document apart, with the place of every mistake."""
+    """Reads the parts of a document; its errors have a location."""
 
     def __init__(self, document: Document) -> None:
         self.document = document

@@ -1,4 +1,4 @@
-"""Reads a text file, or says in one line why it cannot."""
+"""Read files, with one line of error if that fails."""
 
 import re
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 from mrpbench_core.files.errors import InputError
 
 SIZE_LIMIT = 256 * 2**20
-"""Bytes. More than any map or record file, little enough that `/dev/zero` ends in a message."""
+"""Bytes. Larger than any map or record file, and small enough that `/dev/zero` gives an error."""
 
 _NOT_TEXT = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
@@ -46,7 +46,7 @@ def read_text(path: Path | str) -> str:
 
 
 def refuse_control_characters(text: str, file: Path | str | None) -> None:
-    """Raise an InputError at the first character that YAML does not allow in a file."""
+    """Raise an InputError at the first character that YAML does not allow."""
     if found := _NOT_TEXT.search(text):
         line, column = position(text, found.start())
         raise InputError(
@@ -55,11 +55,11 @@ def refuse_control_characters(text: str, file: Path | str | None) -> None:
 
 
 def position(text: str, end: int | None) -> tuple[int, int]:
-    """Line and column, counted from 1, of the character at `end` (None = just after the text)."""
+    """Return line and column, from 1, of the character at `end` (None = after the text)."""
     before = text[:end]
     return before.count("\n") + 1, len(before) - before.rfind("\n")
 
 
 def counted(number: int, noun: str) -> str:
-    """`1 run`, `2 runs`."""
+    """Return number and noun, e.g. `1 run`, `2 runs`."""
     return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

@@ -1,6 +1,6 @@
-"""What a URDF, ROS's description of robots, says of a robot on two driven wheels, with its mistakes in one line each.
+"""Read robots with two driven wheels from URDF files, with one line for each error.
 
-Of the format (wiki.ros.org/urdf/XML) this reads what drives and what collides; sensors and looks do not matter here.
+Only wheels, masses and collision shapes of the format (wiki.ros.org/urdf/XML) are read.
 """
 
 import math
@@ -18,9 +18,9 @@ from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.fleet import Urdf
 
 _ALIGNED = 0.999
-"""Cosine of the angle by which a wheel's axis may be off the robot's y axis."""
+"""Least cosine of the angle between the axis of a wheel and the y axis of the robot."""
 _SAME = 1e-3
-"""metres by which the wheels may be off one axle."""
+"""Largest offset of the wheels from a common axle, metres."""
 
 
 @attrs.frozen(kw_only=True)
@@ -31,9 +31,9 @@ class DifferentialDrive:
     """The middle of the axle, metres."""
     separation: float
     radius: float | None
-    """None where the wheels' collision shapes do not tell: they have none, or meshes."""
+    """None if the wheels have no collision shape, or a mesh."""
     signs: tuple[int, int]
-    """1 where a positive speed of the joint drives forward, -1 where it drives back; left, then right."""
+    """1 if a positive speed of the joint drives forward, -1 if backward; left, then right."""
     mass: float
     """Of all links, kilogram."""
 
@@ -42,18 +42,18 @@ def read_urdf(file: Path) -> ET.Element:
     """Read the element `robot` of a URDF.
 
     Raises:
-        InputError: it cannot be read, or is no URDF.
+        InputError: it cannot be read, or is not a URDF.
     """
     text = read_text(file)
     if re.search(r"<!(DOCTYPE|ENTITY)", text):
-        raise InputError("has a DOCTYPE, which no URDF needs", file=file)
+        raise InputError("has a DOCTYPE, which a URDF must not have", file=file)
     try:
         robot = ET.fromstring(text)  # noqa: S314 - without a DOCTYPE nothing in it expands
     except ET.ParseError as error:
         line, column = error.position
-        raise InputError(f"is no XML: {error}", file=file, line=line, column=column + 1) from None
+        raise InputError(f"is not XML: {error}", file=file, line=line, column=column + 1) from None
     if robot.tag != "robot":
-        raise InputError(f"is no URDF: it holds a {robot.tag!r} instead of a 'robot'", file=file)
+        raise InputError(f"is not a URDF: its root is {robot.tag!r} instead of 'robot'", file=file)
     if "xacro" in text and any("xacro" in element.tag for element in robot.iter()):
         where = position(text, text.index("<xacro"))[0] if "<xacro" in text else None
         raise InputError("is xacro", file=file, line=where, hint="expand it first: xacro FILE > robot.urdf")
@@ -61,9 +61,10 @@ def read_urdf(file: Path) -> ET.Element:
 
 
 def mesh_files(robot: ET.Element, file: Path) -> dict[str, Path]:
-    """The file of each mesh that collides, by what the URDF calls it.
+    """Return the file of each collision mesh, by its name in the URDF.
 
-    Names are relative to the URDF. `package://NAME/...` is looked for in a folder NAME above the URDF, or beside one.
+    Names are relative to the URDF. `package://NAME/...` is searched in every folder above the URDF that is
+    called NAME or has a subfolder NAME.
 
     Raises:
         InputError: a file is missing.
@@ -88,10 +89,10 @@ def _places(name: str, file: Path) -> list[Path]:
 
 
 def drive_of(robot: ET.Element, urdf: Urdf) -> DifferentialDrive:
-    """The driven wheels that `urdf` names.
+    """Return the driven wheels that `urdf` names.
 
     Raises:
-        InputError: there are no such joints, or they do not make a differential drive.
+        InputError: there are no such joints, or they do not form a differential drive.
     """
     file = Path(urdf.file)
     joints = {joint.get("name", ""): joint for joint in robot.iterfind("joint")}
@@ -121,7 +122,7 @@ def drive_of(robot: ET.Element, urdf: Urdf) -> DifferentialDrive:
     if abs(left[0] - right[0]) > _SAME or abs(left[2] - right[2]) > _SAME:
         raise InputError(f"the wheels {' and '.join(urdf.wheels)} are not on one axle", file=file)
     if len(set(radii)) > 1:
-        raise InputError(f"the wheels {' and '.join(urdf.wheels)} are of different size", file=file)
+        raise InputError(f"the wheels {' and '.join(urdf.wheels)} have different sizes", file=file)
     mass = sum(float(_numbers(link, "value", (0.0,), file)[0]) for link in robot.iterfind("link/inertial/mass"))
     if mass <= 0:
         raise InputError("its links have no mass", file=file)
@@ -141,16 +142,16 @@ def _frame(joint: ET.Element, above: dict[str, ET.Element], file: Path) -> Float
     while (upper := above.get(_link(joint, "parent"))) is not None:
         joint = upper
         if joint in seen:
-            raise InputError(f"the joint {joint.get('name')!r} hangs on itself", file=file)
+            raise InputError(f"the joint {joint.get('name')!r} is its own ancestor", file=file)
         if joint.get("type") != "fixed":
-            raise InputError(f"a driven wheel hangs on the joint {joint.get('name')!r}, which moves", file=file)
+            raise InputError(f"a driven wheel is attached to the joint {joint.get('name')!r}, which moves", file=file)
         seen.add(joint)
         frame = _origin(joint, file) @ frame
     return frame
 
 
 def _origin(joint: ET.Element, file: Path) -> Float:
-    """Fixed-axis roll, pitch and yaw, then the offset."""
+    """Return the pose f8[4,4] from fixed-axis roll, pitch and yaw and the offset."""
     origin = joint.find("origin")
     roll, pitch, yaw = _numbers(origin, "rpy", (0.0, 0.0, 0.0), file).tolist()
     frame = np.eye(4)
@@ -175,7 +176,7 @@ def _link(joint: ET.Element, role: str) -> str:
 
 
 def _numbers(element: ET.Element | None, name: str, default: tuple[float, ...], file: Path) -> Float:
-    """An attribute that holds as many finite numbers as `default`."""
+    """Return an attribute that has as many finite numbers as `default`."""
     text = None if element is None else element.get(name)
     if text is None or element is None:
         return np.array(default)
@@ -185,5 +186,5 @@ def _numbers(element: ET.Element | None, name: str, default: tuple[float, ...], 
         values = np.empty(0)
     if len(values) != len(default) or not np.isfinite(values).all():
         wanted = "a number" if len(default) == 1 else f"{len(default)} numbers"
-        raise InputError(f"{name}={text!r} of a {element.tag!r} should be {wanted}", file=file)
+        raise InputError(f"{name}={text!r} of a {element.tag!r} must be {wanted}", file=file)
     return values

@@ -1,9 +1,9 @@
 """Strict YAML 1.2 with line marks.
 
-Reads what JSON can say, plus comments, anchors and infinite numbers. Scalars follow the core schema of YAML 1.2.2 §10.3
-(`1e-3` is a number, `on` and `10:30` are text, `010` is ten), where PyYAML alone follows YAML 1.1. Keys are text as
-written. Tags, merge keys, duplicate keys and several documents are refused. Depth and alias expansion are bounded, and
-nothing here recurses, so that no input can exhaust stack or memory.
+It accepts the data of JSON, and comments, anchors and infinite numbers. Scalars follow the core schema of YAML 1.2.2
+§10.3 (`1e-3` is a number, `on` and `10:30` are text, `010` is ten), while PyYAML itself follows YAML 1.1. Keys are text
+as written. Tags, merge keys, duplicate keys and several documents are errors. Depth and alias expansion are bounded,
+and nothing recurses, so that no input can exhaust stack or memory.
 """
 
 import math
@@ -24,7 +24,7 @@ ALIAS_LIMIT = 100_000
 """Values that aliases add to a document."""
 
 Steps = tuple[str | int, ...]
-"""Keys and indices that lead from a document's root to a value."""
+"""Keys and indices from the root of a document to a value."""
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _INT = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
@@ -40,7 +40,7 @@ _NAMED: dict[str, Any] = {
 
 
 class _Place:
-    """Where a value stands, and everything inside it."""
+    """The location of a value, and those of all values inside it."""
 
     __slots__ = ("column", "inside", "key", "line")
 
@@ -53,7 +53,7 @@ class _Place:
 
 @attrs.frozen
 class Document:
-    """What a file says, and where it says it."""
+    """The data of a file with their locations."""
 
     data: Any
     """dict (text keys), list, str, int, float, bool or None. Aliased values are one object."""
@@ -63,7 +63,7 @@ class Document:
     def mark(self, steps: Steps = (), *, key: bool = False) -> tuple[int, int]:
         """Line and column, from 1, of the value (or, with `key`, of its key) at `steps`.
 
-        Where the document has no such value, the place of the innermost one around it that exists.
+        If the document has no such value, the location is that of the innermost existing value around it.
         """
         place = self._root
         for index, step in enumerate(steps):
@@ -76,7 +76,7 @@ class Document:
         return place.line, place.column
 
     def error(self, message: str, steps: Steps = (), *, key: bool = False, hint: str | None = None) -> InputError:
-        """An InputError located at `steps`; see `mark`."""
+        """Return an InputError with the location at `steps`; see `mark`."""
         line, column = self.mark(steps, key=key)
         return InputError(message, file=self.file, line=line, column=column, hint=hint)
 
@@ -85,19 +85,19 @@ def load(path: Path | str) -> Document:
     """Read a file.
 
     Raises:
-        InputError: it cannot be read or is not strict YAML; names file, line and column.
+        InputError: it cannot be read or is not strict YAML; the error names file, line and column.
     """
     return loads(read_text(path), file=path)
 
 
 def loads(text: str, *, file: Path | str | None = None) -> Document:
-    """Read a text; `file` is named in errors."""
+    """Read a text; errors name `file`."""
     refuse_control_characters(text, file)
     return _DocumentReader(None if file is None else Path(file)).read(text)
 
 
 def plain_scalar(text: str) -> Any:
-    """Return what a plain (unquoted) scalar means.
+    """Return the value of a plain (unquoted) scalar.
 
     Raises:
         ValueError: a number that Python cannot hold.
@@ -164,14 +164,14 @@ class _DocumentReader:
             if hint and error.context_mark and mark and error.context_mark.line != mark.line:
                 hint += f" that begins in line {error.context_mark.line + 1}"
             raise self._error(error.problem or "is not YAML", mark, hint) from None
-        except (yaml.YAMLError, ValueError, OverflowError) as error:  # the last two: PyYAML without libyaml
+        except (yaml.YAMLError, ValueError, OverflowError) as error:  # the last two occur without libyaml
             raise self._error(f"is not YAML: {' '.join(str(error).split())}", None) from None
 
     def _begin(self, event: Any) -> None:
         if self.root is not None:
             raise self._error("a second document begins here; only one is allowed", event.start_mark)
         if event.version not in (None, (1, 2)):
-            raise self._error("only YAML 1.2 is read", event.start_mark)
+            raise self._error("only YAML 1.2 is supported", event.start_mark)
 
     def _scalar(self, event: Any) -> None:
         self._check(event)
@@ -195,7 +195,7 @@ class _DocumentReader:
 
     def _key(self, frame: _Frame, text: str, event: Any) -> None:
         if text == "<<" and event.implicit[0]:
-            raise self._error("merge keys are not read; repeat the keys", event.start_mark)
+            raise self._error("merge keys are not supported; repeat the keys", event.start_mark)
         if text in frame.value:
             first = frame.place.inside[text].key
             hint = None if first is None else f"first in line {first.line}"
@@ -233,7 +233,7 @@ class _DocumentReader:
         self._put(copy)
 
     def _put(self, done: _Frame) -> None:
-        """Store a finished value in the container it stands in."""
+        """Store a finished value in its container."""
         if not self.stack:
             self.root = done
             return
@@ -252,7 +252,7 @@ class _DocumentReader:
 
     def _check(self, event: Any) -> None:
         if event.tag is not None:
-            raise self._error(f"tags such as {event.tag!r} are not read", event.start_mark)
+            raise self._error(f"tags such as {event.tag!r} are not supported", event.start_mark)
 
     def _check_depth(self, depth: int, event: Any) -> None:
         if depth > DEPTH_LIMIT:

@@ -17,23 +17,23 @@ Bool = NDArray[np.bool_]
 def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None) -> NDArray[Any]:
     """Return a read-only copy of `values` as `dtype`; `columns` shapes an empty list as (0, columns).
 
-    What is such a copy already is returned as it is.
+    An array that is already such a copy is returned as it is.
 
     Raises:
-        ValueError: there are not so many columns, or integers are wanted and some value is none, or too large.
+        ValueError: the number of columns differs, or `dtype` is an integer type and some value does not fit it.
     """
     given, wanted = np.asarray(values), np.dtype(dtype)
     array = _frozen(given) if given.dtype == wanted else _converted(given, wanted)
     if columns is not None and array.size == 0:
         array = array.reshape(0, columns)
-    elif columns is not None and array.shape[1:] != (columns,):  # reshaping would hide rows and columns mixed up
+    elif columns is not None and array.shape[1:] != (columns,):  # reshaping would hide swapped rows and columns
         raise ValueError(f"expected an array of {columns} columns, got the shape {array.shape}")
     array.setflags(write=False)
     return array
 
 
 def _frozen(given: NDArray[Any]) -> NDArray[Any]:
-    """A read-only copy, or what is one already."""
+    """Return a read-only copy, or `given` if it is one already."""
     flags = given.flags
     if flags.writeable or not (flags.c_contiguous and flags.owndata):
         given = given.copy()
@@ -45,7 +45,7 @@ def _converted(given: NDArray[Any], wanted: np.dtype[Any]) -> NDArray[Any]:
     with np.errstate(invalid="ignore"):
         array = np.array(given, dtype=wanted, order="C")
     if wanted.kind in "iu" and given.dtype.kind in "iuf" and (array != given).any():
-        # NumPy would cut off or wrap round in silence.
+        # NumPy would truncate or wrap silently.
         raise ValueError(f"expected whole numbers that fit in {wanted}, got {given[array != given][0]}")
     return array
 
@@ -60,7 +60,7 @@ def array(dtype: DTypeLike, columns: int | None = None, **arguments: Any) -> Any
             and values.dtype is wanted
             and (columns is None or values.shape[1:] == (columns,))
         ):
-            return _frozen(values)  # what comes every control period is nearly always of this kind
+            return _frozen(values)  # the usual case in every control period
         return frozen_array(values, wanted, columns)
 
     return attrs.field(

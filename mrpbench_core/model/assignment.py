@@ -1,4 +1,4 @@
-"""Which robot does which task."""
+"""The assignment of tasks to robots."""
 
 import attrs
 
@@ -8,7 +8,7 @@ from mrpbench_core.model.scenario import Task
 
 @attrs.frozen(kw_only=True)
 class AssignmentProblem:
-    """Costs of every robot doing every task."""
+    """The cost of every pair of robot and task."""
 
     costs: Float = array("f8")
     """f8[n,m]; inf = forbidden. May be rectangular."""
@@ -24,6 +24,6 @@ class Assignment:
     """min(n, m) robots get one task each."""
 
     task: Int32 = array("i4")
-    """i4[n]: column taken by each row, -1 = none."""
+    """i4[n]: column assigned to each row, -1 = none."""
     cost: float
     """Value of the assigner's objective."""

@@ -1,4 +1,4 @@
-"""What counts as a conflict: the one definition that planners, validators and dispatchers share.
+"""The only definition of a conflict, which planners, validators and dispatchers share.
 
 Time is in ticks. A robot stands at a vertex during the *closed* interval [arrive, depart] and is on an edge during the
 *open* interval (enter, leave). Two robots conflict when

@@ -1,4 +1,4 @@
-"""The robots: what each is, carries and can do."""
+"""Robots: their shape, limits and sensors."""
 
 import attrs
 import numpy as np
@@ -12,7 +12,7 @@ class Lidar:
 
     beams: int = 360
     range: float = 3.5
-    """metres; a beam that hits nothing within it reads inf."""
+    """metres; a beam that hits nothing within this range reads inf."""
     min_range: float = 0.12
     rate: float = 5.0
     """Hz of simulated time."""
@@ -22,7 +22,7 @@ class Lidar:
 
 @attrs.frozen(kw_only=True)
 class Urdf:
-    """Where a robot is described as its maker does, for simulators that load such descriptions."""
+    """The URDF of a robot, for simulators that load it."""
 
     file: str
     """Absolute path."""
@@ -32,7 +32,7 @@ class Urdf:
 
 @attrs.frozen(kw_only=True)
 class RobotModel:
-    """A kind of robot. The base frame sits on the floor, at the point the robot turns about, x forward."""
+    """A model of robot. The base frame lies on the floor at the centre of rotation, x forward."""
 
     name: str
     footprint: Float = array("f8", 2)
@@ -52,11 +52,11 @@ class RobotModel:
     wheel_separation: float = 0.16
     lidar: Lidar | None = None
     urdf: Urdf | None = attrs.field(default=None, metadata={"recorded": False})
-    """Not part of recordings: it is a file of this machine."""
+    """Not part of recordings, because it is a file of this machine."""
 
     @property
     def radius(self) -> float:
-        """Circumscribed radius about the base frame's origin, metres: the disc that holds the robot at any yaw."""
+        """Circumscribed radius about the base frame's origin, metres: the disc contains the robot at any yaw."""
         return float(np.hypot(self.footprint[:, 0], self.footprint[:, 1]).max())
 
 
@@ -81,7 +81,7 @@ class Fleet:
 
     @property
     def profiles(self) -> tuple[tuple[RobotModel, ...], tuple[int, ...]]:
-        """The distinct robot models, in order of first use, and the index of each robot's among them."""
+        """The distinct robot models in order of first use, and for each robot the index of its model."""
         kinds: list[RobotModel] = []
         index = []
         for robot in self.robots:

@@ -22,7 +22,7 @@ def segment_distance(a: Float, b: Float, c: Float, d: Float) -> Float:
         np.minimum(point_segment_distance(a, c, d), point_segment_distance(b, c, d)),
         np.minimum(point_segment_distance(c, a, b), point_segment_distance(d, a, b)),
     )
-    # Of segments on one line the sides are rounding errors: those can only cross where their boxes overlap.
+    # Sides of collinear segments are rounding errors; such segments can only cross where their boxes overlap.
     low, high = np.maximum(np.minimum(a, b), np.minimum(c, d)), np.minimum(np.maximum(a, b), np.maximum(c, d))
     crossing = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0) & (low <= high).all(axis=-1)
     result: Float = np.where(crossing, 0.0, distance)
@@ -50,7 +50,7 @@ def side(start: Float, end: Float, point: Float) -> Float:
 
 
 def facing(waypoints: Float) -> Float:
-    """Waypoints f8[k,3] in which an open yaw (NaN) is the way the robot drives on, or came from where it only waits."""
+    """Return waypoints f8[k,3] in which each open yaw (NaN) is the direction of the next move, or else of the last."""
     turned = np.array(waypoints)
     ahead = np.diff(turned[:, :2], axis=0)
     moves = (ahead != 0).any(axis=1)

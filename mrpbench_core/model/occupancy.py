@@ -8,7 +8,7 @@ from mrpbench_core.model.arrays import Bool, Float, Int, array
 
 @attrs.frozen(kw_only=True)
 class Occupancy:
-    """Which square cells are blocked.
+    """A raster of free and blocked square cells.
 
     Row 0 is the lowest y, column 0 the lowest x (the order of `nav_msgs/OccupancyGrid`).
     """

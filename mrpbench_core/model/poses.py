@@ -6,13 +6,13 @@ from mrpbench_core.model.arrays import Float
 
 
 def wrapped(angle: Float) -> Float:
-    """The same angles within [-pi, pi)."""
+    """Return the same angles within [-pi, pi)."""
     result: Float = np.remainder(angle + np.pi, 2 * np.pi) - np.pi
     return result
 
 
 def composed(frame: Float, pose: Float) -> Float:
-    """What `pose` f8[...,3], given in `frame` f8[...,3], is in the frame that `frame` is given in."""
+    """Transform `pose` f8[...,3], given in `frame` f8[...,3], to the parent of `frame`."""
     cosine, sine = np.cos(frame[..., 2]), np.sin(frame[..., 2])
     x, y = pose[..., 0], pose[..., 1]
     return np.stack(
@@ -26,7 +26,7 @@ def composed(frame: Float, pose: Float) -> Float:
 
 
 def relative(frame: Float, pose: Float) -> Float:
-    """What `pose` f8[...,3] is in `frame` f8[...,3], both given in one frame: undoes `composed`."""
+    """Transform `pose` f8[...,3] to `frame` f8[...,3], both given in the same frame; the inverse of `composed`."""
     cosine, sine = np.cos(frame[..., 2]), np.sin(frame[..., 2])
     x, y = pose[..., 0] - frame[..., 0], pose[..., 1] - frame[..., 1]
     return np.stack([cosine * x + sine * y, cosine * y - sine * x, wrapped(pose[..., 2] - frame[..., 2])], axis=-1)

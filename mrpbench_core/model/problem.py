@@ -1,4 +1,4 @@
-"""What a planner is asked: robots on a roadmap, with goals and rules."""
+"""The problem of a planner: robots on a roadmap, with goals and rules."""
 
 from enum import StrEnum
 
@@ -10,14 +10,14 @@ from mrpbench_core.model.plan import Path
 from mrpbench_core.model.roadmap import Roadmap
 
 GoalSet = tuple[int, ...]
-"""Roadmap vertices of which reaching any one counts."""
+"""Roadmap vertices; a robot reaches the set by reaching any of them."""
 
 
 class Feature(StrEnum):
-    """What a problem may contain and a planner may support."""
+    """A property that problems may have and planners may support."""
 
     EDGE_DURATIONS = "edge_durations"
-    """Some edge takes other than one tick."""
+    """The duration of some edge is not one tick."""
     FOOTPRINTS = "footprints"
     """Robots are discs of `Problem.radius`: elements of the roadmap closer than two radii exclude one another."""
     RESOURCES = "resources"
@@ -33,7 +33,7 @@ class Feature(StrEnum):
 
 @attrs.frozen(kw_only=True)
 class Rules:
-    """Conventions of the field that differ between sources."""
+    """Conventions of the field that differ between publications."""
 
     following: str = "allowed"
     """allowed | forbidden: may a robot enter a vertex in the tick in which another leaves it?"""
@@ -53,11 +53,11 @@ class Problem:
     start: Int32 = array("i4")
     """i4[n] roadmap vertices."""
     ready: Int = array("i8")
-    """i8[n] ticks: a robot stands at its start at least until then."""
+    """i8[n] ticks: a robot stays at its start at least until then."""
     goals: tuple[tuple[GoalSet, ...], ...]
     """goals[robot] = the goal sets to visit in order; the robot ends at the last. Empty: it may end anywhere."""
     commitments: tuple[Path, ...] = ()
-    """Released prefixes, one per robot (possibly empty), that a new plan must begin with; () = none."""
+    """Released prefixes, one per robot (possibly empty), with which a new plan must begin; () = none."""
     rules: Rules = Rules()
     horizon: int | None = None
     """Ticks after which conflicts need not be resolved; None = all."""
@@ -67,13 +67,13 @@ class Problem:
         return len(self.start)
 
     def duration(self, robot: int) -> Int32:
-        """Ticks i4[E] each edge takes `robot`, -1 = forbidden."""
+        """Return the duration i4[E] of each edge for `robot`, in ticks, -1 = forbidden."""
         row: Int32 = self.roadmap.duration[self.profile[robot]]
         return row
 
 
 def features_of(problem: Problem) -> frozenset[Feature]:
-    """The features `problem` cannot be solved without, footprints apart (those are a choice of the caller)."""
+    """Return the features that a planner needs to solve `problem`; the caller adds footprints."""
     found = set()
     used = problem.roadmap.duration
     if ((used != 1) & (used != -1)).any():

@@ -1,13 +1,13 @@
-"""When which robot scans: the same for every simulator."""
+"""The times at which robots scan, which are the same in every simulator."""
 
 from mrpbench_core.model.fleet import Fleet, Lidar
 
 
 class ScanSchedule:
-    """Robots scan at their lidar's rate, rounded to whole control periods, and take turns.
+    """Robots scan at the rate of their lidar, rounded to whole control periods, in turn.
 
     Robot i scans at the end of every period whose number (0 = before the first) plus i is divisible by the periods per
-    scan, so that the work is spread evenly.
+    scan, which distributes the work evenly.
     """
 
     def __init__(self, fleet: Fleet, period: float) -> None:

@@ -9,7 +9,7 @@ from mrpbench_core.model.arrays import Float, Int16, array
 
 @attrs.frozen(kw_only=True)
 class Task:
-    """Places one robot must visit, in order."""
+    """Places that one robot must visit, in order."""
 
     goals: Float = array("f8", 3)
     """f8[k,3]: x, y (metres), yaw (radians, NaN = any)."""
@@ -22,7 +22,7 @@ class Task:
 
 @attrs.frozen(kw_only=True)
 class Scenario:
-    """Where robots start and what must be done. Task i is robot i's own under the `identity` assigner."""
+    """Starts and tasks. The assigner `identity` assigns task i to robot i."""
 
     start: Float = array("f8", 3)
     """f8[n,3]: x, y (metres), yaw (radians, NaN = any)."""

@@ -1,6 +1,6 @@
-"""Quantities as people write them (`30 s`, `10 Hz`, `4 GiB`, `1/240`) in the SI unit an option holds.
+"""Convert quantities such as `30 s`, `10 Hz`, `4 GiB` or `1/240` to SI units.
 
-Computed as exact fractions and rounded once, so that `33 ms` is the same number as `0.033`.
+The conversion uses exact fractions and rounds once, so that `33 ms` is the same number as `0.033`.
 """
 
 import math
@@ -31,23 +31,23 @@ UNITS: dict[str, dict[str, Fraction]] = {
         **{f"{prefix}iB": Fraction(1024**power) for power, prefix in enumerate("KMGT", 1)},
     },
 }
-"""For each SI unit, the units that may be written for it and their size."""
+"""For each SI unit, the units that are accepted for it and their size."""
 
-# Exponents and digits are bounded: `1e999999999` must not be computed.
+# Exponents and digits are bounded, so that `1e999999999` is never computed.
 _NUMBER = r"[-+]?(?:[0-9]{1,30}(?:\.[0-9]{0,30})?|\.[0-9]{1,30})(?:[eE][-+]?[0-9]{1,3})?"
 _QUANTITY = re.compile(rf"({_NUMBER})(?:/([0-9]{{1,30}}))?(?: ?([^\s0-9.+-]\S*))?")
 
 
 def sizes(unit: str) -> dict[str, Fraction]:
-    """The units that may be written where `unit` is expected; of a unit unknown here, only itself."""
+    """Return the units that are accepted for `unit`; for an unknown unit, only itself."""
     return UNITS.get(unit, {unit: Fraction(1)})
 
 
 def exact(text: str, unit: str) -> Fraction:
-    """Return the quantity in `unit`; a fraction such as `1/240` may leave the unit out.
+    """Return the quantity in `unit`; a fraction such as `1/240` needs no unit.
 
     Raises:
-        ValueError: a sentence that says what is wrong.
+        ValueError: the text is not such a quantity; the message says why.
     """
     known = ", ".join(sizes(unit))
     found = _QUANTITY.fullmatch(text.strip(" "))
@@ -55,7 +55,7 @@ def exact(text: str, unit: str) -> Fraction:
         raise ValueError(f"expected a number of {unit}, got {text!r} (units: {known})")
     number, divisor, written = found.groups()
     if written is None and divisor is None:
-        raise ValueError(f"expected a number of {unit}, got the text {text!r}: leave out the quotes or write a unit")
+        raise ValueError(f"expected a number of {unit}, got the text {text!r}: remove the quotes or add a unit")
     if written is not None and written not in sizes(unit):
         raise ValueError(f"unknown unit {written!r} for a quantity in {unit} (units: {known})")
     if divisor is not None and int(divisor) == 0:
@@ -64,7 +64,7 @@ def exact(text: str, unit: str) -> Fraction:
 
 
 def quantity(text: str, unit: str) -> float:
-    """Like `exact`, as the nearest float."""
+    """Return the quantity in `unit` as the nearest float; see `exact`."""
     try:
         return float(exact(text, unit))
     except OverflowError:
@@ -72,10 +72,10 @@ def quantity(text: str, unit: str) -> float:
 
 
 def whole_quantity(text: str, unit: str) -> int:
-    """Like `exact`, as an int.
+    """Return the quantity in `unit` as an int; see `exact`.
 
     Raises:
-        ValueError: also where the quantity is not a whole number of `unit`.
+        ValueError: also if the quantity is not a whole number of `unit`.
     """
     value = exact(text, unit)
     if value.denominator != 1:

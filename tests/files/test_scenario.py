@@ -75,7 +75,7 @@ def test_a_file_written_by_hand_is_understood(tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("scenario: 1", "scenario: 2", ":1:20: format version 2 is not known (use 1)"),
+        ("scenario: 1", "scenario: 2", ":1:20: format version 2 is unknown (use 1)"),
         ("robots:", "robot:", ":2:1: unknown key 'robot' (did you mean 'robots'?)"),
         ("x: 1,", "x: far,", ":3:23: must be a finite number"),
         ("x: 1,", "x: .inf,", ":3:23: must be a finite number"),

@@ -60,7 +60,7 @@ def test_fixed_joints_on_the_way_to_a_wheel_are_followed_with_their_turns(tmp_pa
 def test_the_radius_of_a_wheel_that_is_a_mesh_stands_in_the_robots_file(tmp_path):
     (tmp_path / "tyre.stl").write_text("solid")
     urdf = URDF.replace('<cylinder radius="0.1" length="0.05"/>', '<mesh filename="tyre.stl"/>')
-    with pytest.raises(InputError, match="wheel_radius is missing: the URDF's wheels are no spheres or cylinders"):
+    with pytest.raises(InputError, match="wheel_radius is missing: the wheels of the URDF are not spheres"):
         load(tmp_path, urdf)
     robot = load(tmp_path, urdf, ROBOT + "wheel_radius: 0.12\n")
     assert (robot.wheel_radius, robot.wheel_separation) == (0.12, pytest.approx(0.4))
@@ -103,8 +103,8 @@ def test_recordings_do_not_tell_where_a_urdf_lies(tmp_path):
     ("urdf", "message"),
     [
         (None, r"cart\.urdf: no such file"),
-        (URDF.replace("</robot>", ""), r"cart\.urdf:10:1: is no XML"),
-        ("<sdf/>", "is no URDF: it holds a 'sdf'"),
+        (URDF.replace("</robot>", ""), r"cart\.urdf:10:1: is not XML"),
+        ("<sdf/>", "is not a URDF: its root is 'sdf'"),
         ('<!DOCTYPE robot [<!ENTITY a "b">]>' + URDF, "has a DOCTYPE"),
         (
             URDF.replace('<link name="axle"/>', '<xacro:axle xmlns:xacro="http://www.ros.org/wiki/xacro"/>'),
@@ -118,16 +118,16 @@ def test_recordings_do_not_tell_where_a_urdf_lies(tmp_path):
         ),
         (
             URDF.replace('type="fixed"', 'type="prismatic"'),
-            "a driven wheel hangs on the joint 'turned', which moves",
+            "a driven wheel is attached to the joint 'turned', which moves",
         ),
-        (URDF.replace('<parent link="base"/>', '<parent link="left_wheel"/>'), "the joint 'left' hangs on itself"),
+        (URDF.replace('<parent link="base"/>', '<parent link="left_wheel"/>'), "the joint 'left' is its own ancestor"),
         (URDF.replace('rpy="-1.5708 0 0"', ""), r"'left' turns about \(0, 0, 1\)"),
         (URDF.replace('<axis xyz="0 0 1"/>', '<axis xyz="0 0 0"/>'), r"'left' turns about \(0, 0, 0\)"),
         (URDF.replace("0 0.2 0", "0 -0.3 0"), "'left' is not to the left of 'right'"),
         (URDF.replace("0 0.2 0", "0.1 0.2 0"), "the wheels left and right are not on one axle"),
-        (URDF.replace('radius="0.1"', 'radius="0.2"', 1), "of different size"),
-        (URDF.replace('radius="0.1"', 'radius="wide"', 1), "radius='wide' of a 'cylinder' should be a number"),
-        (URDF.replace('xyz="0 0.2 0"', 'xyz="0 0.2"'), "xyz='0 0.2' of a 'origin' should be 3 numbers"),
+        (URDF.replace('radius="0.1"', 'radius="0.2"', 1), "have different sizes"),
+        (URDF.replace('radius="0.1"', 'radius="wide"', 1), "radius='wide' of a 'cylinder' must be a number"),
+        (URDF.replace('xyz="0 0.2 0"', 'xyz="0 0.2"'), "xyz='0 0.2' of a 'origin' must be 3 numbers"),
         (URDF.replace('value="9"', 'value="0"').replace('value="0.5"', 'value="0"'), "its links have no mass"),
         (
             URDF.replace('<cylinder radius="0.1" length="0.05"/>', '<mesh filename="tyre.stl"/>'),
@@ -144,8 +144,8 @@ def test_a_mistake_in_a_urdf_is_one_line(tmp_path, urdf, message):
 @pytest.mark.parametrize(
     ("robot", "line", "message"),
     [
-        (ROBOT + "mass: 3\n", 8, r"mass is 10 by the URDF \(leave it out here\)"),
-        (ROBOT + "wheel_radius: 0.2\n", 8, "wheel_radius is 0.1 by the URDF"),
+        (ROBOT + "mass: 3\n", 8, r"the URDF already gives mass = 10 \(remove it here\)"),
+        (ROBOT + "wheel_radius: 0.2\n", 8, "the URDF already gives wheel_radius = 0.1"),
         (ROBOT.replace("[left, right]", "left"), 7, "must be the joints of two wheels"),
         (ROBOT.replace("wheels: [left, right]", ""), 6, "wheels is missing"),
         (ROBOT.replace("file: cart.urdf", "file: 3"), 6, "must be a file's name"),
