@@ -1,7 +1,7 @@
-"""A run as plain data: complete, and readable without the plugins; what records keep and what travels to a worker.
+"""A run as plain data, which records keep and workers receive: complete, and readable without the plugins.
 
-Defaults are filled in, quantities are SI numbers, files are their name relative to the configuration's folder with the
-hash of their content, and what is absent is the word `none`.
+Defaults are filled in and quantities are SI numbers. A file is its name, relative to the folder of the configuration,
+with the hash of its content. An absent component is the word `none`.
 """
 
 import enum
@@ -22,15 +22,13 @@ from mrpbench_core.plugins.registry import Registry
 
 
 def canonical(config: RunConfig, folder: Path) -> dict[str, Any]:
-    """The whole of a configuration whose files lie in `folder`; `structure` turns it back into an equal one."""
+    """Return a configuration as plain data, with files relative to `folder`; `structure` is the inverse."""
     plain: dict[str, Any] = _plain(config, folder)
     return plain
 
 
 def sources(config: RunConfig, folder: Path) -> dict[str, str]:
-    """Texts of the local plugins that `config` uses, and of what they import from beside them, by name relative to
-    `folder`.
-    """
+    """Return the texts of local plugins and of the modules that they import, by name relative to `folder`."""
     found: dict[str, str] = {}
     for component in components_in(config):
         if source := source_of(type(component)):
@@ -39,17 +37,17 @@ def sources(config: RunConfig, folder: Path) -> dict[str, str]:
 
 
 def same_work(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
-    """Tell whether two canonical configurations describe the same work: what is not identifying may differ."""
+    """Tell whether two canonical configurations differ at most in keys that do not identify a run."""
     return bool(_work(one) == _work(other))
 
 
 def plugin_name(component: Component, folder: Path) -> str:
-    """The name by which a configuration in `folder` chooses a component."""
+    """Return the name by which a configuration in `folder` chooses a component."""
     return Registry(kind_class(type(component))).name_of(type(component), folder)
 
 
 def relative(path: Path, folder: Path) -> str:
-    """A file's name as a configuration in `folder` writes it."""
+    """Return the name of a file relative to `folder`."""
     return Path(os.path.relpath(path, folder)).as_posix()
 
 
@@ -81,7 +79,7 @@ def _field(owner: Any, field: Any, folder: Path) -> Any:
 
 
 def json_scalar(value: Any) -> Any:
-    """A scalar as JSON can say it."""
+    """Return a scalar as a JSON value."""
     if isinstance(value, enum.Enum):
         return value.value
     if isinstance(value, float) and math.isinf(value):

@@ -1,4 +1,4 @@
-"""Files by content: what identifies a run is what a file says, not where it lies."""
+"""Hash files: the content of a file identifies a run, not its name."""
 
 import functools
 import hashlib
@@ -8,7 +8,7 @@ from mrpbench_core.files.text import read_bytes
 
 
 def content_hash(path: Path) -> str:
-    """SHA-256 of a file; read again only when the file has changed.
+    """Return the SHA-256 of a file, which is read again only after a change.
 
     Raises:
         InputError: it cannot be read.

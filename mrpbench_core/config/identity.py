@@ -1,7 +1,7 @@
-"""A run's identity: the hash of what was chosen, so that results are found again and nothing is run twice.
+"""The identity of a run: a hash of its options, by which results are found and no run is done twice.
 
-Only options that differ from their defaults count: writing a default changes nothing, and neither does an option that a
-later version of a plugin adds. Files count by content. `NOT_IDENTIFYING` keys do not count.
+Only options that differ from their defaults count, so neither an explicit default nor an option that a later version of
+a plugin adds changes the identity. Files count by content. The keys in `NOT_IDENTIFYING` do not count.
 """
 
 import hashlib
@@ -23,13 +23,13 @@ LENGTH = 16
 
 
 def run_id(config: RunConfig, folder: Path) -> str:
-    """The identity of a run whose files lie in `folder`."""
+    """Return the identity of a run, with files relative to `folder`."""
     text = json.dumps(choices(config, folder), sort_keys=True, ensure_ascii=False, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
 
 
 def choices(config: RunConfig, folder: Path) -> dict[str, Any]:
-    """What identifies a run, as plain data."""
+    """Return the options that identify a run, as plain data."""
     chosen, ignored = {}, _ignored(config)
     for field in attrs.fields(RunConfig):
         if field.name not in ignored and _differs(config, field):
@@ -40,7 +40,7 @@ def choices(config: RunConfig, folder: Path) -> dict[str, Any]:
 def _ignored(config: RunConfig) -> set[str]:
     ignored = set(NOT_IDENTIFYING)
     if config.planner.assigns:
-        ignored.add("assigner")  # the planner chooses among all goals itself
+        ignored.add("assigner")  # the planner assigns the tasks itself
     if config.simulator is None:
         ignored |= {name for name in EXECUTION if getattr(config, name) is None} | set(ONLY_EXECUTION)
     return ignored
@@ -52,7 +52,7 @@ def _is_default_plugin(name: str, value: Any) -> bool:
 
 
 def _read(value: Any) -> dict[str, Any]:
-    """What a component or a robot reads besides its options' files."""
+    """Return the hashes of files that a component or robot reads besides those of its options."""
     files = value.reads() if isinstance(value, Component | FleetEntry) else ()
     read = [content_hash(file) for file in files if file.is_file()]
     return {"reads": read} if read else {}

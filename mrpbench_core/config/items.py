@@ -1,7 +1,7 @@
-"""Configuration values that remember where they were written, also after the matrix has put them together anew.
+"""Configuration values with the locations at which they were written.
 
-Items are immutable and shared: a patch copies only what lies on its path, so that a block that a thousand runs have in
-common is one object, checked once.
+Items are immutable and shared. A patch copies only the containers on its path, so a block that a thousand runs share is
+one object and is checked once.
 """
 
 import os
@@ -19,14 +19,14 @@ COMMAND_LINE = Path("command line")
 
 @attrs.frozen
 class Location:
-    """A place in a file, or on the command line, or (no file) in a Python call."""
+    """A location in a file, on the command line, or (no file) in a Python call."""
 
     file: Path | None = None
     line: int | None = None
     column: int | None = None
 
     def error(self, key: str, message: str, hint: str | None = None) -> InputError:
-        """An error here; `key` is the dotted path of what is wrong."""
+        """Return an error with this location; `key` is the dotted path of the wrong value."""
         text = f"{key}: {message}" if key else message
         return InputError(text, file=self.file, line=self.line, column=self.column, hint=hint)
 
@@ -52,7 +52,7 @@ class Item:
 
 
 def from_document(document: Document) -> Item:
-    """Items with the marks of a file."""
+    """Return the items of a file with their locations."""
 
     def build(data: Any, steps: Steps) -> Item:
         location = Location(document.file, *document.mark(steps))
@@ -67,7 +67,7 @@ def from_document(document: Document) -> Item:
 
 
 def from_data(data: Any, location: Location) -> Item:
-    """Items that all stand in one place."""
+    """Return items that all have one location."""
     value = os.fspath(data) if isinstance(data, os.PathLike) else data
     if isinstance(data, Mapping):
         value = {str(key): from_data(inner, location) for key, inner in data.items()}
@@ -77,23 +77,23 @@ def from_data(data: Any, location: Location) -> Item:
 
 
 def steps_of(key: str) -> tuple[str, ...]:
-    """The steps of a dotted path, e.g. `planner.w` or `fleet.0.robot`."""
+    """Return the steps of a dotted path, e.g. `planner.w` or `fleet.0.robot`."""
     return tuple(key.strip().split("."))
 
 
 def patch(root: Item, key: str, new: Item) -> Item:
-    """`root` with `new` at the dotted path `key`.
+    """Return `root` with `new` at the dotted path `key`.
 
-    A bare word on the path becomes its block (`eecbs` is `{plugin: eecbs}`), and blocks that are missing are made.
+    A bare word on the path becomes its block (`eecbs` is `{plugin: eecbs}`), and missing blocks are added.
 
     Raises:
-        InputError: located at `new`; the path leads into a number or past the end of a list.
+        InputError: the path leads into a number or past the end of a list; the location is that of `new`.
     """
     return _patch(root, steps_of(key), 0, new)
 
 
 def look_up(root: Item, key: str) -> Item | None:
-    """The item at a dotted path, or None."""
+    """Return the item at a dotted path, or None."""
     item = root
     steps = steps_of(key)
     for depth, step in enumerate(steps):
@@ -108,7 +108,7 @@ def look_up(root: Item, key: str) -> Item | None:
 
 
 def main_key(steps: tuple[str, ...]) -> str:
-    """The key that a bare word stands for in the block at `steps`."""
+    """Return the key of a bare word in the block at `steps`."""
     return "robot" if steps[:1] == ("fleet",) else "plugin"
 
 
@@ -129,14 +129,14 @@ def _patch(item: Item, steps: tuple[str, ...], depth: int, new: Item) -> Item:
     if isinstance(item.value, list):
         if not _is_index(step):
             raise new.key.error(
-                key, f"{'.'.join(steps[:depth])} is a list", f"number its entries: {_numbered(steps, depth)}"
+                key, f"{'.'.join(steps[:depth])} is a list", f"give the index of an entry: {_numbered(steps, depth)}"
             )
         if int(step) >= len(item.value):
             raise new.key.error(key, f"{'.'.join(steps[:depth])} has only {len(item.value)} entries, counted from 0")
         entries = list(item.value)
         entries[int(step)] = _patch(entries[int(step)], steps, depth + 1, new)
         return attrs.evolve(item, value=entries)
-    raise new.key.error(key, f"{'.'.join(steps[:depth]) or 'the file'} is not a block but {item.value!r}")
+    raise new.key.error(key, f"{'.'.join(steps[:depth]) or 'the file'} is {item.value!r}, not a block")
 
 
 def _is_index(step: str) -> bool:

@@ -1,15 +1,15 @@
-"""The `matrix` of a study: what varies, and how it is put together into single configurations.
+"""The `matrix` of a study: which options vary, and how they combine into single configurations.
 
     matrix:
-      planner: [astar, {plugin: ecbs, w: 1.2}]     # a whole key replaces
+      planner: [astar, {plugin: ecbs, w: 1.2}]     # a key replaces the whole block
       scenario.robots: [5, 9]                      # a dotted key patches one option
       seed: 0..53                                  # both ends included
       "noise.lidar, noise.odometry": [[0, 0], [0.01, 0.02]]    # several names are zipped
-      exclude: [{planner: astar, scenario.robots: 9}]          # points that match all of an entry are left out
-      include: [{planner: cbs, seed: 0..3}]                    # further points, beside the product
+      exclude: [{planner: astar, scenario.robots: 9}]          # removes the points that match an entry
+      include: [{planner: cbs, seed: 0..3}]                    # adds points to the product
 
-Points come in reading order, the last axis varying fastest, included ones last. `exclude` looks at what is written;
-defaults are not filled in yet.
+Points come in reading order: the last axis varies fastest, and included points come last. `exclude` compares the values
+as written, without defaults.
 """
 
 import itertools
@@ -43,13 +43,13 @@ class Point:
 
     root: Item
     axes: dict[str, Any]
-    """Plain value of every key that varies."""
+    """Plain value of each key that varies."""
     fault: InputError | None = None
-    """Why it cannot be put together."""
+    """Why the configuration cannot be combined."""
 
     @property
     def label(self) -> str:
-        """The point in a few words."""
+        """A short description of the point."""
         return ", ".join(f"{name}={_brief(value)}" for name, value in self.axes.items()) or "the only run"
 
 
@@ -62,14 +62,14 @@ class Matrix:
     exclude: tuple[Item, ...] = ()
 
     def replaced(self, overrides: Sequence[Axis]) -> "Matrix":
-        """This matrix without the axes (or columns of zipped axes) that overrides name."""
+        """Return this matrix without the axes (or columns of zipped axes) that overrides replace."""
         given = {name for axis in overrides for name in axis.names}
         axes = (_without(axis, given) for axis in self.axes)
         include = (tuple(axis for axis in entry if not given & set(axis.names)) for entry in self.include)
         return Matrix(tuple(axis for axis in axes if axis.names), tuple(include), self.exclude)
 
     def points(self, root: Item, overrides: Sequence[Axis] = ()) -> Iterator[Point]:
-        """Every point of the matrix over the configuration `root`, with `overrides` as further axes.
+        """Yield every point of the matrix over the configuration `root`, with `overrides` as further axes.
 
         Raises:
             InputErrors: there are too many.
@@ -117,13 +117,13 @@ def parse_matrix(item: Item) -> Matrix:
 
 
 def integers(text: Any) -> range | None:
-    """The integers of a range `a..b`, both included, or None if it is none."""
+    """Return the integers of a range `a..b`, both included, or None if the text is not a range."""
     found = _RANGE.fullmatch(text) if isinstance(text, str) else None
     return range(int(found[1]), int(found[2]) + 1) if found else None
 
 
 def rows_of(item: Item, name: str) -> Sequence[tuple[Item, ...]] | None:
-    """The values that a range gives to one key, or None if `item` is no range.
+    """Return the values that a range gives to one key, or None if `item` is not a range.
 
     Raises:
         InputErrors: the range is empty or too long.
@@ -139,10 +139,10 @@ def rows_of(item: Item, name: str) -> Sequence[tuple[Item, ...]] | None:
 
 
 def check_name(item: Item, name: str) -> None:
-    """Refuse to vary what does not tell runs apart, or does not exist.
+    """Refuse to vary a key that does not exist or does not distinguish runs.
 
     Raises:
-        InputErrors: located at the key.
+        InputErrors: the error has the location of the key.
     """
     first = steps_of(name)[0]
     if first not in attrs.fields_dict(RunConfig):
@@ -196,7 +196,7 @@ def _included(entry: Item) -> tuple[Axis, ...]:
 
 
 def _keyed(value: Item, axis: Item) -> Item:
-    """A value of an axis: an error about its key stands at the axis."""
+    """Return a value of an axis whose key has the location of the axis."""
     return attrs.evolve(value, key=axis.key)
 
 
@@ -208,7 +208,7 @@ def _without(axis: Axis, given: set[str]) -> Axis:
 
 
 def _varying(blocks: Sequence[tuple[Axis, ...]]) -> set[str]:
-    """Names that tell points apart: those with several values, and those that only some blocks name."""
+    """Return the names that distinguish points: those with several values or not in all blocks."""
     rows: dict[str, int] = {}
     for block in blocks:
         for axis in block:
@@ -219,7 +219,7 @@ def _varying(blocks: Sequence[tuple[Axis, ...]]) -> set[str]:
 
 def _product(root: Item, axes: Sequence[Axis], varying: set[str]) -> Iterator[Point]:
     names = [name for axis in axes for name in axis.names]
-    # A whole block is put in place before its options are patched, whatever the reading order.
+    # A whole block is set before its options are patched, in any reading order.
     order = sorted(range(len(names)), key=lambda index: len(steps_of(names[index])))
     for rows in itertools.product(*(axis.rows for axis in axes)):
         values = [item for row in rows for item in row]
@@ -246,7 +246,7 @@ def _has(root: Item, name: str, wanted: Item) -> bool:
 
 
 def _block(data: Any, main: str) -> Any:
-    """A bare word as the block it stands for, at any key: only equality is asked."""
+    """Return a bare word as its block; any key will do, because only equality counts."""
     return {main: data} if isinstance(data, str) else data
 
 

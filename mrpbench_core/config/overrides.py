@@ -1,4 +1,4 @@
-"""`key=value` on the command line: the same dotted paths as in a matrix, above everything the file says."""
+"""`key=value` on the command line: dotted paths as in a matrix, which override the file."""
 
 from collections.abc import Sequence
 
@@ -15,13 +15,13 @@ LISTS = {"fleet", "metrics", "export"}
 
 
 def parse_overrides(texts: Sequence[str], matrix: Matrix) -> tuple[Axis, ...]:
-    """Each override as an axis, of one value unless it is a range or a list of values for a key.
+    """Return each override as an axis, which has one value unless it is a range or a list of values.
 
-    A list gives values to vary where the file has an axis of that name or the key takes no list, as in
-    `planner=[cbs, ecbs]`; anywhere else it is the value.
+    A list contains values to vary if the file has an axis of that name or the key takes no list, as in
+    `planner=[cbs, ecbs]`; otherwise the list is the value.
 
     Raises:
-        InputErrors: all that is wrong with them, located `command line`.
+        InputErrors: all errors in them, with the location `command line`.
     """
     varied = {name for axis in matrix.axes for name in axis.names}
     axes: list[Axis] = []

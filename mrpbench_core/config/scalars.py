@@ -1,4 +1,4 @@
-"""Strict scalars: a number is a number, text is text, and neither becomes the other."""
+"""Strict scalars: numbers and text are never converted into each other."""
 
 import enum
 import math
@@ -20,7 +20,7 @@ def scalar(value: Any, kind: Any, unit: str | None) -> Any:
     """Return `value` as the scalar type `kind` (bool, int, float or str).
 
     Raises:
-        Unfit: it is of another type.
+        Unfit: it has another type.
     """
     if kind is float:
         return _number(value, unit)
@@ -49,14 +49,14 @@ def member(value: Any, kind: type[enum.Enum]) -> enum.Enum:
 
 
 def describe(kind: Any, unit: str | None = None) -> str:
-    """A type in the user's words."""
+    """Return the description of a type in an error."""
     of = f" of {unit} such as '1 {list(sizes(unit))[-1]}'" if unit else ""
     names = {bool: "true or false", int: "a whole number" + of, float: "a number" + of, str: "text"}
     return names[kind] if kind in names else str(getattr(kind, "__name__", kind))
 
 
 def show(value: Any) -> str:
-    """A value as an error names it."""
+    """Return the description of a value in an error."""
     if value is None:
         return "nothing"
     if isinstance(value, bool):
@@ -67,7 +67,10 @@ def show(value: Any) -> str:
 
 
 def _number(value: Any, unit: str | None) -> float:
-    if isinstance(value, str) and value in (".inf", "-.inf"):  # as canonical configurations write it: JSON cannot
+    if isinstance(value, str) and value in (
+        ".inf",
+        "-.inf",
+    ):  # canonical configurations write infinity so, because JSON has none
         return math.inf if value == ".inf" else -math.inf
     if isinstance(value, str) and unit is not None:
         return float(_with_unit(quantity, value, unit))

@@ -1,6 +1,6 @@
-"""JSON Schema of a configuration file, with the options of the plugins that are installed now, for editors.
+"""JSON Schema of a configuration file with the options of installed plugins, for editors.
 
-Options that are required are not demanded here, because a matrix may give them; `mrpbench run` says what is missing.
+The schema does not demand required options, because a matrix may contain them; `mrpbench run` reports missing ones.
 """
 
 import enum
@@ -26,12 +26,12 @@ _SCALARS = {bool: "boolean", int: "integer", float: "number", str: "string", Pat
 
 
 def schema() -> dict[str, Any]:
-    """The schema; plugins that cannot be loaded are left out."""
+    """Return the schema; plugins that cannot be loaded are left out."""
     return _Schema().whole()
 
 
 def options_schema(cls: type[Any]) -> dict[str, Any]:
-    """Schema of each option of one component, by name."""
+    """Return the schema of each option of one component, by name."""
     return _Schema().options(cls)
 
 
@@ -61,7 +61,7 @@ class _Schema:
         }
 
     def options(self, cls: type[Any]) -> dict[str, Any]:
-        """Schema of every option of a class, by name."""
+        """Return the schema of each option of a class, by name."""
         return {field.alias: self._option(field) for field in attrs.fields(cls) if field.init}
 
     def _option(self, field: Any) -> dict[str, Any]:
@@ -75,7 +75,7 @@ class _Schema:
         return found
 
     def value(self, kind: Any, unit: str | None = None, default: str | None = None) -> dict[str, Any]:
-        """Schema of a value of type `kind`; `default` is the plugin of a block that names none."""
+        """Return the schema of a value of type `kind`; `default` is the plugin of a block that names none."""
         origin, arguments = typing.get_origin(kind), typing.get_args(kind)
         if origin in (typing.Union, UnionType):
             nothing = [{"enum": [None, "none"]}] if NoneType in arguments else []
@@ -125,7 +125,7 @@ class _Schema:
     def _component(self, kind: type[Component], default: str | None) -> dict[str, Any]:
         name = kind.group + (f":{kind.__qualname__}" if "group" not in vars(kind) else "")
         if name not in self.definitions:
-            self.definitions[name] = {}  # so that a plugin that holds its own kind ends here
+            self.definitions[name] = {}  # ends the recursion for a plugin that contains its own kind
             self.definitions[name] = self._choice(kind)
         reference = {"$ref": f"#/$defs/{name}"}
         classes = _classes(kind)
@@ -140,7 +140,7 @@ class _Schema:
         return {"anyOf": [reference, unnamed]}
 
     def _choice(self, kind: type[Component]) -> dict[str, Any]:
-        """A plugin's name, or a block with its name and options."""
+        """Return the schema of a plugin: its name, or a block with its name and options."""
         classes = _classes(kind)
         blocks = [
             {
@@ -158,7 +158,7 @@ class _Schema:
 
 
 def _classes(kind: type[Component]) -> dict[str, type[Component]]:
-    """The installed components of a kind that can be loaded."""
+    """Return the installed components of a kind that can be loaded."""
     registry = Registry(kind)
     names = [provider.name for provider in registry]
     found = {}

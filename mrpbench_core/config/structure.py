@@ -171,7 +171,7 @@ class Structure:
                 errors.append(
                     inner.key.error(_join(key, name), f"unknown option{owner}" if key else "unknown key", hint)
                 )
-        # A stand-in that validators may look at, with the values read so far and the defaults of the others.
+        # Validators get a stand-in with the values read so far and the defaults of the others.
         stand_in = stand_in_of(cls)
         for name, field in fields.items():
             inner = item.value.get(name, added.get(name))
@@ -206,16 +206,16 @@ class Structure:
 def structure(
     canonical: Mapping[str, Any], folder: Path, sources: Mapping[str, str] | None = None, *, verify: bool = True
 ) -> RunConfig:
-    """The run that a canonical configuration describes; its files lie relative to `folder`.
+    """Return the run that a canonical configuration describes; its files are relative to `folder`.
 
     Args:
         canonical: from `mrpbench_core.config.canonical`.
-        folder: the configuration's folder.
-        sources: texts of local plugins by name of file; without one, the file itself is read.
+        folder: folder of the configuration.
+        sources: texts of local plugins by name of file; a file without a text is read.
         verify: refuse files whose content has changed.
 
     Raises:
-        InputErrors: it cannot be run here.
+        InputErrors: it cannot be run on this installation.
     """
     try:
         return Structure(folder, sources, verify=verify).run(from_data(canonical, Location()))
@@ -224,10 +224,10 @@ def structure(
 
 
 def structure_component(base: type[C], item: Item, key: str, folder: Path) -> C:
-    """One component outside a study, such as the executor.
+    """Return one component outside a study, such as the executor.
 
     Raises:
-        InputErrors: what is wrong with it.
+        InputErrors: everything that is wrong with it.
     """
     try:
         return Structure(folder).component(item, base, key)

@@ -1,4 +1,4 @@
-"""From a configuration file, or a dict, to the runs it describes."""
+"""Load a study: from a configuration file or dict to its runs."""
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
@@ -18,7 +18,7 @@ from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order
 from mrpbench_core.files.yaml import load
 
 NAMED_POINTS = 5
-"""How many points an error names."""
+"""Points that an error names."""
 
 
 @attrs.frozen(kw_only=True)
@@ -30,7 +30,7 @@ class RunPoint:
     canonical: dict[str, Any] = attrs.field(repr=False)
     """The configuration as plain data, for records."""
     axes: dict[str, Any]
-    """Plain values of what varies in the study, by dotted key."""
+    """Plain values of the keys that vary in the study, by dotted key."""
     folder: Path
     sources: dict[str, str] = attrs.field(repr=False, factory=dict)
 
@@ -47,33 +47,33 @@ class Study:
     name: str
     file: Path | None
     folder: Path
-    """Of the configuration; its files lie relative to it."""
+    """Folder of the configuration; its files are relative to it."""
     runs: tuple[RunPoint, ...]
     errors: tuple[InputError, ...] = ()
-    """What is wrong with points that cannot be run, in reading order."""
+    """Errors of points that cannot be run, in reading order."""
     invalid: int = 0
-    """How many those are."""
+    """Number of these points."""
     document: Any = None
-    """What the file says, as plain data."""
+    """The content of the file as plain data."""
 
 
 def load_study(source: Path | str | Mapping[str, Any], overrides: Sequence[str] = ()) -> Study:
-    """Read a configuration and put its runs together.
+    """Read a configuration and return its study.
 
     Args:
-        source: a file, or its content as a dict; files that a dict names lie relative to the working directory.
+        source: a file, or its content as a dict; files in a dict are relative to the working directory.
         overrides: `key=value`, as on the command line.
 
     Raises:
         InputError: the file cannot be read.
-        InputErrors: everything that is wrong, in reading order: with the file as a whole, with an override, or with
-            every single point. Location some points are right, what is wrong with the others is in `Study.errors`.
+        InputErrors: all errors in reading order, if the file as a whole, an override or every point is wrong. If some
+            points are right, `Study.errors` has the errors of the others.
     """
     if isinstance(source, Mapping):
         file, folder, root = None, Path.cwd(), from_data(source, Location())
     else:
         file = Path(source)
-        folder = Path(os.path.abspath(file.parent))  # noqa: PTH100 - a link in it stays a link
+        folder = Path(os.path.abspath(file.parent))  # noqa: PTH100 - symbolic links are kept
         root = from_document(load(file))
     try:
         return _study(root, file, folder, overrides)
@@ -82,7 +82,7 @@ def load_study(source: Path | str | Mapping[str, Any], overrides: Sequence[str] 
 
 
 def load_studies(files: Iterable[Path | str], overrides: Sequence[str] = ()) -> list[Study]:
-    """Several configurations; the mistakes of all of them at once."""
+    """Read several configurations; raise the errors of all of them together."""
     studies, errors = [], []
     for file in files:
         try:
@@ -97,10 +97,10 @@ def load_studies(files: Iterable[Path | str], overrides: Sequence[str] = ()) -> 
 
 
 def unpack(parcel: Mapping[str, Any], *, verify: bool = True) -> RunConfig:
-    """The configuration that `RunPoint.parcel` describes, in any process that sees the same files.
+    """Return the configuration of a `RunPoint.parcel`, in any process that sees the same files.
 
     Raises:
-        InputErrors: a plugin is missing here, or a file is missing or (with `verify`) has changed.
+        InputErrors: a plugin or file is missing, or (with `verify`) a file has changed.
     """
     return structure(parcel["config"], Path(parcel["folder"]), parcel["sources"], verify=verify)
 
@@ -133,7 +133,7 @@ def _study(root: Item, file: Path | None, folder: Path, overrides: Sequence[str]
 def _structure(
     points: Sequence[Point], folder: Path
 ) -> tuple[dict[str, RunPoint], dict[str, tuple[InputError, list[Point]]]]:
-    """The runs by id, and each error with the points it spoils."""
+    """Return the runs by id, and each error with the points that it affects."""
     structurer = Structure(folder)
     runs: dict[str, RunPoint] = {}
     faults: dict[str, tuple[InputError, list[Point]]] = {}
@@ -160,7 +160,7 @@ def _structure(
 
 
 def _explain(faults: Mapping[str, tuple[InputError, list[Point]]], size: int) -> list[InputError]:
-    """The errors in reading order; those that spoil only some points name them."""
+    """Return the errors in reading order; an error that affects only some points names them."""
     explained = []
     for error, points in faults.values():
         if len(points) < size:

@@ -1,1 +1,1 @@
-"""Registry of components, guarded hooks, provenance, local plugins."""
+"""Find, load and check plugins; call hooks; record where plugins come from."""

@@ -1,4 +1,4 @@
-"""What a class must keep to be a component; checked when it is chosen."""
+"""Check, when a class is chosen, that it is a valid component."""
 
 import inspect
 import typing
@@ -10,7 +10,7 @@ from mrpbench_core.api.component import Component
 
 
 def violation(cls: Any, base: type[Component]) -> str | None:
-    """Why `cls` is no component of the kind `base`, as the end of a sentence that begins with its name; or None."""
+    """Return why `cls` is not a component of the kind `base`, as a predicate for its name, or None."""
     if not isinstance(cls, type) or not issubclass(cls, base):
         return f"is not a subclass of {base.__name__}"
     if inspect.isabstract(cls):
@@ -22,9 +22,11 @@ def violation(cls: Any, base: type[Component]) -> str | None:
     except Exception as error:  # noqa: BLE001 - annotations are code, so anything may be raised
         return f"has an option whose type cannot be resolved: {error}"
     if any(field.alias == "plugin" for field in attrs.fields(cls)):  # type: ignore[arg-type]
-        return "has an option called `plugin`, the word that chooses it"
+        return "has an option called `plugin`, the key that chooses it"
     if strays := _stray_annotations(cls):
-        return f"has annotated public names that are no options: {', '.join(strays)} (write `name: type = option(...)`)"
+        return (
+            f"has annotated public names that are not options: {', '.join(strays)} (write `name: type = option(...)`)"
+        )
     return None
 
 

@@ -1,4 +1,4 @@
-"""Lifecycle hooks behind a guard: one that raises is logged once and dropped; no result can depend on it."""
+"""Call lifecycle hooks. A hook that raises is logged once and disabled, so that no result depends on it."""
 
 import copy
 import logging
@@ -18,7 +18,7 @@ from mrpbench_core.plugins.kinds import HOOKS
 
 LOG = logging.getLogger("mrpbench.hooks")
 DISABLE = "MRPBENCH_DISABLE_PLUGINS"
-"""Environment variable: names of hook plugins, or of their distributions, that are not loaded; separated by commas."""
+"""Environment variable: names of hook plugins or distributions that are not loaded, separated by commas."""
 
 
 _SPECIFIED = tuple(name for name in vars(specifications) if name.startswith("mrpbench_"))
@@ -41,16 +41,16 @@ class Hooks:
         """Plugins that could not be registered."""
 
     @property
-    def switched_off(self) -> tuple[str, ...]:
-        """Plugins that raised since the last `switch_on`, and those that were refused."""
+    def disabled(self) -> tuple[str, ...]:
+        """Plugins that raised since the last `enable`, and plugins that were refused."""
         return (*self.refused, *sorted(self._off))
 
-    def switch_on(self) -> None:
-        """Begin a new run: give implementations that raised another chance."""
+    def enable(self) -> None:
+        """Enable all implementations again for a new run."""
         self._off.clear()
 
     def register(self, plugin: object, name: str) -> None:
-        """Add a plugin's implementations; one with unknown hooks or wrong arguments is refused as a whole."""
+        """Add the implementations of a plugin; a plugin with unknown hooks or wrong arguments is refused."""
         manager = pluggy.PluginManager("mrpbench")
         manager.add_hookspecs(specifications)
         try:
@@ -65,7 +65,7 @@ class Hooks:
                 self._refuse(name, f"there is no hook {caller.name}" + (f"; did you mean {near}?" if near else ""))
                 return
             if any(found.hookwrapper or found.wrapper for found in caller.get_hookimpls()):
-                self._refuse(name, f"{caller.name} is a wrapper; hooks only watch")
+                self._refuse(name, f"{caller.name} is a wrapper; hooks only observe")
                 return
         if not callers:
             self._refuse(name, "it implements no hook; mark functions with mrpbench_core.api.hookimpl")
@@ -85,7 +85,7 @@ class Hooks:
             self._refuse(provider.name, str(error))
 
     def call(self, hook: str, **arguments: Any) -> None:
-        """Tell every implementation of `hook`. Mappings are copied, so that nobody can write into a record."""
+        """Call every implementation of `hook`. Mappings are copied, so that no plugin can change a record."""
         for found in self._known.get(hook, ()):
             if found.plugin in self._off:
                 continue
@@ -93,7 +93,7 @@ class Hooks:
                 found.function(**{name: _own(arguments[name]) for name in found.arguments})
             except (Exception, SystemExit) as error:  # noqa: BLE001 - calling a plugin runs its code
                 self._off.add(found.plugin)
-                LOG.warning("hook plugin %r is switched off for this run: %s: %s", found.plugin, hook, one_line(error))
+                LOG.warning("hook plugin %r is disabled for this run: %s: %s", found.plugin, hook, one_line(error))
 
     def _refuse(self, name: str, reason: str) -> None:
         self.refused.append(name)
@@ -101,7 +101,7 @@ class Hooks:
 
 
 def load_hooks(disabled: Iterable[str] | None = None) -> Hooks:
-    """The installed hook plugins, less the `disabled` (default: those that `MRPBENCH_DISABLE_PLUGINS` lists)."""
+    """Load the installed hook plugins except the `disabled` ones (default: `MRPBENCH_DISABLE_PLUGINS`)."""
     listed = os.environ.get(DISABLE, "").split(",") if disabled is None else disabled
     names = {canonicalize_name(name.strip()) for name in listed}
     hooks = Hooks()

@@ -1,4 +1,4 @@
-"""What is installed, read from the metadata of distributions; nothing is imported."""
+"""List installed plugins from the metadata of distributions, without importing them."""
 
 import functools
 import importlib
@@ -21,7 +21,7 @@ CORE = "mrpbench-core"
 
 @attrs.frozen
 class Provider:
-    """One name that one distribution offers."""
+    """A plugin that a distribution offers under a name."""
 
     name: str
     kind: str
@@ -31,30 +31,30 @@ class Provider:
     value: str
     """`package.module:Class`."""
     problem: str | None = None
-    """Why it cannot work with this core, or None; known before anything is imported."""
+    """Why it does not work with this core, or None; known before the import."""
 
     @property
     def origin(self) -> str:
-        """Distribution and version, as errors name it."""
+        """Distribution and version, for errors."""
         return f"{self.distribution} {self.version}"
 
 
 def installed() -> tuple[Provider, ...]:
-    """Every component and hook that installed distributions offer, by kind and name."""
+    """Return all components and hooks of installed distributions, by kind and name."""
     return tuple(provider for group in sorted(_scan(_path())) for provider in _scan(_path())[group])
 
 
 def providers(group: str) -> tuple[Provider, ...]:
-    """Those of one group, by name."""
+    """Return the plugins of one group, by name."""
     return _scan(_path()).get(group, ())
 
 
 @functools.cache
 def load(provider: Provider) -> Any:
-    """Import what a provider offers.
+    """Import the object that a provider offers.
 
     Raises:
-        InputError: that fails; names distribution, version and cause.
+        InputError: the import fails; the error names distribution, version and cause.
     """
     module, _, path = provider.value.partition("[")[0].partition(":")
     try:
@@ -68,19 +68,19 @@ def load(provider: Provider) -> Any:
 
 
 def refresh() -> None:
-    """Look again: for a process in which something is installed while it runs."""
+    """Read the metadata again, for a process in which packages are installed."""
     importlib.invalidate_caches()
     _scan.cache_clear()
     load.cache_clear()
 
 
 def distribution(name: str) -> metadata.Distribution:
-    """The distribution that `Provider.distribution` names."""
+    """Return the distribution of a `Provider.distribution`."""
     return metadata.distribution(name)
 
 
 def entry_points() -> list[metadata.EntryPoint]:
-    """The entry points, in groups of ours, of every distribution."""
+    """Return all entry points in the groups of mrpbench."""
     found = metadata.entry_points()
     return [entry for group in found.groups if group.startswith(PREFIX) for entry in found.select(group=group)]
 
@@ -103,7 +103,7 @@ def _scan(_: tuple[str, ...]) -> dict[str, tuple[Provider, ...]]:
 
 
 def _provider(entry: metadata.EntryPoint, owner: metadata.Distribution) -> Provider:
-    facts = cast("Message", owner.metadata)  # which is one, whatever its declared type says
+    facts = cast("Message", owner.metadata)  # the declared type is a protocol
     return Provider(
         name=entry.name,
         kind=kind_of(entry.group),
@@ -116,13 +116,13 @@ def _provider(entry: metadata.EntryPoint, owner: metadata.Distribution) -> Provi
 
 
 def incompatibility(requires: Iterable[str]) -> str | None:
-    """Why a distribution with these requirements does not work with this core, or None."""
+    """Return why a distribution with these requirements does not work with this core, or None."""
     for text in requires:
         try:
             requirement = Requirement(text)
             applies = requirement.marker is None or requirement.marker.evaluate({"extra": ""})
         except (InvalidRequirement, UndefinedEnvironmentName):
-            continue  # of some other package, or pip would have refused it
+            continue  # concerns another package, or pip would have refused it
         if applies and canonicalize_name(requirement.name) == CORE:
             version = metadata.version(CORE)
             if not requirement.specifier.contains(version, prereleases=True):

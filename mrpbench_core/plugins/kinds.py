@@ -1,6 +1,6 @@
-"""The kinds by name, without importing their contracts: listing plugins must not wait for NumPy.
+"""The kinds by name. This file does not import the contracts, so that listing plugins does not import NumPy.
 
-A test keeps this table in step with `mrpbench_core.api.KINDS`.
+A test compares this table with `mrpbench_core.api.KINDS`.
 """
 
 GROUPS = {
@@ -25,20 +25,20 @@ GROUPS = {
 
 PREFIX = "mrpbench."
 HOOKS = "mrpbench.hooks"
-"""Group of the lifecycle hooks, which are no components."""
+"""Group of the lifecycle hooks, which are not components."""
 
 
 def kind_of(group: str) -> str:
-    """The one word for a group: `planner` for `mrpbench.planners`, `critic` for a plugin's own `mrpbench.critics`."""
+    """Return the word for a group: `planner` for `mrpbench.planners`, `critic` for `mrpbench.critics`."""
     return singular(group.removeprefix(PREFIX))
 
 
 def group_of(kind: str) -> str:
-    """The inverse of `kind_of`; also accepts the plural."""
+    """Return the group of a kind, given in singular or plural."""
     word = singular(kind)
     return PREFIX + (f"{word[:-1]}ies" if word.endswith("y") else f"{word}s")
 
 
 def singular(word: str) -> str:
-    """`planner` for both `planner` and `planners`, `recovery` for `recoveries`."""
+    """Return the singular: `planner` for `planner` and `planners`, `recovery` for `recoveries`."""
     return f"{word[:-3]}y" if word.endswith("ies") else word.removesuffix("s")

@@ -1,4 +1,4 @@
-"""Components without packaging: `./my_planner.py:MyPlanner`, beside the configuration; `package.module:Class`."""
+"""Load components that are not packaged: `./my_planner.py:MyPlanner` or `package.module:Class`."""
 
 import builtins
 import hashlib
@@ -23,12 +23,12 @@ _PREFIX = "mrpbench_local_"
 
 @attrs.frozen
 class LocalSource:
-    """The text of a local plugin, and those of the modules beside it that it imports, and that these import."""
+    """The text of a local plugin, and those of the modules of its folder that it imports, directly or not."""
 
     path: Path
     text: str
     siblings: Mapping[str, str] = attrs.field(factory=dict)
-    """Texts by name of module."""
+    """Texts of these modules by name."""
 
     @property
     def sha256(self) -> str:
@@ -42,24 +42,24 @@ class LocalSource:
 
 
 def is_local(name: str) -> bool:
-    """Tell whether a plugin's name is not looked up among the installed ones."""
+    """Tell whether a name refers to a local plugin."""
     return ":" in name
 
 
 def load_local(name: str, folder: Path, sources: Mapping[str, str] | None = None) -> Any:
-    """Import what `name` names.
+    """Import the object that `name` refers to.
 
     Args:
         name: `file.py:Class`, the file relative to `folder`, or `package.module:Class`.
-        folder: the configuration's folder.
-        sources: texts by file as written in `name`, to be used instead of what the file says now.
+        folder: folder of the configuration.
+        sources: texts by file, as written in `name`, which replace the content of the file.
 
     Raises:
         InputError: there is no such file, module or class, or importing it fails.
     """
     where, _, attribute = name.partition(":")
     if not where or not attribute.isidentifier():
-        raise InputError(f"{name!r} names no class", hint="write ./file.py:Class or package.module:Class")
+        raise InputError(f"{name!r} does not name a class", hint="write ./file.py:Class or package.module:Class")
     if where.endswith(".py"):
         path = Path(os.path.normpath(folder / where))
         known = {Path(os.path.normpath(folder / name)): text for name, text in (sources or {}).items()}
@@ -74,7 +74,7 @@ def load_local(name: str, folder: Path, sources: Mapping[str, str] | None = None
 
 
 def source_of(cls: type) -> LocalSource | None:
-    """The source of a class that came from a local file, or None."""
+    """Return the source of a class from a local file, or None."""
     module = sys.modules.get(cls.__module__)
     return getattr(module, "__mrpbench_source__", None) if cls.__module__.startswith(_PREFIX) else None
 
@@ -87,7 +87,7 @@ def _import_module(name: str) -> ModuleType:
 
 
 def _import_source(source: LocalSource) -> ModuleType:
-    # The name holds path and contents, so that an edited file is another module and an unedited one the same.
+    # The name depends on path and content, so that an edited file is a new module.
     name = _PREFIX + hashlib.sha256(f"{source.path}\0{source.sha256}".encode()).hexdigest()[:24]
     if name in sys.modules:
         return sys.modules[name]
@@ -100,11 +100,11 @@ def _import_source(source: LocalSource) -> ModuleType:
         return _import_source(LocalSource(path, text, sibling_imports(path, text, source.files)))
 
     vars(module)["__builtins__"] = vars(builtins) | {"__import__": importing(source.siblings, find)}
-    sys.modules[name] = module  # attrs and pickle look classes up there
+    sys.modules[name] = module  # attrs and pickle find classes there
     linecache.cache[module.__file__] = (len(source.text), None, source.text.splitlines(keepends=True), module.__file__)
     try:
         exec(compile(source.text, module.__file__, "exec"), vars(module))  # noqa: S102 - running it is what was asked
-    except InputError:  # of a module beside it
+    except InputError:  # of a sibling module
         del sys.modules[name]
         raise
     except SyntaxError as error:

@@ -1,4 +1,4 @@
-"""Where a component came from: what a record keeps about the code that made it."""
+"""The origin of components, which records keep."""
 
 import functools
 import hashlib
@@ -18,7 +18,7 @@ from mrpbench_core.plugins.registry import Registry
 
 
 def components_in(value: Any) -> Iterator[Component]:
-    """Every component in a value: fields of attrs classes, tuples and mappings, recursively, outermost first."""
+    """Yield every component in a value (attrs fields, tuples, mappings), recursively, outermost first."""
     if isinstance(value, Component):
         yield value
     if attrs.has(type(value)):
@@ -33,16 +33,17 @@ def components_in(value: Any) -> Iterator[Component]:
 
 
 def provenance(value: Any, folder: Path | None = None) -> list[dict[str, Any]]:
-    """For each class of component in `value`, once: kind, name, and distribution, version, direct_url or file, sha256.
+    """Return for each class of component in `value` its kind, name and origin.
 
-    `direct_url` (PEP 610) stands only with an editable or version-controlled installation, not with a release.
+    The origin is distribution and version, or file and sha256. `direct_url` (PEP 610) is given only for an editable or
+    version-controlled installation.
     """
     classes = dict.fromkeys(type(component) for component in components_in(value))
     return [origin(cls, folder) for cls in classes]
 
 
 def origin(cls: type[Component], folder: Path | None = None) -> dict[str, Any]:
-    """Where one class came from."""
+    """Return kind, name and origin of one class."""
     registry = Registry(kind_class(cls))
     found: dict[str, Any] = {"kind": registry.kind, "name": registry.name_of(cls, folder)}
     if source := source_of(cls):
@@ -58,7 +59,7 @@ def origin(cls: type[Component], folder: Path | None = None) -> dict[str, Any]:
 
 
 def kind_class(cls: type[Component]) -> type[Component]:
-    """The class that defines the group `cls` belongs to."""
+    """Return the class that defines the group of `cls`."""
     return next(owner for owner in cls.__mro__ if "group" in vars(owner))
 
 

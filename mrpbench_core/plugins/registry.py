@@ -1,4 +1,4 @@
-"""Finds components by name; imports only the one that is chosen."""
+"""Find components by name, and import only the chosen one."""
 
 import functools
 import os
@@ -22,7 +22,7 @@ C = TypeVar("C", bound=Component)
 
 @attrs.frozen
 class Registry(Generic[C]):
-    """The components of one kind: any subclass of `Component` with its own `group`, also one that a plugin defines."""
+    """The components of one kind: of a subclass of `Component` with its own `group`, also of a plugin's own kind."""
 
     base: type[C]
 
@@ -33,18 +33,18 @@ class Registry(Generic[C]):
 
     @property
     def kind(self) -> str:
-        """The kind's one word."""
+        """The word for the kind."""
         return kind_of(self.group)
 
     def __iter__(self) -> Iterator[Provider]:
-        """Everything installed, by name; imports nothing."""
+        """Iterate over the installed components by name, without importing them."""
         return iter(providers(self.group))
 
     def find(self, name: str) -> Provider:
-        """The one installed component called `name` (or `name@distribution`); imports nothing.
+        """Return the installed component called `name` (or `name@distribution`) without importing it.
 
         Raises:
-            InputError: there is none, there are several, or it needs another core.
+            InputError: there is none, there are several, or it needs another version of the core.
         """
         wanted, _, owner = name.partition("@")
         named = [provider for provider in self if provider.name == wanted]
@@ -64,10 +64,10 @@ class Registry(Generic[C]):
         return named[0]
 
     def get(self, name: str, folder: Path | None = None, sources: Mapping[str, str] | None = None) -> type[C]:
-        """Import the component called `name`, a local one relative to `folder`; see `load_local` for `sources`.
+        """Import the component called `name`; see `load_local` for `folder` and `sources`.
 
         Raises:
-            InputError: see `find`; or importing it fails, or it breaks the contract of its kind.
+            InputError: see `find`; or the import fails, or the class breaks the contract of its kind.
         """
         if is_local(name):
             return self._accept(load_local(name, folder or Path.cwd(), sources), f"{self.kind} {name!r}")
@@ -75,7 +75,7 @@ class Registry(Generic[C]):
         return self._accept(load(provider), f"{self.kind} {provider.name!r} of {provider.origin}")
 
     def name_of(self, cls: type[Component], folder: Path | None = None) -> str:
-        """The name by which `get` finds `cls`: of several the first; for a local file, relative to `folder`."""
+        """Return the (first) name by which `get` finds `cls`; a local file is relative to `folder`."""
         if source := source_of(cls):
             written = Path(os.path.relpath(source.path, folder or Path.cwd())).as_posix()
             return f"{written}:{cls.__qualname__}"
@@ -85,7 +85,7 @@ class Registry(Generic[C]):
         return f"{cls.__module__}:{cls.__qualname__}"
 
     def provider_of(self, cls: type[Component]) -> Provider | None:
-        """Who offers `cls`, or None for a local component."""
+        """Return the provider of `cls`, or None for a local component."""
         return next((provider for provider in self if _offers(provider, cls)), None)
 
     def _accept(self, cls: Any, who: str) -> type[C]:
@@ -107,6 +107,6 @@ def _offers(provider: Provider, cls: type[Component]) -> bool:
     if provider.value.partition(".")[0].partition(":")[0] != cls.__module__.partition(".")[0] or provider.problem:
         return False
     try:
-        return load(provider) is cls  # offered under a shorter path than where it is defined
+        return load(provider) is cls  # offered under a shorter path than its definition
     except InputError:
         return False

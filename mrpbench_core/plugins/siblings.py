@@ -1,7 +1,7 @@
-"""Modules that lie beside a local plugin: which it imports, and how it gets them.
+"""Sibling modules: the modules in the folder of a local plugin that it imports.
 
-They are part of the plugin: they travel with it and count for its hash. So they are not left to `sys.path` and
-`sys.modules`, where another folder's module of the same name, or an older text of this one, may be.
+They are part of the plugin: its records contain them, and its hash depends on them. They are not imported through
+`sys.path` and `sys.modules`, which may hold a module of the same name from another folder, or an older version.
 """
 
 import ast
@@ -16,12 +16,12 @@ from mrpbench_core.files.text import read_text
 
 
 def sibling_imports(path: Path, text: str, known: Mapping[Path, str]) -> dict[str, str]:
-    """Texts by name of the modules in the folder of `path` that its `text`, and theirs, import anywhere.
+    """Return the texts, by name, of the sibling modules that `text` imports, directly or through each other.
 
     Args:
         path: the plugin's file.
-        text: what it says.
-        known: texts by file. If they name the plugin itself, they name all: the folder is not looked at.
+        text: its content.
+        known: texts by file. If they contain the plugin itself they are complete, and the folder is not read.
     """
     found: dict[str, str] = {}
     unread = [text]
@@ -37,7 +37,7 @@ def sibling_imports(path: Path, text: str, known: Mapping[Path, str]) -> dict[st
 
 
 def importing(names: Container[str], find: Callable[[str], ModuleType]) -> Callable[..., Any]:
-    """An `__import__` that takes modules of these `names` from `find`, and all others from where Python does."""
+    """Return an `__import__` that takes modules with these `names` from `find` and imports others as usual."""
 
     def take(name: str, *rest: Any, **named: Any) -> Any:
         return find(name) if name in names else builtins.__import__(name, *rest, **named)
@@ -46,7 +46,7 @@ def importing(names: Container[str], find: Callable[[str], ModuleType]) -> Calla
 
 
 def _imported(text: str) -> Iterator[str]:
-    """Names of the modules that a text imports; of one that is no Python, none: running it will say so."""
+    """Yield the names of modules that a text imports; none for invalid Python, which fails when it runs."""
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError):

@@ -118,10 +118,10 @@ def test_a_planner_may_be_given_by_the_matrix_alone(study):
         ("matrix: {seed: [1], include: [{}]}", "matrix.include: expected a list of blocks"),
         ("matrix: {seed: [1], exclude: [{sead: 3}]}", "sead: unknown key (did you mean 'seed'?)"),
         ("matrix: {seed: [1], exclude: [{seed: 1}]}", "matrix: excludes every point"),
-        ("matrix: {seed.x: [1]}\nseed: 3", "seed.x: seed is not a block but 3"),
+        ("matrix: {seed.x: [1]}\nseed: 3", "seed.x: seed is 3, not a block"),
         (
             "matrix: {fleet.robot: [a]}\nfleet: [turtlebot3_burger]",
-            "is a list (number its entries: fleet.0.robot)",
+            "is a list (give the index of an entry: fleet.0.robot)",
         ),
         ("matrix: {fleet.3.robot: [a]}\nfleet: [turtlebot3_burger]", "fleet has only 1 entries"),
     ],

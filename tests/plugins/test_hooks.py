@@ -38,10 +38,10 @@ def test_an_installed_plugin_watches(install):
     import acme_watch
 
     assert acme_watch.seen == ["r1"]
-    assert hooks.switched_off == ()
+    assert hooks.disabled == ()
 
 
-def test_one_that_raises_is_logged_once_and_switched_off_until_the_next_run(log):
+def test_one_that_raises_is_logged_once_and_disabled_until_the_next_run(log):
     calls = []
 
     def bad(now):
@@ -60,12 +60,12 @@ def test_one_that_raises_is_logged_once_and_switched_off_until_the_next_run(log)
         hooks.call("mrpbench_stepped", now=now, state="s")
     assert calls == [0]
     assert seen == [(0, "s"), (1, "s"), (2, "s")]
-    assert hooks.switched_off == ("bad", "fatal")
+    assert hooks.disabled == ("bad", "fatal")
     assert [record.getMessage() for record in log.records] == [
-        "hook plugin 'bad' is switched off for this run: mrpbench_stepped: ValueError: two lines",
-        "hook plugin 'fatal' is switched off for this run: mrpbench_stepped: SystemExit: 3",
+        "hook plugin 'bad' is disabled for this run: mrpbench_stepped: ValueError: two lines",
+        "hook plugin 'fatal' is disabled for this run: mrpbench_stepped: SystemExit: 3",
     ]
-    hooks.switch_on()
+    hooks.enable()
     hooks.call("mrpbench_stepped", now=9, state="s")
     assert calls == [0, 9]
 
@@ -109,7 +109,7 @@ def test_nobody_can_write_into_a_record():
 def test_what_is_no_hook_is_refused_with_a_clear_log(log, functions, what):
     hooks = Hooks()
     hooks.register(plugin(**functions), "odd")
-    assert hooks.switched_off == ("odd",)
+    assert hooks.disabled == ("odd",)
     (record,) = log.records
     assert record.getMessage().startswith("hook plugin 'odd' is not used: ")
     assert what in record.getMessage()
@@ -123,7 +123,7 @@ def test_wrappers_are_refused(log):
     hooks = Hooks()
     hooks.register(types.SimpleNamespace(mrpbench_stepped=around), "around")
     hooks.call("mrpbench_stepped", now=0, state=None)
-    assert "hooks only watch" in log.records[0].getMessage()
+    assert "hooks only observe" in log.records[0].getMessage()
 
 
 def test_a_plugin_that_cannot_be_loaded_leaves_the_others(install, log):
@@ -136,7 +136,7 @@ def test_a_plugin_that_cannot_be_loaded_leaves_the_others(install, log):
     import acme_watch
 
     assert acme_watch.seen == ["r1"]
-    assert set(hooks.switched_off) == {"bad", "new", "lost"}
+    assert set(hooks.disabled) == {"bad", "new", "lost"}
     messages = " | ".join(record.getMessage() for record in log.records)
     assert "No module named 'no_such_module'" in messages
     assert "acme-new 1.0 needs mrpbench-core>=99" in messages
@@ -146,4 +146,4 @@ def test_a_plugin_that_cannot_be_loaded_leaves_the_others(install, log):
 def test_plugins_can_be_disabled_by_their_own_or_their_distributions_name(install, monkeypatch, listed):
     install("acme-watch", {"mrpbench.hooks": {"watch": "{module}"}}, "raise SystemError")
     monkeypatch.setenv(DISABLE, listed)
-    assert load_hooks().switched_off == ()
+    assert load_hooks().disabled == ()

@@ -139,7 +139,7 @@ def test_a_plugin_for_another_core_is_refused_before_it_is_imported(install, req
         ("class Bad(Good):\n    x: int = 3", "is not decorated"),
         (
             "@attrs.frozen(kw_only=True, auto_attribs=False)\nclass Bad(Planner):\n    w: float = 1.0\n    plan = None",
-            "annotated public names that are no options: w",
+            "annotated public names that are not options: w",
         ),
         (
             "@attrs.frozen(kw_only=True)\nclass Bad(Planner):\n    x: 'Nowhere' = 1\n    plan = None",
@@ -206,8 +206,8 @@ def test_a_local_file_needs_no_packaging(tmp_path, install):
     [
         ("./mine.py:Good", None, "mine.py: no such file"),
         ("./mine.py:Godo", GOOD, "has no 'Godo'"),
-        ("./mine.py:", GOOD, "names no class"),
-        (":Good", GOOD, "names no class"),
+        ("./mine.py:", GOOD, "does not name a class"),
+        (":Good", GOOD, "does not name a class"),
         ("./mine.py:Good", "def (:\n", "mine.py:1:5: "),
         ("./mine.py:Good", "import no_such_module", "mine.py cannot be imported: ModuleNotFoundError"),
         ("./mine.py:Good", "class Good: ...", "is not a subclass of Planner"),

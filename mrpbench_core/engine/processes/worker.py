@@ -51,7 +51,7 @@ def main(jobs: int, messages: int, lifeline: int) -> None:
 
         say({"ready": True, "machine": machine()})
         for line in requests:
-            hooks.switch_on()
+            hooks.enable()
             say(_answer(json.loads(line), say, hooks))
 
 

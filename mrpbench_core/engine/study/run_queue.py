@@ -64,7 +64,7 @@ class RunQueue:
         """Tell whether any run is going on."""
         while self.waiting and len(self._going) < self.workers:
             point, attempt = self.waiting.popleft()
-            self.hooks.switch_on()
+            self.hooks.enable()
             self.hooks.call("mrpbench_run_started", run_id=point.run_id, config=point.canonical)
             self.progress.started(point)
             self._going[executor.submit(run_in_slot, self.invocation, self._job(point))] = point, attempt
