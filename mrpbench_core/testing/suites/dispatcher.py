@@ -10,11 +10,9 @@ from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSe
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.plan import Path, Plan
 from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Resource
 from mrpbench_core.testing.drawing import problem
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import drain
-from mrpbench_core.testing.execution.resource_manager import ResourceManager
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.instances.named import BAY, CONVOY, CROSSING
 from mrpbench_core.testing.instances.roadmaps import path_through
@@ -79,18 +77,6 @@ class DispatcherConformance(ComponentConformance):
                 run(name, session, executor)
             require(executor.fault is None, f"releases {name}: {executor.fault}")
 
-    def test_refuses_plans_through_resources_or_requests_the_resources(self) -> None:
-        asked, plan = through_a_mutex()
-        try:
-            sessions = [self.make().start(asked, plan) for _ in SEEDS]
-        except DispatchError as refusal:
-            raise Skip(f"it refuses plans through resources: {refusal}") from None
-        for seed, session in zip(SEEDS, sessions, strict=True):
-            executor, random = delayed(asked, plan, seed), np.random.default_rng(seed)
-            manager = ResourceManager(asked, random)
-            run("a crossing that is a mutex", session, executor, manager)
-            require(manager.fault is None, f"a crossing that is a mutex: {manager.fault}")
-
     def test_goes_on_with_a_new_plan(self) -> None:
         for name, (asked, plan) in plans().items():
             session = self.make().start(asked, plan)
@@ -134,12 +120,10 @@ class DispatcherConformance(ComponentConformance):
             raise Skip("it does not claim to keep robots apart: it accepts plans with conflicts")
 
 
-def run(
-    name: str, session: DispatcherSession, executor: DelayedExecutor, manager: ResourceManager | None = None
-) -> None:
+def run(name: str, session: DispatcherSession, executor: DelayedExecutor) -> None:
     """Drain a plan; a fault begins with the name of the plan."""
     try:
-        drain(session, executor, manager)
+        drain(session, executor)
     except Fault as fault:
         raise Fault(f"{name}: {fault}") from None
 
@@ -159,17 +143,6 @@ def plans() -> dict[str, tuple[Problem, Plan]]:
 def conflicting() -> dict[str, tuple[Problem, Plan]]:
     """Plans in which robots collide, by name."""
     return {name: drawn(*entry) for name, entry in CONFLICTING.items()}
-
-
-def through_a_mutex() -> tuple[Problem, Plan]:
-    """A crossing whose middle, with the edges that lead there, is for one robot at a time."""
-    asked, plan = drawn(CROSSING, ["dd", "...rr"])
-    middle = asked.roadmap.nearest(1.5, 1.5)[0]
-    edges = np.flatnonzero((asked.roadmap.edges == middle).any(axis=1))
-    mutex = Resource(name="middle", kind="mutex", vertices=(middle,), edges=tuple(edges.tolist()))
-    asked, _ = drawn(CROSSING, ["", ""], roadmap=attrs.evolve(asked.roadmap, resources=(mutex,)))
-    assert check_plan(asked, plan).valid
-    return asked, plan
 
 
 def drawn(drawing: str, steps: list[str], **fields: Any) -> tuple[Problem, Plan]:

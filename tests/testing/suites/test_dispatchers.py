@@ -51,7 +51,6 @@ def test_a_dispatcher_that_claims_to_keep_robots_apart():
     found = failed_checks(suite_for(variant(Dispatcher, start=start)()))
     assert set(found) == {
         "delays do not make robots meet",
-        "refuses plans through resources or requests the resources",
     }
 
 
@@ -66,5 +65,4 @@ def test_a_dispatcher_that_says_it_keeps_robots_apart():
     assert failed_checks(Suite()).keys() == {
         "delays do not make robots meet",
         "refuses or survives plans with conflicts",
-        "refuses plans through resources or requests the resources",
     }
