@@ -1,4 +1,4 @@
-# `make demo` and `make test` are all a newcomer needs; both install into .venv first.
+# `make demo` and `make test` install into .venv first; `make help` lists all targets.
 PYTHON ?= $(shell for name in python3.11 python3.12 python3.13 python3; do command -v $$name && break; done)
 VENV := .venv
 BIN := $(VENV)/bin
@@ -10,10 +10,10 @@ INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/p
 
 .PHONY: help install anchors demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds
 
-help: ## this list
+help: ## list the targets
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
 
-install: $(STAMP) ## everything into .venv, with uv if there is one, else with pip
+install: $(STAMP) ## install everything into .venv, with uv if it is installed, else with pip
 
 $(STAMP): $(INPUTS)
 ifdef UV
@@ -24,20 +24,20 @@ else
 endif
 	@touch $@
 
-speed: install ## how fast executions are, and where the time goes
+speed: install ## measure the speed of executions, and the share of each part
 	$(BIN)/python benchmarks/full_stack.py
 
-anchors: install ## cbs, ecbs and eecbs beside the reference solvers; ARGS="--maps maze-32-32-2" for less
+anchors: install ## compare cbs, ecbs and eecbs with the reference solvers; ARGS="--maps maze-32-32-2" for less
 	$(BIN)/python benchmarks/anchors.py --shared ../shared/data $(ARGS)
 
 OPTIMA := "cbs" "ita_cbs" "cbs_ta" "ecbs w=1.0" "ecbs w=1.2" "eecbs w=1.0" "eecbs w=1.05" "eecbs w=1.2" "ita_ecbs w=1.2" "lacam" "lns"
-optima: install ## all 636 published optima for every planner that promises one (hours); OPTIMA='"cbs"' ARGS="--limit 1"
+optima: install ## check all 636 published optima with every planner that promises them (hours); OPTIMA='"cbs"' ARGS="--limit 1"
 	for planner in $(OPTIMA); do $(BIN)/python plugins/planners/mapf/tests/soak_optima.py --shared ../shared/data --planner "$$planner" $(ARGS) || exit 1; done
 
-demo: install ## one small run, end to end: table, picture, bag
+demo: install ## do one small run, end to end: table, picture, bag
 	$(BIN)/mrpbench demo
 
-test: install lint types layers cpp python ## what CI runs
+test: install lint types layers cpp python ## run all checks of CI
 
 lint: install
 	$(BIN)/ruff check .
@@ -50,15 +50,15 @@ types: install
 layers: install
 	$(BIN)/lint-imports
 
-cpp: install ## C++ tests, without Python
+cpp: install ## run the C++ tests, without Python
 	$(BIN)/cmake -S native -B build/native -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DCMAKE_BUILD_TYPE=Release
 	$(BIN)/cmake --build build/native
 	$(BIN)/ctest --test-dir build/native --output-on-failure
 
-python: install ## Python tests, JOBS at a time
+python: install ## run the Python tests, JOBS at a time
 	$(BIN)/pytest --numprocesses $(JOBS) --dist worksteal
 
-soak: install ## thousands of random instances against brute force, and studies disturbed at random (an hour)
+soak: install ## compare thousands of random instances with brute force, and disturb studies at random (an hour)
 	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1
 	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 1
@@ -66,7 +66,7 @@ soak: install ## thousands of random instances against brute force, and studies 
 
 SANITIZED := build/sanitized
 CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python
-sanitize: install ## the native code's tests and soak under AddressSanitizer and UndefinedBehaviorSanitizer
+sanitize: install ## run native tests and soaks under AddressSanitizer and UndefinedBehaviorSanitizer
 	$(BIN)/cmake -S native -B $(SANITIZED)/cpp -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DSANITIZE=ON
 	$(BIN)/cmake --build $(SANITIZED)/cpp
 	$(BIN)/ctest --test-dir $(SANITIZED)/cpp --output-on-failure
@@ -76,7 +76,7 @@ sanitize: install ## the native code's tests and soak under AddressSanitizer and
 	$(CHECKED) plugins/planners/mapf/tests/soak_planners.py 2000 2
 	$(CHECKED) plugins/planners/mapf/tests/soak_assigning.py 1000 2
 
-worlds: install ## robots driven on every built-in world must touch nothing (ten minutes); CONTROLLER=dwb for another
+worlds: install ## drive robots on every built-in world without contacts (ten minutes); CONTROLLER=dwb for another
 	$(BIN)/python benchmarks/worlds.py --controller $(or $(CONTROLLER),pure_pursuit)
 
 format: install ## rewrite the sources in the house style
@@ -84,15 +84,15 @@ format: install ## rewrite the sources in the house style
 	$(BIN)/ruff format .
 	$(BIN)/clang-format -i $(filter %.cpp %.hpp,$(NATIVE))
 
-lock: ## write the pinned versions, for uv and for pip; UPGRADE=1 takes the newest
+lock: ## write the pinned versions for uv and pip; UPGRADE=1 takes the newest
 	uv lock $(if $(UPGRADE),--upgrade)
 	uv export --quiet --locked --all-groups --no-emit-workspace --no-hashes --no-header --no-annotate --output-file pinned.txt
 
-clean: ## remove what builds made
+clean: ## remove the results of builds
 	rm -rf build dist $(VENV) native/build
 
 ROS := build/ros/bin
-ros: ## tests of live ROS 2, with rclpy from PyPI in an environment of their own (Python 3.11)
+ros: ## test live ROS 2, with rclpy from PyPI in its own environment (Python 3.11)
 	test -x $(ROS)/python || python3.11 -m venv build/ros
 	$(ROS)/python -m pip install --quiet ros-kilted-rclpy ros-rmw-fastrtps-cpp ros-nav-msgs ros-sensor-msgs ros-diagnostic-msgs ros-visualization-msgs
 	$(ROS)/python -m pip install --quiet pytest pytest-timeout -e . -e plugins/planners/example -e plugins/metrics/standard -e plugins/controllers/pure_pursuit -e plugins/exporters/rosbag2 -e plugins/bridges/ros2

@@ -1,10 +1,10 @@
-"""Conflict-based search beside the reference solvers, on every instance that these were measured on.
+"""Compare conflict-based search with the reference solvers, on every instance on which these were measured.
 
     python benchmarks/anchors.py --shared ../shared/data
     python benchmarks/anchors.py --shared ../shared/data --solvers "eecbs w=1.2" --maps maze-32-32-2 random-32-32-20
 
-What the columns mean: `movingai.py`. All of it takes up to an hour, since what nobody solves takes all its time;
-`--solvable` leaves out what the others did not solve (then who solves more does not show).
+`movingai.py` explains the columns. The whole benchmark takes up to an hour, because unsolved instances use their whole
+time limit. `--solvable` leaves out the instances that the reference solvers did not solve.
 """
 
 import argparse
@@ -19,7 +19,7 @@ CONTESTS = {
     "eecbs w=1.05": ("EECBS-w1.05",),
     "ecbs w=1.2": ("libMRP-ecbs-w1.2",),
 }
-"""Our solver, and those of which the better counts."""
+"""Our solver, and the reference solvers, of which the better one counts."""
 
 
 def main() -> None:

@@ -1,4 +1,4 @@
-"""How soon anytime solvers have a plan and what it costs after a while, beside what others were measured to reach.
+"""Measure the first plans and the costs over time of anytime solvers, and compare them with LaCAM3 and LNS2.
 
     python benchmarks/anytime.py --data ../shared/data/movingai --anchors ../shared/data/anchors_anytime.csv
     python benchmarks/anytime.py --data … --anchors … --maps maze-32-32-2 --solvers lacam "lns initial=lacam"
@@ -9,9 +9,8 @@ takes every n-th. All costs are sums of arrival times, whatever a solver minimis
 settings of LaCAM3 and LNS2 counts, in each column by itself: the one with the earliest first plan need not be the one
 with the cheapest in the end. `ours/theirs` compares the best of our solvers with the best of theirs at the end: 1 or
 less is no costlier; first plans that take less than 5 ms are alike. With `--first`, only first plans count, of all
-instances for which LaCAM3 has one, in CPU seconds and as the median of three: that is quick, and honest on a busy
-machine. The others were measured on another day on a
-machine of the same kind.
+instances for which LaCAM3 has one, in CPU seconds and as the median of three: this is quick, and valid on a busy
+machine. The others were measured on another day on a machine of the same kind.
 """
 
 import argparse

@@ -1,4 +1,4 @@
-"""How many instances of joint assignment and path finding are solved and how fast, beside what others were measured to.
+"""Measure planners that assign and find paths together, and compare them with the reference solvers.
 
     python benchmarks/assignment.py --data ../shared/data
     python benchmarks/assignment.py --data ../shared/data --solver ita_cbs --against ITACBS_remake

@@ -1,4 +1,4 @@
-"""Whether anytime solvers end in time, keep to their memory, and plan the same again: the largest crowds of a map.
+"""Check that anytime solvers keep their time and memory limits and repeat their plans, on the largest instances.
 
     python benchmarks/deadlines.py --data ../shared/data/movingai --maps den520d warehouse-10-20-10-2-1 --agents 1000
 

@@ -1,4 +1,4 @@
-"""How many times faster than real time whole executions are on one core, and where the time goes.
+"""Measure how many times faster than real time whole executions are on one core, and the share of each part.
 
 Everything is on: lidars of 360 beams at 5 Hz, for every robot a costmap and Nav2's DWB with seven critics at 20 Hz,
 recoveries, the dispatcher `adg`, the recording. Robots cross a generated warehouse by plans of `prioritized`. The last

@@ -1,4 +1,4 @@
-"""How many instances planners solve on navigation graphs, and how fast: lanes with durations, footprints, doors, lifts.
+"""Measure planners on navigation graphs: edge durations, footprints, doors and lifts.
 
     python benchmarks/graphs.py
     python benchmarks/graphs.py --planners cbs "eecbs w=1.05" --worlds office --robots 12 --seeds 20

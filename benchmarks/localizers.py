@@ -1,4 +1,4 @@
-"""How far localizers are off in runs of the whole engine, and what an update of `amcl` costs.
+"""Measure the errors of localizers in runs of the whole engine, and the time of an update of `amcl`.
 
 Errors are over four robots and three scenarios of 60 simulated seconds on each built-in world, with noisy lidars and
 odometry. Costs are of one thread: the time of a whole session divided by the filter updates that it made.

@@ -1,4 +1,4 @@
-"""Whether solvers keep to their memory limit: by how much each makes a process grow that asks for a large crowd.
+"""Check that solvers keep their memory limit: measure by how much a process grows on a large instance.
 
     python benchmarks/memory.py --side 1000 --robots 1000 --limits 512 2048
 

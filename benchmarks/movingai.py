@@ -1,4 +1,4 @@
-"""How many MovingAI instances a solver solves and how fast, beside what other solvers were measured to reach.
+"""Measure how many MovingAI instances a solver solves and how fast, and compare it with other solvers.
 
     python benchmarks/movingai.py --data ../shared/data/movingai --solver cbs --maps empty-8-8 --agents 8 16 24
     python benchmarks/movingai.py --data ../shared/data/movingai --anchors ../shared/data/anchors.csv \
@@ -10,8 +10,8 @@ A solver is an algorithm of `mrpbench_native` or any planner that is installed, 
 there is `anytime.py`. With `--against`, the instances are those that these solvers were measured on, and the best of
 them counts; with `--beside`, another solver runs in their place, each instance right after ours. A time is the median
 of `--repeat` runs in CPU seconds of one thread, distance tables included: on an idle machine that is the wall time,
-on a busy one it is still the solver's own. Who needs more than `--time-limit` of them has not solved the instance.
-Less than 5 ms counts as 5 ms, since nobody would notice. Ratios are geometric means over the instances that both
+on a busy one it is still the solver's own. A solver that needs more than `--time-limit` has not solved the
+instance. Less than 5 ms counts as 5 ms. Ratios are geometric means over the instances that both
 solved: ours by theirs, so less than 1 is faster. Of a program that `external` runs, all its time counts, with the
 reading of its files. Times in the table were measured on another day on a machine of the same kind, and leave
 distance tables out: that is to their advantage.

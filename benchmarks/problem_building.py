@@ -1,4 +1,4 @@
-"""Poses the problems of runs, and puts them to any planner of mrpbench: measured and judged as the engine does."""
+"""Build the problems of runs and solve them with any planner of mrpbench, with the checks of the engine."""
 
 from functools import lru_cache
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""How much the time of one robot on one path varies from run to run: 45 cells of 0.35 m, alone, with noise.
+"""Measure the variation between runs of one robot on one path: 45 cells of 0.35 m, with noise.
 
 Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered Environments", ICRA 2023,
 report a standard deviation of 0.4 s over 100 runs. Prints the same for `dwb` in the planar simulator.

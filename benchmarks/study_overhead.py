@@ -1,6 +1,6 @@
-"""What a run costs beyond its own work: worker slot, messages, record.
+"""Measure the overhead of a run: worker slot, messages, record.
 
-Prints milliseconds per run of the least possible run, in a study and alone in this process, and their difference.
+Prints milliseconds per run for a minimal run, in a study and alone in this process, and their difference.
 """
 
 import tempfile

@@ -1,4 +1,4 @@
-"""Drives robots on every built-in world, and fails when one touches another or anything else.
+"""Drive robots on every built-in world, and fail if a robot touches another one or anything else.
 
     python benchmarks/worlds.py [WORLD…] [--seeds 5] [--robots 5] [--planner …] [--controller …] [--simulator planar]
 
