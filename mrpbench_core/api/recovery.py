@@ -1,4 +1,4 @@
-"""Contract of the kind *recovery*: what a robot tries when it does not get on."""
+"""Contract of the kind *recovery*: what a robot tries when it is stuck."""
 
 from abc import ABC, abstractmethod
 from typing import ClassVar

@@ -43,7 +43,7 @@ class Path:
 
     @property
     def arrival(self) -> int:
-        """Tick at which the last move ends, 0 if the robot never moves: its textbook cost."""
+        """Tick at which the last move ends, 0 if the robot never moves: its cost in classical MAPF."""
         moves = np.flatnonzero(self.edge >= 0)
         return int(self.leave[moves[-1]]) if len(moves) else 0
 
