@@ -9,7 +9,7 @@ from mrpbench_core.model.arrays import Float
 
 @attrs.frozen(kw_only=True)
 class OrToolsMip(Pairing):
-    """Mixed-integer programming with SCIP: what the original calls `or_linear`."""
+    """Mixed-integer programming with SCIP (`or_linear` in the original benchmark)."""
 
     def solve(self, costs: Float, *, bottleneck: bool) -> list[Pair] | None:
         """Return the best pairs, None if there are too few that are allowed."""

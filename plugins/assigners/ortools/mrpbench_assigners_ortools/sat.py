@@ -13,7 +13,7 @@ RESOLUTION = 2**30
 
 @attrs.frozen(kw_only=True)
 class OrToolsSat(Pairing):
-    """Constraint programming with CP-SAT: what the original calls `or_sat`."""
+    """Constraint programming with CP-SAT (`or_sat` in the original benchmark)."""
 
     def solve(self, costs: Float, *, bottleneck: bool) -> list[Pair] | None:
         """Return the best pairs, None if there are too few that are allowed."""

@@ -36,7 +36,7 @@ class Watcher:
 
     @hookimpl
     def mrpbench_stepped(self, now: float, observation: FleetObservation, routes: Sequence[Route]) -> None:
-        """Publish, and wait until it is time for what comes next."""
+        """Publish the period, and wait until the next one is due."""
         if self._link is not None:
             if routes is not self._routes:  # the first, or those of a new plan
                 self._publisher.plans(now, routes)

@@ -40,7 +40,7 @@ class Link:
         self._subscriptions = 0
 
     def publisher(self, kind: type, topic: str, latched: bool = False) -> Any:
-        """A reliable publisher; a latched one keeps its last message for those who come late."""
+        """Return a reliable publisher; a latched one keeps its last message for late subscribers."""
         from rclpy.qos import DurabilityPolicy, QoSProfile
 
         durability = DurabilityPolicy.TRANSIENT_LOCAL if latched else DurabilityPolicy.VOLATILE
@@ -52,7 +52,7 @@ class Link:
         self._subscriptions += 1
 
     def spin(self, seconds: float) -> None:
-        """Take in what has come and what comes within some seconds of wall time."""
+        """Process messages that have arrived or arrive within the given wall time."""
         for _ in range(self._subscriptions):  # one callback each, however late we are
             self._executor.spin_once(timeout_sec=0)
         until = time.monotonic() + seconds

@@ -1,4 +1,4 @@
-"""Messages of ROS 2 from what the mission knows. Frames and units are those of the bags: see docs/ros.md."""
+"""Build ROS 2 messages from the data of the execution. Frames and units are those of bags: see docs/ros.md."""
 
 from array import array
 from collections.abc import Iterable
@@ -48,7 +48,7 @@ def pose_stamped(now: float, planar: Iterable[float], z: float = 0.0) -> Any:
 
 
 def path(now: float, waypoints: Float, z: float = 0.0) -> Any:
-    """A path in `map` from waypoints f8[k,3], whose yaws are known."""
+    """Return a path in `map` from waypoints f8[k,3] without open yaws."""
     return Path(header=header(now, "map"), poses=[pose_stamped(now, waypoint, z) for waypoint in waypoints])
 
 

@@ -1,4 +1,4 @@
-"""The navigator `ros2`: an outside stack, such as Nav2, drives the robots along what is released to them."""
+"""The navigator `ros2`: an external stack, such as Nav2, drives the robots along their released paths."""
 
 import time
 import weakref
@@ -29,7 +29,7 @@ def _waypoints() -> Any:
 
 @attrs.frozen(kw_only=True)
 class Ros2(Navigator):
-    """Publishes what robots sense and what is released to them, and drives by `/robot_0/cmd_vel`.
+    """Publishes sensor data and released paths, and drives the robots by `/robot_0/cmd_vel`.
 
     Each robot's released path is on `/robot_0/released` (nav_msgs/Path), its end on `/robot_0/goal_pose`, as Nav2's
     behaviour tree navigator takes it. The configured `controller` is not asked.
@@ -37,15 +37,15 @@ class Ros2(Navigator):
 
     live: ClassVar[bool] = True
 
-    pace: float = option(1.0, help="simulated seconds in a second, at most", validator=gt(0))
-    silence: float = option(0.5, help="without a command for so long a robot stops", unit="s", validator=gt(0))
+    pace: float = option(1.0, help="largest real-time factor: simulated seconds per second", validator=gt(0))
+    silence: float = option(0.5, help="a robot stops after this time without a command", unit="s", validator=gt(0))
     stamped: bool = option(False, help="commands are TwistStamped, as Nav2 sends since Kilted, instead of Twist")
-    localization: bool = option(True, help="publish the transform from map to odom; no where the stack does (AMCL)")
+    localization: bool = option(True, help="publish the transform from map to odom; off if the stack does (AMCL)")
     patience: float = option(
-        30.0, help="wall time to wait until somebody sends commands to every robot", unit="s", validator=gt(0)
+        30.0, help="wall time to wait for publishers of commands for every robot", unit="s", validator=gt(0)
     )
     progress: Navigator = option(
-        attrs.Factory(_waypoints), help="the navigator that says how far robots got, and when one gives up"
+        attrs.Factory(_waypoints), help="navigator that decides how far robots got, and when a robot gives up"
     )
 
     def start(

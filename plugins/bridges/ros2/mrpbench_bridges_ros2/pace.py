@@ -4,7 +4,7 @@ import time
 
 
 class Pace:
-    """Simulated time against the wall clock. A simulation that is too slow goes on as fast as it can."""
+    """Synchronizes simulated time with the wall clock. A simulation that is too slow runs as fast as possible."""
 
     def __init__(self, factor: float | None) -> None:
         """`factor` times real time; None = freely."""

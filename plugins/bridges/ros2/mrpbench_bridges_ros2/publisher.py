@@ -1,4 +1,4 @@
-"""Publishes a running simulation: what robots sense and believe, the map, and their paths."""
+"""Publish a running simulation: sensor data and estimates of robots, the map, and paths."""
 
 import logging
 from collections.abc import Sequence
@@ -22,7 +22,7 @@ class Publisher:
     """The topics of the bags that a robot's own computer would have: nothing here tells the truth."""
 
     def __init__(self, link: Link, world: World, fleet: Fleet, localization: bool = True) -> None:
-        """Say what does not change. Without `localization` there is no transform from `map`: others publish that."""
+        """Publish constant data. Without `localization`, another node publishes the transform from `map`."""
         from nav_msgs.msg import Odometry, Path
         from rosgraph_msgs.msg import Clock
         from sensor_msgs.msg import LaserScan
@@ -59,7 +59,7 @@ class Publisher:
             publisher.publish(self._make.path(now, facing(route.waypoint), height))
 
     def publish(self, now: float, observation: FleetObservation) -> None:
-        """Publish one control period: the clock, frames before what stands in them, odometry, new scans."""
+        """Publish one control period: the clock, frames before data that use them, odometry, new scans."""
         from rosgraph_msgs.msg import Clock
 
         self._clock.publish(Clock(clock=self._make.stamp(now)))

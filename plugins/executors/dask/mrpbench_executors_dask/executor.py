@@ -1,8 +1,8 @@
 """The executor `dask`: runs on the workers of a Dask cluster.
 
-Dask repeats a task whose worker was lost, also when its result had not been fetched yet, and tells nobody. A run that
-is executed again must be an attempt of its own. So each call leaves a mark at the scheduler when it begins; one that
-finds its mark there already does nothing but say that the first was lost.
+Dask silently repeats a task whose worker was lost, even if only its result was not fetched yet. A repeated run must be a
+new attempt. Each call therefore sets an event at the scheduler when it begins; a call whose event is already set only
+reports that the first one was lost.
 """
 
 import itertools
@@ -27,7 +27,7 @@ LOST = "the Dask worker that executed it was lost"
 
 @attrs.frozen(kw_only=True)
 class Dask(ExecutorSource):
-    """Runs execute on the workers of a Dask cluster, which see the results folder and have the same plugins."""
+    """Executes runs on the workers of a Dask cluster, which share the results folder and have the same plugins."""
 
     scheduler: str = option(help="address of the scheduler, e.g. tcp://10.0.0.1:8786")
     timeout: float = option(10.0, help="how long to wait for the scheduler", unit="s", validator=attrs.validators.gt(0))
@@ -86,7 +86,7 @@ class Cluster(RemoteExecutor):
             self._client.run(function, *arguments, on_error="ignore")
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """Leave the cluster as it was."""
+        """Disconnect; the cluster continues."""
         going = list(self._going)
         if cancel_futures:
             for future in going:
@@ -97,7 +97,7 @@ class Cluster(RemoteExecutor):
 
 
 def once(key: str, function: Callable[..., T], args: tuple[Any, ...], kwargs: dict[str, Any]) -> T:
-    """Make the call unless it was begun before; executed by a worker.
+    """Make the call unless it has begun before; a worker executes this.
 
     Raises:
         WorkerLost: it was.
