@@ -1,7 +1,7 @@
 """The executor `dask`: runs on the workers of a Dask cluster.
 
-Dask silently repeats a task whose worker was lost, even if only its result was not fetched yet. A repeated run must be a
-new attempt. Each call therefore sets an event at the scheduler when it begins; a call whose event is already set only
+Dask silently repeats a task whose worker was lost, even if only its result was not fetched yet. A repeated run must be
+a new attempt. Each call therefore sets an event at the scheduler when it begins; a call whose event is already set only
 reports that the first one was lost.
 """
 
