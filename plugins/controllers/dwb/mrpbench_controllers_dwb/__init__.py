@@ -1,8 +1,13 @@
-"""Nav2's DWB controller on a rolling costmap, for whole fleets, in C++."""
+"""Nav2's DWB controller on a rolling costmap, for whole fleets, in C++.
+
+`dwb` has the options, `costmap` those of the costmap, and `session` runs a fleet. `critic` is the contract of critics,
+`nav2_critics` has those of Nav2.
+"""
 
 from mrpbench_controllers_dwb.costmap import LocalCostmap
 from mrpbench_controllers_dwb.critic import Critic, CriticSession, Trajectories
-from mrpbench_controllers_dwb.critics import (
+from mrpbench_controllers_dwb.dwb import Dwb
+from mrpbench_controllers_dwb.nav2_critics import (
     BaseObstacle,
     GoalAlign,
     GoalDist,
@@ -14,7 +19,6 @@ from mrpbench_controllers_dwb.critics import (
     RotateToGoal,
     Twirling,
 )
-from mrpbench_controllers_dwb.dwb import Dwb
 
 __all__ = [
     "BaseObstacle",

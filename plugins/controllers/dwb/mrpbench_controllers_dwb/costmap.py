@@ -17,8 +17,8 @@ Polygon = tuple[tuple[float, float], ...]
 
 
 @attrs.frozen(kw_only=True, slots=False)
-class Inflation:
-    """How costs fall off around obstacles."""
+class InflationLayer:
+    """How costs fall off around obstacles (Nav2: the inflation layer)."""
 
     inflation_radius: float | None = parameter(
         0.55, help="distance up to which obstacles cost something", unit="m", validator=ge(0)
@@ -27,72 +27,85 @@ class Inflation:
 
 
 @attrs.frozen(kw_only=True, slots=False)
-class Observation:
-    """How scans mark and clear."""
+class ObservationSource:
+    """How scans mark and clear cells (Nav2: an observation source)."""
 
-    obstacle_max_range: float | None = parameter(2.5, help="farther returns mark nothing", unit="m", validator=ge(0))
-    obstacle_min_range: float | None = parameter(0.0, help="nearer returns mark nothing", unit="m", validator=ge(0))
-    raytrace_max_range: float | None = parameter(3.0, help="beams clear up to here", unit="m", validator=ge(0))
-    raytrace_min_range: float | None = parameter(0.0, help="beams clear from here on", unit="m", validator=ge(0))
+    obstacle_max_range: float | None = parameter(
+        2.5, help="returns beyond this mark nothing", unit="m", validator=ge(0)
+    )
+    obstacle_min_range: float | None = parameter(
+        0.0, help="returns nearer than this mark nothing", unit="m", validator=ge(0)
+    )
+    raytrace_max_range: float | None = parameter(
+        3.0, help="beams clear cells up to this range", unit="m", validator=ge(0)
+    )
+    raytrace_min_range: float | None = parameter(
+        0.0, help="beams clear cells from this range on", unit="m", validator=ge(0)
+    )
     marking: bool | None = parameter(True, help="scans mark obstacles")
-    clearing: bool | None = parameter(True, help="scans clear what they see through")
-    inf_is_valid: bool | None = parameter(False, help="beams without a return clear too")
+    clearing: bool | None = parameter(True, help="scans clear the cells that beams pass")
+    inf_is_valid: bool | None = parameter(False, help="beams without a return clear cells too")
 
 
 @attrs.frozen(kw_only=True, slots=False)
-class Grid:
-    """Where the costmap lies, and how often it is made."""
+class CostmapGrid:
+    """The size of the costmap, and how often it is updated."""
 
-    width: float | None = parameter(3.0, help="extent around the robot", unit="m", validator=gt(0))
-    height: float | None = parameter(3.0, help="extent around the robot", unit="m", validator=gt(0))
+    width: float | None = parameter(
+        3.0, help="side of the costmap, which is centred on the robot", unit="m", validator=gt(0)
+    )
+    height: float | None = parameter(
+        3.0, help="side of the costmap, which is centred on the robot", unit="m", validator=gt(0)
+    )
     resolution: float | None = parameter(0.05, help="side of a cell", unit="m", validator=gt(0))
-    update_frequency: float | None = parameter(5.0, help="how often it is made", unit="Hz", validator=gt(0))
+    update_frequency: float | None = parameter(5.0, help="how often the costmap is updated", unit="Hz", validator=gt(0))
     footprint_padding: float | None = parameter(0.01, help="room around the footprint", unit="m", validator=ge(0))
     robot_radius: float | None = parameter(
         None,
-        help="take the robot for a disc of this radius; by default the disc that holds it",
+        help="treat the robot as a disc of this radius; by default its circumscribed disc",
         unit="m",
         validator=gt(0),
     )
-    footprint_clearing_enabled: bool | None = parameter(True, help="nothing is marked under the robot")
+    footprint_clearing_enabled: bool | None = parameter(True, help="clear the cells under the robot")
 
 
 @attrs.frozen(kw_only=True, slots=False)
-class LocalCostmap(Grid, Inflation, Observation):
+class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
     """A costmap that rolls with the robot."""
 
     plugins: tuple[Layer, ...] | None = parameter(
         ("voxel_layer", "inflation_layer"),
-        help="layers; with a planar lidar voxel_layer is obstacle_layer",
+        help="layers; voxel_layer is the same as obstacle_layer, since lidars are planar",
         validator=deep_iterable(in_(get_args(Layer))),
     )
     footprint: Literal["robot"] | Polygon | None = attrs.field(
         default=None,
-        metadata={"help": "`robot`, or a polygon of points [x, y]: instead of a disc", "unit": None},
+        metadata={"help": "use this shape instead of a disc: `robot`, or a polygon of points [x, y]", "unit": None},
     )
 
     def settings(self, robot: RobotModel, block: Nav2Block | None) -> tuple[dict[str, float], Float]:
-        """What C++ is told of one robot's costmap, as numbers, and its footprint f8[k,2].
+        """Return the settings of one robot's costmap for the native part, as numbers, and its footprint f8[k,2].
 
         Raises:
-            InputError: a Nav2 file says what makes no sense here.
+            InputError: the Nav2 file has a value that is not supported.
         """
         layers = self.plugins or settle(self, None, of=LocalCostmap)["plugins"]
-        values = settle(self, block, of=Grid)
-        inflation, observation = settle(self, of=Inflation), settle(self, of=Observation)
+        values = settle(self, block, of=CostmapGrid)
+        inflation, observation = settle(self, of=InflationLayer), settle(self, of=ObservationSource)
         polygon = self._polygon(robot, block)
         if block is not None:
             named = {name: _kind(block, name) for name in block.take("plugins", tuple, ())}
             layers = self.plugins or tuple(named.values()) or layers
             for name, kind in named.items():
                 if kind == "inflation_layer":
-                    inflation = settle(self, block, f"{name}.", of=Inflation)
+                    inflation = settle(self, block, f"{name}.", of=InflationLayer)
                 elif kind in ("obstacle_layer", "voxel_layer"):
                     for source in block.take(f"{name}.observation_sources", str, "").split():
-                        observation = settle(self, block, f"{name}.{source}.", of=Observation)
+                        observation = settle(self, block, f"{name}.{source}.", of=ObservationSource)
                         if block.take(f"{name}.{source}.observation_persistence", float, 0.0):
                             raise block.error(
-                                "only the newest scan marks here: give 0.0", f"{name}.{source}.observation_persistence"
+                                "must be 0.0, only the newest scan marks cells",
+                                f"{name}.{source}.observation_persistence",
                             )
                         block.ignore(*(f"{name}.{source}.{word}" for word in _OF_SOURCES))
                     cleared = block.take(f"{name}.footprint_clearing_enabled", bool)
@@ -124,12 +137,12 @@ class LocalCostmap(Grid, Inflation, Observation):
         except ValueError:
             polygon = np.empty(0)
         if polygon.ndim != 2 or polygon.shape[1] != 2 or len(polygon) < 3:
-            raise block.error("must be a text with a list of at least three points [x, y]", "footprint")
+            raise block.error("must be a string with a list of at least three points [x, y]", "footprint")
         return polygon
 
 
 def _kind(block: Nav2Block, name: str) -> Layer | None:
-    """The layer that a plugin of the costmap is, or None when it is switched off."""
+    """Return the layer that a plugin of the costmap is, or None when it is disabled."""
     kind = block.take(f"{name}.plugin", str, name).rpartition("::")[2]
     enabled = block.take(f"{name}.enabled", bool, True)
     known: dict[str, Layer] = {
@@ -139,12 +152,12 @@ def _kind(block: Nav2Block, name: str) -> Layer | None:
         "InflationLayer": "inflation_layer",
     }
     if kind not in known:
-        raise block.error(f"{kind!r} is no layer that exists here", f"{name}.plugin")
+        raise block.error(f"{kind!r} is not an implemented layer", f"{name}.plugin")
     return known[kind] if enabled else None
 
 
 _LAYERS = get_args(Layer)
-"""Nav2's own file describes layers that its list of plugins leaves out."""
+"""Nav2's own file has blocks of layers that its list of plugins leaves out; they are ignored."""
 _OF_SOURCES = (
     "topic",
     "data_type",
@@ -163,7 +176,7 @@ _OF_LAYERS = (
     ),
     *("combination_method", "inflate_unknown", "inflate_around_unknown"),
 )
-"""Of a third dimension, of topics, or of what is unknown, which nothing is here."""
+"""Parameters without effect here: of the third dimension, of topics, and of unknown cells, which do not exist."""
 _IGNORED = (
     *("use_sim_time", "publish_frequency", "global_frame", "robot_base_frame", "rolling_window", "filters"),
     *("always_send_full_costmap", "transform_tolerance", "track_unknown_space", "plugin_names", "plugin_types"),

@@ -1,4 +1,4 @@
-"""Contract of the kind *critic*: what scores trajectories. Third parties write theirs in Python, in batches."""
+"""Contract of the kind *critic*, which scores trajectories. A critic of your own derives from `Critic`."""
 
 from abc import ABC, abstractmethod
 from typing import ClassVar
@@ -13,16 +13,16 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True, eq=False)
 class Trajectories:
-    """What m velocity samples of one robot lead to."""
+    """The trajectories of m velocity samples of one robot."""
 
     twist: Float
     """f8[m,2] m/s, rad/s."""
     pose: Float
-    """f8[m,p,3] x, y, yaw in `map`, one after the other; short trajectories stay at their last pose."""
+    """f8[m,p,3] x, y, yaw in `map`, in order of time; shorter trajectories repeat their last pose."""
     path: Float
-    """f8[k,2] what the robot is to follow."""
+    """f8[k,2] x, y in `map` of the path to follow."""
     yaw: float
-    """To take at its end, NaN = any."""
+    """Yaw to take at the end of the path, NaN = any."""
 
 
 class CriticSession(ABC):
@@ -30,12 +30,12 @@ class CriticSession(ABC):
 
     @abstractmethod
     def score(self, trajectories: Trajectories) -> Float:
-        """Return f8[m], lower is better; infinity = must not be driven."""
+        """Return scores f8[m]; lower is better, infinity = the trajectory must not be driven."""
 
 
 @attrs.frozen(kw_only=True)
 class Critic(Component):
-    """Scores trajectories; DWB adds up the scores of all critics, each times its scale."""
+    """Scores trajectories; DWB sums the scores of all critics, each multiplied by its scale."""
 
     group: ClassVar[str] = "mrpbench.critics"
 

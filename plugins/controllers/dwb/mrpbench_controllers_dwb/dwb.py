@@ -14,12 +14,12 @@ from attrs.validators import and_, ge, gt, le
 
 from mrpbench_controllers_dwb.costmap import LocalCostmap
 from mrpbench_controllers_dwb.critic import Critic
-from mrpbench_controllers_dwb.critics import DEFAULT, NATIVE
+from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE
+from mrpbench_controllers_dwb.settings import RobotSettings
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
 from mrpbench_core.api.nav2 import parameter, settle
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import Nav2Block, nav2_block
-from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.fleet import RobotModel
 from mrpbench_core.model.world import World
 
@@ -28,7 +28,7 @@ Generator = Literal["dwb_plugins::StandardTrajectoryGenerator", "dwb_plugins::Li
 
 @attrs.frozen(kw_only=True)
 class Dwb(Controller):
-    """Samples velocities, rolls each out, and takes the one that its critics like best."""
+    """Samples velocities, simulates each, and takes the one with the best score of its critics."""
 
     nav2: Path | None = option(
         None, help="a Nav2 parameter file: its blocks FollowPath and local_costmap; options given here win"
@@ -43,26 +43,32 @@ class Dwb(Controller):
     max_vel_theta: float | None = parameter(
         1.0, help="highest turn rate, within the robot's limit", unit="rad/s", validator=gt(0)
     )
-    min_speed_xy: float | None = parameter(0.0, help="slower samples need min_speed_theta", unit="m/s")
+    min_speed_xy: float | None = parameter(
+        0.0, help="samples slower than this must turn faster than min_speed_theta", unit="m/s"
+    )
     max_speed_xy: float | None = parameter(None, help="highest speed in the plane; by default max_vel_x", unit="m/s")
-    min_speed_theta: float | None = parameter(0.0, help="slower turns need min_speed_xy", unit="rad/s")
+    min_speed_theta: float | None = parameter(
+        0.0, help="samples that turn slower than this must drive faster than min_speed_xy", unit="rad/s"
+    )
     acc_lim_x: float | None = parameter(None, help="acceleration, m/s^2; by default the robot's", validator=gt(0))
     acc_lim_theta: float | None = parameter(None, help="acceleration, rad/s^2; by default the robot's", validator=gt(0))
     decel_lim_x: float | None = parameter(None, help="deceleration, negative; by default the robot's")
     decel_lim_theta: float | None = parameter(None, help="deceleration, negative; by default the robot's")
-    vx_samples: int | None = parameter(20, help="speeds that are tried", validator=and_(ge(1), le(1000)))
-    vtheta_samples: int | None = parameter(20, help="turn rates that are tried", validator=and_(ge(1), le(1000)))
-    sim_time: float | None = parameter(1.7, help="length of a trajectory", unit="s", validator=gt(0))
+    vx_samples: int | None = parameter(20, help="number of speeds that are sampled", validator=and_(ge(1), le(1000)))
+    vtheta_samples: int | None = parameter(
+        20, help="number of turn rates that are sampled", validator=and_(ge(1), le(1000))
+    )
+    sim_time: float | None = parameter(1.7, help="duration of a trajectory", unit="s", validator=gt(0))
     linear_granularity: float | None = parameter(0.05, help="longest step of a trajectory", unit="m", validator=gt(0))
     angular_granularity: float | None = parameter(
         0.025, help="largest turn in a step of a trajectory, radians", validator=gt(0)
     )
-    discretize_by_time: bool | None = parameter(False, help="steps of time_granularity instead")
+    discretize_by_time: bool | None = parameter(False, help="step by time_granularity instead of by way and angle")
     time_granularity: float | None = parameter(0.5, help="longest step of a trajectory", unit="s", validator=gt(0))
-    include_last_point: bool | None = parameter(True, help="the last pose counts twice where scores are summed")
+    include_last_point: bool | None = parameter(True, help="count the last pose twice where scores are summed")
     trajectory_generator_name: Generator | None = parameter(
         "dwb_plugins::StandardTrajectoryGenerator",
-        help="reach a sampled velocity with the robot's acceleration, or sample what one control period reaches",
+        help="accelerate to sampled velocities along the trajectory, or sample only what one period can reach",
     )
     xy_goal_tolerance: float | None = parameter(
         0.25,
@@ -74,36 +80,40 @@ class Dwb(Controller):
         0.25, help="speed below which RotateToGoal only turns", unit="m/s", validator=ge(0)
     )
     short_circuit_trajectory_evaluation: bool | None = parameter(
-        True, help="look closely at trajectories that can win only; false = at all, so that every reason is known"
+        True, help="stop scoring a trajectory that cannot win; false = score all in full, for `explain`"
     )
     prune_distance: float | None = parameter(
-        1.0, help="farther parts of the path are not looked at", unit="m", validator=gt(0)
+        1.0, help="ignore parts of the path that are farther away", unit="m", validator=gt(0)
     )
-    shorten_transformed_plan: bool | None = parameter(True, help="prune_distance counts; else half the costmap does")
+    shorten_transformed_plan: bool | None = parameter(
+        True, help="use prune_distance; if false, half the size of the costmap"
+    )
     critics: tuple[Critic, ...] | None = option(
-        None, help="what scores trajectories, in order (default: those of Nav2's TurtleBot3)"
+        None, help="critics that score trajectories, in order (default: those of Nav2 for the TurtleBot3)"
     )
-    local_costmap: LocalCostmap | None = option(None, help="the costmap around each robot (default: as in Nav2)")
+    local_costmap: LocalCostmap | None = option(None, help="costmap around each robot (default: as in Nav2)")
     beyond_end: float = option(
         0.35,
-        help="the path goes on straight beyond its end for critics that measure distances to it, so that a robot comes "
-        "nearer to the end than Nav2's 0.25 m; 0 = as in Nav2",
+        help="prolong the path straight beyond its end by this, for critics that measure distances to it, so that a "
+        "robot comes nearer to the end than the 0.25 m of Nav2; 0 = as in Nav2",
         unit="m",
         validator=ge(0),
     )
     rotate_to_path: float = option(
         0.4,
-        help="radians by which the robot may head off a new path before it turns on the spot first, as with Nav2's "
-        "rotation shim; 0 = never, as DWB alone",
+        help="turn on the spot first where a new path leads off the heading by more than this, radians, as the "
+        "rotation shim of Nav2 does; 0 = never, as DWB alone",
         validator=ge(0),
     )
-    max_detour: float = option(0.5, help="how far from a blocked path a way around may lead", unit="m", validator=ge(0))
-    threads: int = option(1, help="threads that share the robots; results do not depend on it", validator=ge(1))
+    max_detour: float = option(0.5, help="how far a detour may lead from a blocked path", unit="m", validator=ge(0))
+    threads: int = option(
+        1, help="threads that share the robots; results do not depend on their number", validator=ge(1)
+    )
 
     def __attrs_post_init__(self) -> None:
-        """Read the Nav2 blocks, so that mistakes in them are found before anything runs."""
+        """Read the Nav2 blocks, so that errors in them are found before anything runs."""
         if self.FollowPath and self.nav2 is not None:
-            raise InputError("give either a Nav2 file or a block FollowPath")
+            raise InputError("controller: dwb takes a Nav2 file or a block FollowPath, not both")
         self.settings(_SOME_ROBOT, 0.05)
 
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:
@@ -114,13 +124,14 @@ class Dwb(Controller):
         """Begin to control a fleet, all robots in one call."""
         from mrpbench_controllers_dwb.session import DwbSession
 
-        return DwbSession(self, robots, world, period)
+        settings = [(robot, self.settings(robot, period)) for robot in robots]
+        return DwbSession(settings, self.goal_options(), world, self.threads)
 
-    def settings(self, robot: RobotModel, period: float) -> tuple[dict[str, float], Float, tuple[Critic, ...]]:
-        """What C++ is told of one robot: numbers by name, the footprint f8[k,2], and the critics.
+    def settings(self, robot: RobotModel, period: float) -> RobotSettings:
+        """Return the settings of one robot for the native part.
 
         Raises:
-            InputError: a Nav2 file says what makes no sense here.
+            InputError: the Nav2 file has a value that is not supported.
         """
         follow, local = self._blocks()
         values = self._values(follow)
@@ -143,10 +154,10 @@ class Dwb(Controller):
         if lidar is not None:
             forward, leftward, _ = lidar.mount
             numbers |= {"lidar_forward": forward, "lidar_leftward": leftward, "lidar_range": lidar.range}
-        return numbers, footprint, critics
+        return RobotSettings(numbers, footprint, critics)
 
     def goal_options(self) -> dict[str, float]:
-        """The options of this class that the critic RotateToGoal has in Nav2."""
+        """Return the options of this class that the critic RotateToGoal reads in Nav2."""
         values = self._values(self._blocks()[0])
         return {name: values[name] for name in ("xy_goal_tolerance", "trans_stopped_velocity")}
 
@@ -156,22 +167,22 @@ class Dwb(Controller):
         follow = nav2_block(self.nav2, "controller_server", "FollowPath")
         local = nav2_block(self.nav2, "local_costmap")
         if follow is None and local is None:
-            raise InputError("has neither controller_server's FollowPath nor local_costmap", file=self.nav2)
+            raise InputError("has neither FollowPath of controller_server nor local_costmap", file=self.nav2)
         return follow, local
 
     def _values(self, block: Nav2Block | None) -> dict[str, Any]:
-        """All parameters but the critics."""
+        """Return all parameters but the critics."""
         values = settle(self, block)
         if block is None:
             return values
         if values["trajectory_generator_name"] not in get_args(Generator):
-            raise block.error("is no generator that exists here", "trajectory_generator_name")
+            raise block.error("is not implemented", "trajectory_generator_name")
         plugin = block.take("plugin", str, _PLUGIN)
         if plugin != _PLUGIN:
             raise block.error(f"is not {_PLUGIN}", "plugin")
         for name in ("min_vel_y", "max_vel_y"):
             if block.take(name, float, 0.0):
-                raise block.error("the robots cannot drive sideways", name)
+                raise block.error("must be 0, robots cannot drive sideways", name)
         block.ignore(*_IGNORED)
         return values
 
@@ -182,7 +193,7 @@ class Dwb(Controller):
         found: list[Critic] = []
         for name in names:
             if name not in NATIVE:
-                raise block.error(f"there is no critic {name!r}", "critics", hint=f"there are {', '.join(NATIVE)}")
+                raise block.error(f"there is no critic {name!r}", "critics", hint=f"known critics: {', '.join(NATIVE)}")
             found.append(NATIVE[name].from_nav2(block))
         block.ignore(*(name for name in NATIVE if name not in names))
         block.refuse_unknown()
@@ -190,7 +201,7 @@ class Dwb(Controller):
 
 
 def _within(values: dict[str, Any], name: str, limit: float) -> None:
-    """No more than the robot can, which is also the default."""
+    """Limit a value to what the robot can do, which is also the default."""
     values[name] = limit if values[name] is None else min(values[name], limit)
 
 
@@ -211,4 +222,4 @@ _IGNORED = (
     *("publish_cost_grid_pc", "publish_evaluation", "publish_global_plan", "publish_local_plan"),
     *("publish_trajectories", "publish_transformed_plan", "publish_input_params", "marker_lifetime"),
 )
-"""Of what does not exist here: topics, sideways motion, transforms."""
+"""Parameters without effect here: of topics, sideways motion and transforms."""

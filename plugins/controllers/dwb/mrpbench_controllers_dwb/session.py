@@ -1,14 +1,15 @@
 """DWB for a fleet, in C++."""
 
 from collections import Counter
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from mrpbench_native.local import Fleet
 
 from mrpbench_controllers_dwb.critic import CriticSession, Trajectories
-from mrpbench_controllers_dwb.critics import NativeCritic, RotateToGoal
+from mrpbench_controllers_dwb.nav2_critics import NativeCritic, RotateToGoal
+from mrpbench_controllers_dwb.settings import RobotSettings
 from mrpbench_core.api import FleetControllerSession
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.files.errors import InputError
@@ -18,32 +19,41 @@ from mrpbench_core.model.fleet import RobotModel
 from mrpbench_core.model.solids import segments
 from mrpbench_core.model.world import World
 
-if TYPE_CHECKING:
-    from mrpbench_controllers_dwb.dwb import Dwb
-
 
 class DwbSession(FleetControllerSession):
-    """Controls all robots in one call, and tells why it commands what it does."""
+    """Controls all robots in one call, and explains its commands.
 
-    def __init__(self, options: "Dwb", robots: Sequence[RobotModel], world: World, period: float) -> None:
+    Args:
+        robots: each with its settings.
+        goal: parameters of the critic `RotateToGoal` that Nav2 reads from the controller.
+        world: the static map.
+        threads: threads that share the robots.
+    """
+
+    def __init__(
+        self,
+        robots: Sequence[tuple[RobotModel, RobotSettings]],
+        goal: Mapping[str, float],
+        world: World,
+        threads: int,
+    ) -> None:
         super().__init__(())
-        # No robot tells its controller its level, so that of several levels no walls are known.
+        # Controllers are not told the level of their robot, so the walls of several levels cannot be used.
         walls = segments(world) if len(world.levels) == 1 else np.empty((0, 4))
-        told = [options.settings(robot, period) for robot in robots]
-        if len(world.levels) > 1 and any(numbers["static_layer"] for numbers, _, _ in told):
+        numbers = [settings.numbers for _, settings in robots]
+        if len(world.levels) > 1 and any(each["static_layer"] for each in numbers):
             raise InputError(
                 f"controller: static_layer is the map of one level, and {world.name} has {len(world.levels)}",
-                hint="leave it out of the costmap's plugins",
+                hint="remove it from the plugins of the costmap",
             )
-        reach = max((np.hypot(numbers["width"], numbers["height"]) for numbers, _, _ in told), default=1.0)
-        self._fleet = Fleet(walls=np.ascontiguousarray(walls, float), reach=float(reach), threads=options.threads)
-        self._others: list[list[tuple[str, float, CriticSession]]] = []
-        goal = options.goal_options()
-        for robot, (numbers, footprint, critics) in zip(robots, told, strict=True):
-            native = [critic for critic in critics if isinstance(critic, NativeCritic)]
+        reach = max((np.hypot(each["width"], each["height"]) for each in numbers), default=1.0)
+        self._fleet = Fleet(walls=np.ascontiguousarray(walls, float), reach=float(reach), threads=threads)
+        self._in_python: list[list[tuple[str, float, CriticSession]]] = []
+        for robot, settings in robots:
+            native = [critic for critic in settings.critics if isinstance(critic, NativeCritic)]
             self._fleet.add(
-                settings=numbers,
-                footprint=np.ascontiguousarray(footprint, float),
+                settings=settings.numbers,
+                footprint=np.ascontiguousarray(settings.footprint, float),
                 critics=[
                     (
                         type(critic).__name__,
@@ -53,19 +63,19 @@ class DwbSession(FleetControllerSession):
                     for critic in native
                 ],
             )
-            others = [critic for critic in critics if not isinstance(critic, NativeCritic) and critic.scale]
-            started = [(type(critic).__name__, critic.scale, critic.start(robot, world)) for critic in others]
-            self._others.append(started)
+            in_python = [critic for critic in settings.critics if not isinstance(critic, NativeCritic) and critic.scale]
+            started = [(type(critic).__name__, critic.scale, critic.start(robot, world)) for critic in in_python]
+            self._in_python.append(started)
         self._seen: Observations | None = None
         self._row: dict[int, int] = {}
 
     def command(self, observations: Observations) -> Float:
-        """Commands f8[k,2] of all robots with a row."""
+        """The commands f8[k,2] of all rows."""
         seen = observations
         for batch in seen.scans:
             self._fleet.see(batch.stamp, batch.robot, seen.fleet_pose, batch.ranges)
         self._seen = seen
-        scored = any(self._others)
+        scored = any(self._in_python)
         if scored:
             self._row = {robot: row for row, robot in enumerate(seen.robot.tolist())}
         return self._fleet.command(
@@ -88,44 +98,44 @@ class DwbSession(FleetControllerSession):
         self._fleet.clear(robot)
 
     def is_free(self, robot: int, poses: Float) -> Bool:
-        """Tell for each pose f8[k,3] whether one robot fits there, as far as its costmap shows."""
+        """Tell bool[k] at which poses f8[k,3] one robot fits, as far as its costmap shows."""
         return self._fleet.is_free(robot, np.ascontiguousarray(poses, float)).astype(bool)
 
     def reroute(self, observations: Observations, row: int) -> Float | None:
-        """A way around what blocks the path of one row on its robot's costmap."""
+        """Find a way around what blocks the path of one row on the costmap of its robot."""
         x, y, _ = observations.pose[row].tolist()
         return self._fleet.reroute(int(observations.robot[row]), x, y, observations.path(row))
 
     def approach(self, observations: Observations, row: int, tolerance: float) -> Float | None:
-        """A way to the free place nearest to where the path of one row ends."""
+        """Find a way to the free place that is nearest to the end of the path of one row."""
         x, y, _ = observations.pose[row].tolist()
         return self._fleet.approach(int(observations.robot[row]), x, y, observations.path(row), tolerance)
 
     def failure_reason(self, robot: int) -> str:
-        """Why the last trajectories of a robot were dropped, the most frequent reasons first."""
+        """Return why the last trajectories of a robot were rejected, the most frequent reasons first."""
         reasons = Counter(self.explain(robot)["reason"])
         return ", ".join(f"{count} × {reason}" for reason, count in reasons.most_common(3) if reason)
 
     def explain(self, robot: int) -> dict[str, Any]:
-        """What the last command of a robot was chosen from.
+        """Return the trajectories from which the last command of a robot was chosen.
 
         `critics`: names; `twist` f8[m,2]; `pose` f8[m,p,3]; `score` f8[critics,m] raw; `total` f8[m]; `reason`: why
-        each was dropped, or an empty text. Trajectories that could not win were not looked at closely unless
+        each was rejected, or an empty text. Trajectories that cannot win are scored in part only, unless
         `short_circuit_trajectory_evaluation` is false.
         """
         return dict(self._fleet.explain(robot))
 
     def costmap(self, robot: int) -> tuple[Float, float, float, float]:
-        """Costs f8[rows,columns] of a robot's costmap, x and y of its lower left corner, and the inscribed radius."""
+        """Return a robot's costmap f8[rows,columns], its lower left corner x, y, and the inscribed radius."""
         return self._fleet.costmap(robot)
 
     def _score(self, robot: int, twist: Float, pose: Float) -> Float:
-        """What the critics in Python say."""
+        """The sum of the scores of the critics in Python, f8[m]."""
         assert self._seen is not None
         row = self._row[robot]
         trajectories = Trajectories(twist=twist, pose=pose, path=self._seen.path(row), yaw=float(self._seen.yaw[row]))
         total = np.zeros(len(twist))
-        for name, scale, critic in self._others[robot]:
+        for name, scale, critic in self._in_python[robot]:
             scores = np.asarray(critic.score(trajectories), float)
             if scores.shape != total.shape or np.isnan(scores).any():
                 raise BrokenContractError(f"the critic {name} returned {scores!r} for {len(total)} trajectories")

@@ -154,7 +154,7 @@ def test_no_option_exceeds_what_the_robot_can():
         ("inflation_radius: 0.4", "inflation_radios: 0.4", r"params.yaml:\d+:9: .*'inflation_layer.inflation_radios'"),
         ("observation_persistence: 0.0", "observation_persistence: 5.0", r":\d+:11: .*only the newest scan marks"),
         ("          clearing: True", "          clearin: True", r"\d+:11: .*'scan_layer.scan.clearin' \(did you mean"),
-        ("VoxelLayer", "SonarLayer", r"'SonarLayer' is no layer that exists here"),
+        ("VoxelLayer", "SonarLayer", r"'SonarLayer' is not an implemented layer"),
         ("dwb_core::DWBLocalPlanner", "nav2_mppi_controller::MPPIController", r"params.yaml:6:7: .*is not dwb_core"),
     ],
 )
@@ -165,5 +165,5 @@ def test_mistakes_in_the_file_are_named_with_their_place(tmp_path, old, new, mes
 
 
 def test_a_file_without_these_blocks_is_refused(tmp_path):
-    with pytest.raises(InputError, match="has neither controller_server's FollowPath nor local_costmap"):
+    with pytest.raises(InputError, match="has neither FollowPath of controller_server nor local_costmap"):
         Dwb(nav2=write(tmp_path, "amcl:\n  ros__parameters:\n    alpha1: 0.2\n"))

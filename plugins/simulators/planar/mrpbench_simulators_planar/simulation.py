@@ -1,8 +1,9 @@
-"""A native plane in motion."""
+"""Steps the native simulation of robots and lidars in the plane."""
 
 import math
 from collections.abc import Mapping, Sequence
 
+import attrs
 import numpy as np
 from mrpbench_native.sim import Caster, Plane
 
@@ -16,17 +17,26 @@ from mrpbench_core.model.scan_schedule import ScanSchedule
 from mrpbench_core.model.world import World
 
 
+@attrs.frozen(kw_only=True)
+class WheelNoise:
+    """How far motion differs from the commands; draws are functions of the seed, the robot's index and the period."""
+
+    slip: float
+    """Mean share of its travel that a wheel loses."""
+    actuation: float
+    """Standard deviation of the relative error of speed and turn rate."""
+    seed: int
+
+
 class PlanarSimulation(Simulation):
-    """Robots, walls and movers. To all that it touches and all that see it a robot is its circumscribed disc."""
+    """Robots, walls and movers; arguments as in `Simulator.open`. A robot is the disc of its circumscribed radius."""
 
     def __init__(
         self,
-        slip: float,
-        actuation_noise: float,
+        noise: WheelNoise,
         world: World,
         fleet: Fleet,
         placements: Float,
-        seed: int,
         period: float,
         movers: Sequence[float],
         levels: Int16 | None,
@@ -49,9 +59,9 @@ class PlanarSimulation(Simulation):
             wheel_separation=np.array([robot.wheel_separation for robot in robots], float),
             pose=self._layout.to_plane(np.array(placements, float).reshape(-1, 3), self._level),
             period=period,
-            slip=slip,
-            actuation=actuation_noise,
-            seed=seed % 2**64,
+            slip=noise.slip,
+            actuation=noise.actuation,
+            seed=noise.seed % 2**64,
         )
         self._plane.set_leaves(self._leaves)
         self._period, self._periods = period, 0
@@ -72,7 +82,7 @@ class PlanarSimulation(Simulation):
 
     @property
     def state(self) -> State:
-        """The truth now."""
+        """The true state now."""
         return self._state
 
     def step(self, inputs: Inputs) -> State:
@@ -93,7 +103,7 @@ class PlanarSimulation(Simulation):
         return State(pose=pose, twist=plane.twist, level=self._level, contacts=plane.contacts, facilities=self._doing)
 
     def _operate(self, commands: Mapping[str, float]) -> None:
-        """Move doors and lifts, and who is in a lift."""
+        """Move doors and lifts, and the robots in lifts."""
         before, pose, level = self._doing, self._state.pose, self._level
         after = self._facilities.advance(before, commands, self._period, pose, level, self._robot_radius)
         if after == before:

@@ -1,4 +1,4 @@
-"""The recipe: what the built-in `kinematic` does, for a thousand robots, with wheels that may slip."""
+"""The simulator `planar`: what the built-in `kinematic` does, for a thousand robots, and with wheels that may slip."""
 
 from collections.abc import Sequence
 
@@ -9,7 +9,7 @@ from mrpbench_core.api import Simulation, Simulator, option
 from mrpbench_core.model.arrays import Float, Int16
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.world import World
-from mrpbench_simulators_planar.simulation import PlanarSimulation
+from mrpbench_simulators_planar.simulation import PlanarSimulation, WheelNoise
 
 
 @attrs.frozen(kw_only=True)
@@ -18,12 +18,12 @@ class Planar(Simulator):
 
     slip: float = option(
         0.0,
-        help="mean share of its travel that a wheel loses; each wheel's is drawn every period, from 0 to twice that",
+        help="mean share of its travel that a wheel loses; drawn for each wheel and period, from 0 to twice that",
         validator=and_(ge(0), le(0.5)),
     )
     actuation_noise: float = option(
         0.0,
-        help="standard deviation of the relative error of speed and turn rate, drawn every period",
+        help="standard deviation of the relative error of speed and turn rate, which is drawn every period",
         validator=ge(0),
     )
 
@@ -38,4 +38,5 @@ class Planar(Simulator):
         levels: Int16 | None = None,
     ) -> Simulation:
         """Place the robots. A robot's slip and noise are functions of `seed`, its index and the period alone."""
-        return PlanarSimulation(self.slip, self.actuation_noise, world, fleet, placements, seed, period, movers, levels)
+        noise = WheelNoise(slip=self.slip, actuation=self.actuation_noise, seed=seed)
+        return PlanarSimulation(noise, world, fleet, placements, period, movers, levels)

@@ -1,8 +1,8 @@
 """Occupancy as the original benchmark found it: by vertical rays through the 3D world, one per cell.
 
 Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered Environments", ICRA 2023. It
-knows nothing of outlines, only of what a ray hits, and so checks `mrpbench_core.checking.occupancy`, which does without
-a simulator.
+uses no outlines, only what a ray hits, and so serves to check `mrpbench_core.checking.occupancy`, which needs no
+simulator.
 """
 
 import math
@@ -37,8 +37,8 @@ def occupancy_from_above(
 ) -> Occupancy:
     """Rasterise walls, obstacles and the level's own raster: a cell is blocked if a ray down its middle hits something.
 
-    Doors are open, as in `mrpbench_core.checking.occupancy.rasterise`, whose arguments these are. Holes in the floor
-    are nothing that a ray could hit, and what lies beyond a level's own raster is not there.
+    Doors are open, as in `mrpbench_core.checking.occupancy.rasterise`, whose arguments these are. Rays do not
+    hit holes in the floor, nor anything beyond a level's own raster.
 
     Raises:
         InputError: PyBullet is not installed.

@@ -16,7 +16,7 @@ from mrpbench_simulators_pybullet.bullet import Bullet, Group
 from mrpbench_simulators_pybullet.robot import body_shape
 
 _PUSHED = 1e-7
-"""metres and radians by which a body that touches nothing keeps to its arc."""
+"""metres and radians: a body that is farther off its arc than this was pushed."""
 
 
 class Bodies:
@@ -51,7 +51,7 @@ class Bodies:
         self._expected = self._pose
 
     def command(self, twist: Float) -> None:
-        """What the robots are to do, f8[n,2] within their limits, for one control period."""
+        """Set the twists f8[n,2], within the limits of the robots, for one control period."""
         way = self._acceleration * self._period
         change = np.clip(twist - self._twist, -way, way)
         # Mean over the period of a speed that changes at full acceleration until it is reached, and then stays.
@@ -65,10 +65,10 @@ class Bodies:
             self._bullet.resetBaseVelocity(body, (vx, vy, 0.0), (0.0, 0.0, rate))
 
     def before_step(self) -> None:
-        """Bodies keep their speed."""
+        """Do nothing: bodies keep their speed."""
 
     def observe(self) -> tuple[Float, Float]:
-        """Poses f8[n,3] and twists f8[n,2]. What was pushed is as fast as it really went."""
+        """Return poses f8[n,3] and twists f8[n,2]; a body that was pushed gets the twist of its actual motion."""
         pose = np.empty_like(self._pose)
         for robot, body in enumerate(self.bodies):
             (x, y, _), (_, _, qz, qw) = self._bullet.getBasePositionAndOrientation(body)
@@ -87,7 +87,7 @@ class Bodies:
         return pose, self._twist.copy()
 
     def place(self, robot: int, x: float, y: float) -> None:
-        """Put a robot elsewhere as it is."""
+        """Move a robot to x, y, with the yaw that it has."""
         self._pose[robot, :2] = x, y
         self._flatten(robot, self._pose[robot])
 

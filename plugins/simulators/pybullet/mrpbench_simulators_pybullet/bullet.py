@@ -1,4 +1,4 @@
-"""One PyBullet world of our own, and what may touch what in it."""
+"""A PyBullet world of its own, and the collision groups in it."""
 
 import os
 import sys
@@ -20,10 +20,10 @@ class Group(IntFlag):
     BODIES = 8
     WHEELS = 16
     SILHOUETTES = 32
-    """What lidars see of a robot; nothing can touch it."""
+    """Discs that lidars see in place of the robots; nothing can touch them."""
     MOVERS = 64
     GUARDS = 128
-    """What wheels are to all but the floor."""
+    """The shapes of wheels for contacts with everything but the floor."""
 
 
 TOUCHES = {
@@ -67,7 +67,7 @@ class Bullet:
     def body(
         self, group: Group, shape: int, position: tuple[float, float, float] = (0, 0, 0), **properties: Any
     ) -> int:
-        """Create a body, of no mass unless told otherwise, in a collision group."""
+        """Create a body in a collision group; its mass is 0 unless `properties` give one."""
         body: int = self.createMultiBody(
             baseCollisionShapeIndex=shape, basePosition=position, **{"baseMass": 0, **properties}
         )
@@ -87,7 +87,7 @@ class Bullet:
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Send what C code prints to stdout and stderr nowhere."""
+    """Discard what C code prints to stdout and stderr."""
     sys.stdout.flush()
     sys.stderr.flush()
     nowhere = os.open(os.devnull, os.O_WRONLY)

@@ -1,4 +1,4 @@
-"""Who touches whom."""
+"""Contacts of robots with each other and with everything else."""
 
 from collections.abc import Sequence
 
@@ -7,12 +7,12 @@ import numpy as np
 from mrpbench_core.model.arrays import Float
 from mrpbench_simulators_pybullet.bullet import Bullet
 
-Pairs = set[tuple[int, int]]
+ContactPairs = set[tuple[int, int]]
 """A robot, and a robot of higher index or -1 for anything else."""
 
 
 class Contacts:
-    """Collects contacts in physics steps. Asking by body is cheaper than listing every wheel on the floor."""
+    """Collects contacts in physics steps. Queries by body are cheaper than listing every wheel on the floor."""
 
     def __init__(self, bullet: Bullet, robots: Sequence[int], reach: Float) -> None:
         self._bullet, self._robots, self._reach = bullet, robots, reach
@@ -20,10 +20,10 @@ class Contacts:
         self._index = {body: robot for robot, body in enumerate(robots)}
         self._close: list[tuple[int, int]] = []
         self._obstacles: Sequence[int] = ()
-        self.found: Pairs = set()
+        self.found: ContactPairs = set()
 
     def begin(self, place: Float, obstacles: Sequence[int]) -> None:
-        """Forget all. Robots at f8[n,2] can meet those within their `reach`, and `obstacles`."""
+        """Start anew: robots at f8[n,2] can touch robots within their `reach`, and the bodies `obstacles`."""
         first, second = self._pairs
         gap = place[first] - place[second]
         near = (gap * gap).sum(axis=1) < (self._reach[first] + self._reach[second]) ** 2
@@ -31,7 +31,7 @@ class Contacts:
         self._obstacles, self.found = obstacles, set()
 
     def collect(self) -> None:
-        """Add what touches now."""
+        """Add the contacts of the last physics step."""
         for obstacle in self._obstacles:
             for point in self._bullet.getContactPoints(bodyA=obstacle):
                 if point[8] <= 0:

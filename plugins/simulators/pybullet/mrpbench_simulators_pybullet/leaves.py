@@ -1,4 +1,4 @@
-"""Leaves of doors: boxes that are put where they are before every period."""
+"""Leaves of doors: boxes that are placed anew whenever a door moves."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -13,7 +13,7 @@ from mrpbench_simulators_pybullet.bullet import Bullet, Group
 
 
 class Leaves:
-    """All leaves on all levels."""
+    """The leaves of all doors on all levels."""
 
     def __init__(self, bullet: Bullet, facilities: Facilities, layout: LevelLayout, state: Mapping[str, float]) -> None:
         self._bullet, self._facilities, self._layout = bullet, facilities, layout
@@ -29,7 +29,7 @@ class Leaves:
         self.move(state)
 
     def move(self, state: Mapping[str, float]) -> None:
-        """Put every leaf where it is."""
+        """Place every leaf where the state of its door puts it."""
         lines, _ = self._lines(state)
         self._centre = (lines[:, :2] + lines[:, 2:]) / 2
         yaw = np.arctan2(*(lines[:, 2:] - lines[:, :2]).T[::-1])

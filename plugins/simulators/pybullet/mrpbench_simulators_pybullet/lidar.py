@@ -1,7 +1,7 @@
 """Lidars: by Bullet's ray tests, or by the native caster, which is about a hundred times as fast.
 
-The world a lidar sees is vertical: walls, and each robot as the disc of its circumscribed radius (the one planners
-reason about), whatever the height of the sensor. So both see the same.
+Lidars see vertical walls, and each robot as the disc of its circumscribed radius, which planners use too, at any height
+of the sensor. So both give the same ranges.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from mrpbench_simulators_pybullet.walls import build_mesh
 _BATCH = 16_383
 """Rays per call: with one more, PyBullet returns nothing."""
 _SIDES = 64
-"""Of the prism that stands for a disc: nowhere off by more than a thousandth of the radius."""
+"""Sides of the prism that stands for a disc, whose error is at most a thousandth of the radius."""
 _AWAY = (0.0, 0.0, -100.0)
 _TURN = np.arange(_SIDES) * (2 * np.pi / _SIDES)
 _CIRCLE = np.column_stack([np.cos(_TURN), np.sin(_TURN)]) * (2 / (1 + np.cos(np.pi / _SIDES)))
@@ -28,8 +28,8 @@ _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 class RayTests:
     """Takes the scans of a fleet among the bodies of a Bullet world.
 
-    Robots are discs that nothing can touch, set in place just before a scan; the scanning robot's own is put away
-    meanwhile. They are prisms of triangles: testing a ray against Bullet's cylinder takes several times as long.
+    Robots are discs that nothing can touch. They are placed just before a scan, and the disc of the scanning robot is
+    moved away. They are prisms of triangles, since a ray test of a Bullet cylinder takes several times as long.
     """
 
     def __init__(self, bullet: Bullet, fleet: Fleet) -> None:
@@ -75,7 +75,7 @@ class RayTests:
 
 
 class Casters:
-    """Takes the scans of a fleet among segments and discs."""
+    """Takes the scans of a fleet among segments and discs, in C++."""
 
     def __init__(self, lidars: Sequence[Lidar], segments: Float, radius: Float) -> None:
         self._radius = radius

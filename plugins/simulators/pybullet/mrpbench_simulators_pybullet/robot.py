@@ -10,7 +10,7 @@ import math
 
 from mrpbench_core.model.fleet import RobotModel
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
-from mrpbench_simulators_pybullet.driven import Driven
+from mrpbench_simulators_pybullet.wheeled_body import WheeledBody
 
 _CLEARANCE = 0.01
 """metres between body and floor."""
@@ -23,7 +23,7 @@ _WHEEL_SHARE = 0.1
 _GRAVITY = 9.81
 
 
-def build_robot(bullet: Bullet, robot: RobotModel, x: float, y: float, yaw: float) -> Driven:
+def build_robot(bullet: Bullet, robot: RobotModel, x: float, y: float, yaw: float) -> WheeledBody:
     """Put a robot on the floor. Link 0 is its left wheel, link 1 its right; its frame is in the middle of the axle."""
     module, radius = bullet.module, robot.wheel_radius
     body = bullet.createCollisionShape(module.GEOM_MESH, vertices=_hull(robot))
@@ -53,7 +53,7 @@ def build_robot(bullet: Bullet, robot: RobotModel, x: float, y: float, yaw: floa
     for link in (0, 1):
         bullet.assign(index, link, Group.WHEELS)
         bullet.changeDynamics(index, link, lateralFriction=1, jointDamping=0, **common)
-    return Driven(body=index)
+    return WheeledBody(body=index)
 
 
 def body_shape(bullet: Bullet, robot: RobotModel) -> int:
@@ -64,7 +64,7 @@ def body_shape(bullet: Bullet, robot: RobotModel) -> int:
 
 
 def motor_torque(robot: RobotModel) -> float:
-    """The most a motor gives, N m: enough to make one wheel that bears all of the weight slip."""
+    """The highest torque of a motor, N m: enough to make a wheel slip that bears the whole weight."""
     return robot.mass * _GRAVITY * robot.wheel_radius
 
 

@@ -2,8 +2,9 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import Literal
 
+import attrs
 import numpy as np
 
 from mrpbench_core.api import Simulation
@@ -16,27 +17,34 @@ from mrpbench_core.model.scan_schedule import ScanSchedule
 from mrpbench_core.model.world import World
 from mrpbench_simulators_pybullet.bodies import Bodies
 from mrpbench_simulators_pybullet.bullet import Bullet, Group, quiet
-from mrpbench_simulators_pybullet.contacts import Contacts, Pairs
+from mrpbench_simulators_pybullet.contacts import ContactPairs, Contacts
 from mrpbench_simulators_pybullet.leaves import Leaves
 from mrpbench_simulators_pybullet.lidar import Casters, RayTests
 from mrpbench_simulators_pybullet.walls import build_walls
 from mrpbench_simulators_pybullet.wheels import Wheels
 
-if TYPE_CHECKING:
-    from mrpbench_simulators_pybullet.simulator import PyBullet
-
 _TIMESTEP = {"wheels": 1 / 240, "body": 1 / 60}
 _MOVER_HEIGHT = 1.7
 _NEAR = 0.2
-"""Metres from a robot beyond which no leaf is asked whether it touches one."""
+"""Metres from a robot within which the leaves of doors are checked for contacts."""
+
+
+@attrs.frozen(kw_only=True)
+class PhysicsOptions:
+    """The options of the simulator `pybullet`, by their names."""
+
+    timestep: float | None
+    iterations: int
+    model: Literal["wheels", "body"]
+    lidar: Literal["native", "pybullet"]
 
 
 class BulletSimulation(Simulation):
-    """Robots, walls and movers in a Bullet world of their own."""
+    """Robots, walls and movers in a Bullet world of their own; arguments as in `Simulator.open`."""
 
     def __init__(
         self,
-        options: "PyBullet",
+        options: PhysicsOptions,
         world: World,
         fleet: Fleet,
         placements: Float,
@@ -80,7 +88,7 @@ class BulletSimulation(Simulation):
 
     @property
     def state(self) -> State:
-        """The truth now."""
+        """The true state now."""
         return self._state
 
     def step(self, inputs: Inputs) -> State:
@@ -104,7 +112,7 @@ class BulletSimulation(Simulation):
         return self._state
 
     def _operate(self, commands: Mapping[str, float]) -> None:
-        """Move doors and lifts, and who is in a lift."""
+        """Move doors and lifts, and the robots in lifts."""
         before, pose, level = self._doing, self._state.pose, self._level
         after = self._facilities.advance(before, commands, self._period, pose, level, self._radius)
         if after == before:
@@ -130,7 +138,7 @@ class BulletSimulation(Simulation):
             position = (x - vx * before, y - vy * before, _MOVER_HEIGHT / 2)
             self._bullet.resetBasePositionAndOrientation(body, position, (0.0, 0.0, 0.0, 1.0))
 
-    def _observe(self, contacts: Pairs) -> State:
+    def _observe(self, contacts: ContactPairs) -> State:
         self._plane, twist = self._robots.observe()
         return State(
             pose=self._layout.to_levels(self._plane, self._level),
@@ -158,5 +166,5 @@ class BulletSimulation(Simulation):
         return self._casters.scan(lidar, robots, self._plane, self._mover_places, self._outlines)
 
     def close(self) -> None:
-        """Give the physics world back."""
+        """Close the physics world."""
         self._bullet.close()

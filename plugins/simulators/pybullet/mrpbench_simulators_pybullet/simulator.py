@@ -1,4 +1,4 @@
-"""The recipe: PyBullet as the reference for how rigid bodies with wheels move."""
+"""The simulator `pybullet`: rigid bodies with wheels, the reference for the faster simulators."""
 
 from collections.abc import Sequence
 from typing import Literal
@@ -18,8 +18,8 @@ class PyBullet(Simulator):
 
     timestep: float | None = option(
         None,
-        help="physics step, shortened so that a whole number fills a control period; by default 1/240 s on wheels and "
-        "1/60 s for bodies, which drive exactly with any",
+        help="physics step, shortened so that steps fill a control period; by default 1/240 s for the "
+        "model `wheels` and 1/60 s for `body`, which is exact with any step",
         unit="s",
         validator=optional(gt(0)),
     )
@@ -27,10 +27,12 @@ class PyBullet(Simulator):
         30, help="iterations of the constraint solver in each step; with fewer, wheels slip", validator=ge(1)
     )
     model: Literal["wheels", "body"] = option(
-        "wheels", help="robots on driven wheels, or the faster single bodies that keep to the plane"
+        "wheels",
+        help="`wheels`: bodies on driven wheels; `body`: single bodies that keep to the plane, which is faster",
     )
     lidar: Literal["native", "pybullet"] = option(
-        "native", help="cast beams natively, or by PyBullet's slower ray tests; they see the same"
+        "native",
+        help="`native`: cast beams in C++; `pybullet`: by ray tests, which are slower and give the same ranges",
     )
 
     def open(
@@ -49,6 +51,7 @@ class PyBullet(Simulator):
             InputError: PyBullet is not installed.
         """
         del seed
-        from mrpbench_simulators_pybullet.simulation import BulletSimulation
+        from mrpbench_simulators_pybullet.simulation import BulletSimulation, PhysicsOptions
 
-        return BulletSimulation(self, world, fleet, placements, period, movers, levels)
+        options = PhysicsOptions(timestep=self.timestep, iterations=self.iterations, model=self.model, lidar=self.lidar)
+        return BulletSimulation(options, world, fleet, placements, period, movers, levels)

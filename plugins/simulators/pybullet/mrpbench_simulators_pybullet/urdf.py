@@ -1,9 +1,9 @@
-"""A robot as its URDF describes it, on wheels that are driven as exactly as those of the robots without one.
+"""A robot as its URDF describes it, on wheels that drive as accurately as those of robots without a URDF.
 
 PyBullet loads a copy of the URDF in which each driven wheel touches the floor as a sphere of its radius: a cylinder's
 contact wanders over its width, and turns err by a percent. The wheel's own shape meets everything but the floor.
-Whatever else touches the floor, casters above all, glides. Looks are left out, and links without mass get next to none:
-PyBullet would give them a kilogram.
+Everything else that touches the floor, such as casters, has no friction. Visual shapes are removed, and links without
+mass get a mass close to zero, since PyBullet would give them a kilogram.
 """
 
 import tempfile
@@ -17,17 +17,17 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.urdf import DifferentialDrive, drive_of, mesh_files, read_urdf
 from mrpbench_core.model.fleet import RobotModel, Urdf
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
-from mrpbench_simulators_pybullet.driven import Driven, Place
+from mrpbench_simulators_pybullet.wheeled_body import Transform, WheeledBody
 
 _GUARD = "guard of "
-"""Before the name of a wheel: the link that has its shape."""
+"""Prefix of the name of a link that has the shape of a wheel."""
 _BEYOND = 0.01
 """metres by which a body may stand out beyond the footprint that planners keep free."""
 _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 _NO_MASS = {"mass": {"value": "1e-6"}, "inertia": {"ixx": "1e-9", "iyy": "1e-9", "izz": "1e-9"}}
 
 
-def load_described(bullet: Bullet, robot: RobotModel, urdf: Urdf, x: float, y: float, yaw: float) -> Driven:
+def load_described(bullet: Bullet, robot: RobotModel, urdf: Urdf, x: float, y: float, yaw: float) -> WheeledBody:
     """Put a robot on the floor.
 
     Raises:
@@ -43,14 +43,16 @@ def load_described(bullet: Bullet, robot: RobotModel, urdf: Urdf, x: float, y: f
         try:
             body: int = bullet.loadURDF(str(copy))
         except bullet.module.error:
-            raise InputError("PyBullet cannot load it", file=file, hint="meshes must be .obj, .stl or .dae") from None
+            raise InputError(
+                "PyBullet cannot load this URDF", file=file, hint="meshes must be .obj, .stl or .dae"
+            ) from None
     about = [bullet.getJointInfo(body, index) for index in range(bullet.getNumJoints(body))]
     joints = {entry[1].decode(): entry[0] for entry in about}
     wheels = (joints[urdf.wheels[0]], joints[urdf.wheels[1]])
     root = bullet.getBodyInfo(body)[0].decode()
     links = {root: -1} | {entry[12].decode(): entry[0] for entry in about if entry[0] not in wheels}
     _set_contacts(bullet, body, links, wheels)
-    driven = Driven(body=body, joints=wheels, signs=drive.signs, base=_base(bullet, body, robot, drive))
+    driven = WheeledBody(body=body, joints=wheels, signs=drive.signs, base=_base(bullet, body, robot, drive))
     _put(bullet, driven, 0.0, 0.0, 0.0)
     _check_size(bullet, body, links, robot, file)
     _put(bullet, driven, x, y, yaw)
@@ -58,7 +60,7 @@ def load_described(bullet: Bullet, robot: RobotModel, urdf: Urdf, x: float, y: f
 
 
 def _prepare(description: ET.Element, file: Path, urdf: Urdf, radius: float) -> None:
-    """Make of the URDF what PyBullet is to load."""
+    """Change the URDF for PyBullet."""
     meshes = mesh_files(description, file)
     for mesh in description.iterfind("link/collision/geometry/mesh"):
         mesh.set("filename", str(meshes[mesh.get("filename", "")].resolve()))
@@ -111,15 +113,17 @@ def _set_contacts(bullet: Bullet, body: int, links: dict[str, int], wheels: tupl
         bullet.changeDynamics(body, link, lateralFriction=0, contactProcessingThreshold=0, **common)
 
 
-def _base(bullet: Bullet, body: int, robot: RobotModel, drive: DifferentialDrive) -> Place:
+def _base(bullet: Bullet, body: int, robot: RobotModel, drive: DifferentialDrive) -> Transform:
     """The robot's base frame, on the floor below the middle of the axle, seen from the root link's centre of mass."""
     x, y, z = drive.axle
     centre = bullet.getDynamicsInfo(body, -1)[3:5]
-    base: Place = bullet.multiplyTransforms(*bullet.invertTransform(*centre), (x, y, z - robot.wheel_radius), _UPRIGHT)
+    base: Transform = bullet.multiplyTransforms(
+        *bullet.invertTransform(*centre), (x, y, z - robot.wheel_radius), _UPRIGHT
+    )
     return base
 
 
-def _put(bullet: Bullet, driven: Driven, x: float, y: float, yaw: float) -> None:
+def _put(bullet: Bullet, driven: WheeledBody, x: float, y: float, yaw: float) -> None:
     assert driven.base is not None
     upright = bullet.getQuaternionFromEuler((0.0, 0.0, yaw))
     there = bullet.multiplyTransforms((x, y, 0.0), upright, *bullet.invertTransform(*driven.base))

@@ -5,13 +5,13 @@ import numpy as np
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.fleet import Fleet, RobotModel
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
-from mrpbench_simulators_pybullet.driven import Driven
 from mrpbench_simulators_pybullet.robot import build_robot, motor_torque
 from mrpbench_simulators_pybullet.urdf import load_described
+from mrpbench_simulators_pybullet.wheeled_body import WheeledBody
 
 
 class Wheels:
-    """A fleet on the floor. Poses and twists are exact; where wheels slip, so do the robots."""
+    """A fleet on the floor. Observed poses and twists are those of the bodies, wheel slip included."""
 
     def __init__(self, bullet: Bullet, fleet: Fleet, poses: Float, timestep: float) -> None:
         self._bullet = bullet
@@ -30,17 +30,17 @@ class Wheels:
         self._reached = False
         self._drive(np.arange(len(robots)))
 
-    def _build(self, robot: RobotModel, x: float, y: float, yaw: float) -> Driven:
+    def _build(self, robot: RobotModel, x: float, y: float, yaw: float) -> WheeledBody:
         if robot.urdf is None:
             return build_robot(self._bullet, robot, x, y, yaw)
         return load_described(self._bullet, robot, robot.urdf, x, y, yaw)
 
     def command(self, twist: Float) -> None:
-        """What the robots are to do, f8[n,2] within their limits, from now on."""
+        """Set the twists f8[n,2], within the limits of the robots, from now on."""
         self._command, self._reached = twist, False
 
     def before_step(self) -> None:
-        """Hand the motors their speeds for the next physics step."""
+        """Set the speeds of the motors for the next physics step."""
         if self._reached:
             return
         change = np.clip(self._command - self._target, -self._ramp, self._ramp)
@@ -65,7 +65,7 @@ class Wheels:
             )
 
     def observe(self) -> tuple[Float, Float]:
-        """Poses f8[n,3] and twists f8[n,2]."""
+        """Return poses f8[n,3] and twists f8[n,2]."""
         pose, twist = np.empty((len(self.bodies), 3)), np.empty((len(self.bodies), 2))
         for robot, driven in enumerate(self._driven):
             (x, y, z), (qx, qy, qz, qw) = self._bullet.getBasePositionAndOrientation(driven.body)
@@ -80,7 +80,7 @@ class Wheels:
         return pose, twist
 
     def place(self, robot: int, x: float, y: float) -> None:
-        """Put a robot elsewhere as it is."""
+        """Move a robot to x, y, with the yaw that it has."""
         pose, _ = self.observe()
         (at_x, at_y, z), orientation = self._bullet.getBasePositionAndOrientation(self.bodies[robot])
         there = (at_x + x - pose[robot, 0], at_y + y - pose[robot, 1], z)

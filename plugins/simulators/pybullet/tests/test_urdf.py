@@ -125,5 +125,5 @@ def test_a_mesh_that_is_none_is_one_line(tmp_path):
         (tmp_path / name).write_text((FOLDER / name).read_text().replace("cap.obj", "cap.xyz"))
     (tmp_path / "cap.xyz").write_text("nothing")
     robot = load_robot("cart.yaml", tmp_path)
-    with pytest.raises(InputError, match=r"cart\.urdf: PyBullet cannot load it \(meshes must be"):
+    with pytest.raises(InputError, match=r"cart\.urdf: PyBullet cannot load this URDF \(meshes must be"):
         drive([[0, 0]], 0, robot=robot)

@@ -1,4 +1,4 @@
-"""The critics of Nav2, which run in C++, by its names, options and defaults."""
+"""The critics of Nav2 by its names, options and defaults. They run in C++ (`native/src/local/critic_*.cpp`)."""
 
 from typing import Any, Literal, Self, get_args
 
@@ -12,8 +12,8 @@ from mrpbench_core.model.fleet import RobotModel
 from mrpbench_core.model.world import World
 
 Aggregation = Literal["last", "sum", "product"]
-_AGGREGATION: Any = option("last", help="how the scores of a trajectory's poses make one")
-_FORWARD: Any = option(0.325, help="distance ahead of the robot that is looked at", unit="m", validator=ge(0))
+_AGGREGATION: Any = option("last", help="how the scores of the poses are combined to that of the trajectory")
+_FORWARD: Any = option(0.325, help="distance of the point that is scored ahead of the robot", unit="m", validator=ge(0))
 _SUM: Any = option(False, help="sum the costs of all poses instead of taking the last")
 
 
@@ -22,7 +22,7 @@ class NativeCritic(Critic):
     """A critic that runs in C++."""
 
     def start(self, robot: RobotModel, world: World) -> CriticSession:  # noqa: ARG002
-        """Not for these: `Dwb` hands them to C++ whole."""
+        """Raise TypeError: `Dwb` passes these critics to the native part instead."""
         raise TypeError(f"{type(self).__name__} runs in C++")
 
     @property
@@ -36,10 +36,10 @@ class NativeCritic(Critic):
 
     @classmethod
     def from_nav2(cls, block: Nav2Block) -> Self:
-        """The critic as a Nav2 file describes it.
+        """Create the critic from a Nav2 file.
 
         Raises:
-            InputError: a value makes no sense.
+            InputError: a value is not supported.
         """
         name = cls.__name__
         values = {}
@@ -55,53 +55,55 @@ class NativeCritic(Critic):
 
 @attrs.frozen(kw_only=True)
 class RotateToGoal(NativeCritic):
-    """Near the goal first slows down, then only turns to the yaw that is wanted there, if one is."""
+    """Near the goal, makes the robot slow down and then only turn to the yaw that is prescribed there, if one is."""
 
-    slowing_factor: float = option(5.0, help="how much speed costs near the goal")
+    slowing_factor: float = option(5.0, help="cost of speed near the goal")
     lookahead_time: float = option(-1.0, help="compare the yaw at this time instead of at the end; -1 = at the end")
 
 
 @attrs.frozen(kw_only=True)
 class Oscillation(NativeCritic):
-    """Forbids to turn back and forth."""
+    """Forbids turning or driving back and forth."""
 
-    x_only_threshold: float = option(0.05, help="turning counts only at speeds up to this", unit="m/s")
-    oscillation_reset_dist: float = option(0.05, help="distance after which all ways are open again", unit="m")
-    oscillation_reset_angle: float = option(0.2, help="turn after which all ways are open again, radians")
-    oscillation_reset_time: float = option(-1.0, help="time after which all ways are open again; -1 = never", unit="s")
+    x_only_threshold: float = option(0.05, help="turning is checked only at speeds up to this", unit="m/s")
+    oscillation_reset_dist: float = option(0.05, help="distance after which all motions are allowed again", unit="m")
+    oscillation_reset_angle: float = option(0.2, help="turn after which all motions are allowed again, radians")
+    oscillation_reset_time: float = option(
+        -1.0, help="time after which all motions are allowed again; -1 = never", unit="s"
+    )
 
 
 @attrs.frozen(kw_only=True)
 class BaseObstacle(NativeCritic):
-    """The costmap's cost under the robot's centre."""
+    """Scores the cost of the cell under the centre of the robot."""
 
     sum_scores: bool = _SUM
 
 
 @attrs.frozen(kw_only=True)
 class ObstacleFootprint(NativeCritic):
-    """The costmap's highest cost along the footprint's outline."""
+    """Scores the highest cost along the outline of the footprint."""
 
     sum_scores: bool = _SUM
 
 
 @attrs.frozen(kw_only=True)
 class PathDist(NativeCritic):
-    """How far the robot ends from the path."""
+    """Scores the distance of the robot from the path."""
 
     aggregation_type: Aggregation = _AGGREGATION
 
 
 @attrs.frozen(kw_only=True)
 class GoalDist(NativeCritic):
-    """How far the robot ends from the end of the path within the costmap."""
+    """Scores the distance of the robot from the end of the path within the costmap."""
 
     aggregation_type: Aggregation = _AGGREGATION
 
 
 @attrs.frozen(kw_only=True)
 class PathAlign(NativeCritic):
-    """How far a point ahead of the robot ends from the path."""
+    """Scores the distance of a point ahead of the robot from the path."""
 
     forward_point_distance: float = _FORWARD
     aggregation_type: Aggregation = _AGGREGATION
@@ -109,7 +111,7 @@ class PathAlign(NativeCritic):
 
 @attrs.frozen(kw_only=True)
 class GoalAlign(NativeCritic):
-    """How far a point ahead of the robot ends from the end of the path within the costmap, shifted as far."""
+    """Scores the distance of a point ahead of the robot from the end of the path, moved ahead by as much."""
 
     forward_point_distance: float = _FORWARD
     aggregation_type: Aggregation = _AGGREGATION
@@ -117,11 +119,11 @@ class GoalAlign(NativeCritic):
 
 @attrs.frozen(kw_only=True)
 class PreferForward(NativeCritic):
-    """Prefers to drive ahead and straight."""
+    """Prefers driving straight ahead."""
 
-    penalty: float = option(1.0, help="cost of driving back, or of creeping nearly straight")
-    strafe_x: float = option(0.1, help="speed below which it is creeping", unit="m/s")
-    strafe_theta: float = option(0.2, help="turn rate below which it is nearly straight", unit="rad/s")
+    penalty: float = option(1.0, help="cost of driving back, and of driving slowly and nearly straight")
+    strafe_x: float = option(0.1, help="speed below which driving is slow", unit="m/s")
+    strafe_theta: float = option(0.2, help="turn rate below which driving is nearly straight", unit="rad/s")
     theta_scale: float = option(10.0, help="cost of turning, per rad/s")
 
 
@@ -145,4 +147,4 @@ DEFAULT: tuple[Critic, ...] = (
     PathDist(scale=32.0),
     GoalDist(scale=24.0),
 )
-"""Those of Nav2's parameter file for the TurtleBot3 (galactic), which MRP-Bench used too."""
+"""The critics in the parameter file of Nav2 for the TurtleBot3 (galactic), which MRP-Bench used too."""
