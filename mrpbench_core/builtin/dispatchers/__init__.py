@@ -1,1 +1,5 @@
-"""Dispatchers: how a plan is released to robots that do not keep its times."""
+"""Dispatchers release a plan to robots that do not keep its times.
+
+`adg`, `timed` and `all_at_once` are the dispatchers. `adg` builds a `dependency_graph` of moves from `type2_edges`,
+`rotations` and the `occupations` of resources, and asks for the latter by `resource_requests`.
+"""

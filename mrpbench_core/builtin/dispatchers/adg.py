@@ -1,15 +1,15 @@
 """The dispatcher `adg`: an action dependency graph keeps the plan's order and forgets its times.
 
 Hönig, Kiesel, Tinka, Durham and Ayanian, "Persistent and Robust Execution of MAPF Schedules in Warehouses", RA-L 2019.
-A robot may go on to its next move as soon as the robots that the plan lets pass first have passed, however late they
-all are, so no delay makes two robots meet and none makes them wait for one another for ever.
+A robot may begin its next move as soon as the robots that the plan lets pass first have passed, however late they are.
+Delays therefore cause neither collisions nor deadlocks.
 """
 
 import attrs
 import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
-from mrpbench_core.builtin.dispatchers.gates import REACHED, Gates
+from mrpbench_core.builtin.dispatchers.dependency_graph import REACHED, DependencyGraph
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.arrays import Int32, frozen_array
 from mrpbench_core.model.execution import FleetView, Orders
@@ -19,23 +19,23 @@ from mrpbench_core.model.problem import Problem
 
 @attrs.frozen(kw_only=True)
 class Adg(Dispatcher):
-    """Releases each move once those that precede it in the plan are out of its way."""
+    """Releases each move once the moves that precede it in the plan are out of its way."""
 
     group_margin: float = option(
         0.0,
-        help="room beyond their radii that two robots need to be released together in a ring of moves",
+        help="distance beyond their radii that two robots of a rotation must keep",
         unit="m",
         validator=attrs.validators.ge(0),
     )
     lookahead: int = option(
         8,
-        help="segments released at most beyond the one under way; a new plan must keep what is released",
+        help="segments released at most beyond the one under way; a new plan must keep the released segments",
         validator=attrs.validators.ge(1),
     )
 
     request_ahead: int = option(
         2,
-        help="segments before a door, lift or mutex at which a robot asks for it, once those before it have left",
+        help="segments before a door, lift or mutex at which a robot asks for it, once the robots before it have left",
         validator=attrs.validators.ge(0),
     )
 
@@ -43,8 +43,8 @@ class Adg(Dispatcher):
         """Begin to release a plan.
 
         Raises:
-            DispatchError: the plan has faults or conflicts; or robots wait for one another in a cycle that is no ring,
-                or a ring that their footprints, or a door, lift or mutex, do not allow.
+            DispatchError: the plan has faults or conflicts, or robots wait for one another in a cycle that is not a
+                rotation, or in a rotation that their footprints or a door, lift or mutex do not allow.
         """
         return AdgSession(self, problem, plan)
 
@@ -57,7 +57,7 @@ class AdgSession(DispatcherSession):
         self.seen = np.zeros((2, len(problem)), np.int64)
         self.released: Int32 = np.zeros(len(problem), np.int32)
         self.plan = plan
-        self.looked: FleetView | None = None
+        self.last_view: FleetView | None = None
         self.orders = Orders(released=self.released)
         self.adopt(problem, plan)
 
@@ -65,27 +65,27 @@ class AdgSession(DispatcherSession):
         """Continue with `plan`; what was released stays so.
 
         Raises:
-            DispatchError: as `Adg.start`; or the plan takes back what was released; or it sends a robot first where
-                another is on its way already. The session then continues with its old plan.
+            DispatchError: as `Adg.start`, or the plan does not contain what was released, or it lets a robot pass first
+                where another one is on its way already. The session then continues with its old plan.
         """
         _check(problem, plan)
         for robot, count in enumerate(self.released.tolist()):
             if not np.array_equal(plan.paths[robot].edge[:count], self.plan.paths[robot].edge[:count]):
                 raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
         committed: Int32 = np.maximum(self.released, [len(path) for path in problem.commitments] or 0)
-        gates = Gates(problem, plan, self.options.group_margin, self.options.request_ahead)
-        gates.look(self.seen, np.arange(len(problem)))
-        gates.commit(committed)
-        self.plan, self.gates = plan, gates
-        self.looked = None
+        graph = DependencyGraph(problem, plan, self.options.group_margin, self.options.request_ahead)
+        graph.update(self.seen, np.arange(len(problem)))
+        graph.commit(committed)
+        self.plan, self.graph = plan, graph
+        self.last_view = None
         self.released = committed
         self._release()
 
-    def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - order is all that counts, not time
-        """Release what the robots' progress has opened: work is done only for robots that got further."""
-        before, self.looked = self.looked, view
-        nobody = before is not None and view.reached is before.reached and view.cleared is before.cleared
-        if not nobody or self.gates.requests:
+    def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - only the order counts
+        """Release the moves that no longer wait for anything, given the progress of the robots."""
+        before, self.last_view = self.last_view, view
+        unchanged = before is not None and view.reached is before.reached and view.cleared is before.cleared
+        if not unchanged or self.graph.requests:
             self.orders = self._orders(view)
         return self.orders
 
@@ -94,16 +94,16 @@ class AdgSession(DispatcherSession):
         changed = (seen != self.seen).any(axis=0).nonzero()[0]
         if len(changed):
             self.seen = seen
-            self.gates.look(seen, changed)
-        asked = self.gates.ask(seen, view.granted)
-        if asked or len(changed):
+            self.graph.update(seen, changed)
+        requested = self.graph.request(seen, view.granted)
+        if requested or len(changed):
             self._release()
-        requests = self.gates.requests.pairs()
-        return Orders(released=self.released, requests=requests, replan=self.gates.exhausted(seen[REACHED]))
+        requests = self.graph.requests.pairs()
+        return Orders(released=self.released, requests=requests, replan=self.graph.replan_reason(seen[REACHED]))
 
     def _release(self) -> None:
         ahead = (self.seen[REACHED] + 1 + self.options.lookahead).astype(np.int32)
-        self.released = frozen_array(np.maximum(self.released, np.minimum(self.gates.released, ahead)), "i4")
+        self.released = frozen_array(np.maximum(self.released, np.minimum(self.graph.released, ahead)), "i4")
 
 
 def _check(problem: Problem, plan: Plan) -> None:

@@ -1,15 +1,14 @@
-"""The dispatcher `all_at_once`: every path is sent whole, whatever the others do.
+"""The dispatcher `all_at_once`: sends every path whole, whatever other robots do.
 
-So did MRP-Bench (Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered
-Environments", ICRA 2023), which let 2.5 s pass between one robot and the next. Nothing keeps robots apart
-here but what they see themselves.
+MRP-Bench does the same (Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered
+Environments", ICRA 2023), with 2.5 s between one robot and the next. Only their sensors keep robots apart.
 """
 
 import attrs
 import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatcherSession, option
-from mrpbench_core.builtin.dispatchers.uses import refuse_facilities
+from mrpbench_core.builtin.dispatchers.occupations import refuse_facilities
 from mrpbench_core.model.execution import FleetView, Orders
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
@@ -24,10 +23,10 @@ class AllAtOnce(Dispatcher):
     )
 
     def start(self, problem: Problem, plan: Plan) -> "AllAtOnceSession":
-        """Begin to send; any plan is accepted, unless it leads through doors or lifts.
+        """Begin to release any plan that uses no doors or lifts.
 
         Raises:
-            DispatchError: it does; nobody would open them.
+            DispatchError: the plan occupations a door or a lift, which would not be opened.
         """
         refuse_facilities(problem, plan, "all_at_once")
         return AllAtOnceSession(self.stagger, problem, plan)
@@ -43,13 +42,13 @@ class AllAtOnceSession(DispatcherSession):
         self.adopt(problem, plan)
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
-        """Send the new paths to the robots whose turn has come, and to the others when it does."""
+        """Continue with the new paths."""
         self.length = np.array([len(path) for path in plan.paths], np.int32)
         if problem.commitments:
             self.released = np.maximum(self.released, [len(path) for path in problem.commitments])
 
-    def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - it does not look
-        """Release whole paths."""
+    def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - progress does not matter
+        """Release the whole paths of the robots whose turn has come."""
         if self.begun is None:
             self.begun = now
         turn = self.begun + self.stagger * np.arange(len(self.length)) <= now + 1e-9

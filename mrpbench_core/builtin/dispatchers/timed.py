@@ -1,10 +1,10 @@
-"""The dispatcher `timed`: every robot keeps the plan's clock, and nobody checks whether it can."""
+"""The dispatcher `timed`: releases by the plan's times, whether or not robots keep them."""
 
 import attrs
 import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatcherSession
-from mrpbench_core.builtin.dispatchers.uses import refuse_facilities
+from mrpbench_core.builtin.dispatchers.occupations import refuse_facilities
 from mrpbench_core.model.execution import FleetView, Orders
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
@@ -15,10 +15,10 @@ class Timed(Dispatcher):
     """Releases each segment at the time at which the plan enters it."""
 
     def start(self, problem: Problem, plan: Plan) -> "TimedSession":
-        """Begin at simulated time 0, the plan's tick 0; any plan is accepted, unless it leads through doors or lifts.
+        """Begin to release any plan that uses no doors or lifts; tick 0 of the plan is simulated time 0.
 
         Raises:
-            DispatchError: it does; nobody would open them.
+            DispatchError: the plan occupations a door or a lift, which would not be opened.
         """
         refuse_facilities(problem, plan, "timed")
         return TimedSession(problem, plan)
@@ -32,7 +32,7 @@ class TimedSession(DispatcherSession):
         self.adopt(problem, plan)
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
-        """Go on by the new plan's times."""
+        """Continue with the times of the new plan."""
         if problem.commitments:
             self.released = np.maximum(self.released, [len(path) for path in problem.commitments])
         robot = np.repeat(np.arange(len(plan.paths)), [len(path) for path in plan.paths])
@@ -43,8 +43,8 @@ class TimedSession(DispatcherSession):
         self.passed = 0
         self.by_clock = np.zeros(len(plan.paths), np.int32)
 
-    def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - it does not look
-        """Release what is due: within a path, times never decrease, so a count is a prefix."""
+    def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - progress does not matter
+        """Release the segments that are due; times never decrease along a path, so these are leading segments."""
         passed = int(np.searchsorted(self.due, now + 1e-9, side="right"))
         self.by_clock += np.bincount(self.robot[self.passed : passed], minlength=len(self.by_clock)).astype(np.int32)
         self.passed = max(passed, self.passed)

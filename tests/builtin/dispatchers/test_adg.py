@@ -243,7 +243,7 @@ def test_only_what_the_horizon_covers_is_released_and_then_a_plan_is_asked_for(m
     orders = session.update(0.0, make.view([1, 0]))
     assert orders.released.tolist() == [2, 0]
     assert orders.replan is None
-    assert session.update(0.0, make.view([2, 0])).replan == "the robots have come to the plan's horizon"
+    assert session.update(0.0, make.view([2, 0])).replan == "the robots have reached the horizon of the plan"
     plan_without = make.solved(make.grid(1, 5), [[0, 1, 2, 3]])
     assert Adg().start(*plan_without).update(0.0, make.view([3])).replan is None
 

@@ -41,7 +41,7 @@ def accepted(problem, plan):
     try:
         return Adg().start(problem, plan)
     except DispatchError as refusal:
-        assert "wait for one another" in str(refusal) or "in a ring" in str(refusal)  # noqa: PT017
+        assert "wait for one another" in str(refusal) or " rotate" in str(refusal)  # noqa: PT017
         return None
 
 

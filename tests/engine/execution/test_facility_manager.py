@@ -52,7 +52,7 @@ def test_everybody_gets_through_and_no_leaf_ever_touches_anybody(planner, seed, 
     try:
         run = FacilityExecutor(world, problem, result.plan, random)
     except DispatchError:
-        event("robots turn in a ring through the door")
+        event("robots rotate through the door")
         return
     rooms = {resource.name: resource.capacity for resource in problem.roadmap.resources}
     for _ in range(LONGEST):

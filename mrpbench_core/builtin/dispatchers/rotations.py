@@ -1,7 +1,7 @@
-"""Cycles of moves that wait for one another: robots that turn on the spot like beads on a ring.
+"""Rotations: cycles of moves in which each robot moves to the vertex that the next one leaves.
 
-Rule 1 of `mrpbench_core.model.conflicts` lets robots follow one another closely, so that a whole ring of them may move
-at once. Then each waits for the next to clear its vertex, nobody can be first, and they can only start together.
+Rule 1 of `mrpbench_core.model.conflicts` lets robots follow one another closely, so that a cycle of robots may
+move at once. Each then waits for the next one to clear its vertex, so they have to be released together.
 """
 
 from itertools import combinations
@@ -9,19 +9,19 @@ from itertools import combinations
 import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
-from mrpbench_core.builtin.dispatchers.precedence import Moves, Precedence
+from mrpbench_core.builtin.dispatchers.type2_edges import Moves, Type2Edges
 from mrpbench_core.checking.strong_components import strong_components
 from mrpbench_core.model.arrays import Float, Int
 from mrpbench_core.model.conflicts import TOLERANCE
 from mrpbench_core.model.problem import Problem
 
 
-def rotations(problem: Problem, moves: Moves, order: Precedence, margin: float) -> list[tuple[int, ...]]:
+def rotations(problem: Problem, moves: Moves, order: Type2Edges, margin: float) -> list[tuple[int, ...]]:
     """Groups of moves that must start together, none in two groups.
 
     Raises:
-        DispatchError: moves wait for one another that do not form one ring, or whose robots would come closer than the
-            sum of their radii and `margin` metres although they move in step.
+        DispatchError: moves wait for one another that do not form a rotation, or whose robots would come closer than
+            the sum of their radii and `margin` metres even if they move in step.
     """
     before, after = _suspects(problem, moves, order)
     groups = strong_components(before.tolist(), after.tolist())
@@ -29,12 +29,14 @@ def rotations(problem: Problem, moves: Moves, order: Precedence, margin: float) 
         robots = moves.robot[list(group)]
         inside = np.isin(order.before, group) & np.isin(order.after, group)
         if order.completed[inside].any() or len(np.unique(robots)) < len(robots):
-            raise DispatchError(f"{_who_and_where(moves, group)} wait for one another: the plan relies on its timing")
+            raise DispatchError(
+                f"{_robots_and_vertices(moves, group)} wait for one another: the plan relies on its timing"
+            )
         _check_distances(problem, moves, group, margin)
     return groups
 
 
-def _suspects(problem: Problem, moves: Moves, order: Precedence) -> tuple[Int, Int]:
+def _suspects(problem: Problem, moves: Moves, order: Type2Edges) -> tuple[Int, Int]:
     """The arcs, also those along paths, that can be part of a cycle.
 
     A cycle comes back to the time it left, so arcs that do not go forward in the plan's time cover all of it.
@@ -65,7 +67,7 @@ def _check_distances(problem: Problem, moves: Moves, group: tuple[int, ...], mar
         needed = float(problem.radius[moves.robot[one]] + problem.radius[moves.robot[other]]) + margin
         if gap < needed - TOLERANCE:
             raise DispatchError(
-                f"{_who_and_where(moves, group)} move round in a ring at once, in which robots {moves.robot[one]} and "
+                f"{_robots_and_vertices(moves, group)} rotate, and robots {moves.robot[one]} and "
                 f"{moves.robot[other]} would come within {gap:.3f} m of one another and need {needed:.3f} m"
             )
 
@@ -81,7 +83,7 @@ def distance_in_step(a: Float, b: Float, c: Float, d: Float) -> float:
     return float(np.hypot(*(apart + share * change)))
 
 
-def _who_and_where(moves: Moves, group: tuple[int, ...]) -> str:
+def _robots_and_vertices(moves: Moves, group: tuple[int, ...]) -> str:
     robots = ", ".join(str(robot) for robot in np.unique(moves.robot[list(group)]))
     vertices = ", ".join(str(vertex) for vertex in np.unique(moves.head[list(group)]))
     return f"robots {robots} at vertices {vertices}"

@@ -1,16 +1,16 @@
-"""Who must go before whom: the orders between moves that a conflict-free plan implies.
+"""Type-2 edges: the orders between moves of different robots that a conflict-free plan implies.
 
-After Hönig et al., "Persistent and Robust Execution of MAPF Schedules in Warehouses", RA-L 2019, whose type-2 edges
-these are, here taken from the rules of `mrpbench_core.model.conflicts`. Whoever keeps them meets nobody, at any speed:
+The term is that of Hönig et al., "Persistent and Robust Execution of MAPF Schedules in Warehouses", RA-L 2019. The
+edges follow from the rules of `mrpbench_core.model.conflicts`. Robots that keep these orders do not meet, at any speed:
 
 - rule 1: at each vertex, the next robot moves in only after the one before has *cleared* it. That keeps rules 2 and 3
   too: to swap or to overtake, two robots must use one of the edge's ends in the wrong order;
 - rule 4: at each vertex, the next robot moves in only after the one before has also *completed* its move out;
-- rule 5: a move starts only after the last move on each element near it is *completed*. Moves are enough: who stands
-  at a vertex came there, or will leave it, by a move that touches it;
-- rule 6: see `mrpbench_core.builtin.dispatchers.uses`.
+- rule 5: a move starts only after the last move on each element near it is *completed*. Moves are enough: a
+  robot that stands at a vertex came there, or will leave it, by a move that touches it;
+- rule 6: see `mrpbench_core.builtin.dispatchers.occupations`.
 
-Only immediate predecessors are kept; the others follow from those of the predecessor.
+Only edges from immediate predecessors are kept; the others follow from the edges of the predecessors.
 """
 
 from typing import NamedTuple
@@ -38,7 +38,7 @@ class Moves(NamedTuple):
     leave: Int
 
 
-class Precedence(NamedTuple):
+class Type2Edges(NamedTuple):
     """Move `after[i]` waits for move `before[i]` of another robot; all [k]."""
 
     before: Int
@@ -48,7 +48,7 @@ class Precedence(NamedTuple):
 
 
 def moves_of(problem: Problem, plan: Plan) -> Moves:
-    """List the moves of a plan whose paths are sound."""
+    """List the moves of a plan whose paths have no faults."""
     sizes = [len(path) for path in plan.paths]
     nothing = np.empty(0, np.int64)
     edge, enter, leave = (
@@ -63,15 +63,15 @@ def moves_of(problem: Problem, plan: Plan) -> Moves:
     return Moves(first, robot, segment, edge, ends[:, 0], ends[:, 1], enter[is_move], leave[is_move])
 
 
-def precedence(problem: Problem, moves: Moves, resources: Precedence) -> Precedence:
-    """The orders that a conflict-free plan with these `moves` implies; rule 6 gives those of `resources`."""
+def type2_edges(problem: Problem, moves: Moves, resources: Type2Edges) -> Type2Edges:
+    """The edges that a conflict-free plan with these `moves` implies, including `resources`, those of rule 6."""
     found = [_at_vertices(problem, moves), resources]
     if Feature.FOOTPRINTS in problem.features:
         found += _between_footprints(problem, moves)
-    return _newest(moves, Precedence(*(np.concatenate(parts) for parts in zip(*found, strict=True))))
+    return _without_implied(moves, Type2Edges(*(np.concatenate(parts) for parts in zip(*found, strict=True))))
 
 
-def _at_vertices(problem: Problem, moves: Moves) -> Precedence:
+def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
     """Rules 1 to 4: each robot moves into a vertex after the one that stood there before moved out."""
     robots = np.arange(len(problem))
     starts, count = moves.first[:-1], np.diff(moves.first)
@@ -83,7 +83,7 @@ def _at_vertices(problem: Problem, moves: Moves) -> Precedence:
     arrival = np.concatenate([np.full(len(robots), -1), index])
     departure = np.concatenate([np.where(count > 0, starts, -1), np.where(is_last, -1, index + 1)])
     order = np.lexsort((begin, vertex))
-    if problem.horizon is not None:  # beyond it nothing is released, and stays may overlap
+    if problem.horizon is not None:  # beyond it nothing is released, and robots may overlap
         order = order[begin[order] <= problem.horizon]
     earlier, later = order[:-1], order[1:]
     pairs = (vertex[earlier] == vertex[later]) & (robot[earlier] != robot[later])
@@ -92,17 +92,17 @@ def _at_vertices(problem: Problem, moves: Moves) -> Precedence:
     before, after = np.where(gone, arrival[earlier], departure[earlier]), arrival[later]
     some = before >= 0
     before, after, gone = before[some], after[some], gone[some]
-    passed = gone.copy()  # where to have completed the move says it all, clear or not
+    passed = gone.copy()  # where it is enough that the move is completed
     if Feature.FOOTPRINTS in problem.features:
         passed |= moves.leave[before] <= moves.enter[after]
     completed = passed | (problem.rules.following == "forbidden")
     kinds = np.repeat([False, True], [int((~passed).sum()), int(completed.sum())])
-    return Precedence(
+    return Type2Edges(
         np.concatenate([before[~passed], before[completed]]), np.concatenate([after[~passed], after[completed]]), kinds
     )
 
 
-def _between_footprints(problem: Problem, moves: Moves) -> list[Precedence]:
+def _between_footprints(problem: Problem, moves: Moves) -> list[Type2Edges]:
     """Rule 5: for each move and each edge near its own, the last move there before it; one size of robot at a time."""
     found = []
     vertices = len(problem.roadmap.position)
@@ -124,12 +124,12 @@ def _between_footprints(problem: Problem, moves: Moves) -> list[Precedence]:
             some = last >= 0
             row, edge, last = row[some], edge[some], before[last[some]]
             other = (moves.edge[last] == edge) & (moves.robot[last] != moves.robot[row])
-            found.append(Precedence(last[other], row[other], np.ones(int(other.sum()), bool)))
+            found.append(Type2Edges(last[other], row[other], np.ones(int(other.sum()), bool)))
     return found
 
 
-def _newest(moves: Moves, all_of: Precedence) -> Precedence:
-    """Leave out what a robot's earlier moves have waited for already."""
+def _without_implied(moves: Moves, all_of: Type2Edges) -> Type2Edges:
+    """Leave out the edges that those of a robot's earlier moves imply."""
     before, after, completed = all_of
     order = np.lexsort((-before, after, completed, moves.robot[before], moves.robot[after]))
     before, after, completed = before[order], after[order], completed[order]
@@ -137,4 +137,4 @@ def _newest(moves: Moves, all_of: Precedence) -> Precedence:
     group = np.cumsum(np.append(0, (pair[:, 1:] != pair[:, :-1]).any(axis=0)))[: len(before)]
     rank = group * (len(moves.robot) + 1) + before
     newest = np.append(True, rank[1:] > np.maximum.accumulate(rank)[:-1])[: len(before)]
-    return Precedence(before[newest], after[newest], completed[newest])
+    return Type2Edges(before[newest], after[newest], completed[newest])

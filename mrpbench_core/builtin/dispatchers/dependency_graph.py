@@ -1,0 +1,173 @@
+"""The action dependency graph of a plan: counts, for each move, the dependencies that are not yet met.
+
+Terms are those of Hönig et al., "Persistent and Robust Execution of MAPF Schedules in Warehouses", RA-L 2019.
+"""
+
+import numpy as np
+
+from mrpbench_core.api.dispatcher import DispatchError
+from mrpbench_core.builtin.dispatchers.occupations import occupations_of, resource_edges
+from mrpbench_core.builtin.dispatchers.resource_requests import ResourceRequests
+from mrpbench_core.builtin.dispatchers.rotations import rotations
+from mrpbench_core.builtin.dispatchers.type2_edges import Moves, Type2Edges, moves_of, type2_edges
+from mrpbench_core.model.arrays import Int, Int32
+from mrpbench_core.model.plan import Plan
+from mrpbench_core.model.problem import Problem
+
+REACHED, CLEARED = 0, 1
+"""Rows of the counts of leading segments i8[2,n], see `mrpbench_core.model.execution.FleetView`."""
+
+
+class DependencyGraph:
+    """Tells which moves may be released. The moves of a rotation form a group; every other move is a group of its own.
+
+    A dependency of a group is that a robot has reached, or has cleared, a number of segments. A group is released when
+    all of its dependencies are met. Dependencies are sorted by robot and number, so that each is looked at once: when
+    it is met. A wait is released with the move after it.
+    """
+
+    def __init__(self, problem: Problem, plan: Plan, group_margin: float, ahead: int) -> None:
+        moves = moves_of(problem, plan)
+        occupations = occupations_of(problem, moves) if problem.roadmap.resources else []
+        order = type2_edges(problem, moves, resource_edges(problem, occupations))
+        self.requests = ResourceRequests(len(problem), moves, occupations, ahead)
+        self.granted: frozenset[tuple[int, str]] = frozenset()
+        self.rotations = {rotation[0]: rotation for rotation in rotations(problem, moves, order, group_margin)}
+        for rotation in self.rotations.values():
+            if needed := {name for move in rotation for name in self.requests.needs.get(move, ())}:
+                raise DispatchError(
+                    f"robots rotate through {', '.join(sorted(needed))}, which admits one robot at a time"
+                )
+        group = np.arange(len(moves.robot))
+        for first, rotation in self.rotations.items():
+            group[list(rotation)] = first
+        row, count, waiting = _dependencies(problem, moves, order, group)
+        sorting = np.lexsort((count, row))
+        row, count, waiting = row[sorting], count[sorting], waiting[sorting]
+        limits = np.searchsorted(row, np.arange(2 * len(problem) + 1))
+        self.moves = moves
+        # Lists from here on, because they are read one number at a time.
+        self.group: list[int] = group.tolist()
+        self.unmet: list[int] = np.bincount(waiting, minlength=len(group)).tolist()
+        self.count: list[int] = count.tolist()
+        self.waiting: list[int] = waiting.tolist()
+        self.next, self.end = limits[:-1].tolist(), limits[1:].tolist()
+        self.segment: list[int] = moves.segment.tolist()
+        self.robot: list[int] = moves.robot.tolist()
+        self.first, self.last = moves.first[:-1].tolist(), moves.first[1:].tolist()
+        self.limit = _limit(problem, moves).tolist()
+        self.cut = self.limit != self.last
+        self.lengths = [len(path) for path in plan.paths]
+        self.frontier = list(self.first)
+        """The first move of each robot that is not released."""
+        self.released: Int32 = np.zeros(len(problem), np.int32)
+        """i4[n]: number of leading path segments released."""
+        for robot in range(len(problem)):
+            self._advance(robot)
+
+    def update(self, counts: Int, robots: Int) -> None:
+        """Meet the dependencies on `robots` i8[k], given the counts i8[2,n] of leading segments, and release moves."""
+        ready = []
+        for robot in robots.tolist():
+            for kind in (REACHED, CLEARED):
+                row, value = kind * len(self.frontier) + robot, int(counts[kind, robot])
+                at = self.next[row]
+                while at < self.end[row] and self.count[at] <= value:
+                    group = self.waiting[at]
+                    self.unmet[group] -= 1
+                    if not self.unmet[group]:
+                        ready.append(group)
+                    at += 1
+                self.next[row] = at
+        for group in ready:
+            for move in self.rotations.get(group, (group,)):
+                self._advance(self.robot[move])
+
+    def _advance(self, robot: int) -> None:
+        move = self.frontier[robot]
+        while move < self.limit[robot] and not self.unmet[self.group[move]] and self._may_use(robot, move):
+            move += 1
+        self.frontier[robot] = move
+        if move == self.last[robot]:
+            self.released[robot] = self.lengths[robot]
+        elif move > self.first[robot]:
+            self.released[robot] = self.segment[move - 1] + 1
+
+    def request(self, counts: Int, granted: tuple[tuple[int, str], ...]) -> bool:
+        """Release moves whose resources are `granted`, and request those needed next, given the counts i8[2,n].
+
+        Returns whether any robot needs a resource, now or later.
+        """
+        if not self.requests:
+            return False
+        self.granted = frozenset(granted)
+        for robot in range(len(self.frontier)):
+            self._advance(robot)
+        ready = [robot for robot, move in enumerate(self.frontier) if self._needs_only_resources(robot, move)]
+        self.requests.update(counts[REACHED], counts[CLEARED], self.frontier, ready)
+        return True
+
+    def _needs_only_resources(self, robot: int, move: int) -> bool:
+        """Tell whether a robot's next move waits for nothing but resources."""
+        return move < self.limit[robot] and not self.unmet[self.group[move]]
+
+    def _may_use(self, robot: int, move: int) -> bool:
+        return all((robot, name) in self.granted for name in self.requests.needs.get(move, ()))
+
+    def commit(self, committed: Int32) -> None:
+        """Count the `committed` i4[n] leading segments of each robot as released, whether or not resources are granted.
+
+        Raises:
+            DispatchError: a move among them still waits for another robot.
+        """
+        for robot, until in enumerate(committed.tolist()):
+            for move in range(self.frontier[robot], self.last[robot]):
+                if self.segment[move] >= until:
+                    break
+                if self.unmet[self.group[move]]:
+                    raise DispatchError(
+                        f"robot {robot} is already on its way to vertex {self.moves.head[move]}, "
+                        f"where the new plan lets robot {self._blocker(self.group[move])} pass first"
+                    )
+                self.frontier[robot] = move + 1
+            self._advance(robot)
+
+    def _blocker(self, group: int) -> int:
+        rows = range(len(self.next))
+        waits = (row for row in rows if group in self.waiting[self.next[row] : self.end[row]])
+        return next(waits) % len(self.frontier)
+
+    def replan_reason(self, reached: Int) -> str | None:
+        """Return why a new plan is needed: the robots have `reached` i8[n] the horizon of the plan; None if they have
+        not, or the plan ends before it.
+        """
+        if self.cut and (reached >= self.released).all():
+            return "the robots have reached the horizon of the plan"
+        return None
+
+
+def _dependencies(problem: Problem, moves: Moves, order: Type2Edges, group: Int) -> tuple[Int, Int, Int]:
+    """Row, count and waiting group i8[k] of every dependency; the rows are those of REACHED, then those of CLEARED."""
+    robots = len(problem)
+    apart = group[order.before] != group[order.after]
+    before, after = order.before[apart], order.after[apart]
+    row = np.where(order.completed[apart], REACHED, CLEARED) * robots + moves.robot[before]
+    # All robots of a rotation must have reached its start, and a robot in a lift its exit.
+    in_rotation = np.isin(group, group[group != np.arange(len(group))])
+    level = problem.roadmap.level
+    after_ride = np.append(False, level[moves.tail[:-1]] != level[moves.head[:-1]])[: len(group)]
+    follows = np.flatnonzero((in_rotation | after_ride) & (np.arange(len(group)) > moves.first[moves.robot]))
+    return (
+        np.concatenate([row, REACHED * robots + moves.robot[follows]]),
+        np.concatenate([moves.segment[before] + 1, moves.segment[follows - 1] + 1]),
+        np.concatenate([group[after], group[follows]]),
+    )
+
+
+def _limit(problem: Problem, moves: Moves) -> Int:
+    """The first move i8[n] of each robot that ends after the horizon, or the end of its moves."""
+    if problem.horizon is None:
+        return moves.first[1:]
+    within = np.concatenate([[0], np.cumsum(moves.leave <= problem.horizon)])
+    limit: Int = moves.first[:-1] + within[moves.first[1:]] - within[moves.first[:-1]]
+    return limit

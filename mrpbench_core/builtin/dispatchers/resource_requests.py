@@ -1,0 +1,64 @@
+"""Requests for doors, lifts and mutexes, and the moves that must not begin before they are granted."""
+
+from collections.abc import Iterable
+
+from mrpbench_core.builtin.dispatchers.occupations import NEVER, Occupation
+from mrpbench_core.builtin.dispatchers.type2_edges import Moves
+from mrpbench_core.model.arrays import Int
+
+
+class ResourceRequests:
+    """Requests resources shortly before robots need them, and releases them once robots have left them."""
+
+    def __init__(self, robots: int, moves: Moves, occupations: Iterable[Occupation], ahead: int) -> None:
+        self._moves, self._ahead = moves, ahead
+        self.needs: dict[int, set[str]] = {}
+        """The resources that must be granted before a move is released."""
+        self._coming: list[list[Occupation]] = [[] for _ in range(robots)]
+        for occupation in occupations:
+            self._coming[occupation.robot].append(occupation)
+            stop = (
+                int(moves.first[occupation.robot + 1])
+                if occupation.last == NEVER
+                else occupation.last + occupation.completed
+            )
+            for move in range(max(occupation.first, int(moves.first[occupation.robot])), stop):
+                self.needs.setdefault(move, set()).add(occupation.resource)
+        for own in self._coming:
+            own.sort(key=lambda occupation: occupation.first, reverse=True)  # the next is the last
+        self._open: list[Occupation] = []
+        """The longest requested first."""
+
+    def __bool__(self) -> bool:
+        """Tell whether any robot needs a resource, now or later."""
+        return bool(self._open) or any(self._coming)
+
+    def update(self, reached: Int, cleared: Int, frontier: list[int], ready: Iterable[int]) -> None:
+        """Release and request resources.
+
+        Args:
+            reached: i8[n] number of leading segments that each robot has completed.
+            cleared: i8[n] number of leading segments whose start each robot has left.
+            frontier: first move of each robot that is not released.
+            ready: robots whose next move waits for nothing but resources.
+        """
+        may_request = set(ready)
+        for robot, coming in enumerate(self._coming):
+            while coming and self._is_due(coming[-1], int(reached[robot]), frontier[robot], robot in may_request):
+                self._open.append(coming.pop())
+        self._open = [occupation for occupation in self._open if not self._has_left(occupation, reached, cleared)]
+
+    def pairs(self) -> tuple[tuple[int, str], ...]:
+        """The robots and resources requested now; a robot that is about to return to a resource keeps it."""
+        return tuple(dict.fromkeys((occupation.robot, occupation.resource) for occupation in self._open))
+
+    def _has_left(self, occupation: Occupation, reached: Int, cleared: Int) -> bool:
+        if occupation.last == NEVER:
+            return False
+        done = reached if occupation.completed else cleared
+        return bool(done[occupation.robot] > self._moves.segment[occupation.last])
+
+    def _is_due(self, occupation: Occupation, reached: int, frontier: int, ready: bool) -> bool:
+        if occupation.first < frontier:
+            return True
+        return occupation.first == frontier and ready and self._moves.segment[occupation.first] - reached <= self._ahead
