@@ -23,22 +23,22 @@ class ControllerSession(ABC):
         """Return forward speed (m/s) and turn rate (rad/s), or None when no command is admissible."""
 
     def clear(self) -> None:  # noqa: B027 - optional: a controller without a costmap has nothing to clear
-        """Forget what sensors have marked (the recovery *clear costmap*)."""
+        """Forget what sensors have marked (the recovery `clear`)."""
 
     def is_free(self, poses: Float) -> Bool:
-        """Tell for each pose f8[k,3] whether the robot's footprint fits there as far as the controller knows."""
+        """Tell bool[k] at which poses f8[k,3] the robot's footprint fits, as far as the controller knows."""
         return np.ones(len(poses), bool)
 
     def reroute(self, observation: Observation) -> Float | None:  # noqa: ARG002 - for those that override it
-        """Return waypoints f8[k,2] around what blocks the path, or None when nothing does or there is no way.
+        """Return waypoints f8[k,2] around what blocks the path, or None if nothing does or there is no way.
 
-        The last is a point of the path, which the robot follows again from there.
+        The last waypoint is a point of the path, from which the robot follows the path again.
         """
         return None
 
     def approach(self, observation: Observation, tolerance: float) -> Float | None:  # noqa: ARG002 - as `reroute`
         """Return waypoints f8[k,2] to the free place nearest to the end of the path, at most `tolerance` metres from
-        it, or None when the end itself is free or there is no way.
+        it, or None if the end itself is free or there is no way.
         """
         return None
 
@@ -48,7 +48,7 @@ class FleetControllerSession:
 
     Args:
         sessions: one per robot, in order.
-        name: of the controller, for messages.
+        name: name of the controller, for messages.
     """
 
     def __init__(self, sessions: Sequence[ControllerSession], name: str = "") -> None:
@@ -57,7 +57,7 @@ class FleetControllerSession:
         self._scans: dict[int, ScanBatch] = {}
 
     def command(self, observations: Observations) -> Float:
-        """Return forward speed (m/s) and turn rate (rad/s) of each row, f8[k,2]; NaN = no command is admissible."""
+        """Return forward speed (m/s) and turn rate (rad/s) f8[k,2] of all rows; NaN = no command is admissible."""
         for batch in observations.scans:
             for row, robot in enumerate(batch.robot.tolist()):
                 own = slice(row, row + 1)
@@ -71,9 +71,9 @@ class FleetControllerSession:
                 ahead, turn = command
                 twist[row] = float(ahead), float(turn)
             except (TypeError, ValueError):
-                wanted = "instead of (speed, turn rate) or None"
+                expected = "instead of (speed, turn rate) or None"
                 raise BrokenContractError(
-                    f"the controller {self._name} returned {command!r} for robot {robot} {wanted}"
+                    f"the controller {self._name} returned {command!r} for robot {robot} {expected}"
                 ) from None
             if not np.isfinite(twist[row]).all():
                 raise BrokenContractError(f"the controller {self._name} returned {command!r} for robot {robot}")
@@ -84,7 +84,7 @@ class FleetControllerSession:
         self.sessions[robot].clear()
 
     def is_free(self, robot: int, poses: Float) -> Bool:
-        """Tell for each pose f8[k,3] whether one robot's footprint fits there as far as the controller knows."""
+        """Tell bool[k] at which poses f8[k,3] one robot's footprint fits, as far as the controller knows."""
         return self.sessions[robot].is_free(poses)
 
     def reroute(self, observations: Observations, row: int) -> Float | None:
@@ -92,22 +92,22 @@ class FleetControllerSession:
         return self.sessions[int(observations.robot[row])].reroute(observations.of(row))
 
     def approach(self, observations: Observations, row: int, tolerance: float) -> Float | None:
-        """Return waypoints f8[k,2] to beside the end of the path of one row; see `ControllerSession.approach`."""
+        """Return waypoints f8[k,2] to a place near the end of the path of one row; see `ControllerSession.approach`."""
         return self.sessions[int(observations.robot[row])].approach(observations.of(row), tolerance)
 
     def failure_reason(self, robot: int) -> str:  # noqa: ARG002 - for those that override it
-        """Return in a few words why there was no admissible command for a robot, for events and logs."""
+        """Return in a few words why a robot had no admissible command, for events and logs."""
         return ""
 
 
 class FleetOfOne(ControllerSession):
-    """One robot of a controller that answers for fleets."""
+    """A session for one robot of a controller that commands fleets."""
 
     def __init__(self, fleet: FleetControllerSession) -> None:
         self._fleet = fleet
 
     def command(self, observation: Observation) -> tuple[float, float] | None:
-        """The command of the only row."""
+        """Return the command of the only row."""
         ahead, turn = self._fleet.command(Observations.alone(observation))[0].tolist()
         return None if math.isnan(ahead) else (ahead, turn)
 
@@ -116,15 +116,15 @@ class FleetOfOne(ControllerSession):
         self._fleet.clear(0)
 
     def is_free(self, poses: Float) -> Bool:
-        """Tell for each pose f8[k,3] whether the robot fits there."""
+        """Tell bool[k] at which poses f8[k,3] the robot fits."""
         return self._fleet.is_free(0, poses)
 
     def reroute(self, observation: Observation) -> Float | None:
-        """Waypoints around what blocks the path."""
+        """Return waypoints around what blocks the path."""
         return self._fleet.reroute(Observations.alone(observation), 0)
 
     def approach(self, observation: Observation, tolerance: float) -> Float | None:
-        """Waypoints to beside the end of the path."""
+        """Return waypoints to a place near the end of the path."""
         return self._fleet.approach(Observations.alone(observation), 0, tolerance)
 
 
@@ -138,6 +138,6 @@ class Controller(Component):
         """Begin to control one robot; `world` is the static map, `period` the control period in simulated seconds."""
 
     def start_fleet(self, robots: Sequence[RobotModel], world: World, period: float) -> FleetControllerSession:
-        """Begin to control a fleet; override to answer for all robots in one call."""
+        """Begin to control a fleet; override this to command all robots in one call."""
         sessions = [self.start(robot, world, period) for robot in robots]
         return FleetControllerSession(sessions, type(self).__name__)

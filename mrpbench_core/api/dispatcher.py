@@ -23,7 +23,7 @@ class DispatcherSession(ABC):
         Segments keep their indices, so progress counts for the new plan as it did for the old one.
 
         Raises:
-            DispatchError: the new plan cannot be released safely from here; the old one stays in force.
+            DispatchError: the new plan cannot be released safely from here. The session continues with the old one.
         """
 
 
@@ -37,9 +37,9 @@ class Dispatcher(Component):
         """Begin to release `plan`.
 
         Raises:
-            DispatchError: the plan cannot be released safely; says which robots and where.
+            DispatchError: the plan cannot be released safely; the message names the robots and vertices.
         """
 
 
 class DispatchError(Exception):
-    """A plan that this dispatcher cannot release: it has conflicts, or a cycle no footprint allows."""
+    """A dispatcher cannot release a plan safely: the plan has conflicts, or a cycle that footprints do not allow."""

@@ -24,7 +24,7 @@ class Localizer(Component):
 
     group: ClassVar[str] = "mrpbench.localizers"
     needs_truth: ClassVar[bool] = False
-    """Only the ground-truth localizer may say so."""
+    """Whether `update` gets the true poses; only the localizer `ground_truth` may set it."""
 
     @abstractmethod
     def start(self, fleet: Fleet, world: World, placements: Float, seed: int) -> LocalizerSession:

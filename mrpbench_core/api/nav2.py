@@ -1,4 +1,4 @@
-"""Options that carry Nav2's names and defaults, and that a Nav2 parameter file may set."""
+"""Options with the names and defaults of Nav2, which a Nav2 parameter file may set."""
 
 from collections.abc import Callable
 from typing import Any, Literal, get_args, get_origin
@@ -9,9 +9,9 @@ from mrpbench_core.files.nav2 import Nav2Block
 
 
 def parameter(default: Any, *, help: str, unit: str | None = None, validator: Callable[..., Any] | None = None) -> Any:
-    """Declare an option, typed `... | None`, that is None unless a configuration names it.
+    """Declare an option, typed `... | None`, that is None unless the configuration sets it.
 
-    Its value is then the one in the Nav2 parameter file, if there is one that has it, or else `default`; see `settle`.
+    If it is None, `settle` takes the value from the Nav2 parameter file, or else `default`.
     """
     shown = (
         "" if default is None else f" (default {default:g})" if isinstance(default, float) else f" (default {default})"
@@ -26,16 +26,16 @@ def parameter(default: Any, *, help: str, unit: str | None = None, validator: Ca
 def settle(
     options: Any, block: Nav2Block | None = None, prefix: str = "", of: type[Any] | None = None
 ) -> dict[str, Any]:
-    """The values of all that was declared with `parameter` in an attrs instance, by name.
+    """Return the values of all options declared with `parameter` in an attrs instance, by name.
 
     Args:
         options: the instance.
         block: parameters of a Nav2 file.
         prefix: put before each name in the file, e.g. `inflation_layer.`.
-        of: only what this class, which `options` derives from, declares.
+        of: base class of `options` whose options are returned; by default all.
 
     Raises:
-        InputError: a value in the file is of a wrong kind or refused by the option's validator.
+        InputError: a value in the file has the wrong type, or the validator of the option refuses it.
     """
     values = {}
     for field in attrs.fields(of or type(options)):
@@ -52,7 +52,7 @@ def settle(
 
 
 def _kind(declared: Any) -> type:
-    """The type of values that an option declared as `... | None` takes in a file."""
+    """Return the type that an option declared as `... | None` has in a file."""
     kind = next(kind for kind in get_args(declared) if kind is not type(None))
     origin = get_origin(kind)
     return str if origin is Literal else origin or kind

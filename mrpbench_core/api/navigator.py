@@ -20,15 +20,15 @@ class NavigatorSession(ABC):
 
     @abstractmethod
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
-        """Return twists for one control period and how far each robot got; `now` in simulated seconds.
+        """Return twists for one control period, and how far each robot is; `now` in simulated seconds.
 
-        A robot has arrived when it reached its last waypoint and its mode says that it waits: one that still turns to
-        the yaw that is wanted there follows.
+        A robot has arrived when it has reached its last waypoint and its mode is `WAITING`. While it turns to the yaw
+        that is prescribed there, its mode is `FOLLOWING`.
         """
 
 
 class Navigator(Component):
-    """Drives robots along what is released: checkers, recoveries, and a controller."""
+    """Drives robots along their released segments, by checkers, recoveries and a controller."""
 
     group: ClassVar[str] = "mrpbench.navigators"
 

@@ -8,14 +8,14 @@ from mrpbench_core.model.arrays import Bool, Float
 
 
 class PlanFilter(Component):
-    """Thins out the waypoints of a plan before robots are sent along it.
+    """Removes waypoints from a plan before robots drive along it.
 
-    A robot then drives straight from each waypoint that is kept to the next. What was planned to be free of conflicts
-    no longer need be.
+    Robots drive straight from each remaining waypoint to the next, so the result may have conflicts that the plan does
+    not have.
     """
 
     group: ClassVar[str] = "mrpbench.plan_filters"
 
     @abstractmethod
     def keep(self, waypoint: Float) -> Bool:
-        """Tell which waypoints f8[k,2] (metres, the start first) one robot keeps: bool[k], the first and last true."""
+        """Tell bool[k] which waypoints f8[k,2] (metres, the start first) of one robot remain; first and last must."""

@@ -17,22 +17,22 @@ class Surroundings(ABC):
 
     @abstractmethod
     def is_free(self, poses: Float) -> Bool:
-        """Tell for each pose f8[k,3] whether the robot may be there: it fits, and the room was not given to others."""
+        """Tell bool[k] at which poses f8[k,3] the robot may be: it fits there, and has not left the place to others."""
 
 
 class RecoverySession(ABC):
-    """One attempt of one robot."""
+    """One attempt of one robot to recover."""
 
     @abstractmethod
     def step(self, now: float, pose: Float, twist: Float) -> tuple[float, float] | bool:
-        """Return forward speed and turn rate for one control period, or whether the attempt, now over, succeeded.
+        """Return forward speed (m/s) and turn rate (rad/s) for one control period, or whether the attempt succeeded.
 
-        `pose` f8[3] is estimated, `twist` f8[2] measured.
+        A bool ends the attempt. `pose` f8[3] is the estimated pose, `twist` f8[2] the measured twist.
         """
 
 
 class Recovery(Component):
-    """Helps a robot that its controller cannot help."""
+    """Gets a robot out of a place where its controller finds no way on."""
 
     group: ClassVar[str] = "mrpbench.recoveries"
 

@@ -13,12 +13,12 @@ from mrpbench_core.model.world import World
 
 
 class Simulation(ABC):
-    """A world in motion. Exact: the engine adds all noise. Used as a context manager; `close` may be called twice."""
+    """A running simulation, used as a context manager. It is exact, since the engine adds all sensor noise."""
 
     @property
     @abstractmethod
     def state(self) -> State:
-        """The truth now; before the first step, the placements."""
+        """The true state now; before the first step, that of the placements."""
 
     @abstractmethod
     def step(self, inputs: Inputs) -> State:
@@ -30,7 +30,7 @@ class Simulation(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Release everything the simulation holds."""
+        """Release all resources; may be called twice."""
 
     def __enter__(self) -> Self:
         return self
@@ -60,6 +60,7 @@ class Simulator(Component):
         """Place robots at `placements` f8[n,3] on `levels` i2[n] (None: all on level 0).
 
         `period` is the control period in simulated seconds; the simulator subdivides it as it likes. `movers` are the
-        radii in metres of discs that are not robots, moved by `Inputs.movers`. Doors are shut at first; whoever knows
-        doors and lifts says so by `State.facilities` and moves them as `mrpbench_core.model.facilities` says.
+        radii in metres of discs that are not robots and that `Inputs.movers` moves. Doors are closed at first. A
+        simulator that has doors and lifts reports them in `State.facilities`, and moves them by the rules of
+        `mrpbench_core.model.facilities`.
         """

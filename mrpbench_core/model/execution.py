@@ -1,4 +1,4 @@
-"""What flows between simulator, localizer, dispatcher, navigator and controller, every control period."""
+"""The data that simulator, localizer, dispatcher, navigator and controller exchange in every control period."""
 
 from collections.abc import Mapping
 from enum import IntEnum
@@ -11,7 +11,7 @@ from mrpbench_core.model.arrays import Byte, Float, Int, Int16, Int32, array
 
 
 class Mode(IntEnum):
-    """What a robot is doing."""
+    """What a robot does now."""
 
     FOLLOWING = 0
     WAITING = 1
@@ -22,22 +22,23 @@ class Mode(IntEnum):
 
 @attrs.frozen(kw_only=True)
 class FleetView:
-    """What a dispatcher knows: estimates, never ground truth."""
+    """What a dispatcher knows of the fleet: estimates, never ground truth."""
 
     revision: int
-    """How often `adopt` was called: which plan the indices below refer to."""
+    """Number of calls of `adopt`, which tells the plan that the indices below refer to."""
     reached: Int32 = array("i4")
     """i4[n]: number of leading path segments each robot has completed."""
     cleared: Int32 = array("i4")
     """i4[n]: number of leading path segments whose *start vertex* the robot's footprint has left, so that another robot
-    may stand there."""
+    fits there."""
     pose: Float = array("f8", 3)
     """f8[n,3] estimated x, y, yaw."""
     level: Int16 = array("i2")
     mode: Byte = array("u1")
     """u1[n] of `Mode`."""
     granted: tuple[tuple[int, str], ...] = ()
-    """(robot, resource) pairs that may be used now: held, with the door open or the lift there with its doors open."""
+    """(robot, resource) pairs that robots may use now: the robot holds the resource, the door is open, or the lift has
+    arrived and its doors are open."""
 
 
 @attrs.frozen(kw_only=True)
@@ -47,9 +48,9 @@ class Orders:
     released: Int32 = array("i4")
     """i4[n]: number of leading path segments each robot may complete; never decreases within a revision."""
     requests: tuple[tuple[int, str], ...] = ()
-    """(robot, resource) pairs wanted or in use, longest wanted first. Who no longer asks lets go."""
+    """(robot, resource) pairs requested or in use, the longest requested first. A pair that is left out is released."""
     replan: str | None = None
-    """Why a new plan is wanted, if one is."""
+    """Why a new plan is needed, or None."""
 
 
 @attrs.frozen(kw_only=True)
@@ -66,7 +67,7 @@ class Route:
 
 @attrs.frozen(kw_only=True)
 class ScanBatch:
-    """Scans of several robots with like lidars, taken at one instant."""
+    """Scans of several robots with equal lidars, taken at the same time."""
 
     stamp: float
     """simulated seconds."""
@@ -78,17 +79,17 @@ class ScanBatch:
 
 @attrs.frozen(kw_only=True)
 class Odometry:
-    """Where the robots believe to have driven."""
+    """The motion that the robots measure."""
 
     pose: Float = array("f8", 3)
-    """f8[n,3] in a frame of each robot's own that never moves. Where it lies says nothing: only differences count."""
+    """f8[n,3] x, y, yaw, each in a fixed frame of its robot. Only differences have a meaning."""
     twist: Float = array("f8", 2)
     """f8[n,2]: m/s forward, rad/s counter-clockwise."""
 
 
 @attrs.frozen(kw_only=True)
 class Estimate:
-    """Where the robots believe to be."""
+    """The estimated poses of the robots."""
 
     pose: Float = array("f8", 3)
     """f8[n,3] in the frame `map`."""
@@ -109,7 +110,7 @@ class FleetObservation:
 
 @attrs.frozen(kw_only=True)
 class Observation:
-    """What one robot's controller knows."""
+    """What the controller of one robot knows."""
 
     now: float
     pose: Float = array("f8")
@@ -117,8 +118,8 @@ class Observation:
     twist: Float = array("f8")
     """f8[2] measured m/s, rad/s."""
     path: Float = array("f8", 2)
-    """f8[k,2]: the nearest point of the route, then released waypoints. The robot is to stop at the last, which may be
-    a bend that it has not reached yet."""
+    """f8[k,2]: the nearest point of the route, then released waypoints. The robot has to stop at the last one, which
+    may be a bend that it has not reached yet."""
     yaw: float = float("nan")
     """Yaw to take at the last waypoint, NaN = any."""
     speed: float = float("inf")
@@ -131,7 +132,7 @@ class Observation:
 
 @attrs.frozen(kw_only=True, eq=False)
 class Observations:
-    """What the controllers of k robots know, row by row; see `Observation`. Nothing in it may be written to."""
+    """What the controllers of k robots know, row by row; see `Observation`. The arrays must not be changed."""
 
     now: float
     robot: Int
@@ -154,13 +155,13 @@ class Observations:
     tolerance: float = 0.1
     """Metres from the last waypoint at which it counts as reached."""
     scans: tuple[ScanBatch, ...] = ()
-    """All that are new since the last period, also of robots without a row here."""
+    """All scans that are new since the last period, including those of robots without a row."""
     fleet_pose: Float
     """f8[n,3] estimated poses of all robots."""
 
     @classmethod
     def alone(cls, seen: Observation) -> Self:
-        """One row for robot 0."""
+        """Return one row for robot 0."""
         points = seen.path[1:] if len(seen.path) > 1 else seen.path
         return cls(
             now=seen.now,
@@ -179,11 +180,11 @@ class Observations:
         )
 
     def path(self, row: int) -> Float:
-        """The path of one row, f8[k,2]."""
+        """Return the path f8[k,2] of one row."""
         return np.vstack([self.foot[row : row + 1], self.points[self.begin[row] : self.end[row]]])
 
     def of(self, row: int, scan: ScanBatch | None = None) -> Observation:
-        """What the controller of one row knows."""
+        """Return what the controller of one row knows."""
         return Observation(
             now=self.now,
             pose=self.pose[row],
@@ -198,7 +199,7 @@ class Observations:
 
 @attrs.frozen(kw_only=True)
 class Event:
-    """Something worth a line in the recording: a recovery, an abort, a replan, a contact."""
+    """An event in the recording, such as a recovery, an abort, a replan or a contact."""
 
     stamp: float
     kind: str
@@ -208,7 +209,7 @@ class Event:
 
 @attrs.frozen(kw_only=True)
 class Motion:
-    """What a navigator wants, and how far it got."""
+    """The commands of a navigator, and the progress of its robots."""
 
     twist: Float = array("f8", 2)
     """f8[n,2] commanded m/s, rad/s."""
@@ -220,7 +221,7 @@ class Motion:
 
 @attrs.frozen(kw_only=True)
 class Inputs:
-    """What drives the simulator for one control period."""
+    """The inputs of the simulator for one control period."""
 
     twist: Float = array("f8", 2)
     """f8[n,2] commanded m/s, rad/s."""
@@ -233,7 +234,7 @@ class Inputs:
 
 @attrs.frozen(kw_only=True)
 class State:
-    """The truth after one control period."""
+    """The true state after one control period."""
 
     pose: Float = array("f8", 3)
     """f8[n,3] x, y, yaw in `map`."""
@@ -243,5 +244,5 @@ class State:
     contacts: Int32 = array("i4", 2)
     """i4[k,2]: robot and what it touched during the period (a robot of higher index, or -1 = wall or obstacle)."""
     facilities: Mapping[str, float] = attrs.field(factory=dict)
-    """Name of each door -> opening 0..1; of each lift -> height of its cabin in metres. Empty from simulators that know
+    """Name of each door -> opening 0..1; of each lift -> height of its cabin in metres. Empty if the simulator has
     neither."""

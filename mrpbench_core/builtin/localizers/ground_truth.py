@@ -1,4 +1,4 @@
-"""Robots that know exactly where they are."""
+"""The localizer `ground_truth`: robots know exactly where they are."""
 
 from collections.abc import Sequence
 from typing import ClassVar
@@ -14,16 +14,16 @@ from mrpbench_core.model.world import World
 
 class _Session(LocalizerSession):
     def update(self, now: float, odometry: Odometry, scans: Sequence[ScanBatch], truth: Float | None) -> Estimate:  # noqa: ARG002
-        assert truth is not None, "the engine hands the truth to a localizer that declares needs_truth"
+        assert truth is not None, "the engine passes the true poses to a localizer that declares needs_truth"
         return Estimate(pose=truth)
 
 
 @attrs.frozen(kw_only=True)
 class GroundTruth(Localizer):
-    """The estimate is the truth."""
+    """Returns the true poses."""
 
     needs_truth: ClassVar[bool] = True
 
     def start(self, fleet: Fleet, world: World, placements: Float, seed: int) -> LocalizerSession:  # noqa: ARG002
-        """Begin; nothing needs to be known."""
+        """Begin; the arguments do not matter."""
         return _Session()

@@ -1,4 +1,4 @@
-"""Robots that know where they began, and count the turns of their wheels."""
+"""The localizer `odometry`: dead reckoning from the placements."""
 
 from collections.abc import Sequence
 
@@ -25,7 +25,7 @@ class _Session(LocalizerSession):
 
 @attrs.frozen(kw_only=True)
 class DeadReckoning(Localizer):
-    """The estimate is the placement and what odometry added to it; its error grows without bound."""
+    """Adds the motion that odometry measures to the placements; the error grows without bound."""
 
     def start(self, fleet: Fleet, world: World, placements: Float, seed: int) -> LocalizerSession:  # noqa: ARG002
         """Begin at the placements; nothing here is random."""

@@ -1,1 +1,1 @@
-"""Plan filters: what is left out of a plan before robots drive it."""
+"""Plan filters remove waypoints from a plan before robots drive along it."""

@@ -1,8 +1,8 @@
 """The plan filter `mrp_bench_stairs`: robots cut the corners of staircases.
 
-What MRP-Bench does to schedules on its grid (`smoothPath`; Schaefer et al., "A Benchmark for Multi-Robot Planning in
-Realistic, Complex and Cluttered Environments", ICRA 2023): between a waypoint and the next but one, if these lie as far
-apart in x as in y, the waypoint between them is left out; so is one of two equal ones.
+MRP-Bench does this to schedules on its grid (`smoothPath`; Schaefer et al., "A Benchmark for Multi-Robot Planning in
+Realistic, Complex and Cluttered Environments", ICRA 2023): if a waypoint and the next but one are as far apart in x as
+in y, the waypoint between them is removed. So is one of two equal waypoints.
 """
 
 import attrs
@@ -17,7 +17,7 @@ _EQUAL = 1e-6
 
 @attrs.frozen(kw_only=True)
 class Stairs(PlanFilter):
-    """Leaves out the corners of staircases."""
+    """Removes the corners of staircases."""
 
     def keep(self, waypoint: Float) -> Bool:
         """Scan from the start: from a kept waypoint, look at the next but one."""

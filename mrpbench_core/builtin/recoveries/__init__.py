@@ -1,1 +1,1 @@
-"""What robots try when they do not get on, by the names and values of Nav2's behaviours."""
+"""What robots try when they are stuck, by the names and values of Nav2's behaviours."""

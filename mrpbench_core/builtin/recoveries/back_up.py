@@ -1,4 +1,4 @@
-"""The recovery `back_up`: away from what the robot stands too close to."""
+"""The recovery `back_up`: drive away from what the robot is too close to."""
 
 import math
 
@@ -16,11 +16,11 @@ from mrpbench_core.model.fleet import RobotModel
 class BackUp(Recovery):
     """Drives straight back, as long as there is room behind."""
 
-    backup_dist: float = option(0.15, help="how far", unit="m", validator=gt(0))
-    backup_speed: float = option(0.025, help="how fast", unit="m/s", validator=gt(0))
-    simulate_ahead_time: float = option(2.0, help="how far ahead it looks", unit="s", validator=ge(0))
+    backup_dist: float = option(0.15, help="distance to drive back", unit="m", validator=gt(0))
+    backup_speed: float = option(0.025, help="speed", unit="m/s", validator=gt(0))
+    simulate_ahead_time: float = option(2.0, help="time ahead for which poses must be free", unit="s", validator=ge(0))
 
-    time_allowance: float = option(10.0, help="an attempt that takes longer has failed", unit="s", validator=gt(0))
+    time_allowance: float = option(10.0, help="time after which an attempt has failed", unit="s", validator=gt(0))
 
     def start(self, robot: RobotModel, surroundings: Surroundings, period: float) -> RecoverySession:
         """Begin an attempt."""
@@ -41,7 +41,7 @@ class _Session(RecoverySession):
         left = self._options.backup_dist - math.dist((x, y), self._from)
         if left <= 0:
             return True
-        if now > self._until:  # something that nobody sees holds the robot
+        if now > self._until:  # something that no sensor shows blocks the robot
             return False
         ahead = min(self._speed * self._options.simulate_ahead_time, left)
         steps = np.arange(1, max(2, round(ahead / (self._speed * self._period)))) * self._speed * self._period

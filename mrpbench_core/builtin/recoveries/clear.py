@@ -1,4 +1,4 @@
-"""The recovery `clear`: forget what sensors have marked."""
+"""The recovery `clear`: clear the costmap, as Nav2 does."""
 
 import attrs
 

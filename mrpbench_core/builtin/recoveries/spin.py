@@ -1,4 +1,4 @@
-"""The recovery `spin`: the lidar sees from elsewhere, and the robot faces elsewhere."""
+"""The recovery `spin`: turn, so that the robot and its lidar face another way."""
 
 import math
 
@@ -16,13 +16,13 @@ from mrpbench_core.model.fleet import RobotModel
 class Spin(Recovery):
     """Turns on the spot, as long as there is room ahead of the turn."""
 
-    spin_dist: float = option(1.57, help="how far, radians counter-clockwise", validator=gt(0))
+    spin_dist: float = option(1.57, help="angle to turn counter-clockwise, radians", validator=gt(0))
     max_rotational_vel: float = option(1.0, help="highest turn rate", unit="rad/s", validator=gt(0))
     min_rotational_vel: float = option(0.4, help="lowest turn rate", unit="rad/s", validator=gt(0))
     rotational_acc_lim: float = option(3.2, help="deceleration, rad/s^2", validator=gt(0))
-    simulate_ahead_time: float = option(2.0, help="how far ahead it looks", unit="s", validator=ge(0))
+    simulate_ahead_time: float = option(2.0, help="time ahead for which poses must be free", unit="s", validator=ge(0))
 
-    time_allowance: float = option(10.0, help="an attempt that takes longer has failed", unit="s", validator=gt(0))
+    time_allowance: float = option(10.0, help="time after which an attempt has failed", unit="s", validator=gt(0))
 
     def start(self, robot: RobotModel, surroundings: Surroundings, period: float) -> RecoverySession:
         """Begin an attempt."""
@@ -47,7 +47,7 @@ class _Session(RecoverySession):
         left = self._options.spin_dist - self._turned
         if left <= 0:
             return True
-        if now > self._until:  # something that nobody sees holds the robot
+        if now > self._until:  # something that no sensor shows blocks the robot
             return False
         braking = math.sqrt(2 * self._options.rotational_acc_lim * left)
         rate = min(max(braking, self._options.min_rotational_vel), self._fastest)

@@ -1,4 +1,4 @@
-"""The recovery `wait`: others may go away."""
+"""The recovery `wait`: wait for others to leave."""
 
 import attrs
 
@@ -12,7 +12,7 @@ from mrpbench_core.model.fleet import RobotModel
 class Wait(Recovery):
     """Stands still for a while."""
 
-    wait_duration: float = option(5.0, help="how long", unit="s", validator=attrs.validators.ge(0))
+    wait_duration: float = option(5.0, help="time to wait", unit="s", validator=attrs.validators.ge(0))
 
     def start(self, robot: RobotModel, surroundings: Surroundings, period: float) -> RecoverySession:  # noqa: ARG002
         """Begin an attempt."""

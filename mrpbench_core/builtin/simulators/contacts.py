@@ -1,4 +1,4 @@
-"""Discs that push each other, and are pushed out of what is solid."""
+"""Discs that push each other and are pushed out of walls."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.geometry import point_segment_distance
 
 TOLERANCE = 1e-4
-"""metres: discs never overlap anything solid, nor each other, by more than this."""
+"""metres by which discs may overlap walls or each other."""
 _ROUNDS = 20
 _TOUCH = 1e-9
 
@@ -28,7 +28,7 @@ class Discs:
     def separate(self, before: Float, after: Float, leaves: Float) -> tuple[Float, set[tuple[int, int]]]:
         """Resolve overlaps of discs that moved from `before` to `after`, f8[n,2] each and at most `stride` apart.
 
-        `leaves` f8[k,4] are the segments of what moves: doors.
+        `leaves` f8[k,4] are the segments of doors.
 
         Returns where they end up, and the contacts: (robot, robot of higher index, or -1 for anything else).
         """
@@ -67,7 +67,7 @@ class Discs:
                 shift[second] += push / 2
         deep = _overlap(centres, self._radii, owner, walls)
         inside = np.flatnonzero(deep > _TOUCH)
-        # Of all walls a robot is in, it is pushed out of the one it is deepest in; rounds see to the others.
+        # A robot in several walls is pushed out of the one it is deepest in; the next rounds handle the others.
         for row in inside[np.argsort(deep[inside], kind="stable")].tolist():
             robot = int(owner[row])
             contacts.add((robot, -1))
@@ -75,7 +75,7 @@ class Discs:
         return (centres + shift if contacts else None), contacts
 
     def _take_back(self, before: Float, after: Float, owner: Int, walls: Float) -> Float:
-        """Undo the motion of robots that still overlap by too much, and of those that this leaves no room for."""
+        """Undo the motion of robots that still overlap by too much, and of robots that these then overlap."""
         centres = after.copy()
         back = np.zeros(len(centres), bool)
         while True:

@@ -1,7 +1,7 @@
-"""The simulator that needs only NumPy: unicycles with limits, discs that touch, a lidar in closed form.
+"""The simulator `kinematic`, which needs only NumPy: unicycles with limits, contacts of discs, lidars in closed form.
 
-A robot is the disc of its circumscribed radius, the one that planners reason about and that lidars see. Its speed
-follows the command as fast as its limits allow; over each sub-step it drives the arc of its mean speeds, exactly.
+A robot is the disc of its circumscribed radius, which planners use and lidars see. Its speed follows the command as
+fast as its limits allow; in each sub-step it drives exactly the arc of its mean speeds.
 """
 
 import math
@@ -26,7 +26,7 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class Kinematic(Simulator):
-    """Unicycles and discs in the plane, in which levels lie side by side; doors and lifts move."""
+    """Simulates unicycles and discs in the plane, in which levels lie side by side, with doors and lifts."""
 
     def open(
         self,
@@ -99,7 +99,7 @@ class _Plane(Simulation):
         return State(pose=pose, twist=self._twist, level=self._level, contacts=contacts, facilities=self._doing)
 
     def _operate(self, commands: Mapping[str, float]) -> None:
-        """Move doors and lifts, and who is in a lift."""
+        """Move doors and lifts, and the robots in lifts."""
         before, pose = self._doing, self._state.pose
         after = self._facilities.advance(before, commands, self._period, pose, self._level, self._robot_radii)
         if after == before:

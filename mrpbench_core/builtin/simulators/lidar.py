@@ -6,7 +6,7 @@ from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.fleet import Lidar
 
 _SEAM = 1e-9
-"""Share of a segment's length by which it is prolonged, so that no beam slips between two that share an end."""
+"""Share of its length by which a segment is prolonged, so that no beam passes between two that share an end."""
 
 
 def scan(lidar: Lidar, pose: Float, segments: Float, centres: Float, radii: Float) -> Float:

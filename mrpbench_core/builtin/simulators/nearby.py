@@ -1,4 +1,4 @@
-"""Finds the segments near a point without looking at all of them."""
+"""A grid of cells for finding the segments near a point."""
 
 import math
 
@@ -12,7 +12,7 @@ _CELL = 1.0
 
 
 class Nearby:
-    """Segments f8[S,4] by square cells of the plane, each listed when it is first asked for."""
+    """The segments f8[S,4] near each square cell of the plane, computed when the cell is first needed."""
 
     def __init__(self, segments: Float, reach: float) -> None:
         self._segments = segments

@@ -1,7 +1,7 @@
 """DWB for a fleet, in C++."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -33,7 +33,7 @@ class DwbSession(FleetControllerSession):
     def __init__(
         self,
         robots: Sequence[tuple[RobotModel, RobotSettings]],
-        goal: Mapping[str, float],
+        goal: dict[str, float],
         world: World,
         threads: int,
     ) -> None:

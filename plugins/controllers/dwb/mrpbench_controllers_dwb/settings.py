@@ -1,6 +1,5 @@
 """What the native part is told of one robot."""
 
-from collections.abc import Mapping
 from typing import NamedTuple
 
 from mrpbench_controllers_dwb.critic import Critic
@@ -10,7 +9,7 @@ from mrpbench_core.model.arrays import Float
 class RobotSettings(NamedTuple):
     """Settings of one robot, from the recipe, its Nav2 file and the robot's limits."""
 
-    numbers: Mapping[str, float]
+    numbers: dict[str, float]
     """Parameters of DWB and the costmap, by name."""
     footprint: Float
     """f8[k,2] metres."""

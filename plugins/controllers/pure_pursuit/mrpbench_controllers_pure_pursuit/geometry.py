@@ -1,4 +1,4 @@
-"""The points of paths that pursuing robots aim at, and how fast they may go to stop in time; many robots at once."""
+"""The points that pursuing robots aim at, and the speeds from which they can stop in time; for many robots at once."""
 
 import numpy as np
 
@@ -6,9 +6,9 @@ from mrpbench_core.model.arrays import Float, Int
 
 
 def carrots(first: Float, points: Float, begin: Int, end: Int, place: Float, distance: float) -> Float:
-    """The first point of each path, prolonged straight beyond its end, that is `distance` metres from a robot.
+    """Return the first point of each path, prolonged straight beyond its end, that is `distance` metres from a robot.
 
-    When a path begins farther away than that, its first point.
+    If a path begins farther away than that, it is the first point of the path.
 
     Args:
         first: f8[k,2], where the paths begin.
@@ -44,7 +44,7 @@ def carrots(first: Float, points: Float, begin: Int, end: Int, place: Float, dis
 
 
 def path_lengths(first: Float, points: Float, begin: Int, end: Int, enough: Float) -> Float:
-    """Lengths f8[k] of paths (see `carrots`) in metres; at least `enough` f8[k] when they are longer than that."""
+    """Return the lengths f8[k] of paths (see `carrots`) in metres; for longer paths at least `enough` f8[k]."""
     length = np.zeros(len(first))
     here, at, rows = first.copy(), begin.copy(), np.flatnonzero(begin < end)
     while len(rows):
@@ -57,19 +57,19 @@ def path_lengths(first: Float, points: Float, begin: Int, end: Int, enough: Floa
 
 
 def stopping_speed(distance: Float, acceleration: Float, period: float) -> Float:
-    """The highest speeds kept for one period from which robots can still stop within distances."""
+    """Return the highest speeds, kept for one period, from which robots can still stop within the distances."""
     speed: Float = acceleration * (np.sqrt(period * period + 2 * distance / acceleration) - period)
     return speed
 
 
 def wrapped(angle: Float) -> Float:
-    """Angles in radians as -pi..pi, and a half turn always as pi."""
+    """Return angles in radians as -pi < angle <= pi."""
     error: Float = np.pi - np.remainder(np.pi - angle, 2 * np.pi)
     return error
 
 
 def limited(wanted: Float, measured: Float, change: Float) -> Float:
-    """`wanted` as far as speeds can change within one period."""
+    """Return `wanted`, limited to what is within `change` of the measured speeds."""
     result: Float = np.minimum(np.maximum(wanted, measured - change), measured + change)
     return result
 

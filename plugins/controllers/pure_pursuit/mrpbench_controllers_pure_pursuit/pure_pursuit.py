@@ -20,7 +20,7 @@ from mrpbench_core.model.fleet import RobotModel
 from mrpbench_core.model.world import World
 
 _AT_END = 0.02
-"""metres before the end at which the final yaw is taken."""
+"""metres before the end at which a robot turns to the final yaw."""
 _BACK_TO_END = 0.05
 """metres: a robot pushed farther than this from the end, when no path is left, drives straight to it."""
 
@@ -33,11 +33,14 @@ class PurePursuit(Controller):
         None, help="cruising speed; by default the robot's highest", unit="m/s", validator=optional(gt(0))
     )
     lookahead_dist: float = option(
-        0.2, help="distance of the point that is chased; shorter follows corners closer", unit="m", validator=gt(0)
+        0.2,
+        help="distance of the point that is chased; a shorter distance follows corners more closely",
+        unit="m",
+        validator=gt(0),
     )
-    use_rotate_to_heading: bool = option(True, help="turn on the spot when the path leads far from straight ahead")
+    use_rotate_to_heading: bool = option(True, help="turn on the spot where the path leads far off the heading")
     rotate_to_heading_min_angle: float = option(
-        0.785, help="turn on the spot when the heading is off by more than this, radians", validator=gt(0)
+        0.785, help="turn on the spot if the heading is off by more than this, radians", validator=gt(0)
     )
     angular_disengage_threshold: float = option(
         0.1, help="turn on the spot until the heading is off by less than this, radians", validator=gt(0)
@@ -49,7 +52,9 @@ class PurePursuit(Controller):
     regulated_linear_scaling_min_radius: float = option(
         0.2, help="slow down in turns tighter than this radius, in proportion", unit="m", validator=gt(0)
     )
-    regulated_linear_scaling_min_speed: float = option(0.1, help="but not below this", unit="m/s", validator=ge(0))
+    regulated_linear_scaling_min_speed: float = option(
+        0.1, help="lowest speed in tight turns", unit="m/s", validator=ge(0)
+    )
 
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:
         """Begin to control one robot; the world does not matter to it."""
@@ -76,20 +81,20 @@ class _Fleet(FleetControllerSession):
         self._turning: Bool = np.zeros(len(robots), bool)
 
     def clear(self, robot: int) -> None:
-        """There is nothing to clear."""
+        """Do nothing: there is no costmap."""
 
-    def is_free(self, robot: int, poses: Float) -> Bool:  # noqa: ARG002 - it knows nothing
-        """Tell that every pose is free."""
+    def is_free(self, robot: int, poses: Float) -> Bool:  # noqa: ARG002 - there is no costmap
+        """Tell that every pose is free: there is no costmap."""
         return np.ones(len(poses), bool)
 
     def reroute(self, observations: Observations, row: int) -> None:
-        """Know no way around."""
+        """Return None: there is no costmap to find a way on."""
 
     def approach(self, observations: Observations, row: int, tolerance: float) -> None:
-        """Know no way beside."""
+        """Return None: there is no costmap to find a way on."""
 
     def command(self, observations: Observations) -> Float:
-        """Commands f8[k,2] of all robots with a row."""
+        """Return the commands f8[k,2] of all rows."""
         seen, robot = observations, observations.robot
         acceleration, place = self._acceleration[robot], seen.pose[:, :2]
         path, begin = seen.foot, seen.begin
@@ -113,7 +118,7 @@ class _Fleet(FleetControllerSession):
         curvature = np.where(there, 2 * np.sin(error) / np.where(there, distance, 1.0), 0.0)
         stopping = np.minimum(stopping_speed(left, acceleration, self._period), seen.speed)
         wanted = np.minimum(self._regulated(robot, curvature), stopping)
-        # At the very end a robot creeps there, or takes the yaw that is wanted.
+        # Close to the end a robot drives there slowly, or turns to the prescribed yaw.
         any_yaw = np.isnan(seen.yaw)
         turning |= resting & ~any_yaw
         error = np.where(resting, np.where(any_yaw, 0.0, wrapped(seen.yaw - seen.pose[:, 2])), error)

@@ -1,4 +1,4 @@
-"""Native filters at work."""
+"""Runs the native particle filters of a fleet."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -15,7 +15,7 @@ from mrpbench_core.model.solids import segments
 from mrpbench_core.model.world import World
 
 _OURS = ("laser_max_range", "laser_min_range", "laser_model_type", "robot_model_type")
-"""Parameters that the native part is not told."""
+"""Parameters that are not passed to the native part."""
 
 
 class AmclSession(LocalizerSession):
@@ -47,7 +47,7 @@ class AmclSession(LocalizerSession):
         self._began = False
 
     def update(self, now: float, odometry: Odometry, scans: Sequence[ScanBatch], truth: Float | None) -> Estimate:  # noqa: ARG002
-        """Learn from new scans; without any, follow odometry."""
+        """Update the filters with new scans, and return the estimates; without new scans they follow odometry."""
         pose = np.ascontiguousarray(odometry.pose)
         if not self._began:
             self._filters.begin(pose)
@@ -58,7 +58,7 @@ class AmclSession(LocalizerSession):
 
     def _sense(self, batch: ScanBatch, odometry: Float) -> None:
         lidar = self._lidars[int(batch.robot[0])]
-        assert lidar is not None, "only robots with a lidar scan"
+        assert lidar is not None, "only robots with a lidar take scans"
         longest, shortest = self._reach(lidar)
         self._filters.sense(
             np.ascontiguousarray(batch.robot),
@@ -77,6 +77,6 @@ class AmclSession(LocalizerSession):
 
 
 def _free(world: World, cell_size: float) -> Float:
-    """Centres f8[k,2] of the squares in which nothing solid is."""
+    """Return the centres f8[k,2] of the free cells."""
     raster = rasterise(world.levels[0], cell_size, rule="touched")
     return np.ascontiguousarray(raster.centres(np.argwhere(~raster.blocked)))
