@@ -65,6 +65,12 @@ class FleetEntry:
         validator=validators.optional(validators.ge(1)),
     )
 
+    graph: int | None = option(
+        None,
+        help="RMF navigation graph (`graph_idx`) whose lanes the robots use, with `roadmap: graph`; none: all lanes",
+        validator=validators.optional(validators.ge(0)),
+    )
+
     def reads(self) -> tuple[Path, ...]:
         """Files that the robot's own file names."""
         return robot_reads(self.robot) if isinstance(self.robot, Path) else ()

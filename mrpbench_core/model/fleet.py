@@ -53,6 +53,8 @@ class RobotModel:
     lidar: Lidar | None = None
     urdf: Urdf | None = attrs.field(default=None, metadata={"recorded": False})
     """Not part of recordings, because it is a file of this machine."""
+    graph: int | None = attrs.field(default=None, metadata={"recorded": False})
+    """The RMF navigation graph (`graph_idx`) whose lanes the robot uses; None means all. Not part of recordings."""
 
     @property
     def radius(self) -> float:

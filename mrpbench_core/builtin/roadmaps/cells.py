@@ -139,7 +139,7 @@ def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: li
     A tick is the time in which the slowest robot crosses a cell.
 
     Raises:
-        InputError: no cell is free.
+        InputError: no cell is free, or robots are bound to a navigation graph.
     """
     if not len(cells.cell):
         raise InputError(f"world {world.name!r} has no cell that a robot fits in", hint="try a smaller cell_size")
@@ -149,6 +149,10 @@ def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: li
     edges = np.concatenate([cells.edges, cells.edges[:, ::-1]])
     edges = edges[np.lexsort((edges[:, 1], edges[:, 0]))]
     profiles, _ = fleet.profiles
+    if any(robot.graph is not None for robot in profiles):
+        raise InputError(
+            "a raster has no lanes, so robots cannot keep to a navigation graph", hint="use roadmap: graph"
+        )
     slowest = min(robot.max_speed for robot in profiles)
     count = len(cells.cell)
     raster = cells.raster

@@ -19,7 +19,8 @@ from mrpbench_core.model.world import Lane, World
 
 @attrs.frozen(kw_only=True)
 class Graph(RoadmapBuilder):
-    """Vertices are places and junctions of lanes, edges are lanes of all RMF navigation graphs.
+    """Vertices are places and junctions of lanes, edges are lanes of the RMF navigation graphs. A robot that is bound
+    to a graph (`fleet: [{robot: …, graph: 0}]`) uses the lanes of that graph only.
 
     The duration of an edge is its length divided by the lower of its lane's speed limit and the robot's top speed,
     rounded up to ticks. In half a second a small robot drives 0.1 m: rounding matters little on lanes of a metre, and a
@@ -42,7 +43,9 @@ class Graph(RoadmapBuilder):
         profiles, _ = fleet.profiles
         smallest = min(robot.radius for robot in profiles)
         stands = _clear(world, level, pieces.position, pieces.position, smallest)
+        offered: Bool = np.stack([_lanes_of(world, robot)[pieces.lane] for robot in profiles])
         duration = np.stack([_ticks(world, pieces, level, robot, self.tick) for robot in profiles])
+        duration = np.where(offered, duration, -1)
         drivable = (duration >= 0).any(axis=0) & stands[pieces.ends[:, 0]] & stands[pieces.ends[:, 1]]
         edges, duration = _directed(pieces, world.lanes, duration, drivable)
         if not len(edges):
@@ -57,7 +60,7 @@ class Graph(RoadmapBuilder):
             tick=self.tick,
             place=number[pieces.vertex],
             resources=_mutexes(world, pieces, number, number[edges]),
-            notes=(*_notes(world, pieces, drivable), *_lost(world, number[pieces.vertex] < 0)),
+            notes=(*_notes(world, pieces, drivable, np.any(offered, axis=0)), *_lost(world, number[pieces.vertex] < 0)),
         )
         return with_facilities(roadmap, world, float(fleet.radii.max()))
 
@@ -121,13 +124,32 @@ def _directed(pieces: LaneSegments, lanes: tuple[Lane, ...], duration: Int, driv
     return unique, np.where(fastest == np.iinfo(np.int64).max, -1, fastest)
 
 
-def _notes(world: World, pieces: LaneSegments, drivable: Bool) -> list[str]:
+def _lanes_of(world: World, robot: RobotModel) -> Bool:
+    """Tell bool[lanes] which lanes belong to the navigation graph that a robot is bound to.
+
+    Raises:
+        InputError: the world has no lane of that graph.
+    """
+    graph = np.array([lane.graph for lane in world.lanes])
+    if robot.graph is None:
+        return np.ones(len(graph), bool)
+    if robot.graph not in graph:
+        known = ", ".join(map(str, np.unique(graph)))
+        raise InputError(f"fleet: world {world.name!r} has no lane of graph {robot.graph}", hint=f"graphs: {known}")
+    own: Bool = graph == robot.graph
+    return own
+
+
+def _notes(world: World, pieces: LaneSegments, drivable: Bool, offered: Bool) -> list[str]:
     notes = []
     cut = int((np.bincount(pieces.lane, minlength=1) > 1).sum())
     if cut:
         made = len(pieces.position) - len(np.unique(pieces.vertex))
         notes.append(f"{cut} lanes are cut where they meet others; {made} junctions without a vertex got one.")
-    for index in np.unique(pieces.lane[~drivable]):
+    unused = len(np.unique(pieces.lane[~offered]))
+    if unused:
+        notes.append(f"{unused} lanes of navigation graphs without robots are left out.")
+    for index in np.unique(pieces.lane[~drivable & offered]):
         lane = world.lanes[index]
         ends = " – ".join(called(world, vertex) for vertex in (lane.start, lane.end))
         notes.append(f"Lane {ends} is left out where a robot on it would touch something solid.")

@@ -51,14 +51,39 @@ class Random(ScenarioSource):
         if self.compatible == "mrp_bench":
             return self._original_draw(world, seed)
         places = places_of_world(world, roadmap) if world.vertices else places_of_roadmap(roadmap)
+        room = 2 * float(fleet.radii.max())
+        if any(robot.graph is not None for robot in fleet.robots):
+            return self._draw_on_graphs(places[_parking(roadmap, places)], roadmap, fleet, seed)
         places = places[_connected(roadmap, places)]
         places = places[_parking(roadmap, places)]
         stands = roadmap.position[places.vertex]
-        room = 2 * float(fleet.radii.max())
         return places.scenario(
             _separate(stands, places.level, _shuffled(len(places), seed, STARTS), room, self.robots, "start"),
             _separate(stands, places.level, _shuffled(len(places), seed, GOALS), room, self.robots, "end"),
         )
+
+    def _draw_on_graphs(self, places: Places, roadmap: Roadmap, fleet: Fleet, seed: int) -> Scenario:
+        """Return a scenario in which start and task i are connected by the navigation graph of robot i."""
+        stands, room = roadmap.position[places.vertex], 2 * float(fleet.radii.max())
+        models, kinds = fleet.profiles
+        drawn: list[Int] = []
+        for stream, verb in ((STARTS, "start"), (GOALS, "end")):
+            order = _shuffled(len(places), seed, stream)
+            taken = np.empty(0, np.int64)
+            for kind in kinds:
+                label = round_trips(roadmap, kind)[places.vertex]
+                own = label == np.bincount(label, minlength=1).argmax()
+                gap = np.hypot(*(stands[:, None] - stands[taken]).transpose(2, 0, 1))
+                free = ((gap >= room - TOLERANCE) | (places.level[:, None] != places.level[taken])).all(axis=1)
+                left = order[(own & free)[order]]
+                if not len(left):
+                    graph = models[kind].graph
+                    raise InputError(
+                        f"the robots do not fit: no place on graph {graph} is left at which one can {verb}"
+                    )
+                taken = np.append(taken, left[0])
+            drawn.append(taken)
+        return places.scenario(*drawn)
 
     def _original_draw(self, world: World, seed: int) -> Scenario:
         """Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered Environments"

@@ -16,7 +16,7 @@ from mrpbench_core.builtin.worlds.building.lifts import read_lifts
 from mrpbench_core.builtin.worlds.building.models import read_models
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
-from mrpbench_core.builtin.worlds.building.unsupported import note_unsupported
+from mrpbench_core.builtin.worlds.building.unsupported import note_unsupported, refuse_navigation_graph
 from mrpbench_core.builtin.worlds.building.walls import read_walls
 from mrpbench_core.files import yaml
 from mrpbench_core.model.world import Area, Lane, Level, Lift, Vertex, World
@@ -61,6 +61,7 @@ class Rmf(WorldSource):
         document = yaml.load(self.file)
         building = Node(document, document.data)
         nodes = self._levels(building)
+        refuse_navigation_graph(nodes)
         notes = Notes()
         frames = read_frames(building, nodes, notes)
         drawings = {name: _drawing(node, frames[name], notes) for name, node in nodes.items()}

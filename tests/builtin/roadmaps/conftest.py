@@ -9,13 +9,15 @@ from mrpbench_core.model.world import Lane, Level, Vertex, World
 
 @pytest.fixture(scope="session")
 def make_fleet():
-    def make(*radii, speeds=None) -> Fleet:
+    def make(*radii, speeds=None, graphs=None) -> Fleet:
         corners = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
         speeds = speeds or [0.2] * len(radii)
         return Fleet(
             robots=tuple(
-                RobotModel(name=f"disc_{radius}", footprint=radius * corners, max_speed=speed, max_turn_rate=1.0)
-                for radius, speed in zip(radii, speeds, strict=True)
+                RobotModel(
+                    name=f"disc_{radius}", footprint=radius * corners, max_speed=speed, max_turn_rate=1.0, graph=graph
+                )
+                for radius, speed, graph in zip(radii, speeds, graphs or [None] * len(radii), strict=True)
             )
         )
 

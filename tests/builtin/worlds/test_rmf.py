@@ -323,3 +323,13 @@ def test_any_slip_gives_a_world_or_one_line(tmp_path, text, index, slip):
         line, positions = str(error), []
         assert (error.file is not None, "\n" in line) == (True, False)  # noqa: PT017 - either outcome is right
     assert np.isfinite(positions).all()
+
+
+def test_a_navigation_graph_is_refused_as_no_building(tmp_path):
+    file = tmp_path / "0.yaml"
+    file.write_text(
+        "building_name: office\ndoors: {}\nlevels:\n  L1:\n    lanes:\n    - [0, 1, {speed_limit: 0.0}]\n"
+        "    vertices:\n    - [8.9, -6.1, {name: ''}]\n    - [10.4, -5.5, {is_charger: true, name: charger}]\n"
+    )
+    with pytest.raises(InputError, match=r"0.yaml:8:\d+: this is an RMF navigation graph, not a building"):
+        Rmf(file=file).load()

@@ -32,6 +32,23 @@ def note_unsupported(building: Node, levels: Mapping[str, Node], notes: Notes) -
         _note_unknown(parts, (*_LEVEL_READ, *_LEVEL_IGNORED, "human_lanes"), "level", notes)
 
 
+def refuse_navigation_graph(levels: Mapping[str, Node]) -> None:
+    """Refuse the navigation graph that `building_map_generator nav` writes, which looks like a building.
+
+    Its vertices are `[x, y, {parameters}]` in metres, those of a building `[x, y, z, name, {parameters}]`.
+
+    Raises:
+        InputError: a level has such vertices.
+    """
+    for level in levels.values():
+        for vertex in level.section("vertices"):
+            if len(items := vertex.items()) == 3 and isinstance(items[2].value, dict):
+                raise vertex.error(
+                    "this is an RMF navigation graph, not a building",
+                    "name the .building.yaml file that it is made from",
+                )
+
+
 def _note_unknown(parts: dict[str, Node], known: tuple[str, ...], owner: str, notes: Notes) -> None:
     for key in parts:
         if key not in known:
