@@ -1,10 +1,10 @@
-"""How far the robots have got, which no message of ROS says: `/progress`, one row of numbers for each robot."""
+"""Progress of the robots on `/progress`, one row of numbers per robot; ROS has no message for it."""
 
 import numpy as np
 
 from mrpbench_core.model.recording import Chunk
 from mrpbench_exporters_rosbag2.messages import Topic, message
-from mrpbench_exporters_rosbag2.source import Rows, Source
+from mrpbench_exporters_rosbag2.source import Rows, TopicSource
 from mrpbench_exporters_rosbag2.template import Template, hole
 
 TOPIC = Topic("/progress", "std_msgs/Float64MultiArray")
@@ -12,7 +12,7 @@ CHANNELS = ("released", "reached", "cleared", "mode", "level")
 """The columns."""
 
 
-def advance(robots: int) -> Source:
+def advance(robots: int) -> TopicSource:
     """Path segments released, reached and cleared, mode, and level of every robot. Its stamp is the log time."""
     width = len(CHANNELS)
     numbers = hole(width * robots)
@@ -28,4 +28,6 @@ def advance(robots: int) -> Source:
         table = np.stack([block[name].astype(float) for name in CHANNELS], axis=-1)
         return block["time"], {"row": table.reshape(len(table), -1)}
 
-    return Source(TOPIC, Template(TOPIC.type, message(TOPIC.type, layout=layout, data=numbers), {"row": numbers}), rows)
+    return TopicSource(
+        TOPIC, Template(TOPIC.type, message(TOPIC.type, layout=layout, data=numbers), {"row": numbers}), rows
+    )

@@ -25,7 +25,7 @@ FOREVER = QosTime(sec=9223372036, nsec=854775807)
 
 
 class Bag:
-    """Writes to `.<name>.partial` beside the destination; `close` puts the finished bag in its place."""
+    """Writes to `.<name>.partial` next to the destination; `close` renames the finished bag."""
 
     def __init__(self, destination: Path, storage: Storage, version: Version) -> None:
         """Begin a bag.
@@ -67,7 +67,7 @@ class Bag:
         self.writer.write(connection, self.latest, data)
 
     def abandon(self) -> None:
-        """Leave nothing behind."""
+        """Remove the unfinished bag."""
         self.writer.abort()
         shutil.rmtree(self.workshop)
 
@@ -86,7 +86,7 @@ def _is_bag(path: Path) -> bool:
 
 
 def _quality(latched: bool) -> Qos:
-    """Reliable, which suits every subscriber; latched topics keep their last message for those who come late."""
+    """Quality of service: reliable; latched topics keep their last message for late subscribers."""
     return Qos(
         history=QosHistory.KEEP_LAST,
         depth=1 if latched else 10,

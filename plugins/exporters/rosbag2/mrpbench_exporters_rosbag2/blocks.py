@@ -24,7 +24,7 @@ AXES = {
 
 
 class Blocks:
-    """What has been pushed and not yet been taken."""
+    """Chunks that were pushed and not yet yielded."""
 
     def __init__(self, instants: int) -> None:
         """Blocks hold at most `instants` periodic samples."""

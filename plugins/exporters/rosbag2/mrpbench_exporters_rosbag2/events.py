@@ -1,4 +1,4 @@
-"""What is worth a line in a log: events and contacts as diagnostics."""
+"""Events and contacts as diagnostics."""
 
 from collections.abc import Iterator
 
@@ -8,7 +8,7 @@ from mrpbench_exporters_rosbag2.messages import Topic, header, message, nanoseco
 EVENTS = Topic("/events", "diagnostic_msgs/DiagnosticArray")
 CONTACTS = Topic("/contacts", "diagnostic_msgs/DiagnosticArray")
 WARNING = 1
-"""Level of every status: an event is nothing to stop for, and nothing to overlook."""
+"""Level of every status: a warning, since an event does not stop a run."""
 
 
 def events(block: Chunk, names: tuple[str, ...], start: int) -> Iterator[tuple[int, bytes]]:

@@ -1,4 +1,4 @@
-"""The exporter `rosbag2`: what is written, and in which order."""
+"""The exporter `rosbag2`: which topics it writes, and in which order."""
 
 from collections.abc import Iterator
 from itertools import chain
@@ -24,7 +24,7 @@ from mrpbench_exporters_rosbag2.rmf import Release
 from mrpbench_exporters_rosbag2.robots import robot_markers
 from mrpbench_exporters_rosbag2.routes import routes
 from mrpbench_exporters_rosbag2.scans import scan
-from mrpbench_exporters_rosbag2.source import Rows, Source
+from mrpbench_exporters_rosbag2.source import Rows, TopicSource
 from mrpbench_exporters_rosbag2.start import opening
 from mrpbench_exporters_rosbag2.template import STAMP, Template
 from mrpbench_exporters_rosbag2.topics import check_patterns, selected
@@ -32,7 +32,7 @@ from mrpbench_exporters_rosbag2.topics import check_patterns, selected
 LATEST_START = 2_140_000_000.0
 """seconds; ROS 2 counts them in 32 bits."""
 POSES_PER_BLOCK = 16_384
-"""What is held in memory at a time: some 30 MB."""
+"""Size of the blocks in memory, about 30 MB."""
 
 
 @attrs.frozen(kw_only=True)
@@ -84,11 +84,11 @@ class Rosbag2Session(ExporterSession):
             self.bag.write(topic, self.start, data)
 
     def write(self, chunk: Chunk) -> None:
-        """Append what happened since the last chunk."""
+        """Append the samples since the last chunk."""
         self._write(self.blocks.push(chunk))
 
     def close(self) -> None:
-        """Write what was held back and give the bag its name. Does nothing after a failure or a second time."""
+        """Write the last block and give the bag its name; do nothing after a failure or when called again."""
         if self.bag is not None:
             self._write(self.blocks.finish())
             self.bag.close()
@@ -124,7 +124,7 @@ class Rosbag2Session(ExporterSession):
         return selected(topic.name, self.patterns)
 
 
-def sources(context: RunContext, rmf: Release) -> Iterator[Source]:
+def sources(context: RunContext, rmf: Release) -> Iterator[TopicSource]:
     """Every periodic topic, in the order of writing at one instant: the clock, frames before what stands in them."""
     robots = list(zip(context.fleet.names, context.fleet.robots, strict=True))
     yield clock()
@@ -142,11 +142,11 @@ def sources(context: RunContext, rmf: Release) -> Iterator[Source]:
             yield scan(index, name, robot.lidar)
 
 
-def clock() -> Source:
+def clock() -> TopicSource:
     """The simulated time of everything else."""
 
     def rows(block: Chunk) -> Rows:
         return np.unique(np.concatenate([block[axis] for axis in AXES if axis in block] or [np.empty(0)])), {}
 
     topic = Topic("/clock", "rosgraph_msgs/Clock")
-    return Source(topic, Template(topic.type, message(topic.type, clock=time(STAMP)), {}), rows)
+    return TopicSource(topic, Template(topic.type, message(topic.type, clock=time(STAMP)), {}), rows)

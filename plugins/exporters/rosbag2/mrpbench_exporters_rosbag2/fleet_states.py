@@ -1,4 +1,4 @@
-"""Where the robots believe to be, for Open-RMF: `/fleet_states`, as its fleet drivers say it."""
+"""Estimated poses for Open-RMF: `/fleet_states`, as fleet drivers publish it."""
 
 from functools import lru_cache
 from itertools import pairwise
@@ -13,7 +13,7 @@ from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2.messages import Topic, time
 from mrpbench_exporters_rosbag2.rmf import ADAPTER_ERROR, IDLE, MOVING, WAITING, Release, rmf_message, rmf_types
-from mrpbench_exporters_rosbag2.source import Pace, Rows, Source
+from mrpbench_exporters_rosbag2.source import Pace, Rows, TopicSource
 from mrpbench_exporters_rosbag2.template import STAMP, Template, hole
 
 FLEET = "mrpbench"
@@ -26,7 +26,7 @@ RMF_MODE = {Mode.WAITING: WAITING, Mode.ABORTED: ADAPTER_ERROR}
 """All other modes are MOVING."""
 
 
-def fleet_states(context: RunContext, release: Release) -> Source:
+def fleet_states(context: RunContext, release: Release) -> TopicSource:
     """States of all robots, by estimates. RMF has 32-bit floats. Paths are left out: `/robot_0/plan` has them."""
     topic = Topic("/fleet_states", "rmf_fleet_msgs/FleetState", types=rmf_types(release))
     length = np.array([len(route.speed) for route in context.routes])
@@ -48,7 +48,7 @@ def fleet_states(context: RunContext, release: Release) -> Source:
             "level": block["level"][shown],
         }
 
-    return Source(topic, _ByLevel(context, topic), rows)
+    return TopicSource(topic, _ByLevel(context, topic), rows)
 
 
 class _ByLevel:

@@ -1,4 +1,4 @@
-"""The transforms that move: map -> robot/odom (what localization adds) -> robot/base_footprint (odometry)."""
+"""Moving transforms: map -> robot/odom (what localization adds) -> robot/base_footprint (odometry)."""
 
 import numpy as np
 
@@ -6,11 +6,11 @@ from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.world import World
 from mrpbench_exporters_rosbag2.messages import Topic, header, message, quaternion, spatial, vector
-from mrpbench_exporters_rosbag2.source import POSE, Rows, Source
+from mrpbench_exporters_rosbag2.source import POSE, Rows, TopicSource
 from mrpbench_exporters_rosbag2.template import STAMP, Template
 
 
-def frames(names: tuple[str, ...], world: World) -> Source:
+def frames(names: tuple[str, ...], world: World) -> TopicSource:
     """All transforms of an instant as one message on `/tf`."""
     topic = Topic("/tf", "tf2_msgs/TFMessage")
     transforms = []
@@ -24,7 +24,7 @@ def frames(names: tuple[str, ...], world: World) -> Source:
         origin = spatial(parent(block["estimate"], driven), floor(block, world))
         return block["time"], {"pose": np.stack([origin, spatial(driven)], axis=2).reshape(len(driven), -1, 7)}
 
-    return Source(topic, Template(topic.type, message(topic.type, transforms=transforms), {"pose": POSE}), rows)
+    return TopicSource(topic, Template(topic.type, message(topic.type, transforms=transforms), {"pose": POSE}), rows)
 
 
 def transform(parent_frame: str, child_frame: str, values: Float = POSE, stamp: int = STAMP) -> object:

@@ -1,4 +1,4 @@
-"""How each robot moves: odometry, ground truth and commands."""
+"""Motion of each robot: odometry, ground truth and commands."""
 
 import numpy as np
 
@@ -7,12 +7,12 @@ from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.world import World
 from mrpbench_exporters_rosbag2.frames import floor
 from mrpbench_exporters_rosbag2.messages import Topic, header, message, pose, spatial, vector
-from mrpbench_exporters_rosbag2.source import POSE, TWIST, Rows, Source
+from mrpbench_exporters_rosbag2.source import POSE, TWIST, Rows, TopicSource
 from mrpbench_exporters_rosbag2.template import STAMP, Template
 
 
-def odometry(robot: int, name: str) -> Source:
-    """Where the robot believes to have driven."""
+def odometry(robot: int, name: str) -> TopicSource:
+    """Odometry of the robot."""
 
     def rows(block: Chunk) -> Rows | None:
         if "odometry" not in block:
@@ -21,11 +21,11 @@ def odometry(robot: int, name: str) -> Source:
         return block["time"], {"pose": spatial(values[:, :3]), "twist": twist(values[:, 3:])}
 
     topic = Topic(f"/{name}/odom", "nav_msgs/Odometry")
-    return Source(topic, _odometry(topic, f"{name}/odom", f"{name}/base_footprint"), rows)
+    return TopicSource(topic, _odometry(topic, f"{name}/odom", f"{name}/base_footprint"), rows)
 
 
-def ground_truth(robot: int, name: str, world: World) -> Source:
-    """Where the robot truly is. It is no transform: the robot's frames hang on what it believes."""
+def ground_truth(robot: int, name: str, world: World) -> TopicSource:
+    """True pose of the robot. It is not a transform, because the robot's frames follow its estimate."""
 
     def rows(block: Chunk) -> Rows | None:
         if "truth" not in block or "truth_twist" not in block:
@@ -34,17 +34,17 @@ def ground_truth(robot: int, name: str, world: World) -> Source:
         return block["time"], {"pose": full, "twist": twist(block["truth_twist"][:, robot])}
 
     topic = Topic(f"/{name}/ground_truth", "nav_msgs/Odometry")
-    return Source(topic, _odometry(topic, "map", f"{name}/base_footprint"), rows)
+    return TopicSource(topic, _odometry(topic, "map", f"{name}/base_footprint"), rows)
 
 
-def command(robot: int, name: str) -> Source:
-    """What the robot was told to do."""
+def command(robot: int, name: str) -> TopicSource:
+    """Commands that the robot received."""
 
     def rows(block: Chunk) -> Rows | None:
         return (block["time"], {"twist": twist(block["command"][:, robot])}) if "command" in block else None
 
     topic = Topic(f"/{name}/cmd_vel", "geometry_msgs/Twist")
-    return Source(topic, Template(topic.type, _twist(), {"twist": TWIST}), rows)
+    return TopicSource(topic, Template(topic.type, _twist(), {"twist": TWIST}), rows)
 
 
 def twist(values: Float) -> Float:

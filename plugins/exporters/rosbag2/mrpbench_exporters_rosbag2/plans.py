@@ -1,4 +1,4 @@
-"""What the robots set out to do: plans and goals."""
+"""Plans and goals of the robots."""
 
 import numpy as np
 
@@ -27,7 +27,7 @@ def path(context: RunContext, name: str, route: Route, due: Int, stamp: int) -> 
 
 
 def goal(context: RunContext, robot: int, name: str, stamp: int) -> tuple[Topic, bytes]:
-    """Where one robot's path ends."""
+    """Goal of one robot: the end of its path."""
     topic = Topic(f"/{name}/goal_pose", "geometry_msgs/PoseStamped", latched=True)
     full = _goal_pose(context, robot)
     return topic, serialize(topic.type, message(topic.type, header=header(stamp, "map"), pose=pose(full)))
@@ -46,7 +46,7 @@ def goal_markers(context: RunContext, stamp: int) -> tuple[Topic, bytes]:
 
 
 def _goal_pose(context: RunContext, robot: int) -> Float:
-    """Goal f8[7]; one that leaves the yaw open gets the one the robot arrives with."""
+    """Goal f8[7]; a goal without yaw gets the yaw with which the robot arrives."""
     planar, z = np.array(context.goal[robot]), 0.0
     if context.routes:
         route = context.routes[robot]

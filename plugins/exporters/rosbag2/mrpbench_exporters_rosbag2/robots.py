@@ -1,4 +1,4 @@
-"""Robots as shapes, for viewers that draw neither `nav_msgs/Odometry` nor a robot description."""
+"""Shapes of robots, for viewers that draw neither `nav_msgs/Odometry` nor a robot description."""
 
 import numpy as np
 
@@ -8,14 +8,14 @@ from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2.frames import floor
 from mrpbench_exporters_rosbag2.marker import CYLINDER, DARK, LINE_STRIP, TEXT, colour_of, marker
 from mrpbench_exporters_rosbag2.messages import Topic, message, spatial
-from mrpbench_exporters_rosbag2.source import POSE, Pace, Rows, Source
+from mrpbench_exporters_rosbag2.source import POSE, Pace, Rows, TopicSource
 from mrpbench_exporters_rosbag2.template import Template
 
 INTERVAL = 0.1
 """seconds between two messages, at least."""
 
 
-def robot_markers(context: RunContext) -> Source:
+def robot_markers(context: RunContext) -> TopicSource:
     """A cylinder, the footprint and the name of every robot where it truly is, on `/robots`."""
     topic = Topic("/robots", "visualization_msgs/MarkerArray")
     fleet = context.fleet
@@ -32,7 +32,7 @@ def robot_markers(context: RunContext) -> Source:
         full = spatial(planar, floor(block, context.world)[..., None] + rise)
         return block["time"][shown], {"pose": full[shown].reshape(len(shown), 3 * len(fleet), 7)}
 
-    return Source(topic, Template(topic.type, message(topic.type, markers=markers), {"pose": POSE}), rows)
+    return TopicSource(topic, Template(topic.type, message(topic.type, markers=markers), {"pose": POSE}), rows)
 
 
 def _marks(index: int, robot: RobotModel, name: str) -> list[object]:

@@ -1,4 +1,4 @@
-"""New plans: for viewers `/robot_0/plan` once more, and for the way back all rows of the recording, on `/routes`."""
+"""New plans during a run: `/robot_0/plan` for viewers, `/routes` with the rows of the recording for the importer."""
 
 from collections.abc import Iterator
 

@@ -5,11 +5,11 @@ import numpy as np
 from mrpbench_core.model.fleet import Lidar
 from mrpbench_core.model.recording import Chunk
 from mrpbench_exporters_rosbag2.messages import Topic, header, message
-from mrpbench_exporters_rosbag2.source import Rows, Source
+from mrpbench_exporters_rosbag2.source import Rows, TopicSource
 from mrpbench_exporters_rosbag2.template import STAMP, Template, hole
 
 
-def scan(robot: int, name: str, lidar: Lidar) -> Source:
+def scan(robot: int, name: str, lidar: Lidar) -> TopicSource:
     """One robot's scans. A scan is taken at one instant; a beam that hits nothing reads inf (REP 117)."""
     topic = Topic(f"/{name}/scan", "sensor_msgs/LaserScan")
     ranges = hole(lidar.beams, "<f4")
@@ -34,4 +34,4 @@ def scan(robot: int, name: str, lidar: Lidar) -> Source:
         own = block["scan_robot"] == robot
         return block["scan_time"][own], {"ranges": block["scan_ranges"][own, : lidar.beams]}
 
-    return Source(topic, Template(topic.type, value, {"ranges": ranges}), rows)
+    return TopicSource(topic, Template(topic.type, value, {"ranges": ranges}), rows)

@@ -1,4 +1,4 @@
-"""Where a run takes place: the occupancy map and the navigation graph."""
+"""The occupancy map and the navigation graph."""
 
 import numpy as np
 

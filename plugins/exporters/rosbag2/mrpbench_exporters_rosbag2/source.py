@@ -1,4 +1,4 @@
-"""What a recording says again and again on one topic: a template and the channels that fill it."""
+"""Periodic messages of a topic: a template and the channels that fill it."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
@@ -16,7 +16,7 @@ Rows = tuple[Float, Mapping[str, NDArray[Any]]]
 """Times f8[k] in simulated seconds and the values of each hole at them."""
 
 POSE, TWIST = hole(7), hole(6)
-"""Where poses (as of `messages.spatial`) and twists go in templates."""
+"""Holes of templates for poses (see `messages.spatial`) and twists."""
 
 
 class Pace:
@@ -45,7 +45,7 @@ class Templates(Protocol):
 
 
 @attrs.frozen
-class Source:
+class TopicSource:
     """Makes the messages of one topic."""
 
     topic: Topic

@@ -1,4 +1,4 @@
-"""What is said once, at the start: the run, its place, where sensors sit, plans and goals. All of it is latched."""
+"""Latched messages at the start of a bag: run, map, sensor mounts, plans and goals."""
 
 import json
 from collections.abc import Iterator
@@ -14,7 +14,7 @@ from mrpbench_exporters_rosbag2.whole import whole
 
 
 def opening(context: RunContext, stamp: int, cell_size: float) -> Iterator[tuple[Topic, bytes]]:
-    """Every message of the start, stamped `stamp` (nanoseconds)."""
+    """Return all messages at the start, with the stamp `stamp` (nanoseconds)."""
     yield _run(context)
     yield whole(context)
     for index in range(len(context.world.levels)):
@@ -33,7 +33,7 @@ def opening(context: RunContext, stamp: int, cell_size: float) -> Iterator[tuple
 
 
 def _run(context: RunContext) -> tuple[Topic, bytes]:
-    """What names this run, as JSON."""
+    """Identity of the run as JSON."""
     facts = {
         "run_id": context.run_id,
         "scenario_id": context.scenario.id,
@@ -49,7 +49,7 @@ def _run(context: RunContext) -> tuple[Topic, bytes]:
 
 
 def _mounts(context: RunContext, stamp: int) -> tuple[Topic, bytes]:
-    """Where each robot's lidar sits."""
+    """Mount of each robot's lidar."""
     topic = Topic("/tf_static", "tf2_msgs/TFMessage", latched=True)
     transforms = [
         transform(f"{name}/base_footprint", f"{name}/base_scan", np.array([*robot.lidar.mount, 0, 0, 0, 1]), stamp)

@@ -1,4 +1,4 @@
-"""Messages whose layout never changes, made many at a time by patching the bytes of one.
+"""Makes many messages of one layout at a time by patching the bytes of a template.
 
 Building a message object and serialising it costs ten times as much as copying its bytes and filling in the numbers.
 A template is serialised once with *holes*: arrays of unlikely numbers in place of what will vary. Where those numbers

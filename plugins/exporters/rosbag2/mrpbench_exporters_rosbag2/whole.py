@@ -1,4 +1,4 @@
-"""The run's context as one message, so that nothing is lost on the way back: `/run_data` holds a NumPy `.npz` file.
+"""The complete context of the run as one message: `/run_data` holds a NumPy `.npz` file.
 
 It has the entry `context`, the UTF-8 bytes of `{"format": 1, "context": …}` in JSON, and the arrays that this names.
 """

@@ -1,4 +1,4 @@
-"""The writer of `rosbags`, less what takes long with thousands of topics, as a thousand robots have."""
+"""The writer of `rosbags`, without the parts that are slow with the thousands of topics of a thousand robots."""
 
 from functools import cache
 from pathlib import Path

@@ -1,1 +1,1 @@
-"""Reads bags of any fleet back."""
+"""Reads bags, of mrpbench and of other fleets."""

@@ -1,4 +1,4 @@
-"""What a bag says about poses, by robot and source, collected in one pass."""
+"""Collects the poses in a bag by robot and source, in one pass."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
@@ -21,7 +21,7 @@ POSES = tuple(
 TRANSFORMS, FLEET = "tf2_msgs/msg/TFMessage", "rmf_fleet_msgs/msg/FleetState"
 
 Take = Callable[[int, Any], None]
-"""Takes in a message with its log time."""
+"""Handles a message with its log time."""
 
 
 @attrs.define(kw_only=True)
@@ -31,9 +31,9 @@ class Collected:
     poses: dict[tuple[str, str], Series] = attrs.field(factory=dict)
     """By robot and source."""
     frames: dict[tuple[str, str], Series] = attrs.field(factory=dict)
-    """Transforms by tree (the robot whose topic it is, '' = that of all) and child frame."""
+    """Transforms by tree (the robot with this topic, or '' for the common tree) and child frame."""
     static: dict[tuple[str, str], Series] = attrs.field(factory=dict)
-    """Those that are said once."""
+    """Static transforms."""
 
     @property
     def series(self) -> Iterator[Series]:
@@ -84,7 +84,7 @@ class Collected:
 
 @attrs.frozen(kw_only=True)
 class Patterns:
-    """Which topics say what; see the options of the importer."""
+    """Patterns of the topics; see the options of the importer."""
 
     by_source: Mapping[str, tuple[str, ...]]
     tf: tuple[str, ...]
@@ -92,7 +92,7 @@ class Patterns:
     fleet: str
 
     def takers(self, topics: Mapping[str, str], into: Collected) -> dict[str, Take]:
-        """Who takes in the messages of each topic that says something about poses; `topics` give types by name."""
+        """Return the handler of each topic with poses; `topics` gives types by name."""
         found: dict[str, Take] = {}
         for topic, kind in topics.items():
             if kind in POSES:

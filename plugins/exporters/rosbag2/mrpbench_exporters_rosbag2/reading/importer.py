@@ -1,4 +1,4 @@
-"""The importer `rosbag2`: from the messages of a bag to one track per robot."""
+"""The importer `rosbag2`, which turns the messages of a bag into one track per robot."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,7 +18,7 @@ from mrpbench_exporters_rosbag2.reading.stream import Stream
 from mrpbench_exporters_rosbag2.reading.transforms import placed
 
 ESTIMATES = ("tf", "amcl_pose")
-"""Sources that say where a robot believes to be, the best first."""
+"""Sources of estimated poses, the best first."""
 SHOWN = 12
 """Topics that a message lists."""
 
@@ -46,7 +46,7 @@ class FromRosbag2(Importer):
     )
 
     def read(self, path: Path, robots: tuple[str, ...] = ()) -> Observed:
-        """Return what the bag at `path`, a folder or one storage file, holds."""
+        """Read the bag at `path`, a folder or a storage file."""
         with Stream(path) as stream:
             topics = stream.topics
             for alone in (False, True):
@@ -101,7 +101,7 @@ class FromRosbag2(Importer):
         return {channel: without_robot(patterns) if alone else patterns for channel, patterns in by_channel.items()}
 
     def _span(self, collected: Collected) -> tuple[Span, list[str]]:
-        """The part that is used, and what to say about it."""
+        """Return the part of the bag that is used, and notes about it."""
         span = longest_even_span(collected.series)
         notes = [] if span.note is None else [span.note]
         if span.use_log:
@@ -153,7 +153,7 @@ class FromRosbag2(Importer):
         return None
 
     def _nothing(self, path: Path, robots: tuple[str, ...], topics: dict[str, str], notes: list[str]) -> InputError:
-        """Why there is not one track."""
+        """Return the error that says why there is no track."""
         listed = [f"{topic} ({kind.replace('/msg/', '/')})" for topic, kind in sorted(topics.items())]
         more = f" and {len(listed) - SHOWN} more" if len(listed) > SHOWN else ""
         there = f"its topics are {', '.join(listed[:SHOWN])}{more}" if listed else "it holds no messages"

@@ -1,4 +1,4 @@
-"""Robots by the names of topics and frames."""
+"""Finds robots by the names of topics and frames."""
 
 import re
 from collections.abc import Iterable
@@ -6,11 +6,11 @@ from fnmatch import fnmatchcase
 
 PLACE = "{robot}"
 LONE = "robot"
-"""What the robot is called where no name is in its topics."""
+"""Name of the robot if its topics contain no name."""
 
 
 def robot_in(name: str, patterns: Iterable[str]) -> str | None:
-    """The robot that a topic or frame is of, by the first pattern that fits."""
+    """Return the robot of a topic or frame, by the first pattern that matches."""
     for pattern in patterns:
         before, place, after = pattern.partition(PLACE)
         found = re.fullmatch(re.escape(before) + (r"([^/]+)" if place else "") + re.escape(after), name)
@@ -20,7 +20,7 @@ def robot_in(name: str, patterns: Iterable[str]) -> str | None:
 
 
 def without_robot(patterns: Iterable[str]) -> tuple[str, ...]:
-    """The patterns of a robot that is alone: `/odom` for `/{robot}/odom`."""
+    """Return the patterns of a single robot: `/odom` for `/{robot}/odom`."""
     return tuple(pattern.replace("/" + PLACE, "").replace(PLACE + "/", "") for pattern in patterns)
 
 

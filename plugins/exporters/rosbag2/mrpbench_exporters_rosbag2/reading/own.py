@@ -1,4 +1,4 @@
-"""What bags that mrpbench wrote say: the context, progress, contacts and events, and the rows of the recording."""
+"""Reads bags that mrpbench wrote: context, progress, contacts, events and channels of the recording."""
 
 from collections import defaultdict
 from io import BytesIO
@@ -35,7 +35,7 @@ class Own:
         self._estimates: dict[str, Said] = {}
 
     def takers(self) -> dict[str, Take]:
-        """Who takes in the messages of each topic, if the bag is one of mrpbench's."""
+        """Return the handler of each topic, if mrpbench wrote the bag."""
         if whole.TOPIC.name not in self._topics:
             return {}
         takes = {
@@ -51,7 +51,7 @@ class Own:
 
     @property
     def begin(self) -> int | None:
-        """Stamp of the recording's first sample, nanoseconds; None = it is no whole recording."""
+        """Stamp of the recording's first sample, nanoseconds; None if the recording is not complete."""
         return int(self._rows["time"][0]) if self.context and self._rows["time"] else None
 
     def channels(self) -> Chunk:

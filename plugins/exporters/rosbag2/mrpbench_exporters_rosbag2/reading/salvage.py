@@ -1,4 +1,4 @@
-"""Makes readable copies of damaged storage files, with what comes before the damage.
+"""Makes readable copies of damaged storage files, with the messages before the damage.
 
 Of mcap that is everything up to the last whole record, with a proper end. The format: https://mcap.dev/spec. A file is
 magic, records (opcode u1, length u8, content), magic. The end need not have an index; readers then go through it all.
@@ -16,12 +16,12 @@ END = struct.pack("<BQI", DATA_END, 4, 0) + struct.pack("<BQQQI", FOOTER, 20, 0,
 
 
 def salvage(file: Path, folder: Path) -> Path:
-    """A copy in `folder`, which can be read if anything can."""
+    """Return a copy in `folder` with everything that can be read."""
     return _mcap(file, folder) if file.suffix == ".mcap" else _sqlite(file, folder)
 
 
 def _sqlite(file: Path, folder: Path) -> Path:
-    """All tables, row by row until one cannot be read."""
+    """Copy all tables, row by row until a row cannot be read."""
     copy = folder / file.name
     with (
         closing(sqlite3.connect(f"{file.resolve().as_uri()}?immutable=1", uri=True)) as old,

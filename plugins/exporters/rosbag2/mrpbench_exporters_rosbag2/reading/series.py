@@ -1,4 +1,4 @@
-"""Stamped planar poses, collected message by message, and what a clock that jumps leaves of them."""
+"""Series of stamped planar poses, and the part of a recording in which its clock does not jump."""
 
 import math
 from collections.abc import Iterable
@@ -11,7 +11,7 @@ from mrpbench_core.model.arrays import Float, Int
 from mrpbench_exporters_rosbag2.messages import SECOND
 
 BACK, AHEAD = SECOND, 3600 * SECOND
-"""A stamp that is so much before, or after, the one before it is the clock's doing; less is disorder, or a gap."""
+"""Difference of two successive stamps from which the clock has jumped; a smaller one is disorder or a gap."""
 
 
 @attrs.define
@@ -20,7 +20,7 @@ class Series:
 
     topic: str
     frame: str = ""
-    """What the poses are in."""
+    """Frame of the poses."""
     stamps: list[int] = attrs.field(factory=list)
     """nanoseconds."""
     logged: list[int] = attrs.field(factory=list)
@@ -80,14 +80,14 @@ class Span:
     """The part of a recording in which its clock runs evenly."""
 
     use_log: bool
-    """Some topic has no stamps, so that only log times put all on one clock."""
+    """Whether log times are used as stamps, because some topic has no stamps."""
     since: int
     until: int
     note: str | None = None
 
 
 def longest_even_span(series: Iterable[Series]) -> Span:
-    """Where no clock jumps: of the parts between jumps, the one with most poses."""
+    """Return the part between two jumps of the clock that has most poses."""
     every = [found for found in series if found.stamps]
     use_log = any(not any(found.stamps) for found in every)
     jumps = sorted((jump, by, found.topic) for found in every for jump, by in found.jumps)

@@ -1,4 +1,4 @@
-"""What robots measured and were told, beside where they were: odometry, commands, scans; collected in one pass."""
+"""Collects odometry, commands and scans of robots in one pass."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
@@ -36,7 +36,7 @@ class Signals:
     """By robot and channel."""
 
     def takers(self, topics: Mapping[str, str]) -> dict[str, Take]:
-        """Who takes in the messages of each topic; `topics` give types by name."""
+        """Return the handler of each topic; `topics` gives types by name."""
         found = {}
         for topic, kind in topics.items():
             for channel, patterns in self.patterns.items():
@@ -71,7 +71,7 @@ class Signals:
 
 
 def turn(orientation: Any) -> float:
-    """Yaw of a quaternion; of one that was made from a yaw between -2 pi and 2 pi, that very yaw."""
+    """Yaw of a quaternion; exactly the original yaw, if that was between -2 pi and 2 pi."""
     if orientation.x == orientation.y == 0:
         return 2 * math.atan2(orientation.z, orientation.w)
     return yaw(orientation)
@@ -89,7 +89,7 @@ def _taking(said: Said, read: Callable[[Any], Any]) -> Take:
 
 
 def _ahead(clock: Series, logged: Int) -> Int:
-    """How far stamps are ahead of log times, nanoseconds, at the log times given."""
+    """Nanoseconds by which stamps are ahead of log times, at the given log times."""
     known = np.array(clock.logged, np.int64)
     offset = np.array(clock.stamps, np.int64) - known
     order = np.argsort(known, kind="stable")

@@ -1,4 +1,4 @@
-"""Messages of a bag, in the order of recording, as long as there are some that can be read."""
+"""Reads the messages of a bag in the order of recording, up to the first damage."""
 
 from collections.abc import Collection, Iterator
 from contextlib import ExitStack, suppress
@@ -50,7 +50,7 @@ class Stream:
         return {found.topic: found.msgtype for found in self._connections() if found.msgcount}
 
     def messages(self, topics: Collection[str]) -> Iterator[tuple[str, int, Any]]:
-        """Topic, log time (nanoseconds) and message. What cannot be read ends up in `notes`."""
+        """Yield topic, log time (nanoseconds) and message; `notes` says what cannot be read."""
         for reader in self.readers:
             wanted = [found for found in reader.connections if found.topic in topics and self._definition(found)]
             count = 0
@@ -71,7 +71,7 @@ class Stream:
         return [connection for reader in self.readers for connection in reader.connections]
 
     def _definition(self, connection: Connection) -> Typestore | None:
-        """What reads a connection's messages: by the bag's own definition, else by ROS 2's of that name."""
+        """Return the type store of a connection: the bag's own definition, or that of ROS 2 with this name."""
         name = connection.msgtype
         if name not in self._types:
             self._types[name] = self._find(connection)

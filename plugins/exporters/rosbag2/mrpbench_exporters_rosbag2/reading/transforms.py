@@ -1,4 +1,4 @@
-"""Where robots stand in `map` by their chains of transforms."""
+"""Poses of robots in `map` from their chains of transforms."""
 
 from collections.abc import Mapping
 
@@ -10,7 +10,7 @@ from mrpbench_exporters_rosbag2.reading.series import Ordered
 Edges = Mapping[str, tuple[str, Ordered]]
 """Each frame's parent, and its poses in it; a static frame has one."""
 DEPTH = 100
-"""Frames between a robot and `map`, at most: more are a ring."""
+"""Largest number of frames between a robot and `map`; more mean a cycle."""
 
 
 def placed(edges: Edges, frame: str, root: str) -> Ordered | None:
@@ -42,7 +42,7 @@ def sample(poses: Ordered, stamps: Int) -> Float:
 
 
 def compose(outer: Float, inner: Float) -> Float:
-    """Poses f8[k,4] of what stands at `inner` in frames that stand at `outer`."""
+    """Poses f8[k,4] of `inner`, given in frames with the poses `outer`."""
     cos, sin = np.cos(outer[:, 2]), np.sin(outer[:, 2])
     x = outer[:, 0] + cos * inner[:, 0] - sin * inner[:, 1]
     y = outer[:, 1] + sin * inner[:, 0] + cos * inner[:, 1]
