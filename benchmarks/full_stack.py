@@ -125,8 +125,8 @@ def run(case: Case, profile: cProfile.Profile | None = None) -> Clock:
         record = execute(point.config, "speed", paths, lambda *_: None, watching)
         if profile is not None:
             profile.disable()
-    if record["status"] not in (RunStatus.SUCCEEDED, RunStatus.GOALS_MISSED):
-        raise SystemExit(f"{case}: {record['status']}: {record.get('error')}")
+    if record.status not in (RunStatus.SUCCEEDED, RunStatus.GOALS_MISSED):
+        raise SystemExit(f"{case}: {record.status}: {record.error}")
     return clock
 
 

@@ -1,7 +1,5 @@
 """One run from its configuration to its record, in this process."""
 
-from typing import Any
-
 import attrs
 import numpy as np
 
@@ -10,11 +8,12 @@ from mrpbench_core.engine.execution.replanning import replanning_fault
 from mrpbench_core.engine.execution.routes import Router, speed_limits
 from mrpbench_core.engine.json_values import printable
 from mrpbench_core.engine.observers import Observers
-from mrpbench_core.engine.stage import Announce, RunEnded
+from mrpbench_core.engine.record import RunError, RunRecord
+from mrpbench_core.engine.stage import Announce, RunEnded, RunInputs
 from mrpbench_core.engine.stages.assign import assign, tasks_of_plan
-from mrpbench_core.engine.stages.execute import drive, measure_recording
+from mrpbench_core.engine.stages.execute import execute_plan
 from mrpbench_core.engine.stages.judge import judge
-from mrpbench_core.engine.stages.measure import measure
+from mrpbench_core.engine.stages.measure import measure, measure_recording
 from mrpbench_core.engine.stages.plan import STATUS, budget_of, call_planner
 from mrpbench_core.engine.stages.prepare import Instance, build_instance, require_free_doorways
 from mrpbench_core.engine.stages.problem_building import build_problem
@@ -27,73 +26,81 @@ from mrpbench_core.store.paths import RunPaths
 
 def execute(
     config: RunConfig, run_id: str, paths: RunPaths, announce: Announce, observers: Observers | None = None
-) -> dict[str, Any]:
-    """Execute one run and return its record, less what only the invoking process knows.
+) -> RunRecord:
+    """Execute one run and return its record, without what only the invoking process knows.
 
-    The recording and exports are complete under their final names when this returns.
+    The recording and the exports are complete under their final names when this returns.
 
     Raises:
         InputError: the configuration does not fit its world, robots or files.
     """
-    observers = observers or Observers()
-    record: dict[str, Any] = {"run_id": run_id, "scenario_id": None, "metrics": {}, "timing": {}}
+    record = RunRecord(run_id=run_id)
+    inputs = RunInputs(
+        config=config, paths=paths, announce=announce, observers=observers or Observers(), timing=record.timing
+    )
     try:
-        instance = build_instance(config, announce)
-        record["scenario_id"] = instance.scenario.id
-        if config.simulator is not None:
-            require_free_doorways(instance)
-        chosen = None if config.planner.assigns else assign(config, instance, announce, record["timing"])
-        if chosen is not None and config.scenario.gives_goals:
-            record["reassigned"] = sum(task != robot for robot, task in enumerate(chosen))
-        problem = build_problem(instance, chosen, config.assigner)
-        result, ended = _plan(config, problem, announce, record["timing"], observers)
-        assigned = _assigned(instance, problem, result, chosen)
-        router = _router(config, instance, assigned, problem)
-        context = _context(config, run_id, instance, assigned, problem, result, router)
-        if ended is None and config.simulator is not None:
-            ended, record["unexported"] = drive(config, context, router, paths, announce, record["timing"], observers)
-            announce(Stage.METRICS, {})
-            record["executed"] = True
-            record["metrics"], record["unmeasured"] = measure_recording(config, paths.recording)
-            if config.recording.keep == "none" or (config.recording.keep == "failed" and ended is None):
-                paths.recording.unlink()
-        else:
-            announce(Stage.METRICS, {})
-            run = FinishedRun(context=context, executed=False)
-            record["metrics"], record["unmeasured"] = measure(config.metrics, run)
-    except RunEnded as error:
-        ended = error
-    record["status"] = RunStatus.SUCCEEDED if ended is None else ended.status
-    if ended is not None:
-        record["error"] = {"stage": ended.stage, "message": printable(str(ended))}
+        _run_stages(inputs, record)
+    except RunEnded as ended:
+        record.status = ended.status
+        record.error = RunError(stage=ended.stage, message=printable(str(ended)))
     return record
 
 
-def _plan(
-    config: RunConfig, problem: Problem, announce: Announce, timing: dict[str, Any], observers: Observers
-) -> tuple[PlanResult, RunEnded | None]:
-    """Plan; the second value says how the run ended if there is nothing to execute."""
+def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
+    """Prepare, assign, plan, execute and measure.
+
+    Raises:
+        RunEnded: the run did not succeed; the record holds what was found until then.
+    """
+    config = inputs.config
+    instance = build_instance(config, inputs.announce)
+    record.scenario_id = instance.scenario.id
+    if config.simulator is not None:
+        require_free_doorways(instance)
+    assigned = None if config.planner.assigns else assign(config, instance, inputs.announce, inputs.timing)
+    if assigned is not None and config.scenario.gives_goals:
+        record.reassigned = sum(task != robot for robot, task in enumerate(assigned))
+    problem = build_problem(instance, assigned, config.assigner)
+    result, failure = _plan(inputs, problem)
+    if assigned is None:
+        assigned = (-1,) * len(problem) if result.plan is None else tasks_of_plan(instance, problem, result.plan)
+    router = _router(config, instance, assigned, problem)
+    context = _context(inputs, record.run_id, instance, router, result, assigned)
+    if failure is None and config.simulator is not None:
+        failure, record.unexported = execute_plan(inputs, context, router)
+        inputs.announce(Stage.METRICS, {})
+        record.executed = True
+        record.metrics, record.unmeasured = measure_recording(config.metrics, inputs.paths.recording)
+        if config.recording.keep == "none" or (config.recording.keep == "failed" and failure is None):
+            inputs.paths.recording.unlink()
+    else:
+        inputs.announce(Stage.METRICS, {})
+        run = FinishedRun(context=context, executed=False)
+        record.metrics, record.unmeasured = measure(config.metrics, run)
+    if failure is not None:
+        raise failure
+
+
+def _plan(inputs: RunInputs, problem: Problem) -> tuple[PlanResult, RunEnded | None]:
+    """Plan and judge; the second value says how the run ended if there is no plan to execute.
+
+    Raises:
+        RunEnded: the planner does not support the problem.
+    """
+    config = inputs.config
     if reason := config.planner.skip(problem) or replanning_fault(config):
         raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, reason)
-    announce(Stage.PLANNING, {"limit_s": config.limits.planning})
-    result, spent = call_planner(config.planner, problem, budget_of(config))
-    timing |= spent
-    announce(Stage.CHECKING, {})  # which is no part of the planner's time
+    inputs.announce(Stage.PLANNING, {"limit_s": config.limits.planning})
+    result, timing = call_planner(config.planner, problem, budget_of(config))
+    inputs.timing.update(timing)
+    inputs.announce(Stage.CHECKING, {})  # which is no part of the planner's time
     result, fault = judge(config.planner, problem, result)
-    observers.planned(problem=problem, result=result)
+    inputs.observers.planned(problem=problem, result=result)
     if fault is not None:
         return attrs.evolve(result, plan=None), RunEnded(RunStatus.PLAN_INVALID, Stage.PLANNING, fault)
     if result.plan is None:
         return result, RunEnded(STATUS[result.status], Stage.PLANNING, f"the planner ended with {result.status}")
     return result, None
-
-
-def _assigned(
-    instance: Instance, problem: Problem, result: PlanResult, chosen: tuple[int, ...] | None
-) -> tuple[int, ...]:
-    if chosen is not None:
-        return chosen
-    return (-1,) * len(problem) if result.plan is None else tasks_of_plan(instance, problem, result.plan)
 
 
 def _router(config: RunConfig, instance: Instance, assigned: tuple[int, ...], problem: Problem) -> Router:
@@ -102,24 +109,19 @@ def _router(config: RunConfig, instance: Instance, assigned: tuple[int, ...], pr
 
 
 def _context(
-    config: RunConfig,
-    run_id: str,
-    instance: Instance,
-    assigned: tuple[int, ...],
-    problem: Problem,
-    result: PlanResult,
-    router: Router,
+    inputs: RunInputs, run_id: str, instance: Instance, router: Router, result: PlanResult, assigned: tuple[int, ...]
 ) -> RunContext:
+    """What is known of the run before its execution; without a plan there are no routes."""
     routes = () if result.plan is None else router(result.plan)
     return RunContext(
         run_id=run_id,
         world=instance.world,
         fleet=instance.fleet,
         scenario=instance.scenario,
-        problem=problem,
+        problem=router.problem,
         result=result,
         routes=routes,
         goal=tuple((float(x), float(y), float(yaw)) for x, y, yaw in (route.waypoint[-1] for route in routes)),
-        period=1 / config.control_rate,
+        period=1 / inputs.config.control_rate,
         assigned=assigned,
     )

@@ -31,7 +31,7 @@ def execute_first(tmp_path: Path, *overrides: str, observers: Observers | None =
     (point,) = load_study({**FIRST, **changes}, overrides).runs
     stages = []
     paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports", picture=None)
-    record = execute(point.config, point.run_id, paths, lambda stage, facts: stages.append(stage), observers)
+    record = execute(point.config, point.run_id, paths, lambda stage, facts: stages.append(stage), observers).message()
     return record, stages
 
 

@@ -18,6 +18,7 @@ from mrpbench_core.config.canonical import canonical
 from mrpbench_core.config.settings import FleetEntry
 from mrpbench_core.engine.analysis.observed_run import ObservedRun, Sampling, observe, observe_own
 from mrpbench_core.engine.processes.machine import machine
+from mrpbench_core.engine.record import RunError, RunRecord, StoredRecord
 from mrpbench_core.engine.stages.measure import describe, measure
 from mrpbench_core.engine.study.versions import versions
 from mrpbench_core.files.errors import InputError
@@ -78,26 +79,28 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
     values, reasons = measure(analysis.metrics, run)
     if found.gaps:
         reasons |= {name: "; ".join(found.gaps) for name, reason in reasons.items() if reason == "no truth"}
-    record: dict[str, Any] = {
-        "run_id": identity,
-        "scenario_id": context.scenario.id,
-        "attempt": 1,
-        "config": _config(analysis, context.fleet),
-        "seed": 0,
-        "repeat": 0,
-        **_status(found, context),
-        "metrics": values,
-        "unmeasured": reasons,
-        "timing": {},
-        "provenance": {**_code(analysis), "machine": machine(), "live": False},
-        "analysis": {
+    status, message = _status(found, context)
+    record = StoredRecord(
+        run=RunRecord(
+            run_id=identity,
+            scenario_id=context.scenario.id,
+            status=status,
+            error=None if message is None else RunError(stage=Stage.ANALYSIS, message=message),
+            metrics=values,
+            unmeasured=reasons,
+        ),
+        attempt=1,
+        config=_config(analysis, context.fleet),
+        seed=0,
+        repeat=0,
+        provenance={**_code(analysis), "machine": machine(), "live": False},
+        analysis={
             "bag": analysis.bag.resolve().name,
             "sources": {track.robot: f"{track.source}: {track.topic}" for track in observed.tracks},
             "notes": [*found.notes, *found.gaps],
         },
-    }
-    attempt = _keep(analysis, attrs.evolve(found, context=first), record)
-    return {**record, "attempt": attempt}
+    )
+    return _keep(analysis, attrs.evolve(found, context=first), record).document()
 
 
 def _loader(rows: Any) -> Any:
@@ -140,21 +143,17 @@ def _observe(analysis: Analysis, observed: Observed) -> ObservedRun:
     return observe(observed, world, fleet, scenario, analysis.sampling)
 
 
-def _status(found: ObservedRun, context: RunContext) -> dict[str, Any]:
-    """How the run ended, as far as can be told."""
+def _status(found: ObservedRun, context: RunContext) -> tuple[RunStatus, str | None]:
+    """How the run ended, as far as the recording shows, and why it did not succeed."""
     last = found.channels["reached"][-1]
     arrived = last >= np.array([len(route.speed) for route in context.routes])
     if arrived.all():
-        return {"status": RunStatus.SUCCEEDED}
+        return RunStatus.SUCCEEDED, None
     mode = found.channels.get("mode")
     if mode is not None and (mode[-1] == Mode.ABORTED).any():
-        return {"status": RunStatus.EXECUTION_ABORTED, "error": _error("a robot gave up before all had arrived")}
+        return RunStatus.EXECUTION_ABORTED, "a robot gave up before all had arrived"
     missed = f"{np.count_nonzero(~arrived)} of {len(arrived)} robots are not seen to arrive"
-    return {"status": RunStatus.GOALS_MISSED, "error": _error("; ".join((missed, *found.gaps)))}
-
-
-def _error(message: str) -> dict[str, str]:
-    return {"stage": Stage.ANALYSIS, "message": message}
+    return RunStatus.GOALS_MISSED, "; ".join((missed, *found.gaps))
 
 
 def _config(analysis: Analysis, fleet: Fleet) -> dict[str, Any]:
@@ -197,16 +196,17 @@ def _code(analysis: Analysis) -> dict[str, Any]:
     return {"components": components, "versions": versions(components)}
 
 
-def _keep(analysis: Analysis, found: ObservedRun, record: dict[str, Any]) -> int:
-    """Store recording and record; returns which attempt this is."""
+def _keep(analysis: Analysis, found: ObservedRun, record: StoredRecord) -> StoredRecord:
+    """Store recording and record; returns the record with the number of this attempt."""
     folder = ResultsFolder(analysis.out)
     folder.create()
     with locked(folder.path):
         folder.sweep()
-        before = Results(folder, only=[record["run_id"]]).entry(record["run_id"])
-        attempt = 1 if before is None else before.attempt + 1
+        run_id = record.run.run_id
+        before = Results(folder, only=[run_id]).entry(run_id)
+        record = attrs.evolve(record, attempt=1 if before is None else before.attempt + 1)
         invocation = new_invocation()
-        writer = RecordingWriter(folder.run(record["run_id"]).recording, found.context)
+        writer = RecordingWriter(folder.run(run_id).recording, found.context)
         try:
             writer.write(found.channels)
         except BaseException:
@@ -215,17 +215,17 @@ def _keep(analysis: Analysis, found: ObservedRun, record: dict[str, Any]) -> int
         writer.close()
         write_document(folder.invocation(invocation), _facts(analysis, record, invocation))
         with Writer(folder.shard(invocation), exclusive=True) as shard:
-            shard.write({**record, "attempt": attempt})
-    return attempt
+            shard.write(record.document())
+    return record
 
 
-def _facts(analysis: Analysis, record: dict[str, Any], invocation: str) -> dict[str, Any]:
+def _facts(analysis: Analysis, record: StoredRecord, invocation: str) -> dict[str, Any]:
     return {
         "invocation": invocation,
         "started": datetime.now(UTC).isoformat(timespec="seconds"),
         "process": os.getpid(),
-        "machine": record["provenance"]["machine"],
-        "versions": record["provenance"]["versions"],
+        "machine": record.provenance["machine"],
+        "versions": record.provenance["versions"],
         "columns": describe(analysis.metrics),
-        "analysis": record["config"] | record["analysis"],
+        "analysis": record.config | (record.analysis or {}),
     }

@@ -1,7 +1,8 @@
-"""Who may use which door, lift and mutex, and what doors and lifts do for it.
+"""Assigns doors, lifts and mutexes to robots, and commands doors and lifts accordingly.
 
-A robot holds a resource from when it asks, as soon as there is room, until it no longer asks. What it holds it may use
-(`FleetView.granted`) once the door is open, or shut where it only drives past, or the cabin is there and open.
+A robot that requests a resource gets it as soon as there is room, and holds it until it no longer requests it. The
+robot may use the resource (`FleetView.granted`) once the door is open (closed where the robot only drives past), or
+once the cabin is at the robot's level with open doors.
 """
 
 from collections.abc import Mapping
@@ -18,11 +19,11 @@ from mrpbench_core.model.world import Lift, World
 
 
 class ExecutionError(Exception):
-    """The execution cannot go on; says why."""
+    """The execution cannot go on; the message says why."""
 
 
 class FacilityManager:
-    """Keeps the keys of one execution."""
+    """Manages the facilities (doors and lifts) and mutexes of one execution."""
 
     def __init__(self, world: World, problem: Problem, plan: Plan) -> None:
         self.facilities = Facilities(world)
@@ -36,14 +37,14 @@ class FacilityManager:
         self.adopt(problem, plan)
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
-        """Robots follow a new plan."""
+        """Go on with a new plan."""
         starts = problem.start.tolist()
         self._vertices = [path.vertices(problem.roadmap, start) for path, start in zip(plan.paths, starts, strict=True)]
         self._edges = [path.edge for path in plan.paths]
         self._shown: dict[tuple[int, str], tuple[Bool, Bool]] = {}
 
-    def granted(self, view: FleetView, state: State) -> FleetView:
-        """What a dispatcher sees, with what robots may use now."""
+    def with_grants(self, view: FleetView, state: State) -> FleetView:
+        """The view of a dispatcher, completed by the resources that robots may use now."""
         self._ready = tuple(
             (robot, name)
             for name, holders in self._held.items()
@@ -52,11 +53,11 @@ class FacilityManager:
         )
         return attrs.evolve(view, granted=self._ready) if self._ready else view
 
-    def take(self, orders: Orders) -> None:
-        """Let go what is no longer asked for, and give what there is room for, longest wanted first.
+    def assign(self, orders: Orders) -> None:
+        """Release resources that are no longer requested, and assign those with room, the longest requested first.
 
         Raises:
-            ExecutionError: a dispatcher asks for what there is not.
+            ExecutionError: the dispatcher requests a resource that does not exist.
         """
         self._asked = orders.requests
         for name, holders in self._held.items():
@@ -69,7 +70,7 @@ class FacilityManager:
             if robot not in holders and len(holders) < self._resources[name].capacity:
                 holders.append(robot)
 
-    def waiting(self, robots: int) -> Int32:
+    def waits_for(self, robots: int) -> Int32:
         """The number i4[n] of the resource that each robot has asked for and may not use yet, -1 = none."""
         waits: Int32 = np.full(robots, -1, np.int32)
         for robot, name in self._asked:
@@ -77,21 +78,21 @@ class FacilityManager:
                 waits[robot] = self._number[name]
         return waits
 
-    def doing(self, state: State) -> list[float]:
-        """What doors and lifts do now, in the order of `Facilities.names`; [] if the simulator knows none."""
+    def states(self, state: State) -> list[float]:
+        """Positions of doors and lifts, in the order of `Facilities.names`; [] if the simulator has no facilities."""
         return [state.facilities.get(name, np.nan) for name in self.facilities.names] if state.facilities else []
 
     def commands(self, reached: Int32, released: Int32, state: State) -> dict[str, float]:
-        """What doors and lifts are to do, see `Inputs.facilities`.
+        """Commands for doors and lifts, see `Inputs.facilities`.
 
         Raises:
-            ExecutionError: the simulator knows neither doors nor lifts, and somebody needs one.
+            ExecutionError: a robot needs a door or lift, and the simulator supports neither.
         """
         if not self._resources or not self.facilities.names:
             return {}
         if not state.facilities:
             if any(holders and self._resources[name].kind != "mutex" for name, holders in self._held.items()):
-                raise ExecutionError("the simulator knows neither doors nor lifts: use kinematic, or planar")
+                raise ExecutionError("the simulator supports neither doors nor lifts: use kinematic or planar")
             return {}
         commands: dict[str, float] = {}
         for name, resource in self._resources.items():
@@ -103,10 +104,11 @@ class FacilityManager:
                 if holders:
                     robot = holders[0]
                     stop = self._stop(robot, name, int(reached[robot]), int(released[robot]))
-                commands |= self._drive(self._lifts[name], stop, state.facilities)
+                commands |= self._lift_commands(self._lifts[name], stop, state.facilities)
         return commands
 
     def _is_ready(self, robot: int, name: str, reached: int, state: Mapping[str, float]) -> bool:
+        """Tell whether a robot may use a resource that it holds."""
         kind = self._resources[name].kind
         if kind == "door" and name in state:
             return state[name] == float(self._passes(robot, name, reached))
@@ -127,8 +129,8 @@ class FacilityManager:
         levels = self._level[self._vertices[robot][first : first + 2]]
         return int(levels[-1] if first < released and first == reached else levels[0])
 
-    def _drive(self, lift: Lift, stop: int | None, state: Mapping[str, float]) -> dict[str, float]:
-        """Shut the doors, go there, open; without a `stop`, shut the doors."""
+    def _lift_commands(self, lift: Lift, stop: int | None, state: Mapping[str, float]) -> dict[str, float]:
+        """Close the doors, go to the level `stop`, open them; without a `stop`, close them."""
         gates = self._entrances[lift.name]
         if stop is not None and self.facilities.is_at(lift, stop, state):
             return {gate.name: float(stop in gate.opens_on) for gate in gates}

@@ -1,4 +1,4 @@
-"""The loop that executes a plan: simulator, localizer, dispatcher, navigator, and again."""
+"""The loop that executes a plan: sense, dispatch, drive, record, once in every control period."""
 
 from collections.abc import Callable
 from typing import Any, Self
@@ -8,28 +8,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.api.controller import Controller
-from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession
+from mrpbench_core.api.dispatcher import Dispatcher, DispatchError
 from mrpbench_core.api.localizer import Localizer
-from mrpbench_core.api.navigator import Navigator, NavigatorSession
+from mrpbench_core.api.navigator import Navigator
 from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import ContractChecks
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
 from mrpbench_core.engine.execution.noise import Disturbances
-from mrpbench_core.engine.execution.recorder import Recorder
+from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.replanning import Replanner, Revision
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Bool
-from mrpbench_core.model.execution import (
-    Event,
-    FleetObservation,
-    FleetView,
-    Inputs,
-    Mode,
-    Motion,
-    Orders,
-)
+from mrpbench_core.model.execution import Event, FleetObservation, FleetView, Inputs, Mode, Motion, Orders, State
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.run import RunContext
 
@@ -37,8 +28,8 @@ WAITING, ABORTED = int(Mode.WAITING), int(Mode.ABORTED)
 
 
 @attrs.frozen(kw_only=True)
-class Stack:
-    """The components that execute a plan."""
+class LoopComponents:
+    """The components that take part in the loop, besides the simulator."""
 
     localizer: Localizer
     dispatcher: Dispatcher
@@ -50,7 +41,7 @@ class Stack:
         """The components that a configuration names.
 
         Raises:
-            InputError: a stage that execution needs is `none`.
+            InputError: a component that execution needs is `none`.
         """
         chosen = {}
         for field in attrs.fields(cls):
@@ -67,144 +58,190 @@ class ExecutionResult:
     arrived: bool
     """Every robot completed its path."""
     aborted: bool
-    """Some robot gave up."""
+    """At least one robot gave up."""
     simulated_s: float
 
 
-def execute_plan(
-    context: RunContext,
-    stack: Stack,
-    simulation: Simulation,
-    noise: Disturbances,
-    recorder: Recorder,
-    replans: Replanner,
-    limit_s: float,
-    seeds: tuple[int, int],
-    stepped: Callable[..., Any] | None = None,
-) -> ExecutionResult:
-    """Run until every robot has completed its path, all that have not gave up, or `limit_s` simulated seconds passed.
+@attrs.frozen(kw_only=True)
+class LoopInputs:
+    """What an execution is given."""
 
-    Args:
-        context: world, fleet, problem, plan and routes.
-        stack: the components in the loop.
-        simulation: opened with the robots in place.
-        noise: errors of sensors, motors and starts.
-        recorder: gets everything that happens; flushed at the end.
-        replans: asks for new plans; knows the first one.
-        limit_s: simulated seconds.
-        seeds: seed and repeat of the run.
-        stepped: called after every period; see `mrpbench_core.api.hooks`.
+    context: RunContext
+    """World, fleet, problem, plan and routes."""
+    components: LoopComponents
+    simulation: Simulation
+    """Opened, with the robots at the starts of their routes."""
+    noise: Disturbances
+    """Errors of sensors, motors and start times."""
+    recorder: Recorder
+    """Receives everything that happens; flushed at the end."""
+    replanner: Replanner
+    """Asks for new plans; knows the first one."""
+    limit_s: float
+    """Simulated seconds after which the execution ends."""
+    seeds: tuple[int, int]
+    """Seed and repeat of the run."""
+    stepped: Callable[..., Any]
+    """Called after every control period; see `mrpbench_core.api.hooks`."""
+
+
+class ExecutionLoop:
+    """Executes a plan, control period by control period.
 
     Raises:
         BrokenContractError: a component returned what its contract rules out.
         DispatchError: the dispatcher refuses the plan.
-        ExecutionError: a dispatcher asks for what there is not.
+        ExecutionError: a component asks for what does not exist.
     """
-    plan = context.result.plan
-    assert plan is not None
-    robots = len(context.fleet)
-    period = context.period
-    answers = ContractChecks(_length(plan))
-    state = answers.state(simulation.state)
-    dispatcher = stack.dispatcher.start(context.problem, plan)
-    localizer = stack.localizer.start(context.fleet, context.world, state.pose, seed_of(*seeds, "localizer"))
-    navigator = stack.navigator.start(
-        context.fleet, context.world, context.routes, stack.controller, period, seed_of(*seeds, "navigator")
-    )
-    motion = Motion(
-        twist=np.zeros((robots, 2)),
-        reached=np.zeros(robots, "i4"),
-        cleared=np.zeros(robots, "i4"),
-        mode=np.full(robots, Mode.WAITING, "u1"),
-    )
-    orders = Orders(released=np.zeros(robots, "i4"))
-    routes = context.routes
-    facility_manager = FacilityManager(context.world, context.problem, plan)
-    revision = step = 0
-    while True:
-        now = step * period
-        odometry = noise.odometry(state)
-        scans = noise.scans(answers.scans(simulation.scans()))
-        truth = state.pose if stack.localizer.needs_truth else None
-        estimate = answers.estimate(localizer.update(now, odometry, scans, truth))
+
+    def __init__(self, inputs: LoopInputs) -> None:
+        self._inputs = inputs
+        context, components = inputs.context, inputs.components
+        plan = context.result.plan
+        assert plan is not None
+        robots = len(context.fleet)
+        self._step = self._revision = 0
+        self._checks = ContractChecks(_segments(plan))
+        self._state: State = self._checks.state(inputs.simulation.state)
+        self._dispatcher = components.dispatcher.start(context.problem, plan)
+        self._localizer = components.localizer.start(
+            context.fleet, context.world, self._state.pose, seed_of(*inputs.seeds, "localizer")
+        )
+        self._navigator = components.navigator.start(
+            context.fleet,
+            context.world,
+            context.routes,
+            components.controller,
+            context.period,
+            seed_of(*inputs.seeds, "navigator"),
+        )
+        self._facility_manager = FacilityManager(context.world, context.problem, plan)
+        self._routes = context.routes
+        self._orders = Orders(released=np.zeros(robots, "i4"))
+        self._motion = Motion(
+            twist=np.zeros((robots, 2)),
+            reached=np.zeros(robots, "i4"),
+            cleared=np.zeros(robots, "i4"),
+            mode=np.full(robots, Mode.WAITING, "u1"),
+        )
+
+    @property
+    def _now(self) -> float:
+        """Simulated seconds at the beginning of this control period."""
+        return self._step * self._inputs.context.period
+
+    def run(self) -> ExecutionResult:
+        """Run until every robot has arrived or given up, or the simulated time is over."""
+        while True:
+            observation = self._sense()
+            self._dispatch(observation)
+            self._drive(observation)
+            result = self._result()
+            self._record(observation, last=result is not None)
+            if result is not None:
+                self._inputs.recorder.flush()
+                return result
+            self._simulate()
+
+    def _sense(self) -> FleetObservation:
+        """What the robots' sensors and localizers say now."""
+        inputs, state = self._inputs, self._state
+        odometry = inputs.noise.odometry(state)
+        scans = inputs.noise.scans(self._checks.scans(inputs.simulation.scans()))
+        truth = state.pose if inputs.components.localizer.needs_truth else None
+        estimate = self._checks.estimate(self._localizer.update(self._now, odometry, scans, truth))
+        return FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
+
+    def _dispatch(self, observation: FleetObservation) -> None:
+        """Release segments and grant resources; ask for a new plan, and adopt one that is due.
+
+        While a new plan is pending the dispatcher is not asked, so that nothing more is released.
+        """
+        now, replanner = self._now, self._inputs.replanner
         view = FleetView(
-            revision=revision,
-            reached=motion.reached,
-            cleared=motion.cleared,
-            pose=estimate.pose,
-            level=state.level,
-            mode=motion.mode,
+            revision=self._revision,
+            reached=self._motion.reached,
+            cleared=self._motion.cleared,
+            pose=observation.estimate.pose,
+            level=self._state.level,
+            mode=self._motion.mode,
         )
-        view = facility_manager.granted(view, state)
-        if replans.pending is None:
-            orders = answers.orders(dispatcher.update(now, view))
-            if reason := replans.reason(now, view, orders.replan):
-                replans.request(now, reason, view, orders.released)
-        if new := replans.take(now):
-            recorder.events((_adopt(new, now, dispatcher, navigator, replans),))
-            if replans.plan is new.plan:
-                revision += 1
-                answers.adopt(_length(replans.plan))
-                routes = new.routes
-                recorder.routes(now, revision, routes)
-                facility_manager.adopt(new.problem, replans.plan)
-                orders = answers.orders(dispatcher.update(now, attrs.evolve(view, revision=revision)))
-        facility_manager.take(orders)
-        observation = FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
-        motion = answers.motion(navigator.step(now, observation, _held_back(orders, now < noise.start_delay)))
-        at_goal = (motion.reached >= answers.length) & (motion.mode == WAITING)
+        view = self._facility_manager.with_grants(view, self._state)
+        if replanner.pending is None:
+            self._orders = self._checks.orders(self._dispatcher.update(now, view))
+            if reason := replanner.reason(now, view, self._orders.replan):
+                replanner.request(now, reason, view, self._orders.released)
+        if (revision := replanner.take_due(now)) and self._adopt(revision):
+            view = attrs.evolve(view, revision=self._revision)
+            self._orders = self._checks.orders(self._dispatcher.update(now, view))
+        self._facility_manager.assign(self._orders)
+
+    def _adopt(self, new: Revision) -> bool:
+        """Put a new plan in force; tell whether there is one and the dispatcher accepts it."""
+        now, fault = self._now, new.fault
+        if new.plan is not None and not fault:
+            try:
+                self._dispatcher.adopt(new.problem, new.plan)
+            except DispatchError as error:
+                fault = str(error)
+            else:
+                self._revision += 1
+                self._routes = new.routes
+                self._navigator.adopt(new.routes)
+                self._inputs.replanner.use(new.problem, new.plan)
+                self._checks.adopt(_segments(new.plan))
+                self._facility_manager.adopt(new.problem, new.plan)
+                self._inputs.recorder.events((Event(stamp=now, kind="replan", detail=new.reason),))
+                self._inputs.recorder.routes(now, self._revision, new.routes)
+                return True
+        self._inputs.replanner.failed(now)
+        self._inputs.recorder.events((Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}"),))
+        return False
+
+    def _drive(self, observation: FleetObservation) -> None:
+        """Command the robots; nothing is released to a robot that has not started yet."""
+        orders, late = self._orders, self._now < self._inputs.noise.start_delay
+        if late.any():
+            orders = attrs.evolve(orders, released=np.where(late, 0, orders.released))
+        self._motion = self._checks.motion(self._navigator.step(self._now, observation, orders))
+
+    def _result(self) -> ExecutionResult | None:
+        """How the execution ended, or None if it goes on."""
+        motion = self._motion
+        at_goal = (motion.reached >= self._checks.length) & (motion.mode == WAITING)
         gave_up = motion.mode == ABORTED
-        arrived = bool(at_goal.all())
-        over = bool((at_goal | gave_up).all()) or now >= limit_s
-        recorder.scans(scans)
-        recorder.events(motion.events)
-        recorder.sample(
-            step,
-            now,
-            state,
-            estimate,
-            odometry,
-            orders,
-            motion,
-            facility_manager.waiting(robots),
-            facility_manager.doing(state),
-            over,
+        if not (at_goal | gave_up).all() and self._now < self._inputs.limit_s:
+            return None
+        return ExecutionResult(arrived=bool(at_goal.all()), aborted=bool(gave_up.any()), simulated_s=self._now)
+
+    def _record(self, observation: FleetObservation, last: bool) -> None:
+        """Record this control period, and show it to hooks."""
+        now, state, recorder = self._now, self._state, self._inputs.recorder
+        recorder.scans(observation.scans)
+        recorder.events(self._motion.events)
+        sample = Sample(
+            now=now,
+            state=state,
+            estimate=observation.estimate,
+            odometry=observation.odometry,
+            orders=self._orders,
+            motion=self._motion,
+            waits_for=self._facility_manager.waits_for(len(state.pose)),
+            facility=self._facility_manager.states(state),
         )
-        if stepped is not None:
-            stepped(now=now, state=state, observation=observation, routes=routes)
-        if over:
-            recorder.flush()
-            return ExecutionResult(arrived=arrived, aborted=bool(gave_up.any()), simulated_s=now)
-        commands = facility_manager.commands(motion.reached, orders.released, state)
-        inputs = Inputs(twist=noise.actuated(motion.twist), facilities=commands)
-        state = answers.state(simulation.step(inputs))
-        step += 1
-        recorder.contacts(step * period, state)
+        recorder.sample(self._step, sample, last)
+        self._inputs.stepped(now=now, state=state, observation=observation, routes=self._routes)
+
+    def _simulate(self) -> None:
+        """Let one control period pass."""
+        inputs = self._inputs
+        commands = self._facility_manager.commands(self._motion.reached, self._orders.released, self._state)
+        driven = Inputs(twist=inputs.noise.actuated(self._motion.twist), facilities=commands)
+        self._state = self._checks.state(inputs.simulation.step(driven))
+        self._step += 1
+        inputs.recorder.contacts(self._now, self._state)
 
 
-def _length(plan: Plan) -> NDArray[np.int64]:
-    """Segments i8[n] of each path."""
+def _segments(plan: Plan) -> NDArray[np.int64]:
+    """Number of segments i8[n] of each path."""
     return np.array([len(path) for path in plan.paths], np.int64)
-
-
-def _adopt(
-    new: Revision, now: float, dispatcher: DispatcherSession, navigator: NavigatorSession, replans: Replanner
-) -> Event:
-    """Put a new plan in force if there is one and the dispatcher takes it; returns what happened."""
-    fault = new.fault
-    if new.plan is not None and not fault:
-        try:
-            dispatcher.adopt(new.problem, new.plan)
-        except DispatchError as error:
-            fault = str(error)
-        else:
-            navigator.adopt(new.routes)
-            replans.use(new.problem, new.plan)
-            return Event(stamp=now, kind="replan", detail=new.reason)
-    replans.failed(now)
-    return Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}")
-
-
-def _held_back(orders: Orders, late: Bool) -> Orders:
-    """The orders as robots know them of which some are `late` bool[n] at the start: to those nothing is released."""
-    return attrs.evolve(orders, released=np.where(late, 0, orders.released)) if late.any() else orders

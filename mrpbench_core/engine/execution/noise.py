@@ -28,7 +28,7 @@ class Disturbances:
     robots", IEEE Trans. Robotics and Automation 12, 1996). Heading errs with it, the more the closer the wheels are.
     """
 
-    def __init__(self, size: Noise, fleet: Fleet, placements: Float, period: float, seed: int, repeat: int) -> None:
+    def __init__(self, size: Noise, fleet: Fleet, start_poses: Float, period: float, seed: int, repeat: int) -> None:
         robots = range(len(fleet))
 
         def streams(name: str) -> list[np.random.Generator]:
@@ -41,8 +41,8 @@ class Disturbances:
         self._scale = 1 + size.odometry_bias * np.array(
             [own.standard_normal(2) for own in streams("odometry_bias")]
         ).reshape(-1, 2)
-        self._truth = placements.copy()
-        self._believed = placements.copy()
+        self._truth = start_poses.copy()
+        self._believed = start_poses.copy()
         self.start_delay: Float = np.array([own.uniform(0, size.start_jitter) for own in streams("start_jitter")])
         """f8[n] simulated seconds."""
 

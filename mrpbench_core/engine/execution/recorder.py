@@ -1,9 +1,10 @@
-"""Collects what happens during a mission and hands it on in chunks."""
+"""Collects what happens during an execution and hands it on in chunks."""
 
 from collections import defaultdict
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import attrs
 import numpy as np
 
 from mrpbench_core.model.arrays import Int32
@@ -36,6 +37,21 @@ INTEGERS = dict.fromkeys(("contact", "scan_robot", "event_robot", "route_revisio
 """Channels whose rows come as Python's integers."""
 
 
+@attrs.frozen(kw_only=True)
+class Sample:
+    """What the periodic channels hold of one control period; see `mrpbench_core.model.recording`."""
+
+    now: float
+    """Simulated seconds."""
+    state: State
+    estimate: Estimate
+    odometry: Odometry
+    orders: Orders
+    motion: Motion
+    waits_for: Int32
+    facility: Sequence[float]
+
+
 class Recorder:
     """Samples the periodic channels every `1 / rate` simulated seconds; contacts, scans and events as they come.
 
@@ -50,42 +66,30 @@ class Recorder:
         self._rows: dict[str, list[Any]] = defaultdict(list)
         self._touching: set[tuple[int, int]] = set()
 
-    def sample(
-        self,
-        step: int,
-        now: float,
-        state: State,
-        estimate: Estimate,
-        odometry: Odometry,
-        orders: Orders,
-        motion: Motion,
-        waits_for: Int32,
-        facility: Sequence[float],
-        last: bool,
-    ) -> None:
-        """Record one control period; the first, the last and every `rate`-th are sampled."""
+    def sample(self, step: int, sample: Sample, last: bool) -> None:
+        """Record control period `step` if it is due; the `last` always is."""
         if step % self._every and not last:
             return
-        rows = self._rows
-        rows["time"].append(now)
+        rows, state, motion = self._rows, sample.state, sample.motion
+        rows["time"].append(sample.now)
         rows["truth"].append(state.pose)
         rows["truth_twist"].append(state.twist)
         rows["level"].append(state.level)
-        rows["estimate"].append(estimate.pose)
-        rows["odometry"].append(np.column_stack([odometry.pose, odometry.twist]))
+        rows["estimate"].append(sample.estimate.pose)
+        rows["odometry"].append(np.column_stack([sample.odometry.pose, sample.odometry.twist]))
         rows["command"].append(motion.twist)
-        rows["released"].append(orders.released)
+        rows["released"].append(sample.orders.released)
         rows["reached"].append(motion.reached)
         rows["cleared"].append(motion.cleared)
         rows["mode"].append(motion.mode)
-        rows["waits_for"].append(waits_for)
-        if facility:
-            rows["facility"].append(facility)
+        rows["waits_for"].append(sample.waits_for)
+        if sample.facility:
+            rows["facility"].append(sample.facility)
         if len(rows["time"]) >= SAMPLES:
             self.flush()
 
     def contacts(self, now: float, state: State) -> None:
-        """Record who touched whom during the period that ends `now`; the beginning of a contact is an event too."""
+        """Record contacts during the period that ends at `now`; the beginning of a contact is also an event."""
         touching = {(robot, other) for robot, other in state.contacts.tolist()}
         for robot, other in sorted(touching):
             self._rows["contact_time"].append(now)

@@ -93,7 +93,7 @@ class Replanner:
         routes = () if plan is None else self._router(plan)
         self.pending = Revision(due=due, reason=reason, problem=problem, plan=plan, routes=routes, fault=fault or "")
 
-    def take(self, now: float) -> Revision | None:
+    def take_due(self, now: float) -> Revision | None:
         """The new plan, once its time has come."""
         if self.pending is None or now < self.pending.due - 1e-9:
             return None

@@ -1,10 +1,11 @@
-"""What travels to a worker and back: plain data, so that it may cross machines."""
+"""What a worker is given and what it returns: plain data, which may cross machines."""
 
 from pathlib import Path
 from typing import Any
 
 import attrs
 
+from mrpbench_core.engine.record import RunRecord
 from mrpbench_core.model.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths
 
@@ -18,12 +19,12 @@ class Job:
     """The configuration; see `mrpbench_core.config.study.unpack`."""
     paths: RunPaths
     log: Path
-    """Receives what plugins print."""
+    """Receives the output of plugins."""
     wall_s: float
     memory_bytes: int
 
     def message(self) -> dict[str, Any]:
-        """What the child needs to know, as JSON."""
+        """The job as JSON, for the child."""
         return {
             "run_id": self.run_id,
             "parcel": self.parcel,
@@ -37,7 +38,7 @@ class Job:
 
 @attrs.frozen(kw_only=True)
 class Failure:
-    """A run that has no record of its own: it was killed, died, or a plugin raised an exception."""
+    """A run without a record of its own: it was ended, its process died, or a plugin raised an exception."""
 
     status: RunStatus
     stage: Stage
@@ -52,11 +53,11 @@ class JobOutcome:
     """How a job ended: with a record, a failure, or a mistake."""
 
     run_id: str
-    record: dict[str, Any] | None = None
+    record: RunRecord | None = None
     failure: Failure | None = None
     lost: bool = False
-    """The failure is that something outside ended the worker, which says nothing about the run."""
+    """Something outside ended the worker, which says nothing about the run."""
     mistake: str | None = None
-    """The user's, or a full disk, in one line: the run is not recorded."""
+    """A mistake of the user or a full disk, in one line: the run is not recorded."""
     machine: dict[str, Any] | None = None
-    """Where it was executed."""
+    """The machine that executed the run."""

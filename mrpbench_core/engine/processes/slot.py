@@ -14,6 +14,7 @@ from mrpbench_core.engine.processes.child import SAMPLING_S, Child, WorkerDied
 from mrpbench_core.engine.processes.job import Job, JobOutcome
 from mrpbench_core.engine.processes.limits import LimitMonitor
 from mrpbench_core.engine.processes.machine import oom_kills
+from mrpbench_core.engine.record import RunRecord
 from mrpbench_core.model.status import RunStatus, Stage
 
 START_S = 120.0
@@ -94,7 +95,7 @@ class Slot:
             elif "stage" in message:
                 monitor.enter(Stage(message["stage"]), message.get("limit_s"), message.get("scenario_id"))
             elif "record" in message:
-                return JobOutcome(run_id=job.run_id, record=message["record"])
+                return JobOutcome(run_id=job.run_id, record=RunRecord.of_message(message["record"]))
             elif "mistake" in message:
                 return JobOutcome(run_id=job.run_id, mistake=message["mistake"])
             else:

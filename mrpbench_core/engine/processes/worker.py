@@ -87,7 +87,7 @@ def _execute(job: dict[str, Any], say: Send, hooks: Hooks) -> dict[str, Any]:
         executed=lambda: hooks.call("mrpbench_executed"),
     )
     try:
-        record = jsonable(execute(unpack(job["parcel"]), job["run_id"], paths, announce, observers))
+        record = jsonable(execute(unpack(job["parcel"]), job["run_id"], paths, announce, observers).message())
     except (InputError, InputErrors) as error:
         return {"mistake": jsonable(str(error))}
     except MemoryError as error:

@@ -2,6 +2,7 @@
 
 import traceback
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from mrpbench_core.api.metric import Metric
 from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.store.recording import Recording
 
 NUMBER = int | float | np.integer | np.floating | np.bool_
 
@@ -46,6 +48,15 @@ def _measured(metric: Metric, run: FinishedRun) -> tuple[Mapping[str, Any], str 
     if not isinstance(measured, Mapping):
         return {}, f"the metric returned {type(measured).__name__} instead of a mapping"
     return measured, None
+
+
+def measure_recording(metrics: Mapping[str, Metric], file: Path) -> tuple[dict[str, Any], dict[str, str]]:
+    """Measure a stored recording; returns the same as `measure`."""
+    recording = Recording(file)
+    try:
+        return measure(metrics, FinishedRun(context=recording.context(), executed=True, channels=recording.channels))
+    finally:
+        recording.close()
 
 
 def describe(metrics: Mapping[str, Metric]) -> dict[str, dict[str, Any]]:

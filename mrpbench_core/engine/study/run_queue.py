@@ -81,7 +81,7 @@ class RunQueue:
             self.mistakes[point.run_id] = outcome.mistake
             self.progress.refused(point, outcome.mistake)
             return
-        record = complete_record(point, attempt, outcome, self.workers)
+        record = complete_record(point, attempt, outcome, self.workers).document()
         try:
             if not _left_a_recording(outcome):
                 self.folder.forget(point.run_id)
@@ -124,4 +124,4 @@ def _left_a_recording(outcome: JobOutcome) -> bool:
     """Tell whether the run was executed to its end; also where a metric failed afterwards."""
     if outcome.record is None:
         return outcome.failure is not None and outcome.failure.stage == Stage.METRICS
-    return bool(outcome.record.get("executed"))
+    return outcome.record.executed

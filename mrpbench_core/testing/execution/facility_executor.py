@@ -81,12 +81,12 @@ class FacilityExecutor:
             level=self.level,
             mode=np.full(robots, Mode.FOLLOWING, np.uint8),
         )
-        view = self.facility_manager.granted(view, state)
+        view = self.facility_manager.with_grants(view, state)
         self.granted = view.granted
         self.orders = self.session.update(0.0, view)
-        self.facility_manager.take(self.orders)
+        self.facility_manager.assign(self.orders)
         self.released = self.orders.released
-        waits = self.facility_manager.waiting(robots) >= 0
+        waits = self.facility_manager.waits_for(robots) >= 0
         self.waited = np.where(waits, self.waited + 1, 0)
         commands = self.facility_manager.commands(self.reached, self.released, state)
         doing = self.facilities.advance(

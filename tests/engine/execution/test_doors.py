@@ -65,7 +65,7 @@ def run(tmp_path, starts, goals, file=None, **fields):
     }
     (point,) = load_study(study).runs
     paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
-    return execute(point.config, point.run_id, paths, lambda stage, facts: None), paths.recording
+    return execute(point.config, point.run_id, paths, lambda stage, facts: None).message(), paths.recording
 
 
 def test_a_robot_goes_round_the_leaf_that_it_opened_across_the_hall(tmp_path):

@@ -127,17 +127,17 @@ def test_keys_go_to_who_asked_first_and_on_when_they_are_given_back():
     world, problem, plan = two_before_the_door()
     shut = {"door": 0.0, "lift/entrance": 0.0, "lift": 0.0}
     facility_manager, view, state = stand(world, problem, plan, shut)
-    facility_manager.take(asking((1, "door"), (0, "door")))
-    assert facility_manager.waiting(2).tolist() == [0, 0], "nobody may use it before it is open"
+    facility_manager.assign(asking((1, "door"), (0, "door")))
+    assert facility_manager.waits_for(2).tolist() == [0, 0], "nobody may use it before it is open"
     zero = np.zeros(2, "i4")
     assert facility_manager.commands(zero, zero, state)["door"] == 1.0
     open_ = attrs.evolve(state, facilities=shut | {"door": 1.0})
-    assert facility_manager.granted(view, open_).granted == ((1, "door"),)
-    assert facility_manager.waiting(2).tolist() == [0, -1]
-    facility_manager.take(asking((0, "door")))
-    assert facility_manager.granted(view, open_).granted == ((0, "door"),)
-    facility_manager.take(asking())
-    assert facility_manager.granted(view, open_).granted == ()
+    assert facility_manager.with_grants(view, open_).granted == ((1, "door"),)
+    assert facility_manager.waits_for(2).tolist() == [0, -1]
+    facility_manager.assign(asking((0, "door")))
+    assert facility_manager.with_grants(view, open_).granted == ((0, "door"),)
+    facility_manager.assign(asking())
+    assert facility_manager.with_grants(view, open_).granted == ()
     assert facility_manager.commands(zero, zero, open_)["door"] == 0.0
 
 
@@ -146,21 +146,21 @@ def test_a_mutex_is_granted_at_once_to_as_many_as_it_has_room_for():
     mutex = Resource(name="aisle", kind="mutex", capacity=1, vertices=(0,))
     roadmap = attrs.evolve(problem.roadmap, resources=(mutex,))
     facility_manager, view, state = stand(world, attrs.evolve(problem, roadmap=roadmap), plan, {})
-    facility_manager.take(asking((0, "aisle"), (1, "aisle")))
-    assert facility_manager.granted(view, state).granted == ((0, "aisle"),)
-    assert facility_manager.waiting(2).tolist() == [-1, 0]
+    facility_manager.assign(asking((0, "aisle"), (1, "aisle")))
+    assert facility_manager.with_grants(view, state).granted == ((0, "aisle"),)
+    assert facility_manager.waits_for(2).tolist() == [-1, 0]
     assert facility_manager.commands(np.zeros(2, "i4"), np.zeros(2, "i4"), state) == {}
     roomy = attrs.evolve(roadmap, resources=(attrs.evolve(mutex, capacity=2),))
     facility_manager, view, state = stand(world, attrs.evolve(problem, roadmap=roomy), plan, {})
-    facility_manager.take(asking((0, "aisle"), (1, "aisle")))
-    assert facility_manager.granted(view, state).granted == ((0, "aisle"), (1, "aisle"))
+    facility_manager.assign(asking((0, "aisle"), (1, "aisle")))
+    assert facility_manager.with_grants(view, state).granted == ((0, "aisle"), (1, "aisle"))
 
 
 def test_what_there_is_not_cannot_be_asked_for():
     world, problem, plan = two_before_the_door()
     facility_manager, _, _ = stand(world, problem, plan, {})
     with pytest.raises(ExecutionError, match="the dispatcher asked for 'gate', which the roadmap does not have"):
-        facility_manager.take(asking((0, "gate")))
+        facility_manager.assign(asking((0, "gate")))
 
 
 def test_a_simulator_without_doors_cannot_let_anybody_through_one():
@@ -168,8 +168,8 @@ def test_a_simulator_without_doors_cannot_let_anybody_through_one():
     facility_manager, _, state = stand(world, problem, plan, {})
     zero = np.zeros(2, "i4")
     assert facility_manager.commands(zero, zero, state) == {}
-    facility_manager.take(asking((0, "door")))
-    with pytest.raises(ExecutionError, match="knows neither doors nor lifts"):
+    facility_manager.assign(asking((0, "door")))
+    with pytest.raises(ExecutionError, match="supports neither doors nor lifts"):
         facility_manager.commands(zero, zero, state)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mrpbench_core.engine.execution.recorder import SAMPLES, SCANS, Recorder
+from mrpbench_core.engine.execution.recorder import SAMPLES, SCANS, Recorder, Sample
 from mrpbench_core.model.execution import Estimate, Event, Motion, Odometry, Orders, ScanBatch, State
 
 
@@ -12,18 +12,17 @@ def feed(recorder, steps, period=0.05):
     state = State(pose=pose, twist=pose[:, :2], level=[0, 0], contacts=[])
     motion = Motion(twist=pose[:, :2], reached=[0, 0], cleared=[0, 0], mode=[0, 0])
     for step in range(steps + 1):
-        recorder.sample(
-            step,
-            step * period,
-            state,
-            Estimate(pose=pose),
-            Odometry(pose=pose, twist=pose[:, :2]),
-            Orders(released=[1, 1]),
-            motion,
-            np.full(2, -1, np.int32),
-            [0.5],
-            last=step == steps,
+        sample = Sample(
+            now=step * period,
+            state=state,
+            estimate=Estimate(pose=pose),
+            odometry=Odometry(pose=pose, twist=pose[:, :2]),
+            orders=Orders(released=[1, 1]),
+            motion=motion,
+            waits_for=np.full(2, -1, np.int32),
+            facility=[0.5],
         )
+        recorder.sample(step, sample, last=step == steps)
     recorder.flush()
 
 

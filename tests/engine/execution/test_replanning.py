@@ -98,7 +98,7 @@ def test_a_period_calls_for_new_plans_again_and_again(run_context):
     assert asked.reason(3.9, view([0, 0]), None) is None
     assert asked.reason(4.0, view([0, 0]), None) == "4 s have passed"
     asked.request(4.0, "4 s have passed", view([0, 0]), np.zeros(2, np.int32))
-    asked.take(4.0)
+    asked.take_due(4.0)
     assert asked.reason(7.9, view([0, 0]), None) is None
     assert asked.reason(8.0, view([0, 0]), None) is not None
 
@@ -106,8 +106,8 @@ def test_a_period_calls_for_new_plans_again_and_again(run_context):
 def test_a_new_plan_takes_effect_after_the_latency(run_context):
     asked = replans(run_context, delay=1.0, latency=2.0)
     asked.request(10.0, "late", view([0, 0]), np.zeros(2, np.int32))
-    assert asked.take(11.9) is None
-    revision = asked.take(12.0)
+    assert asked.take_due(11.9) is None
+    revision = asked.take_due(12.0)
     assert revision.plan is run_context.result.plan
     assert [path.leave.tolist() for path in revision.problem.commitments] == [
         [12.0 / run_context.problem.roadmap.tick]
@@ -119,7 +119,7 @@ def test_after_a_failure_the_next_try_waits(run_context):
     nothing = PlanResult(status=PlanStatus.TIMEOUT)
     asked = replans(run_context, lambda _: (nothing, "the planner ended with timeout"))
     asked.request(10.0, "late", view([0, 0]), np.zeros(2, np.int32))
-    assert asked.take(10.0).plan is None
+    assert asked.take_due(10.0).plan is None
     asked.failed(10.0)
     assert asked.reason(10.0 + RETRY_S / 2, view([0, 0]), "at the horizon") is None
     assert asked.reason(10.0 + RETRY_S, view([0, 0]), "at the horizon") is not None
@@ -147,7 +147,7 @@ def executed(tmp_path, monkeypatch, **changes):
     (point,) = load_study({**RUN, **changes}).runs
     paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
     stages = []
-    record = execute(point.config, point.run_id, paths, lambda stage, facts: stages.append(stage))
+    record = execute(point.config, point.run_id, paths, lambda stage, facts: stages.append(stage)).message()
     return record, stages
 
 

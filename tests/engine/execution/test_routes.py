@@ -1,9 +1,9 @@
-"""Routes in metres, speed limits and placements."""
+"""Routes in metres, speed limits and start poses."""
 
 import attrs
 import numpy as np
 
-from mrpbench_core.engine.execution.routes import Router, placements, speed_limits
+from mrpbench_core.engine.execution.routes import Router, speed_limits, start_poses
 from mrpbench_core.model.world import Lane
 
 ANY = np.array([np.nan, np.nan])
@@ -29,5 +29,5 @@ def test_speed_limits_count_only_where_the_world_has_some(run_context):
 
 
 def test_robots_stand_at_their_first_waypoint_whatever_the_plan(run_context):
-    np.testing.assert_array_equal(placements(run_context.routes, ANY), [[0.5, 0.5, 0], [1.5, 0.5, 0]])
-    assert placements(run_context.routes, np.array([np.nan, 2.0]))[:, 2].tolist() == [0, 2]
+    np.testing.assert_array_equal(start_poses(run_context.routes, ANY), [[0.5, 0.5, 0], [1.5, 0.5, 0]])
+    assert start_poses(run_context.routes, np.array([np.nan, 2.0]))[:, 2].tolist() == [0, 2]

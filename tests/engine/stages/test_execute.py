@@ -71,7 +71,7 @@ class Broken(Exporter):
 def executed(tmp_path, **changes):
     (point,) = load_study({**RUN, **changes}).runs
     paths = RunPaths(recording=tmp_path / "recordings" / "run.zip", exports=tmp_path / "exports")
-    return execute(point.config, point.run_id, paths, lambda stage, facts: None)
+    return execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
 
 
 def test_a_robot_held_back_is_recorded_without_a_command(tmp_path):

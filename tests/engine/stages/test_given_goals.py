@@ -33,7 +33,7 @@ def point(tmp_path):
 
 def record_of(point, tmp_path):
     paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
-    return execute(point.config, point.run_id, paths, lambda stage, facts: None)
+    return execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
 
 
 def test_robots_keep_the_goals_of_the_file(point, tmp_path):

@@ -38,7 +38,7 @@ def test_who_is_to_blame(tmp_path, goals, assigner, status):
     pytest.importorskip("mrpbench_planners_mapf")
     (point,) = load_study(study | {"planner": "astar"}).runs
     paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
-    record = execute(point.config, point.run_id, paths, lambda stage, facts: None)
+    record = execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
     assert record["status"] == status
     if status == "assignment_failed":
         assert "cannot reach" in record["error"]["message"]

@@ -1,0 +1,91 @@
+"""What a run is found to be, in types; the invoking process writes it as one JSON object."""
+
+from typing import Any, Self
+
+import attrs
+
+from mrpbench_core.model.status import RunStatus, Stage
+
+
+@attrs.frozen(kw_only=True)
+class RunError:
+    """Why a run did not succeed."""
+
+    stage: Stage
+    message: str
+    """One line."""
+
+
+@attrs.define(kw_only=True)
+class RunRecord:
+    """The part of a record that the process of the run knows, filled stage by stage; see `docs/results.md`."""
+
+    run_id: str
+    scenario_id: str | None = None
+    status: RunStatus = RunStatus.SUCCEEDED
+    error: RunError | None = None
+    executed: bool = False
+    """The plan was executed to the end of the execution; a recording was written."""
+    metrics: dict[str, Any] = attrs.field(factory=dict)
+    """Values by `<metric>.<column>`, None = not measurable."""
+    unmeasured: dict[str, str] = attrs.field(factory=dict)
+    """Why a metric or `<metric>.<column>` cannot be measured."""
+    unexported: dict[str, str] = attrs.field(factory=dict)
+    """Why an export failed, by the exporter's name."""
+    reassigned: int = 0
+    """How many robots got another goal than the one that the scenario gives them."""
+    timing: dict[str, Any] = attrs.field(factory=dict)
+    """Wall and CPU seconds, bytes, and what depends on them."""
+
+    def message(self) -> dict[str, Any]:
+        """The record as plain data, for another process."""
+        return attrs.asdict(self)
+
+    @classmethod
+    def of_message(cls, message: dict[str, Any]) -> Self:
+        """The record that another process sent."""
+        error = message["error"] and RunError(
+            stage=Stage(message["error"]["stage"]), message=message["error"]["message"]
+        )
+        return cls(**{**message, "status": RunStatus(message["status"]), "error": error})
+
+
+@attrs.frozen(kw_only=True)
+class StoredRecord:
+    """A run's record as results folders keep it."""
+
+    run: RunRecord
+    attempt: int
+    config: dict[str, Any]
+    """In canonical form."""
+    seed: int
+    repeat: int
+    provenance: dict[str, Any]
+    """Components, versions, machine, and whether something outside the process took part."""
+    analysis: dict[str, Any] | None = None
+    """Of recordings that `mrpbench analyze` measured: sources and notes."""
+
+    def document(self) -> dict[str, Any]:
+        """The record as one JSON object; empty parts are left out."""
+        run = self.run
+        document = {
+            "run_id": run.run_id,
+            "scenario_id": run.scenario_id,
+            "attempt": self.attempt,
+            "config": self.config,
+            "seed": self.seed,
+            "repeat": self.repeat,
+            "status": run.status.value,
+            "metrics": run.metrics,
+            "timing": run.timing,
+            "provenance": self.provenance,
+        }
+        error = run.error and {"stage": run.error.stage.value, "message": run.error.message}
+        further = {
+            "unmeasured": run.unmeasured,
+            "unexported": run.unexported,
+            "error": error,
+            "analysis": self.analysis,
+        }
+        always = {"unmeasured"} if self.analysis else set()
+        return document | {key: value for key, value in further.items() if value or key in always}
