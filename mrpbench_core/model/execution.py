@@ -11,12 +11,11 @@ from mrpbench_core.model.arrays import Byte, Float, Int, Int16, Int32, array
 
 
 class Mode(IntEnum):
-    """What a robot does now."""
+    """What a robot does now. Recordings keep the numbers; 3 is no longer used."""
 
     FOLLOWING = 0
     WAITING = 1
     RECOVERING = 2
-    OFF_PATH = 3
     ABORTED = 4
 
 

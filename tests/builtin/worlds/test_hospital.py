@@ -93,7 +93,7 @@ def run(tmp_path, planner, robots, simulator):
     }
     (point,) = load_study(study).runs
     paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
-    return execute(point.config, point.run_id, paths, lambda stage, facts: None)
+    return execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
 
 
 CASES = [(planner, robots) for planner in ("pbs", "eecbs", "cbs") for robots in (2, 5)]

@@ -203,6 +203,6 @@ def test_a_lift_that_is_requested_from_a_level_without_it_goes_to_where_the_robo
     plan = Plan(paths=(path_through(problem.roadmap, [number[name] for name in names]),))
     facility_manager, view, state = stand(world, problem, plan, Facilities(world).initial_state())
     zero = np.zeros(1, "i4")
-    facility_manager.take(Orders(released=zero, requests=((0, "lift_c"),)))
-    assert facility_manager.granted(view, state).granted == ()
+    facility_manager.assign(Orders(released=zero, requests=((0, "lift_c"),)))
+    assert facility_manager.with_grants(view, state).granted == ()
     assert facility_manager.commands(zero, zero, state)["lift_c"] == world.levels[1].elevation
