@@ -1,4 +1,4 @@
-"""Holds what components return, most of it every control period, against their contracts.
+"""Checks the return values of components against their contracts, most of them in every control period.
 
 Arrays of a wrong shape broadcast, and comparisons with NaN are false: without this a defect of a plugin would not stop
 the run but spoil its numbers.
@@ -18,9 +18,9 @@ _LAST_MODE = int(max(Mode))
 
 
 class ContractChecks:
-    """Checks the answers of one execution; each method returns what it was given.
+    """Checks the return values of one execution; each method returns its argument.
 
-    What is the very array of the last answer is not looked at again: arrays that were answered do not change.
+    An array that is the same object as in the last period is not checked again: returned arrays do not change.
 
     Args:
         length: i8[n] segments of each robot's path.
@@ -38,7 +38,7 @@ class ContractChecks:
         self._released = self._released.copy()  # so that the next answer is looked at
 
     def state(self, state: State) -> State:
-        """Of a simulator."""
+        """Check the answer of a simulator."""
         who = "the simulator"
         self._is(who, state, State)
         self._finite(who, "pose", state.pose)
@@ -53,7 +53,7 @@ class ContractChecks:
         return state
 
     def scans(self, batches: tuple[ScanBatch, ...]) -> tuple[ScanBatch, ...]:
-        """Of a simulator."""
+        """Check the answer of a simulator."""
         for batch in batches:
             self._is("the simulator", batch, ScanBatch)
             if batch.robot.ndim != 1 or batch.ranges.ndim != 2 or len(batch.robot) != len(batch.ranges):
@@ -65,7 +65,7 @@ class ContractChecks:
         return batches
 
     def estimate(self, estimate: Estimate) -> Estimate:
-        """Of a localizer."""
+        """Check the answer of a localizer."""
         self._is("the localizer", estimate, Estimate)
         self._finite("the localizer", "pose", estimate.pose)
         if estimate.covariance is not None and np.shape(estimate.covariance) != (self._robots, 3, 3):
@@ -73,7 +73,7 @@ class ContractChecks:
         return estimate
 
     def orders(self, orders: Orders) -> Orders:
-        """Of a dispatcher."""
+        """Check the answer of a dispatcher."""
         who = "the dispatcher"
         self._is(who, orders, Orders)
         if orders.released is self._released:
@@ -85,7 +85,7 @@ class ContractChecks:
         return orders
 
     def motion(self, motion: Motion) -> Motion:
-        """Of a navigator, after its orders."""
+        """Check the answer of a navigator, after the orders that it got."""
         who = "the navigator"
         self._is(who, motion, Motion)
         self._finite(who, "twist", motion.twist)
@@ -121,7 +121,7 @@ class ContractChecks:
 
 
 def check_drawn(scenario: Scenario, robots: int) -> Scenario:
-    """Of a scenario, which others rely on for the number of robots."""
+    """Check a scenario, on which other components rely for the number of robots."""
     if not len(scenario.start) == len(scenario.start_level) == robots:
         _refuse("the scenario", f"{len(scenario.start)} starts for {robots} robots")
     for place, rows in (
@@ -134,7 +134,7 @@ def check_drawn(scenario: Scenario, robots: int) -> Scenario:
 
 
 def check_kept(kept: Any, waypoints: int) -> NDArray[np.bool_]:
-    """Of a plan filter."""
+    """Check the answer of a plan filter."""
     if not isinstance(kept, np.ndarray) or kept.dtype != bool or kept.shape != (waypoints,):
         _refuse("the plan filter", f"something other than bool[{waypoints}]")
     if not (kept[0] and kept[-1]):

@@ -1,4 +1,4 @@
-"""Turns what plugins return into what JSON can say."""
+"""Converts values that plugins return into values that JSON supports."""
 
 import math
 from collections.abc import Mapping
@@ -8,7 +8,7 @@ import numpy as np
 
 
 def jsonable(value: Any) -> Any:
-    """The same with NumPy's scalars and arrays as Python's, and numbers that are not finite as None."""
+    """Convert NumPy scalars and arrays to Python's, and numbers that are not finite to None."""
     if isinstance(value, np.generic | np.ndarray):
         return jsonable(value.tolist())
     if isinstance(value, float):
@@ -23,11 +23,11 @@ def jsonable(value: Any) -> Any:
 
 
 def printable(text: str) -> str:
-    """The same in one line that does nothing to a terminal: control characters and the like are escaped."""
+    """Return text in one line that is safe to print: control characters are escaped."""
     line = " ".join(text.split())
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
 
 
 def _storable(text: str) -> str:
-    """The same with halves of surrogate pairs, which no file can hold, escaped."""
+    """Escape unpaired surrogates, which no file can hold."""
     return text.encode(errors="backslashreplace").decode()

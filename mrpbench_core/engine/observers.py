@@ -1,4 +1,4 @@
-"""What a run's process tells to hooks, which watch and cannot change a result."""
+"""Callbacks of a run for hooks, which observe a run and cannot change its result."""
 
 from collections.abc import Callable
 from typing import Any

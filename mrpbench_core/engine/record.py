@@ -1,4 +1,4 @@
-"""What a run is found to be, in types; the invoking process writes it as one JSON object."""
+"""The record of a run in types, until the invoking process writes it as one JSON object."""
 
 from typing import Any, Self
 

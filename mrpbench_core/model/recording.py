@@ -1,4 +1,4 @@
-"""What truly happened during a run, in channels.
+"""The channels of a recording, which say what happened during a run.
 
 | channel | per sample | meaning |
 |---|---|---|

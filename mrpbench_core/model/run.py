@@ -54,7 +54,7 @@ class FinishedRun:
 
     @property
     def planned(self) -> bool:
-        """False for what others drove: nothing is known of planning, not even that it failed."""
+        """False for recordings of other fleets, of whose planning nothing is known, not even that it failed."""
         return self.context.result.status != PlanStatus.UNKNOWN
 
     def has(self, name: str) -> bool:

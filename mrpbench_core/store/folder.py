@@ -72,7 +72,7 @@ class ResultsFolder:
             raise InputError(f"cannot be made: {error.strerror}", file=error.filename or self.path) from error
 
     def forget(self, run_id: str) -> None:
-        """Remove what an earlier attempt recorded: it would pass for that of the last, which was not executed."""
+        """Remove the recording and exports of an earlier attempt, which would pass for those of the last one."""
         paths = self.run(run_id)
         paths.recording.unlink(missing_ok=True)
         shutil.rmtree(paths.exports, ignore_errors=True)

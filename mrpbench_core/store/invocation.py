@@ -1,4 +1,4 @@
-"""What an invocation of a study leaves beside its records: what was run, with which versions, on which machine."""
+"""The document of an invocation: configuration, versions and machine, stored with its records."""
 
 import os
 from collections.abc import Mapping

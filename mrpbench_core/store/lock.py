@@ -1,4 +1,4 @@
-"""One invocation at a time works in a results folder."""
+"""A lock that lets only one invocation work in a results folder."""
 
 import fcntl
 import os

@@ -22,7 +22,7 @@ FORMAT = 1
 
 
 class RecordingWriter:
-    """Appends chunks under a temporary name, so that memory does not grow with the run; `close` gives the final one."""
+    """Appends chunks to a file with a temporary name, so that memory does not grow with the run; `close` renames it."""
 
     def __init__(self, file: Path, context: RunContext) -> None:
         self.file = file
@@ -56,7 +56,7 @@ class RecordingWriter:
         self.temporary.replace(self.file)
 
     def discard(self) -> None:
-        """Drop the unfinished file."""
+        """Delete the unfinished file."""
         self._zip.close()
         self.temporary.unlink(missing_ok=True)
 
@@ -96,7 +96,7 @@ class Recording:
         return decode(self._context, RunContext, self._load)
 
     def context(self) -> RunContext:
-        """The same with the routes that were driven in the end, to which `reached` and `cleared` refer."""
+        """The context with the routes of the last plan, to which `reached` and `cleared` refer."""
         return with_latest_routes(self.first_context(), self.channels)
 
     def channel(self, name: str) -> NDArray[Any]:

@@ -17,12 +17,12 @@ _LOG = logging.getLogger(__name__)
 
 @attrs.frozen
 class Entry:
-    """Where a run's record stands, and what decides whether the run is done again."""
+    """The place of a run's record, and the facts that decide whether the run is repeated."""
 
     attempt: int
     status: str
     origin: str
-    """Versions and source hashes it was made with, as one text."""
+    """Versions and source hashes of the run's code, as one text."""
     shard: Path
     offset: int
 
@@ -36,7 +36,7 @@ class Results:
     def __init__(self, folder: ResultsFolder, only: Iterable[str] | None = None) -> None:
         self.folder = folder
         self.damaged: list[InputError] = []
-        """Lines that are no records, each with what to do. Their runs count as not done."""
+        """Lines that are not records, each with advice. Their runs count as not done."""
         self._entries: dict[str, Entry] = {}
         wanted = None if only is None else frozenset(only)
         origins: dict[str, str] = {}  # equal texts become one object
@@ -65,7 +65,7 @@ class Results:
                     yield record
 
     def __getitem__(self, run_id: str) -> dict[str, Any]:
-        """The record of a run by its id, or by a beginning of it that no other run has.
+        """The record of a run by its id or a unique prefix of its id.
 
         Raises:
             KeyError: no run, or several runs.

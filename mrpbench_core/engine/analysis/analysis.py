@@ -1,4 +1,4 @@
-"""Measures a recording of a real or otherwise simulated fleet, as a record beside those of runs."""
+"""Measures a recording of a real fleet or of another simulator, and stores the result as a record."""
 
 import hashlib
 import os
@@ -44,7 +44,7 @@ LENGTH = 16
 
 @attrs.frozen(kw_only=True)
 class Analysis:
-    """What is to be measured, and how."""
+    """The recording to measure, and how to measure it."""
 
     bag: Path
     importer: Importer
@@ -157,7 +157,7 @@ def _status(found: ObservedRun, context: RunContext) -> tuple[RunStatus, str | N
 
 
 def _config(analysis: Analysis, fleet: Fleet) -> dict[str, Any]:
-    """What is known of the run in the words of configurations, so that tables show it beside others."""
+    """The known facts of the run under configuration keys, so that tables can compare it with other runs."""
     plain: dict[str, Any] = {"name": analysis.out.name}
     if analysis.world is not None:
         plain["world"] = _plain(analysis.world)

@@ -13,7 +13,7 @@ from mrpbench_core.model.arrays import Float
 SILENCE = 0.5
 """seconds after which a command no longer holds: the default time-out of ros2_control's diff_drive_controller."""
 SAME = {"tf": "estimate", "amcl_pose": "estimate", "odometry": "odometry"}
-"""The channel that says the same as positions of a source."""
+"""The channel that equals the positions of a source."""
 
 Found = tuple[dict[str, NDArray[Any]], tuple[frozenset[str], ...]]
 

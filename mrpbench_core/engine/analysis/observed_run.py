@@ -1,4 +1,4 @@
-"""From what a recording of any fleet shows to the channels and the context that metrics measure."""
+"""Derives the channels and the context that metrics need from a recording of any fleet."""
 
 from typing import Any
 
@@ -44,7 +44,7 @@ class Sampling:
 
 @attrs.frozen(kw_only=True)
 class ObservedRun:
-    """A run that somebody else may have made."""
+    """A run that another program may have recorded."""
 
     context: RunContext
     channels: Chunk
@@ -149,7 +149,7 @@ def _times(tracks: tuple[Track, ...], sampling: Sampling) -> Float:
 
 
 def _place(track: Track, start: Float, notes: list[str]) -> Track:
-    """Put a frame of the robot's own where its first pose is the scenario's start."""
+    """Transform poses in a robot's own frame so that the first pose is the scenario's start."""
     notes.append(f"{track.robot}: {track.topic} is in no frame of the map, so its first pose was put at the start")
     x, y, yaw = track.pose[0]
     turn = 0.0 if np.isnan(start[2]) else start[2] - yaw

@@ -1,4 +1,4 @@
-"""Positions at even times, from those that a recording happens to hold."""
+"""Resamples the positions of a recording at even times."""
 
 import attrs
 import numpy as np
@@ -7,8 +7,8 @@ from mrpbench_core.api.importer import Track
 from mrpbench_core.model.arrays import Float
 
 STANDING = 0.25
-"""metres. A robot that is so near to where it was before a gap has stood: AMCL is silent while a robot moves by less
-than its `update_min_d`, which is 0.25 m by default (Nav2)."""
+"""metres. A robot that is this near to its position before a gap stood still: AMCL is silent while a robot moves by
+less than its `update_min_d`, which is 0.25 m by default (Nav2)."""
 
 
 @attrs.frozen

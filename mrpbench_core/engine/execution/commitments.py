@@ -1,4 +1,4 @@
-"""What a new plan must begin with: the part of the old one that was released, at the times it will truly take."""
+"""Commitments of a new plan: the released part of the old plan, with the times that it really takes."""
 
 import numpy as np
 
@@ -10,11 +10,11 @@ from mrpbench_core.model.problem import Problem
 def commitments(
     problem: Problem, plan: Plan, released: Int32, reached: Int32, ready: Int, due: int
 ) -> tuple[Path, ...]:
-    """The released prefix of each path, retimed to the present.
+    """The released prefix of each path, with updated times.
 
     What was reached keeps its times, so that the order in which robots passed is kept too. The segment under way ends
-    when its robot is `ready`, what was released beyond it follows at once, and who then has time waits until `due`.
-    Segments keep their indices: only a wait is appended. Times never become earlier than they were, and a dispatcher
+    when its robot is `ready`, what was released beyond it follows at once, and a robot that then has time waits until
+    `due`. Segments keep their indices: only a wait is appended. Times never become earlier than they were, and a dispatcher
     that keeps a plan's order (`adg`) has released nothing that another robot must pass before, so the prefixes of a
     plan without conflicts have none.
 

@@ -1,4 +1,4 @@
-"""What the engine lays over a simulator's exact output and a navigator's exact commands; all zero by default.
+"""Noise that the engine adds to a simulator's exact output and a navigator's exact commands; zero by default.
 
 Every draw comes from the stream of its own cause and robot, so that neither another cause nor another robot changes it.
 """

@@ -1,4 +1,4 @@
-"""When the plan in force is replaced during execution, and by what."""
+"""Decides when the current plan is replaced during execution, and requests the new one."""
 
 import math
 from collections.abc import Callable
@@ -32,11 +32,11 @@ class Revision:
     plan: Plan | None
     routes: tuple[Route, ...] = ()
     fault: str = ""
-    """Why there is none, or why it must not be used."""
+    """Why there is no plan, or why it must not be used."""
 
 
 class Replanner:
-    """Follows an execution and says when a new plan is wanted; from then until it takes effect nothing is released.
+    """Decides when a new plan is needed and requests it; nothing is released until the new plan takes effect.
 
     Args:
         settings: when to replan, and how long that takes.
@@ -54,11 +54,11 @@ class Replanner:
         self._retry = max(RETRY_S, settings.delay or 0.0, settings.period or 0.0)
         self._not_before = 0.0
         self.pending: Revision | None = None
-        """Asked for, not in force yet."""
+        """Requested, not in force yet."""
         self.use(problem, plan)
 
     def use(self, problem: Problem, plan: Plan) -> None:
-        """Take note that a plan is in force."""
+        """Note that a plan is in force."""
         self.problem, self.plan = problem, plan
         self._first: Int = np.cumsum([0, *(len(path) for path in plan.paths)])
         self._leave: Int = np.concatenate([*(path.leave for path in plan.paths), [0]])  # one more to index at the end
@@ -101,7 +101,7 @@ class Replanner:
         return revision
 
     def failed(self, now: float) -> None:
-        """Take note that the new plan could not be used: the next try waits a while."""
+        """Note that the new plan could not be used, and delay the next request."""
         self._not_before = now + self._retry
 
     def _late(self, now: float, reached: Int32) -> Float:

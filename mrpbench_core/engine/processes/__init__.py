@@ -1,1 +1,1 @@
-"""Worker processes: each executes runs one after another, and is ended from outside when a run passes a limit."""
+"""Worker processes: each executes one run after another and is ended from outside when a run exceeds a limit."""

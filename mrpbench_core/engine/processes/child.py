@@ -1,4 +1,4 @@
-"""The invoker's end of a worker process: starting, talking, watching, killing."""
+"""The invoker's view of a worker process: starts it, exchanges messages, measures its memory and ends it."""
 
 import contextlib
 import json
@@ -18,14 +18,14 @@ import psutil
 WORKER = "mrpbench_core.engine.processes.worker"
 
 SAMPLING_S = 0.1
-"""Seconds between looks at a worker's memory, or more where looking takes long."""
+"""Seconds between measurements of a worker's memory, or more where a measurement takes long."""
 
 CLOSING_S = 1.0
 """Seconds between the end of a worker's messages and its own."""
 
 
 class WorkerDied(Exception):  # noqa: N818 - it says what happened
-    """The process ended without answering; the message says how."""
+    """The process ended without an answer; the message says how."""
 
     def __init__(self, message: str, signal_number: int | None = None) -> None:
         self.signal = signal_number
@@ -35,11 +35,11 @@ class WorkerDied(Exception):  # noqa: N818 - it says what happened
 class Child:
     """One worker process, leader of its own process group.
 
-    Its own group keeps Ctrl-C for the invoker, and lets the worker and all it has started be killed at once.
+    In a group of its own, the worker does not receive Ctrl-C, and is ended together with every process it started.
     """
 
     def __init__(self, log: Path) -> None:
-        """Start it; `log` receives what goes wrong before the first job."""
+        """Start the process; `log` receives its output before the first job."""
         jobs, self._jobs = os.pipe()
         self._messages, messages = os.pipe()
         lifeline, self._lifeline = os.pipe()
@@ -80,7 +80,7 @@ class Child:
         """Hand over a job.
 
         Raises:
-            WorkerDied: nobody is there to take it.
+            WorkerDied: the process has ended.
         """
         content = json.dumps(message).encode() + b"\n"
         try:
@@ -96,7 +96,7 @@ class Child:
             WorkerDied: the process ended.
         """
         while b"\n" not in self._buffer:
-            ended = self._ended()  # looked at before reading, so that its last words are heard
+            ended = self._ended()  # checked before reading, so that the last message is received
             if not self._poll.poll(0 if ended else timeout_s * 1000):
                 if ended:
                     raise self._end()
@@ -110,7 +110,7 @@ class Child:
         return message
 
     def memory(self) -> int | None:
-        """Resident bytes of the process and all it has started, or None when it is too early to look again."""
+        """Resident bytes of the process and its descendants, or None when it is too early to measure again."""
         began = time.monotonic()
         if began < self._next_sample:
             return None
@@ -128,7 +128,7 @@ class Child:
         return not self._ended()
 
     def is_tidy(self, memory_bytes: int) -> bool:
-        """Tell whether it may serve another run: little memory kept, no program left running."""
+        """Tell whether the process may execute another run: it holds little memory and left no program running."""
         started = Path(f"/proc/{self.pid}/task/{self.pid}/children")  # far cheaper than looking at every process
         try:
             busy = started.exists() and started.read_text().strip()
@@ -155,7 +155,7 @@ class Child:
             os.close(descriptor)
 
     def _ended(self) -> bool:
-        """Tell whether it ended, without reaping it: until then nobody else gets its process id."""
+        """Tell whether the process ended, without reaping it: until then its process id is not reused."""
         return os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
 
     def _end(self) -> WorkerDied:

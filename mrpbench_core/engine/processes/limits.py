@@ -1,4 +1,4 @@
-"""When a run must be ended from outside, and with which status."""
+"""Decides when a run must be ended from outside, and with which status."""
 
 import time
 
@@ -13,7 +13,7 @@ A planner that looks at its clock returns well within it.
 
 
 class LimitMonitor:
-    """Follows one run through its stages and says when it has passed a limit."""
+    """Follows one run through its stages and reports when it exceeds a limit."""
 
     def __init__(self, job: Job) -> None:
         self._job = job
@@ -23,7 +23,7 @@ class LimitMonitor:
         self._scenario_id: str | None = None
 
     def enter(self, stage: Stage, limit_s: float | None, scenario_id: str | None) -> None:
-        """A stage begins."""
+        """Note that a stage begins."""
         self.stage = stage
         self._stage_began = time.monotonic()
         self._limit = limit_s
@@ -38,7 +38,7 @@ class LimitMonitor:
         return max(0.0, left)
 
     def overrun(self) -> Failure | None:
-        """The failure of a run that has passed a time limit."""
+        """The failure of a run that exceeded a time limit, or None."""
         now = time.monotonic()
         if now - self._began >= self._job.wall_s:
             return self.failure(RunStatus.WALL_TIMEOUT, f"the run took longer than limits.wall, {self._job.wall_s:g} s")
@@ -50,14 +50,14 @@ class LimitMonitor:
         return None
 
     def overweight(self, memory: int) -> Failure | None:
-        """The failure of a run that holds more memory than it may."""
+        """The failure of a run that exceeds its memory limit, or None."""
         if memory <= self._job.memory_bytes:
             return None
         held, allowed = memory / 2**20, self._job.memory_bytes / 2**20
         return self.failure(RunStatus.OUT_OF_MEMORY, f"held {held:.0f} MiB, limits.memory allows {allowed:.0f} MiB")
 
     def failure(self, status: RunStatus, message: str) -> Failure:
-        """A failure in the present stage."""
+        """A failure in the current stage."""
         seconds = time.monotonic() - self._stage_began
         return Failure(status=status, stage=self.stage, message=message, seconds=seconds, scenario_id=self._scenario_id)
 

@@ -24,7 +24,7 @@ SPARE = 4
 
 
 OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
-"""Signals that people and batch systems send, and defects do not raise."""
+"""Signals that people and batch systems send, and that defects do not raise."""
 
 
 class SlotStopped(Exception):  # noqa: N818 - not an error

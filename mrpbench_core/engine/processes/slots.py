@@ -1,4 +1,4 @@
-"""The worker slots of this process, whichever thread asks: an executor's threads here, or those of a remote worker."""
+"""The worker slots of this process, shared by the threads of an executor or of a remote worker."""
 
 import threading
 
@@ -10,7 +10,7 @@ _POOLS: dict[str, "Slots"] = {}
 
 
 class Slots:
-    """As many slots as runs are executed at once; an idle one serves the next run."""
+    """As many slots as runs are executed at once; an idle slot executes the next run."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -49,7 +49,7 @@ class Slots:
 
 
 def run_in_slot(invocation: str, job: Job) -> JobOutcome:
-    """Execute a run in one of this process's slots for an invocation; what executors are given to call."""
+    """Execute a run in one of this process's slots for an invocation; executors call this function."""
     with _LOCK:
         slots = _POOLS.setdefault(invocation, Slots())
     return slots.run(job)

@@ -56,7 +56,7 @@ def main(jobs: int, messages: int, lifeline: int) -> None:
 
 
 def _answer(job: dict[str, Any], say: Send, hooks: Hooks) -> dict[str, Any]:
-    """Execute a job with its own log, which stays only if something was printed."""
+    """Execute a job with a log of its own, which is kept only if something was printed."""
     log = Path(job["log"])
     try:
         _redirect(log)
@@ -128,7 +128,7 @@ def _flush() -> None:
 
 
 def _backstop(memory_bytes: int) -> None:
-    """Refuse one enormous allocation, which sampling would see too late.
+    """Refuse a single huge allocation, which sampling would notice too late.
 
     Far above the limit: address space is much more than memory where threads and mapped files are.
     """

@@ -1,4 +1,4 @@
-"""The cost matrix an assigner is given."""
+"""Cost matrices for assigners."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The exports of one run. What goes wrong in one costs neither the run nor the other exports."""
+"""The exports of one run. The failure of one export costs neither the run nor the other exports."""
 
 import traceback
 from collections.abc import Callable, Mapping
@@ -13,11 +13,11 @@ from mrpbench_core.model.run import RunContext
 
 
 class Exports:
-    """Hands chunks on to every exporter until it fails."""
+    """Passes chunks to every exporter, except those that failed."""
 
     def __init__(self) -> None:
         self.failed: dict[str, str] = {}
-        """Why there is no export, by its name."""
+        """Why an export failed, by its name."""
         self._open: dict[str, ExporterSession] = {}
 
     def open(self, exporters: Mapping[str, Exporter], context: RunContext, folder: Path) -> None:
@@ -37,7 +37,7 @@ class Exports:
                 self._note(name, error)
 
     def write(self, chunk: Chunk) -> None:
-        """Hand on what happened since the last chunk."""
+        """Pass a chunk to the exporters."""
         self._each(lambda session: session.write(chunk))
 
     def close(self) -> None:
@@ -45,7 +45,7 @@ class Exports:
         self._each(lambda session: session.close())
 
     def abandon(self) -> None:
-        """Drop them all, because the run failed."""
+        """Abandon all exports because the run failed."""
         for name in list(self._open):
             self._drop(name)
 

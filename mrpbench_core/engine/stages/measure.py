@@ -1,4 +1,4 @@
-"""Applies metrics to a finished run; what cannot be measured is null with the reason."""
+"""Applies metrics to a finished run; a value that cannot be measured is null, with the reason."""
 
 import traceback
 from collections.abc import Mapping

@@ -18,7 +18,7 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class Instance:
-    """Where a run takes place and what is to be done."""
+    """The world, robots, roadmap and tasks of a run."""
 
     world: World
     fleet: Fleet
@@ -36,10 +36,10 @@ class Instance:
 
 
 def build_instance(config: RunConfig, announce: Announce) -> Instance:
-    """Load, build and draw.
+    """Load the world, build fleet and roadmap, and draw the scenario.
 
     Raises:
-        InputError: something the user wrote does not fit.
+        InputError: the configuration does not fit the world, the robots or the scenario.
         RunEnded: the scenario cannot be solved by any planner.
     """
     announce(Stage.WORLD, {})
@@ -63,10 +63,10 @@ def build_instance(config: RunConfig, announce: Announce) -> Instance:
 
 
 def require_free_doorways(instance: Instance) -> None:
-    """Make sure that doors can move from the start.
+    """Require that no robot starts where a door swings.
 
     Raises:
-        RunEnded: a robot stands in the way of one.
+        RunEnded: a robot starts where a door swings.
     """
     radii, names = instance.fleet.radii, instance.scenario.start_names
     if faults := check_doorways(instance.world, instance.roadmap, instance.start, radii, names):

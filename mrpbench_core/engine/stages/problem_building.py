@@ -20,7 +20,7 @@ def build_problem(instance: Instance, assigned: tuple[int, ...] | None, assigner
 
     Raises:
         InputError: the planner cannot choose among these tasks.
-        RunEnded: robots stand on one another, or a goal is blocked, shared or unreachable.
+        RunEnded: two robots overlap at their starts, or a goal is blocked, shared or unreachable.
     """
     if assigned is None:
         problem = problem_with_features(instance.roadmap, instance.fleet, instance.start, candidate_goals(instance))

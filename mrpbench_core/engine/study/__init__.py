@@ -1,1 +1,1 @@
-"""A study: which of its runs are to be done, and what is kept of each."""
+"""Studies: selects the runs to execute, distributes them to workers and stores their records."""

@@ -1,4 +1,4 @@
-"""Who is told in the invoking process how a study goes on."""
+"""Notifications about the progress of a study, in the invoking process."""
 
 from typing import Any
 
@@ -8,10 +8,10 @@ from mrpbench_core.store.results import Results
 
 
 class StudyProgress:
-    """Does nothing; subclasses print or draw."""
+    """Receives notifications and ignores them; subclasses print or draw."""
 
     def selected(self, selection: Selection, results: Results) -> None:
-        """The runs to do are known."""
+        """The runs to execute are selected."""
 
     def started(self, point: RunPoint) -> None:
         """A run was handed to a worker."""
@@ -20,7 +20,7 @@ class StudyProgress:
         """A run's record was stored."""
 
     def lost(self, point: RunPoint, reason: str) -> None:
-        """A run's worker was ended from outside; it will be done again."""
+        """A run's worker was ended from outside; the run will be repeated."""
 
     def refused(self, point: RunPoint, mistake: str) -> None:
-        """A run could not be made of what the user wrote; nothing was recorded."""
+        """A run could not be executed because of a mistake of the user; nothing was recorded."""

@@ -1,4 +1,4 @@
-"""Completes the record of a run with what the invoking process knows."""
+"""Completes the record of a run with the facts that only the invoking process knows."""
 
 import functools
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Keeps workers busy with the runs of one invocation, and stores each record as soon as it is there."""
+"""Distributes the runs of one invocation to workers, and stores each record as soon as it arrives."""
 
 from collections import Counter, deque
 from collections.abc import Iterator
@@ -20,12 +20,12 @@ from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.store.folder import ResultsFolder
 
 LOSSES = 3
-"""A run whose worker is ended from outside is done again, as the next attempt; after so many it counts as crashed."""
+"""A run whose worker is ended from outside is repeated as the next attempt; after so many losses it counts as crashed."""
 
 
 @attrs.define(kw_only=True)
 class RunQueue:
-    """The runs that are left, and those that are going on."""
+    """The runs that wait for a worker, and those that are being executed."""
 
     invocation: str
     waiting: deque[tuple[RunPoint, int]]
@@ -41,7 +41,7 @@ class RunQueue:
     _losses: Counter[str] = attrs.field(factory=Counter, init=False)
 
     def run_all(self, executor: Executor) -> None:
-        """Do all runs. No more are handed out than there are workers, so that memory does not grow with the study.
+        """Execute all runs, at most as many at once as there are workers, so that memory does not grow with the study.
 
         When anything, Ctrl-C included, ends it early, the runs in flight are ended too.
         """
@@ -61,7 +61,7 @@ class RunQueue:
                         future.result()
 
     def _hand_out(self, executor: Executor) -> bool:
-        """Tell whether any run is going on."""
+        """Give runs to idle workers; tell whether any run is being executed."""
         while self.waiting and len(self._going) < self.workers:
             point, attempt = self.waiting.popleft()
             self.hooks.enable()
@@ -115,7 +115,7 @@ class RunQueue:
 
 
 def _lost(point: RunPoint, loss: WorkerLost) -> JobOutcome:
-    """What is known of a run whose remote worker was lost."""
+    """The outcome of a run whose remote worker was lost."""
     failure = Failure(status=RunStatus.CRASHED, stage=Stage.WORKER, message=str(loss), seconds=0.0)
     return JobOutcome(run_id=point.run_id, failure=failure, lost=True)
 

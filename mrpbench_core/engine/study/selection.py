@@ -1,4 +1,4 @@
-"""Which runs of a study are to be done now, and as which attempt."""
+"""Selects the runs of a study to execute now, each with the number of its attempt."""
 
 import hashlib
 from collections.abc import Callable, Iterable
@@ -16,13 +16,13 @@ Rerun = Literal["failed", "changed", "all"]
 
 @attrs.frozen(kw_only=True)
 class Selection:
-    """Runs to do, each with its attempt, and what is known of the others."""
+    """The runs to execute, each with its attempt, and the state of the others."""
 
     todo: tuple[tuple[RunPoint, int], ...]
     chosen: tuple[str, ...]
     """Ids of every run of the study in this shard."""
     changed: tuple[str, ...]
-    """Ids of recorded runs that would now be made with other versions or sources, and are not done again."""
+    """Ids of recorded runs whose versions or sources have changed since, and that are not repeated."""
 
 
 def select(

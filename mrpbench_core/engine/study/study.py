@@ -1,4 +1,4 @@
-"""Runs what a study still lacks."""
+"""Executes the runs of a study that have no record yet."""
 
 import os
 from collections import deque
@@ -43,7 +43,7 @@ class Request:
 
 @attrs.frozen(kw_only=True)
 class StudyOutcome:
-    """What came of it."""
+    """The result of an invocation."""
 
     results: Results
     """Every record of the chosen runs, new and old."""
@@ -52,7 +52,7 @@ class StudyOutcome:
 
 
 def choose(study: Study, request: Request) -> tuple[Selection, Results]:
-    """Which runs would be done now, and the records of the study's runs; changes nothing on disk."""
+    """Select the runs that would be executed now, and read the records of the study's runs; nothing on disk changes."""
     results = Results(ResultsFolder(request.out), only=(point.run_id for point in study.runs))
     origins: dict[int, str] = {}
 
@@ -66,7 +66,7 @@ def choose(study: Study, request: Request) -> tuple[Selection, Results]:
 
 
 def run_study(study: Study, request: Request) -> StudyOutcome:
-    """Do the runs that `choose` names.
+    """Execute the runs that `choose` selects.
 
     Raises:
         InputError: the results folder cannot be used.
@@ -83,7 +83,7 @@ def run_study(study: Study, request: Request) -> StudyOutcome:
 
 
 def _do(study: Study, request: Request, folder: ResultsFolder, selection: Selection) -> dict[str, str]:
-    """Do the selected runs; returns what was wrong with those that were refused."""
+    """Execute the selected runs; returns the mistakes in those that were refused."""
     invocation = new_invocation()
     hooks = load_hooks()
     try:
@@ -109,7 +109,7 @@ def _do(study: Study, request: Request, folder: ResultsFolder, selection: Select
 
 
 def _facts(study: Study, request: Request, invocation: str) -> dict[str, Any]:
-    """What is needed to do this again, and to read its records."""
+    """The facts that are needed to repeat the invocation and to read its records."""
     codes = {id(code): code for code in map(code_of, study.runs)}.values()
     metrics = {name: metric for point in study.runs for name, metric in point.config.metrics.items()}
     return {

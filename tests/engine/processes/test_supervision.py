@@ -50,7 +50,8 @@ def test_neighbours_of_misbehaving_plugins_go_on(study):
 
 
 def test_a_run_that_passes_the_wall_limit_is_ended_in_whatever_stage(study):
-    study["limits"] = {"planning": 60, "wall": 0.4}
+    study["limits"] = {"planning": 60, "wall": 2.0}
+    study["assigner"] = "identity"  # which imports no solver
     record = outcomes(study, ["hang_with_gil"])["hang_with_gil"]
     assert record["status"] == "wall_timeout"
     assert record["error"]["stage"] == "planning"
