@@ -14,9 +14,9 @@ def commitments(
 
     What was reached keeps its times, so that the order in which robots passed is kept too. The segment under way ends
     when its robot is `ready`, what was released beyond it follows at once, and a robot that then has time waits until
-    `due`. Segments keep their indices: only a wait is appended. Times never become earlier than they were, and a dispatcher
-    that keeps a plan's order (`adg`) has released nothing that another robot must pass before, so the prefixes of a
-    plan without conflicts have none.
+    `due`. Segments keep their indices: only a wait is appended. Times never become earlier than they were, and a
+    dispatcher that keeps a plan's order (`adg`) has released nothing that another robot must pass before, so the
+    prefixes of a plan without conflicts have none.
 
     Args:
         problem: that `plan` solves; gives the durations.

@@ -20,7 +20,7 @@ from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.store.folder import ResultsFolder
 
 LOSSES = 3
-"""A run whose worker is ended from outside is repeated as the next attempt; after so many losses it counts as crashed."""
+"""A run whose worker is ended from outside is repeated as the next attempt; after so many it counts as crashed."""
 
 
 @attrs.define(kw_only=True)
