@@ -8,7 +8,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatcherSession, option
-from mrpbench_core.builtin.dispatchers.occupations import refuse_facilities
+from mrpbench_core.builtin.dispatchers.facility_use import refuse_facilities
 from mrpbench_core.model.execution import FleetView, Orders
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem

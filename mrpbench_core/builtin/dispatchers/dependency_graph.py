@@ -6,13 +6,13 @@ Terms are those of Hönig et al., "Persistent and Robust Execution of MAPF Sched
 import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
-from mrpbench_core.builtin.dispatchers.occupations import occupations_of, resource_edges
 from mrpbench_core.builtin.dispatchers.resource_requests import ResourceRequests
 from mrpbench_core.builtin.dispatchers.rotations import rotations
-from mrpbench_core.builtin.dispatchers.type2_edges import Moves, Type2Edges, moves_of, type2_edges
 from mrpbench_core.model.arrays import Int, Int32
+from mrpbench_core.model.occupations import occupations_of, resource_edges
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.type2_edges import Moves, Type2Edges, moves_of, type2_edges
 
 REACHED, CLEARED = 0, 1
 """Rows of the counts of leading segments i8[2,n], see `mrpbench_core.model.execution.FleetView`."""

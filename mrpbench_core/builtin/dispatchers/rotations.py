@@ -9,11 +9,11 @@ from itertools import combinations
 import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
-from mrpbench_core.builtin.dispatchers.type2_edges import Moves, Type2Edges
 from mrpbench_core.checking.strong_components import strong_components
 from mrpbench_core.model.arrays import Float, Int
 from mrpbench_core.model.conflicts import TOLERANCE
 from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.type2_edges import Moves, Type2Edges
 
 
 def rotations(problem: Problem, moves: Moves, order: Type2Edges, margin: float) -> list[tuple[int, ...]]:

@@ -11,7 +11,7 @@ ANGLE = 0.001
 """Resolution in radians."""
 ASTRAY = 0.02
 """Metres; estimates that never differ from the truth by more are not packed."""
-COUNTS = {"reached": None, "released": None, "mode": None, "level": 0, "waits_for": -1}
+COUNTS = {"reached": None, "released": None, "mode": None, "level": 0}
 """Channels of integers, and a value without information: a channel with this value only is not packed."""
 
 

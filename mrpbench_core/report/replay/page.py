@@ -17,7 +17,9 @@ from mrpbench_core.report.replay.facts import facts_of
 from mrpbench_core.report.replay.motion import pack_motion
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.report.replay.scans import pack_scans
-from mrpbench_core.report.replay.scene import pack_robots, pack_world
+from mrpbench_core.report.replay.scene import pack_resources, pack_robots, pack_world
+from mrpbench_core.report.replay.schedule import pack_schedule
+from mrpbench_core.report.replay.waits import pack_waits
 from mrpbench_core.store.recording import Recording
 
 
@@ -44,12 +46,14 @@ def write_page(
     context = recording.context()
     motion, scans = Packing(), Packing()
     pack_motion(recording, motion)
+    pack_schedule(recording.first_context(), motion)
+    pack_waits(recording, record.get("config") or {}, motion)
     thinned = pack_scans(recording, scans)
     data = {
         "facts": facts_of(record, columns or {}, planner),
         "world": pack_world(context.world, motion)
         | pack_facilities(recording, context.world, motion)
-        | {"resources": [resource.name for resource in context.problem.roadmap.resources]},
+        | {"resources": pack_resources(context.problem.roadmap)},
         "robots": pack_robots(context, motion, all_routes(recording.first_context().routes, recording.channels)),
         "events": read_events(recording, context),
         "contacts": read_contacts(recording),

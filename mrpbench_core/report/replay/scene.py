@@ -7,6 +7,7 @@ import numpy as np
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.execution import Route
 from mrpbench_core.model.fleet import RobotModel
+from mrpbench_core.model.roadmap import Resource, Roadmap
 from mrpbench_core.model.run import RunContext
 from mrpbench_core.model.solids import wall_boxes
 from mrpbench_core.model.world import Level, World
@@ -27,6 +28,22 @@ def pack_world(world: World, packing: Packing) -> dict[str, Any]:
         "lanes": [[lane.start, lane.end, int(lane.bidirectional)] for lane in world.lanes],
         "lifts": [[lift.name, _points(lift.corners), list(lift.levels)] for lift in world.lifts],
     }
+
+
+def pack_resources(roadmap: Roadmap) -> list[dict[str, Any]]:
+    """Return name and kind of each resource, and its centre `[x, y, level]` on each level."""
+    return [
+        {"name": resource.name, "kind": resource.kind, "places": _places(roadmap, resource)}
+        for resource in roadmap.resources
+    ]
+
+
+def _places(roadmap: Roadmap, resource: Resource) -> list[list[float]]:
+    edges = roadmap.edges[list(resource.passage or resource.edges)].ravel() if len(roadmap.edges) else roadmap.edges
+    vertices = np.unique(np.concatenate([np.array(resource.vertices, np.int64), edges.ravel()]))
+    levels = roadmap.level[vertices]
+    centres = ((roadmap.position[vertices[levels == level]].mean(axis=0), level) for level in np.unique(levels))
+    return [[_mm(centre[0]), _mm(centre[1]), int(level)] for centre, level in centres]
 
 
 def _level(level: Level, number: int, packing: Packing) -> dict[str, Any]:

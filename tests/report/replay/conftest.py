@@ -4,11 +4,13 @@ import base64
 import html
 import json
 import re
+import time
 import zlib
 
 import numpy as np
 import pytest
 
+from mrpbench_core.report.replay.page import write_page
 from mrpbench_core.store.recording import Recording, RecordingWriter
 
 SAMPLES = 41
@@ -112,3 +114,46 @@ def scripts():
         return found
 
     return read
+
+
+@pytest.fixture
+def show(browser, wait, store, record, tmp_path):
+    """Return a function that opens the page of a recording; afterwards the console must be empty."""
+
+    def load(rows, **context):
+        file = tmp_path / "a.html"
+        write_page(store(rows, **context), record, file, planner="eecbs w=1.2")
+        browser.get_log("browser")
+        browser.get_log("performance")
+        browser.get(file.as_uri())
+        wait(lambda: browser.execute_script("return document.body.classList.contains('ready')"))
+        return browser
+
+    yield load
+    assert browser.get_log("browser") == []
+
+
+@pytest.fixture(scope="session")
+def wait():
+    """Return a function that waits until another one returns true."""
+
+    def until(ready, seconds=20.0):
+        end = time.monotonic() + seconds
+        while not ready():
+            assert time.monotonic() < end, "the page did not get there in time"
+            time.sleep(0.02)
+
+    return until
+
+
+@pytest.fixture
+def ask(browser):
+    """Return a function that returns the value of an expression of the page, once two frames are drawn."""
+
+    def value(expression):
+        browser.execute_async_script(
+            "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(done))"
+        )
+        return browser.execute_script(f"return {expression}")
+
+    return value

@@ -1,41 +1,14 @@
 """The page in headless Chromium. Skipped where there is none."""
 
-import time
-
 import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.report.replay.page import write_page
 from mrpbench_core.testing.fixtures.building import building
 
 webdriver = pytest.importorskip("selenium.webdriver", reason="the tests of the page in a browser need selenium")
 from selenium.webdriver.common.by import By  # noqa: E402
 from selenium.webdriver.common.keys import Keys  # noqa: E402
-
-
-@pytest.fixture
-def show(browser, store, record, tmp_path):
-    """Return a function that opens the page of a recording; afterwards the console must be empty."""
-
-    def load(rows, **context):
-        file = tmp_path / "a.html"
-        write_page(store(rows, **context), record, file, planner="eecbs w=1.2")
-        browser.get_log("browser")
-        browser.get_log("performance")
-        browser.get(file.as_uri())
-        wait(lambda: browser.execute_script("return document.body.classList.contains('ready')"))
-        return browser
-
-    yield load
-    assert browser.get_log("browser") == []
-
-
-def wait(ready, seconds=20.0):
-    end = time.monotonic() + seconds
-    while not ready():
-        assert time.monotonic() < end, "the page did not get there in time"
-        time.sleep(0.02)
 
 
 def ask(browser, expression):
@@ -81,7 +54,7 @@ def test_it_loads_without_a_word_and_asks_the_network_for_nothing(show, chunk):
     assert not [message for message in requests if "http:" in message or "https:" in message]
 
 
-def test_it_plays_pauses_and_stops_at_the_end(show, chunk):
+def test_it_plays_pauses_and_stops_at_the_end(show, wait, chunk):
     browser = show(chunk)
     before = ask(browser, "replay.clock.now")
     press(browser, Keys.SPACE)
@@ -232,7 +205,7 @@ def test_two_fingers_zoom(show, chunk):
     assert ask(browser, "replay.shown.selected") == -1
 
 
-def test_layers_and_colours_change_what_is_drawn(show, chunk):
+def test_layers_and_colours_change_what_is_drawn(show, wait, chunk):
     browser = show(chunk)
     browser.execute_script("replay.clock.seek(1)")
     settle(browser)

@@ -49,6 +49,12 @@ export class Clock extends EventTarget {
   }
 }
 
+/** Seconds between the labels of an axis of `width` pixels. */
+export function timeStep(begin, end, width) {
+  const steps = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600];
+  return steps.find((step) => ((end - begin) / step) * 56 < width) ?? 7200;
+}
+
 /** Seconds as minutes, seconds and tenths. */
 export function clockText(seconds) {
   const tenths = Math.round(seconds * 10);

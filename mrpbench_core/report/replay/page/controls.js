@@ -32,7 +32,7 @@ export function layerControls(shown) {
 /** Buttons for the levels of a building that has several, with the number of robots there; what is returned counts them. */
 export function levelControls(run, shown) {
   const box = document.getElementById("levels");
-  const names = run.world.levels.map((level, number) => level.name || `Level ${number}`);
+  const names = run.world.levels.map((_, level) => run.levelName(level));
   box.hidden = names.length < 2;
   const buttons = names.map((name, level) => {
     const button = make("button", "", name);

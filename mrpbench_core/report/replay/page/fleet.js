@@ -67,7 +67,7 @@ export class FleetPanel {
     close.addEventListener("click", () => shown.select(-1));
     this.values = make("dl");
     this.cells = Object.fromEntries(
-      ["state", "speed", "segments", "reserved", "pose", "goal", "model"].map((key) => {
+      ["state", "why", "level", "speed", "segments", "reserved", "pose", "goal", "model"].map((key) => {
         const value = make("dd");
         this.values.append(make("dt", "", key), value);
         return [key, value];
@@ -82,7 +82,9 @@ export class FleetPanel {
     const released = run.value("released", robot, reached);
     setText(this.title, run.names[robot]);
     this.followButton.setAttribute("aria-pressed", String(this.shown.follow));
-    setText(cells.state, run.doing(robot));
+    setText(cells.state, STATES[run.state(robot)]);
+    setText(cells.why, run.why.text(robot) || "–");
+    setText(cells.level, run.levelName(run.value("level", robot, 0)));
     setText(cells.speed, `${run.speed(robot).toFixed(2)} of ${run.model(robot).max_speed} m/s`);
     setText(cells.segments, `${reached} of ${run.segments(robot)} reached`);
     setText(cells.reserved, released > reached ? `${released - reached} ahead` : "none ahead");

@@ -8,6 +8,7 @@ import { decoded, readArrays } from "replay/data.js";
 import { Facilities } from "replay/facilities.js";
 import { FleetPanel } from "replay/fleet.js";
 import { Ground } from "replay/ground.js";
+import { Gantt } from "replay/gantt.js";
 import { helpDialog, listenToKeys } from "replay/keys.js";
 import { Lidar } from "replay/lidar.js";
 import { Paths } from "replay/paths.js";
@@ -51,6 +52,7 @@ const events = new EventPanel(run, ([time, , robot]) => {
   clock.seek(time);
   if (robot >= 0) shown.select(robot);
 });
+const gantt = new Gantt(run, { seek: (time) => clock.seek(time), choose: (robot) => shown.select(robot) });
 const openTab = tabs(() => (stale.panel = true));
 const help = helpDialog();
 
@@ -81,6 +83,7 @@ function retheme() {
   applyTheme(shown.dark);
   theme = readTheme(STATES);
   timeline.prepare(theme);
+  gantt.stale = true;
   stale = { ground: true, actors: true, panel: true };
 }
 
@@ -106,8 +109,10 @@ function draw() {
   facilities.draw(context, view, theme, shown);
   paths.draw(context, view, shown, painted);
   if (shown.layers.lidar) lidar.draw(context, view, shown, painted);
+  if (shown.layers.waits) run.why.draw(context, view, theme, shown);
   robots.draw(context, view, theme, shown, painted, calm.matches || !clock.playing);
   timeline.draw(theme);
+  gantt.draw(theme, shown.selected);
   get("now").textContent = clockText(run.now);
   stale.ground = stale.actors = false;
 }
@@ -150,10 +155,14 @@ clock.addEventListener("change", () => {
 let before = -1;
 shown.addEventListener("change", () => {
   stale = { ground: true, actors: true, panel: true };
+  gantt.show(shown.layers.gantt);
   if (shown.selected !== before && shown.selected >= 0) {
     if (shown.follow) view.zoom(Math.max(CLOSE / view.scale, 1));
     openTab("tab-robots");
-    requestAnimationFrame(() => fleet.reveal(shown.selected));
+    requestAnimationFrame(() => {
+      fleet.reveal(shown.selected);
+      gantt.reveal(shown.selected);
+    });
   }
   before = shown.selected;
   if (shown.layers.lidar) lidar.read().then(() => (stale.actors = true));
@@ -269,6 +278,7 @@ window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", ({ 
   retheme();
 });
 new ResizeObserver(resize).observe(get("stage"));
+get("gantt").addEventListener("scroll", () => (stale.actors = true));
 resize();
 requestAnimationFrame(frame);
 

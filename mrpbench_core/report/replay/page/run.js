@@ -1,6 +1,7 @@
 // A recorded run: where every robot is at any time, interpolated between samples, and what it is doing.
 
 import { decoded, lastAtMost } from "replay/data.js";
+import { Why } from "replay/why.js";
 
 /** What a robot may be doing: `Mode` of the recording, then what follows from its progress. */
 export const STATES = ["following", "waiting", "recovering", "off path", "aborted", "arrived"];
@@ -37,6 +38,7 @@ export class Run {
     this.fraction = 0;
     this.pose = this.#poses();
     this.ghost = arrays.estimate_x ? this.#poses() : null;
+    this.why = new Why(this);
     this.seek(this.begin);
   }
 
@@ -80,6 +82,10 @@ export class Run {
     return array ? array.values[robot * this.samples + sample] : missing;
   }
 
+  levelName(level) {
+    return this.world.levels[level]?.name || `Level ${level}`;
+  }
+
   isKnown(robot) {
     return this.value("known", robot, 1) === 1;
   }
@@ -102,11 +108,9 @@ export class Run {
     return over && mode <= WAITING ? ARRIVED : mode;
   }
 
-  /** What a robot is doing, in words: its state, and which door, lift or mutex it waits for. */
+  /** What a robot is doing, in words: why it stands, else its state. */
   doing(robot) {
-    const wanted = this.value("waits_for", robot, -1);
-    const state = STATES[this.state(robot)];
-    return wanted < 0 ? state : `${state} for ${this.world.resources[wanted]}`;
+    return this.why.text(robot) || STATES[this.state(robot)];
   }
 
   /** Metres per second between the samples around now, of the robot's origin. */

@@ -6,8 +6,10 @@ export const LAYERS = [
   { key: "plan", label: "Plan", letter: "p" },
   { key: "driven", label: "Driven", letter: "d" },
   { key: "reserved", label: "Reserved", letter: "r" },
+  { key: "waits", label: "Waits", letter: "w" },
   { key: "estimate", label: "Estimate", letter: "m" },
   { key: "lidar", label: "Lidar", letter: "l" },
+  { key: "gantt", label: "Gantt", letter: "g" },
 ];
 const FEW = 40; // number of robots whose paths a reader can distinguish
 
@@ -20,11 +22,12 @@ export class Shown extends EventTarget {
       names: !run.world.vertices.some(([, , , name]) => name),
       lanes: !run.world.lanes.length,
       reserved: !run.arrays.released,
+      waits: !run.arrays.reason,
       estimate: !run.ghost,
       lidar: !hasScans,
     };
     this.offered = LAYERS.filter(({ key }) => !missing[key]);
-    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, estimate: false, lidar: false };
+    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, waits: true, estimate: false, lidar: false, gantt: false };
     this.colour = few ? "robot" : "state";
     this.selected = -1;
     this.follow = false;

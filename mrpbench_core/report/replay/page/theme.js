@@ -1,7 +1,7 @@
 // Colours live in the style sheet; canvases read them from there.
 
 const NAMES = [
-  "paper", "floor", "lift", "grid", "wall", "obstacle", "door", "lane", "place", "name", "ink", "muted", "rule", "accent", "alarm", "nose",
+  "paper", "floor", "lift", "grid", "wall", "obstacle", "door", "lane", "place", "name", "ink", "muted", "rule", "accent", "alarm", "nose", "page", "hover",
 ];
 export const COLOURS = 8;
 

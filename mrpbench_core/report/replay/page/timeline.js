@@ -1,6 +1,6 @@
 // The time line: states of robots, contacts, events and the current time. A range input covers it.
 
-import { clockText } from "replay/clock.js";
+import { clockText, timeStep } from "replay/clock.js";
 import { lastAtMost } from "replay/data.js";
 import { STATES } from "replay/run.js";
 import { fitCanvas } from "replay/surface.js";
@@ -68,7 +68,7 @@ export class Timeline {
 
   #drawAxis(context, theme, width, bottom) {
     const { begin, end } = this.run;
-    const step = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 1800, 3600].find((s) => ((end - begin) / s) * 56 < width) ?? 7200;
+    const step = timeStep(begin, end, width);
     context.fillStyle = theme.muted;
     context.font = "11px system-ui, sans-serif";
     context.textBaseline = "bottom";

@@ -8,7 +8,7 @@ edges follow from the rules of `mrpbench_core.model.conflicts`. Robots that keep
 - rule 4: at each vertex, the next robot moves in only after the one before has also *completed* its move out;
 - rule 5: a move starts only after the last move on each element near it is *completed*. Moves are enough: a
   robot that stands at a vertex came there, or will leave it, by a move that touches it;
-- rule 6: see `mrpbench_core.builtin.dispatchers.occupations`.
+- rule 6: see `mrpbench_core.model.occupations`.
 
 Only edges from immediate predecessors are kept; the others follow from the edges of the predecessors.
 """

@@ -5,12 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mrpbench_core.api.dispatcher import DispatchError
-from mrpbench_core.builtin.dispatchers.type2_edges import Moves, Type2Edges, moves_of
 from mrpbench_core.model.arrays import Bool
-from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.roadmap import Resource
+from mrpbench_core.model.type2_edges import Moves, Type2Edges
 
 NEVER = -1
 
@@ -92,14 +90,3 @@ def resource_edges(problem: Problem, occupations: list[Occupation]) -> Type2Edge
                     after.append(later.first)
                     completed.append(earlier.completed)
     return Type2Edges(np.array(before, np.int64), np.array(after, np.int64), np.array(completed, bool))
-
-
-def refuse_facilities(problem: Problem, plan: Plan, dispatcher: str) -> None:
-    """Raise DispatchError if a plan uses a door or a lift, for dispatchers that do not request them."""
-    kinds = {resource.name: resource.kind for resource in problem.roadmap.resources}
-    for occupation in occupations_of(problem, moves_of(problem, plan)):
-        if kinds[occupation.resource] != "mutex":
-            raise DispatchError(
-                f"robot {occupation.robot} needs the {kinds[occupation.resource]} {occupation.resource}, "
-                f"and the dispatcher {dispatcher} does not request doors or lifts: use adg"
-            )

@@ -1,0 +1,92 @@
+// Why robots stand: the reason in words, and a line to the culprit.
+
+/** `Reason` of `waits.py`. */
+export const REASONS = ["", "robot", "resource", "rotation", "replan", "recovery", "schedule", "start", "unknown"];
+const WORDS = {
+  replan: "waits for a new plan",
+  schedule: "waits for its time in the plan",
+  start: "starts late",
+  unknown: "waits, reason not recorded",
+};
+
+export class Why {
+  constructor(run) {
+    this.run = run;
+  }
+
+  /** Name of the reason why a robot stands now (or at a sample), "" if it does not. */
+  reason(robot, sample = this.run.latest) {
+    return REASONS[this.run.value("reason", robot, 0, sample)];
+  }
+
+  #culprit(robot, sample = this.run.latest) {
+    return this.run.value("culprit", robot, -1, sample);
+  }
+
+  /** The reason in words, "" if the robot does not stand. */
+  text(robot, sample = this.run.latest) {
+    const { run } = this;
+    const reason = this.reason(robot, sample);
+    const culprit = this.#culprit(robot, sample);
+    if (reason === "robot") return `waits for ${run.names[culprit]}${this.#elsewhere(robot, culprit, sample)} to pass`;
+    if (reason === "rotation") return `waits for ${run.names[culprit]}, which moves together with it`;
+    if (reason === "recovery") return this.#recovery(robot, run.time[sample]);
+    if (reason !== "resource") return WORDS[reason] ?? "";
+    const { kind, name } = run.world.resources[culprit];
+    return `waits for ${name.toLowerCase().includes(kind) ? "" : `${kind} `}${name}`;
+  }
+
+  /** " on" and the level of a robot that is on another level than its culprit. */
+  #elsewhere(robot, culprit, sample) {
+    const [own, other] = [robot, culprit].map((one) => this.run.value("level", one, 0, sample));
+    return own === other ? "" : ` on ${this.run.levelName(other)}`;
+  }
+
+  #recovery(robot, time) {
+    const last = this.run.events.findLast(([at, kind, who]) => at <= time && who === robot && kind === "recovery");
+    return last ? `recovers: ${last[3].replaceAll("_", " ")}` : "recovers";
+  }
+
+  /** Where the culprit is on a level now: [x, y], or null. */
+  place(robot, level) {
+    const { run } = this;
+    const culprit = this.#culprit(robot);
+    const reason = this.reason(robot);
+    if (culprit < 0) return null;
+    if (reason === "resource") {
+      const found = run.world.resources[culprit].places.find((place) => place[2] === level);
+      return found ? found.slice(0, 2) : null;
+    }
+    return run.value("level", culprit, 0) === level ? [run.pose.x[culprit], run.pose.y[culprit]] : null;
+  }
+
+  /** A line from each robot that waits (or from the selected one alone) to its culprit, with an arrow head. */
+  draw(context, view, theme, shown) {
+    const { run } = this;
+    const path = new Path2D();
+    for (let robot = 0; robot < run.count; robot++) {
+      if (shown.selected >= 0 && shown.selected !== robot) continue;
+      if (!this.reason(robot) || run.value("level", robot, 0) !== shown.level) continue;
+      const place = this.place(robot, shown.level);
+      if (place) arrow(path, view.toScreen(run.pose.x[robot], run.pose.y[robot]), view.toScreen(...place));
+    }
+    context.lineCap = context.lineJoin = "round";
+    for (const [colour, width] of [[theme.paper, 5], [theme.ink, 1.75]]) {
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.stroke(path);
+    }
+  }
+}
+
+function arrow(path, [fromX, fromY], [toX, toY]) {
+  const length = Math.hypot(toX - fromX, toY - fromY);
+  if (length < 2) return;
+  const [x, y] = [(toX - fromX) / length, (toY - fromY) / length];
+  const head = Math.min(9, length / 2);
+  path.moveTo(fromX, fromY);
+  path.lineTo(toX, toY);
+  path.moveTo(toX - head * (x + 0.5 * y), toY - head * (y - 0.5 * x));
+  path.lineTo(toX, toY);
+  path.lineTo(toX - head * (x - 0.5 * y), toY - head * (y + 0.5 * x));
+}

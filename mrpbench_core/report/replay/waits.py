@@ -1,0 +1,184 @@
+"""Finds out from a recording why robots wait, and for what."""
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from enum import IntEnum
+from typing import Any
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.arrays import Bool, Float, Int, Int32
+from mrpbench_core.model.execution import Mode, Route
+from mrpbench_core.model.run import RunContext, all_routes
+from mrpbench_core.report.replay.dependencies import Dependencies, first_samples
+from mrpbench_core.report.replay.packing import Packing
+from mrpbench_core.store.recording import Recording
+
+NEEDED = frozenset({"mode", "reached", "cleared", "released"})
+
+
+class Reason(IntEnum):
+    """Why a robot stands; the page has the same list (`why.js`)."""
+
+    NONE = 0
+    ROBOT = 1
+    """Another robot passes first; `culprit` is its index."""
+    RESOURCE = 2
+    """A door, lift or mutex is not granted yet; `culprit` is the index of the resource."""
+    ROTATION = 3
+    """A rotation begins when all of its robots are ready; `culprit` is the robot that is missing."""
+    REPLAN = 4
+    """A new plan is being computed, and nothing is released until then."""
+    RECOVERY = 5
+    SCHEDULE = 6
+    """The dispatcher releases by the plan's times, and that time has not come."""
+    START = 7
+    """The robot starts late."""
+    UNKNOWN = 8
+    """The dispatcher has not released the next segment, and the recording does not tell why."""
+
+
+@attrs.frozen(kw_only=True)
+class Waits:
+    """Reasons and culprits."""
+
+    reason: Int
+    """u1[T,n] of `Reason`."""
+    culprit: Int32
+    """i4[T,n]: robot or resource, -1 = none."""
+
+
+def pack_waits(recording: Recording, config: Mapping[str, Any], packing: Packing) -> None:
+    """Pack `reason` and `culprit` if the recording allows to find them."""
+    waits = explain_waits(recording, config)
+    if waits is not None:
+        packing.add("reason", waits.reason.T)
+        packing.add("culprit", waits.culprit.T)
+
+
+def explain_waits(recording: Recording, config: Mapping[str, Any]) -> Waits | None:
+    """Return why each robot waits at each sample; None if progress or modes were not recorded.
+
+    A dependency of the first plan that is not met is the reason. The times of later plans are not recorded: there,
+    the reason is the robot that holds the next waypoint.
+
+    Args:
+        recording: of an execution.
+        config: the configuration of the run, for the latency of replanning.
+    """
+    if not recording.channels.keys() >= NEEDED:
+        return None
+    plans = all_routes(recording.first_context().routes, recording.channels)
+    channels = {name: recording.channel(name) for name in (*sorted(NEEDED), "time")}
+    if any(len(routes) != channels["mode"].shape[1] for _, routes in plans):
+        return None
+    if "waits_for" in recording.channels:
+        channels["waits_for"] = recording.channel("waits_for")
+    return _Explanation(recording.first_context(), channels, plans).waits(_pending(recording, channels["time"], config))
+
+
+def _pending(recording: Recording, time: Float, config: Mapping[str, Any]) -> Bool:
+    """Tell at which samples bool[T] a new plan was pending."""
+    pending = np.zeros(len(time), bool)
+    if "event_kind" in recording.channels:
+        latency = float((config.get("replanning") or {}).get("latency") or 0.0)
+        stamps = recording.channel("event_time")[np.char.startswith(recording.channel("event_kind"), "replan")]
+        for stamp in stamps.tolist():
+            pending |= (time >= stamp - latency - 1e-9) & (time <= stamp + 1e-9)
+    return pending
+
+
+class _Explanation:
+    def __init__(self, context: RunContext, channels: Mapping[str, Any], plans: list[tuple[float, Any]]) -> None:
+        self.context, self.channels, self.plans = context, channels, plans
+        self.time: Float = channels["time"]
+        self.limits = [*np.searchsorted(self.time, [start for start, _ in plans]).tolist(), len(self.time)]
+        self.reason = np.zeros(channels["mode"].shape, np.uint8)
+        self.culprit: Int32 = np.full(self.reason.shape, -1, np.int32)
+
+    def waits(self, pending: Bool) -> Waits:
+        mode, reached, released = (self.channels[name] for name in ("mode", "reached", "released"))
+        self.reason[mode == Mode.RECOVERING] = Reason.RECOVERY
+        waiting = mode == Mode.WAITING
+        for (_, routes), begin, end in zip(self.plans, self.limits, self.limits[1:], strict=False):
+            waiting[begin:end] &= reached[begin:end] < [len(route.speed) for route in routes]
+        self.reason[waiting] = np.where(reached < released, Reason.START, Reason.UNKNOWN)[waiting]
+        for number, (_, routes) in enumerate(self.plans):
+            window = slice(self.limits[number], self.limits[number + 1])
+            self._by_holders(routes, window)
+            if not number:
+                self._by_dependencies(window)
+        self.reason[(self.reason == Reason.UNKNOWN) & pending[:, None]] = Reason.REPLAN
+        if "waits_for" in self.channels:
+            asked = waiting & (self.channels["waits_for"] >= 0)
+            self.reason[asked] = Reason.RESOURCE
+            self.culprit[asked] = self.channels["waits_for"][asked]
+        return Waits(reason=self.reason, culprit=self.culprit)
+
+    def _open(self, window: slice) -> Iterator[tuple[int, int, Int]]:
+        """Robot, number of released segments, and the samples at which it waits with no more than these."""
+        for robot in range(self.reason.shape[1]):
+            samples = window.start + np.flatnonzero(self.reason[window, robot] == Reason.UNKNOWN)
+            released = self.channels["released"][samples, robot]
+            for count in np.unique(released).tolist():
+                yield robot, count, samples[released == count]
+
+    def _blame(self, samples: Int, robot: int, reason: Reason, culprit: int) -> None:
+        self.reason[samples, robot] = reason
+        self.culprit[samples, robot] = culprit
+
+    def _by_holders(self, routes: tuple[Route, ...], window: slice) -> None:
+        """Name the robot that was let onto the next waypoint and has not cleared it."""
+        visits = defaultdict(list)
+        places = [_places(route) for route in routes]
+        for other, own in enumerate(places):
+            for index, place in enumerate(own):
+                visits[place].append((other, index))
+        released, cleared = self.channels["released"], self.channels["cleared"]
+        for robot, count, samples in self._open(window):
+            here = places[robot][count]
+            ahead = next((place for place in places[robot][count:] if place != here), None)
+            for other, index in visits.get(ahead, ()) if ahead else ():
+                if other != robot:
+                    holds = (released[samples, other] >= index) & (cleared[samples, other] <= index)
+                    self._blame(samples[holds], robot, Reason.ROBOT, other)
+
+    def _by_dependencies(self, window: slice) -> None:
+        """Name the first dependency of the first plan that is not met, or the plan's time if that is what counts."""
+        plan = self.context.result.plan
+        if plan is None:
+            return
+        holders = self.culprit[window].copy()
+        self.culprit[window] = -1
+        held = self.reason[window] == Reason.ROBOT
+        if self._released_by_clock(window):
+            self.reason[window][held | (self.reason[window] == Reason.UNKNOWN)] = Reason.SCHEDULE
+            return
+        self.reason[window][held] = Reason.UNKNOWN
+        graph = Dependencies(self.context.problem, plan)
+        for robot, count, samples in self._open(window):
+            move = graph.next_move(robot, count)
+            if move is None:
+                continue
+            reason = Reason.ROTATION if graph.rotates(move) else Reason.ROBOT
+            for other, needed, reached in reversed(graph.of(move)):  # the first in the plan is written last
+                met = first_samples(self.channels["reached" if reached else "cleared"], other, needed)
+                self._blame(samples[samples <= met], robot, reason, other)
+        unknown = (self.reason[window] == Reason.UNKNOWN) & (holders >= 0)
+        self.reason[window][unknown] = Reason.ROBOT
+        self.culprit[window][unknown] = holders[unknown]
+
+    def _released_by_clock(self, window: slice) -> bool:
+        plan = self.context.result.plan
+        assert plan is not None
+        tick = self.context.problem.roadmap.tick
+        time, released = self.time[window] + 1e-9, self.channels["released"][window]
+        due = [np.searchsorted(path.enter * tick, time, side="right") for path in plan.paths]
+        return bool((released == np.stack(due, axis=1)).all()) if due else False
+
+
+def _places(route: Route) -> list[tuple[int, int, int]]:
+    """Waypoints in millimetres, with their levels, to compare them."""
+    millimetres = np.rint(route.waypoint[:, :2] * 1000).astype(int).tolist()
+    return [(x, y, level) for (x, y), level in zip(millimetres, route.level.tolist(), strict=True)]
