@@ -1,217 +1,262 @@
 #include "mrpbench_mapf/cbs/constraint_tree.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <tuple>
 
 #include "mrpbench_mapf/cbs/dependencies.hpp"
 
 namespace mrpbench::mapf {
 
-ConstraintTree::ConstraintTree(Workbench& bench, Dependencies* dependencies)
+ConstraintTree::ConstraintTree(Workbench& bench, OpenList& open, LowLevel& low_level, Dependencies* dependencies)
     : bench_(bench),
+      open_(open),
+      low_level_(low_level),
       dependencies_(dependencies),
-      root_paths_(bench.space.instance().size()),
+      optimal_(low_level.is_optimal()),
       situation_(bench.space.instance().size()),
-      others_(bench.space, bench.limits),
+      present_(bench.space, bench.limits),
       nodes_(bench.limits),
+      plans_(bench.limits),
       constraints_(bench.limits),
       conflicts_(bench.limits),
-      replanned_(bench.limits),
-      reasoning_(bench, constraints_),
+      conflict_lists_(bench.limits),
       paths_(!bench.space.instance().rules().disappear_at_goal, bench.limits),
-      later_(bench.space.instance().size()),
-      before_(bench.space.instance().size()) {}
+      reasoning_(bench, constraints_),
+      marked_(bench.space.instance().size()) {}
 
-void ConstraintTree::start(const Situation& situation, int one, int other) {
-  clear();
-  Node root{};
-  root_constraints_.clear();
-  for (const int robot : {one, other}) {
-    const auto own = situation.constraints(robot);
-    root_constraints_.insert(root_constraints_.end(), own.begin(), own.end());
-    begin_with(robot, cheapest_path(situation, robot));
-    root.cost += situation_.path(robot).cost;
-  }
-  for (const Constraint& constraint : situation.parked()) {
-    if (constraint.robot != one && constraint.robot != other) root_constraints_.push_back(constraint);
-  }
-  root.constraints = constraints_.copy(root_constraints_);
-  push(complete(root));
+std::int64_t ConstraintTree::assignments() const {
+  if (assignment_) return 1 + assignment_->changes();
+  return ranked_ ? counts_.roots : 0;
 }
 
-TimedPath ConstraintTree::cheapest_path(const Situation& situation, int robot) {
-  if (situation.path(robot).cost <= situation.least(robot)) return situation.path(robot);
-  bench_.plan(situation, robot, situation.path(robot).goal, {}, nullptr, path_);
-  return paths_.keep(path_);
-}
-
-void ConstraintTree::clear() {
-  for (const int robot : robots_) others_.remove(robot);
-  robots_.clear();
-  open_.clear();
-  nodes_.clear();
-  constraints_.clear();
-  conflicts_.clear();
-  replanned_.clear();
-  paths_.clear();
-  changed_.clear();
-  situation_.clear_constraints();
-  lower_bound_ = 0;
-  assignment_ = nullptr;
-  ranked_ = nullptr;
-  std::ranges::fill(root_paths_, TimedPath{});
-}
-
-ConstraintTree::Outcome ConstraintTree::run(std::int64_t expansions) {
+bool ConstraintTree::next() {
   while (!open_.empty()) {
-    std::ranges::pop_heap(open_, std::greater{});
-    Node* node = open_.back().node;
-    lower_bound_ = std::max(lower_bound_, open_.back().f);
-    open_.pop_back();
-    if (node == nullptr) make_ranked_root();
-    while (node != nullptr) {
-      gather(*node);
-      if (present_.empty()) return Outcome::solved;
-      if (postpone(*node)) break;
-      if (expansions-- <= 0) return Outcome::interrupted;
-      node = expand(*node);
+    lower_bound_ = std::max(lower_bound_, open_.least());
+    id_ = open_.pop();
+    node_ = by_id_[id_];
+    if (node_ != nullptr) {
+      visit(*node_);
+      return true;
     }
+    make_ranked_root();
   }
-  return Outcome::exhausted;
+  return false;
 }
 
-void ConstraintTree::begin_with(int robot, const TimedPath& path) {
-  robots_.push_back(robot);
-  changed_.push_back({robot, path});
-  situation_.set_path(robot, path);
-  others_.add(robot, path);
-  others_.refresh();
-}
-
-/// Make `situation_`, `others_` and `present_` those of `node`.
-void ConstraintTree::gather(const Node& node) {
-  std::ranges::fill(later_, false);
-  situation_.clear_constraints();
-  present_.clear();
-  for (const Node* it = &node; it != nullptr; it = it->parent) {
-    for (const Constraint& constraint : it->constraints) situation_.add(constraint);
-    for (Conflict& conflict : it->conflicts) {
-      if (!later_[conflict.one] && !later_[conflict.other]) present_.push_back(&conflict);
-    }
-    for (const Replanned& replanned : it->replanned) {
-      if (later_[replanned.robot]) continue;
-      later_[replanned.robot] = true;
-      if (!(situation_.path(replanned.robot) == replanned.path)) replace(replanned.robot, replanned.path);
-    }
+bool ConstraintTree::expand(std::int64_t most) {
+  if (postpone()) return true;
+  ++counts_.expanded;
+  while (!node_->conflicts.empty()) {
+    if (counts_.resolved >= most) return false;
+    ++counts_.resolved;
+    if (!resolve(choose())) return true;
+    ++counts_.bypasses;
   }
-  others_.refresh();
-  take_up(node);
-}
-
-/// Find out what the node at hand must still cost; is it then no longer the best, or no good at all?
-bool ConstraintTree::postpone(Node& node) {
-  if (dependencies_ == nullptr || node.evaluated) return false;
-  node.evaluated = true;
-  const Cost heuristic = dependencies_->evaluate(situation_, present_);
-  if (heuristic == Dependencies::kImpossible) return true;
-  if (heuristic <= node.heuristic) return false;
-  node.heuristic = heuristic;
-  push(node);
+  push(node_, {true, node_->sums, {}, {}, {}, node_->assignment});
   return true;
 }
 
-/// Branch; or return the node that bypasses the conflict.
-ConstraintTree::Node* ConstraintTree::expand(Node& node) {
-  ++counts_.expansions;
-  const Conflict& conflict = choose();
-  std::array<Node*, 2> children{};
-  for (int side = 0; side < 2; ++side) {
-    children[side] = child(node, conflict.branch[side]);
-    Node* it = children[side];
-    if (it != nullptr && bench_.options.bypass && it->cost == node.cost && it->conflict_count < node.conflict_count) {
-      it->constraints = {};
-      it->assignment = node.assignment;
-      it->heuristic = node.heuristic;
-      it->evaluated = node.evaluated;
-      ++counts_.bypasses;
-      return it;
-    }
+void ConstraintTree::push(const Node* parent, const Child& child) {
+  Node& node = nodes_.copy({parent, child.constraints, plans_.copy(child.plans), conflict_lists_.copy(child.conflicts),
+                            child.sums, 0, false, child.assignment});
+  if (parent != nullptr) {
+    node.heuristic = std::max<Cost>(0, parent->sums.least + parent->heuristic - node.sums.least);
   }
-  for (Node* it : children) {
-    if (it != nullptr) push(*it);
-  }
-  return nullptr;
+  by_id_.push_back(&node);
+  open_.push(candidate(static_cast<std::int32_t>(by_id_.size()) - 1, node));
+  ++counts_.generated;
 }
 
-/// Of the conflicts of the node at hand the one that raises the cost most surely, or just the first.
-const Conflict& ConstraintTree::choose() {
-  if (!bench_.options.prioritize) {
-    Conflict& first = **std::ranges::min_element(present_, {}, [](const Conflict* it) { return it->time; });
-    reasoning_.examine(situation_, first);
-    return first;
+Candidate ConstraintTree::candidate(std::int32_t id, const Node& node) const {
+  return {id, node.sums.least + node.heuristic, node.heuristic, node.sums.cost,
+          static_cast<std::int32_t>(node.conflicts.size())};
+}
+
+/// Make the paths and constraints of `node` the present ones.
+void ConstraintTree::visit(const Node& node) {
+  std::ranges::fill(marked_, false);
+  situation_.clear_constraints();
+  for (const Node* it = &node; it != nullptr; it = it->parent) {
+    for (const Constraint& constraint : it->constraints) situation_.add(constraint);
+    for (const RobotPlan& plan : it->plans) {
+      if (!marked_[plan.robot]) replace(plan);
+      marked_[plan.robot] = true;
+    }
   }
-  for (Conflict* conflict : present_) reasoning_.examine(situation_, *conflict);
-  return **std::ranges::min_element(present_, {}, [](const Conflict* it) {
-    return std::tuple(-static_cast<int>(it->cardinality), -static_cast<int>(it->kind), it->time);
+  std::ranges::fill(marked_, false);
+  restore_assignment(node);
+}
+
+void ConstraintTree::replace(const RobotPlan& plan) {
+  if (!(plan.path == situation_.path(plan.robot))) {
+    present_.remove(plan.robot);
+    present_.add(plan.robot, plan.path);
+  }
+  situation_.set_path(plan.robot, plan.path, plan.least);
+}
+
+/// Find out what pairs of robots add to the lower bound of the node at hand; is it then out of turn, or no good at all?
+bool ConstraintTree::postpone() {
+  Node& node = *node_;
+  if (dependencies_ == nullptr || node.evaluated || !open_.popped_for_its_bound()) return false;
+  node.evaluated = true;
+  const Cost before = node.sums.least + node.heuristic;
+  for (const Conflict* conflict : node.conflicts) {
+    tighten(conflict->one);
+    tighten(conflict->other);
+  }
+  const Cost heuristic = dependencies_->evaluate(situation_, node.conflicts);
+  if (heuristic == Dependencies::kImpossible) return true;
+  node.heuristic = std::max(heuristic, before - node.sums.least);
+  if (node.sums.least + node.heuristic <= before) return false;
+  open_.push(candidate(id_, node));
+  return true;
+}
+
+/// Of the conflicts of the node at hand the one that raises the lower bound most surely, or just the first.
+Conflict& ConstraintTree::choose() {
+  // Where paths are the cheapest, the newest of several that are first comes first.
+  const auto first = [&](const Conflict* it) {
+    return optimal_ ? std::tuple(it->time, 0, 0) : std::tuple(it->time, it->one, it->other);
+  };
+  if (!bench_.options.prioritize) {
+    Conflict& conflict = **std::ranges::min_element(node_->conflicts, {}, first);
+    examine(conflict);
+    return conflict;
+  }
+  for (Conflict* conflict : node_->conflicts) examine(*conflict);
+  return **std::ranges::min_element(node_->conflicts, {}, [&](const Conflict* it) {
+    return std::tuple(-static_cast<int>(it->cardinality), -static_cast<int>(it->kind), first(it));
   });
 }
 
-/// The node in which `constraints` are kept as well, or null if there is none.
-ConstraintTree::Node* ConstraintTree::child(const Node& parent, std::span<const Constraint> constraints) {
-  changed_.clear();
+void ConstraintTree::examine(Conflict& conflict) {
+  if (conflict.examined) return;
+  if (bench_.options.prioritize) {
+    tighten(conflict.one);
+    tighten(conflict.other);
+  }
+  reasoning_.examine(situation_, conflict);
+}
+
+/// Let the node at hand know what the cheapest path of `robot` costs; unless the robot might then go elsewhere.
+void ConstraintTree::tighten(int robot) {
+  if (assignment_) return;
+  const Tick least = bench_.least_cost(situation_, robot);
+  RobotPlan plan = plan_of(robot);
+  const Tick more = least - plan.least;
+  if (more <= 0) return;
+  plan.least = least;
+  node_->sums.least += more;
+  node_->heuristic = std::max<Cost>(0, node_->heuristic - more);
+  take_over(std::span(&plan, 1));
+}
+
+/// Make children that resolve `conflict`; true if one of them bypasses it.
+bool ConstraintTree::resolve(const Conflict& conflict) {
+  for (int side = 0; side < 2; ++side) {
+    plan_child(conflict.branch[side], children_[side]);
+    if (bench_.options.bypass && bypass(children_[side])) return true;
+  }
+  branch();
+  return false;
+}
+
+/// Let the node at hand have the paths of a child with fewer conflicts, if they are good enough. Its lower bounds stay
+/// what they are, since the constraints of the child are not its own.
+bool ConstraintTree::bypass(const Child& child) {
+  if (!child.possible || child.conflicts.size() >= node_->conflicts.size()) return false;
+  if (!low_level_.allows_bypass(situation_, node_->sums, child.sums, child.plans)) return false;
+  before_ = child.plans;
+  for (RobotPlan& plan : before_) {
+    if (plan.path.goal == situation_.path(plan.robot).goal) plan.least = situation_.least(plan.robot);
+  }
+  take_over(before_);
+  node_->conflicts = conflict_lists_.copy(child.conflicts);
+  node_->sums.cost = child.sums.cost;
+  restore_assignment(*node_);
+  return true;
+}
+
+/// Make `plans` those of the node at hand.
+void ConstraintTree::take_over(std::span<const RobotPlan> plans) {
+  merged_.assign(plans.begin(), plans.end());
+  for (const RobotPlan& plan : node_->plans) {
+    if (std::ranges::find(plans, plan.robot, &RobotPlan::robot) == plans.end()) merged_.push_back(plan);
+  }
+  node_->plans = plans_.copy(merged_);
+  for (const RobotPlan& plan : plans) replace(plan);
+}
+
+void ConstraintTree::branch() {
+  std::array<Candidate, 2> made;
+  std::size_t count = 0;
+  for (const Child& child : children_) {
+    if (!child.possible) continue;
+    made[count++] = {-1, child.sums.least, 0, child.sums.cost, static_cast<std::int32_t>(child.conflicts.size())};
+  }
+  open_.learn(candidate(id_, *node_), std::span(made).first(count));
+  for (const Child& child : children_) {
+    if (child.possible) push(node_, child);
+  }
+}
+
+/// Plan all robots whose present paths break `constraints` anew.
+void ConstraintTree::plan_child(std::span<const Constraint> constraints, Child& child) {
+  child.constraints = constraints;
+  child.sums = node_->sums;
+  child.plans.clear();
+  before_.clear();
   pending_.clear();
   for (const int robot : robots_) {
     if (breaks(bench_.space, robot, situation_.path(robot), constraints)) pending_.push_back(robot);
   }
-  Node* node = nullptr;
-  if (replan(constraints)) {
-    Node made{&parent, constraints, {}, {}, parent.cost, 0, 0, false, nullptr};
-    for (const auto& [robot, path] : changed_) made.cost += path.cost - before_[robot].cost;
-    made.heuristic = std::max<Cost>(0, parent.cost + parent.heuristic - made.cost);
-    made.conflict_count = static_cast<std::int32_t>(std::ranges::count_if(
-        present_, [&](const Conflict* it) { return !is_changed(it->one) && !is_changed(it->other); }));
-    node = &complete(made);
-  }
-  for (const Replanned& it : changed_) replace(it.robot, before_[it.robot]);
-  others_.refresh();
-  take_up(parent);
-  return node;
+  child.possible = replan(child);
+  if (child.possible) list_conflicts(node_->conflicts, child);
+  for (const RobotPlan& old : before_) replace(old);
+  restore_assignment(*node_);
 }
 
 /// New paths for the robots in `pending_`, and for those that get other goals by that; false if one has none.
-bool ConstraintTree::replan(std::span<const Constraint> constraints) {
+bool ConstraintTree::replan(Child& child) {
   for (std::size_t k = 0; k < pending_.size(); ++k) {
     const int robot = failed_ = pending_[k];
     const int goal = goal_of(robot);
-    if (is_settled(robot, goal, constraints)) continue;
-    const TimedPath old = situation_.path(robot);
-    others_.remove(robot);
-    others_.refresh();
-    const bool found = bench_.plan(situation_, robot, goal, constraints, &others_, path_);
-    others_.add(robot, old);
-    if (assignment_ != nullptr) {
-      const Tick cost = found ? path_.cost : kForever;
-      if (!assignment_->raise(robot, cost, [&](int other) { ask_for(other, k + 1); })) return false;
+    if (is_settled(robot, goal, child)) continue;
+    const RobotPlan old = plan_of(robot);
+    present_.remove(robot);
+    present_.refresh();
+    const Tick known = assignment_ ? assignment_->bound(robot) : old.least;
+    const Sums others{child.sums.cost - old.path.cost, child.sums.least - old.least};
+    const Tick least = low_level_.plan(situation_, robot, goal, child.constraints, present_, known, others, path_);
+    present_.add(robot, old.path);
+    if (assignment_) {
+      if (!assignment_->raise(robot, least, [&](int other) { ask_for(other, k + 1); })) return false;
       if (goal_of(robot) != goal) continue;
-    } else if (!found) {
+    } else if (least == kForever) {
       return false;
     }
-    keep(robot, paths_.keep(path_));
+    keep(child, {robot, least, paths_.keep(path_)});
   }
-  others_.refresh();
+  if (assignment_) {
+    child.sums.least = assignment_->sum();
+    child.assignment = assignment_->keep();
+  }
   return true;
 }
 
 int ConstraintTree::goal_of(int robot) const {
-  if (assignment_ != nullptr) return assignment_->goal(robot);
-  return situation_.path(robot).empty() ? root_goals_[robot] : situation_.path(robot).goal;
+  if (assignment_) return assignment_->goal(robot);
+  const TimedPath& path = situation_.path(robot);
+  return path.empty() ? root_goals_[robot] : path.goal;
 }
 
 /// Is there nothing to be done, though its goal may have changed meanwhile?
-bool ConstraintTree::is_settled(int robot, int goal, std::span<const Constraint> constraints) const {
+bool ConstraintTree::is_settled(int robot, int goal, const Child& child) const {
   const TimedPath& path = situation_.path(robot);
-  return !path.empty() && path.goal == goal && (is_changed(robot) || !breaks(bench_.space, robot, path, constraints));
+  if (path.empty() || path.goal != goal) return false;
+  const bool changed = std::ranges::find(child.plans, robot, &RobotPlan::robot) != child.plans.end();
+  return changed || !breaks(bench_.space, robot, path, child.constraints);
 }
 
 /// Let `robot` be among the pending ones from number `asked` on.
@@ -220,60 +265,51 @@ void ConstraintTree::ask_for(int robot, std::size_t asked) {
   if (std::ranges::find(ahead, robot) == ahead.end()) pending_.push_back(robot);
 }
 
-/// Give `robot` a new path in the node being made.
-void ConstraintTree::keep(int robot, const TimedPath& path) {
-  const auto place = std::ranges::find(changed_, robot, &Replanned::robot);
-  if (place != changed_.end()) {
-    place->path = path;
+/// Give a robot a new path in the node being made.
+void ConstraintTree::keep(Child& child, const RobotPlan& plan) {
+  const RobotPlan old = plan_of(plan.robot);
+  const auto place = std::ranges::find(child.plans, plan.robot, &RobotPlan::robot);
+  if (place == child.plans.end()) {
+    before_.push_back(old);
+    child.plans.push_back(plan);
   } else {
-    before_[robot] = situation_.path(robot);
-    changed_.push_back({robot, path});
+    *place = plan;
+    if (!optimal_) std::rotate(place, place + 1, child.plans.end());  // in the order in which they were planned last
   }
-  replace(robot, path);
+  replace(plan);
+  child.sums.cost += plan.path.cost - old.path.cost;
+  child.sums.least += plan.least - old.least;
 }
 
-/// Make the assignment that of `node`, whose paths are in `situation_`.
-void ConstraintTree::take_up(const Node& node) {
-  if (assignment_ == nullptr) return;
+/// Make the assignment that of `node`, whose paths are present.
+void ConstraintTree::restore_assignment(const Node& node) {
+  if (!assignment_) return;
   assignment_->restore(*node.assignment, [&](int robot) { return situation_.path(robot).goal; });
 }
 
-void ConstraintTree::replace(int robot, const TimedPath& path) {
-  others_.remove(robot);
-  situation_.set_path(robot, path);
-  others_.add(robot, path);
-}
-
-bool ConstraintTree::is_changed(int robot) const {
-  return std::ranges::any_of(changed_, [&](const Replanned& it) { return it.robot == robot; });
-}
-
-/// Add the conflicts of the robots in `changed_`, whose paths are in `situation_`, and keep the node.
-ConstraintTree::Node& ConstraintTree::complete(Node node) {
+/// Find the conflicts of the node being made, whose paths are present: the new ones, then those of `inherited` that are
+/// left.
+void ConstraintTree::list_conflicts(std::span<Conflict* const> inherited, Child& child) {
   found_.clear();
-  for (std::size_t k = 0; k < changed_.size(); ++k) {
-    const int robot = changed_[k].robot;
+  present_.refresh();
+  const std::size_t count = child.plans.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    // Of two robots planned anew, the first in a conflict is the one planned first, or last where paths are bounded.
+    const RobotPlan& plan = child.plans[optimal_ ? k : count - 1 - k];
     bench_.limits.check();
-    const std::size_t before = found_.size();
-    find_conflicts(bench_.space, others_, robot, situation_.path(robot), constraints_, found_);
-    const auto is_known = [&](const Conflict& it) {
-      return std::ranges::find(changed_.begin(), changed_.begin() + k, it.other, &Replanned::robot) !=
-             changed_.begin() + k;
-    };
-    if (k > 0) found_.erase(std::remove_if(found_.begin() + before, found_.end(), is_known), found_.end());
+    const auto before = static_cast<std::ptrdiff_t>(found_.size());
+    find_conflicts(bench_.space, present_, plan.robot, plan.path, constraints_, found_);
+    const auto is_known = [&](const Conflict& it) { return marked_[it.other]; };
+    found_.erase(std::remove_if(found_.begin() + before, found_.end(), is_known), found_.end());
+    marked_[plan.robot] = true;
   }
-  node.conflict_count += static_cast<std::int32_t>(found_.size());
-  node.conflicts = conflicts_.copy(found_);
-  node.replanned = replanned_.copy(changed_);
-  if (assignment_ != nullptr) node.assignment = assignment_->keep();
-  ++counts_.generated;
-  return nodes_.copy(node);
-}
-
-void ConstraintTree::push(Node& node) {
-  open_.push_back({node.cost + node.heuristic, node.conflict_count, node.heuristic, number_++, &node});
-  std::ranges::push_heap(open_, std::greater{});
-  bench_.limits.charge_growth(counted_, open_.capacity() * sizeof(Open));
+  child.conflicts.clear();
+  for (Conflict& conflict : conflicts_.copy(found_)) child.conflicts.push_back(&conflict);
+  for (Conflict* it : inherited) {
+    if (!marked_[it->one] && !marked_[it->other]) child.conflicts.push_back(it);
+  }
+  for (const RobotPlan& plan : child.plans) marked_[plan.robot] = false;
+  ++counts_.planned;
 }
 
 }  // namespace mrpbench::mapf

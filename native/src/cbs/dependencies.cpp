@@ -39,14 +39,16 @@ std::int32_t Dependencies::least_cost(const Situation& situation, int one, int o
 
 std::int32_t Dependencies::solve(const Situation& situation, int one, int other) {
   pair_.start(situation, one, other);
-  const std::int64_t before = pair_.counts().expansions;
-  const auto outcome = pair_.run(std::clamp<std::int64_t>(spare_, 1, bench_.options.pair_expansions));
-  if (outcome == ConstraintTree::Outcome::exhausted) return kImpossible;
+  const std::int64_t before = expansions();
+  const std::int64_t most = before + std::clamp<std::int64_t>(spare_, 1, bench_.options.pair_expansions);
+  do {
+    if (!pair_.next()) return kImpossible;
+  } while (!pair_.is_solved() && pair_.expand(most));
   const auto cost = static_cast<std::int32_t>(pair_.lower_bound());
-  if (outcome == ConstraintTree::Outcome::interrupted) {
+  if (!pair_.is_solved()) {
     // To raise its bound by so much, a tree branches about 2^raised times.
     const std::int32_t raised = std::clamp(cost - situation.least(one) - situation.least(other), 0, 16);
-    spare_ -= std::clamp<std::int64_t>(pair_.counts().expansions - before - (1 << raised), 0, spare_);
+    spare_ -= std::clamp<std::int64_t>(expansions() - before - (1 << raised), 0, spare_);
   }
   return cost;
 }

@@ -4,72 +4,102 @@
 
 namespace mrpbench::mapf {
 
-std::optional<int> ConstraintTree::start() {
+bool ConstraintTree::start() {
   clear();
+  const GoalChoice goals = bench_.options.goals;
+  if (goals == GoalChoice::ranked) {
+    ranked_.emplace(find_candidates(bench_), bench_.limits);
+    announce_root(0);
+    return true;
+  }
+  if (goals == GoalChoice::by_node && !assignment_.emplace(find_candidates(bench_), bench_.limits).solve())
+    return false;
   const std::vector<int> any(bench_.space.instance().size(), TimedPath::kAnyGoal);
-  Node* root = make_root(any);
-  if (root == nullptr) return failed_;
-  push(*root);
-  return std::nullopt;
+  return make_root(any);
 }
 
-void ConstraintTree::start(RankedGoals& ranked) {
+void ConstraintTree::start(const Situation& situation, int one, int other) {
   clear();
-  ranked_ = &ranked;
-  announce_root(0);
+  Child& root = children_[0];
+  root = {};
+  root_constraints_.clear();
+  for (const int robot : {one, other}) {
+    const auto own = situation.constraints(robot);
+    root_constraints_.insert(root_constraints_.end(), own.begin(), own.end());
+    robots_.push_back(robot);
+    TimedPath path = situation.path(robot);
+    if (path.cost > situation.least(robot)) {
+      bench_.plan(situation, robot, path.goal, {}, nullptr, path_);
+      path = paths_.keep(path_);
+    }
+    keep(root, {robot, path.cost, path});
+  }
+  for (const Constraint& constraint : situation.parked()) {
+    if (constraint.robot != one && constraint.robot != other) root_constraints_.push_back(constraint);
+  }
+  root.constraints = constraints_.copy(root_constraints_);
+  list_conflicts({}, root);
+  push(nullptr, root);
 }
 
-bool ConstraintTree::start(NodeAssignment& assignment) {
-  clear();
-  if (!assignment.solve()) return false;
-  assignment_ = &assignment;
-  Node* root = make_root({});
-  if (root != nullptr) push(*root);
-  return root != nullptr;
-}
-
-/// A node without constraints in which robots go to `goals`, null if one cannot. Robots that go where they did in the
-/// last ranked root do so by the same paths.
-ConstraintTree::Node* ConstraintTree::make_root(std::span<const int> goals) {
+void ConstraintTree::clear() {
+  for (const int robot : robots_) replace({robot, 0, {}});
+  robots_.clear();
+  open_.clear();
+  by_id_.clear();
+  nodes_.clear();
+  plans_.clear();
+  constraints_.clear();
+  conflicts_.clear();
+  conflict_lists_.clear();
+  paths_.clear();
   situation_.clear_constraints();
-  for (const int robot : robots_) others_.remove(robot);
+  lower_bound_ = 0;
+}
+
+/// Put a node without constraints in which robots go to `goals` into the open list. False if one cannot.
+bool ConstraintTree::make_root(std::span<const int> goals) {
+  situation_.clear_constraints();
+  for (const int robot : robots_) replace({robot, 0, {}});
   robots_.resize(bench_.space.instance().size());
   std::iota(robots_.begin(), robots_.end(), 0);
-  changed_.clear();
+  Child& root = children_[0];
+  root = {};
+  before_.clear();
   pending_.clear();
+  root_plans_.resize(robots_.size());
   for (const int robot : robots_) {
-    situation_.set_path(robot, {});
-    const TimedPath& known = root_paths_[robot];
-    if (ranked_ != nullptr && !known.empty() && known.goal == goals[robot]) {
-      keep(robot, known);
+    // A cheapest path to the same goal is used again; a bounded one was chosen for where the others went then.
+    const RobotPlan& known = root_plans_[robot];
+    if (optimal_ && !known.path.empty() && known.path.goal == goals[robot]) {
+      keep(root, known);
     } else {
       pending_.push_back(robot);
     }
   }
   root_goals_ = goals;
-  if (!replan({})) return nullptr;
-  ++counts_.roots;
-  Node root{};
-  for (const auto& [robot, path] : changed_) {
-    root.cost += path.cost;
-    if (ranked_ != nullptr) root_paths_[robot] = path;
+  if (!replan(root)) return false;
+  list_conflicts({}, root);
+  if (ranked_) {
+    for (const RobotPlan& plan : root.plans) root_plans_[plan.robot] = plan;
   }
-  return &complete(root);
+  ++counts_.roots;
+  push(nullptr, root);
+  return true;
 }
 
 void ConstraintTree::make_ranked_root() {
   const RankedGoals::Ranked ranked = *std::move(next_root_);
-  Node* root = make_root(ranked.goals);
-  if (root != nullptr) push(*root);
-  announce_root(root == nullptr ? 0 : root->conflict_count);
+  const bool made = make_root(ranked.goals);
+  announce_root(made ? static_cast<std::int32_t>(children_[0].conflicts.size()) : 0);
 }
 
-/// Let the next root be made when no other node costs less.
+/// Let the root for the next goals be made when its turn comes.
 void ConstraintTree::announce_root(std::int32_t conflicts) {
   next_root_ = ranked_->next();
   if (!next_root_) return;
-  open_.push_back({next_root_->cost, conflicts, 0, number_++, nullptr});
-  std::ranges::push_heap(open_, std::greater{});
+  by_id_.push_back(nullptr);
+  open_.push_root(static_cast<std::int32_t>(by_id_.size()) - 1, next_root_->cost, conflicts);
 }
 
 }  // namespace mrpbench::mapf

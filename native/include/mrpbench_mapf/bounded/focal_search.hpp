@@ -3,7 +3,9 @@
 // multi-agent pathfinding problem", SoCS 2014.
 #pragma once
 
-#include "mrpbench_mapf/bounded/cost_bound.hpp"
+#include <algorithm>
+#include <cmath>
+
 #include "mrpbench_mapf/bounded/focal_queue.hpp"
 #include "mrpbench_mapf/bounded/options.hpp"
 #include "mrpbench_mapf/cbs/avoidance_table.hpp"
@@ -11,6 +13,18 @@
 #include "mrpbench_mapf/distance_table.hpp"
 
 namespace mrpbench::mapf {
+
+/// At most floor(w * (least + others_least)) - others_cost, but always `least`, a lower bound on the cost of the path
+/// itself. With others of zero that is w times its own bound; with what is known of all others it is what they leave.
+struct CostBound {
+  double w = 1.0;
+  Cost others_least = 0, others_cost = 0;
+
+  Tick operator()(Tick least) const {
+    const auto total = static_cast<Cost>(std::floor(w * static_cast<double>(others_least + least)));
+    return static_cast<Tick>(std::clamp<Cost>(total - others_cost, least, kForever - 1));
+  }
+};
 
 class FocalSearch {
  public:

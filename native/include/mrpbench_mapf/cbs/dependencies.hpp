@@ -15,13 +15,14 @@ class Dependencies {
  public:
   static constexpr Cost kImpossible = kForever;
 
-  explicit Dependencies(Workbench& bench) : bench_(bench), pair_(bench) {}
+  explicit Dependencies(Workbench& bench)
+      : bench_(bench), open_(bench.limits), low_level_(bench), pair_(bench, open_, low_level_) {}
 
   /// A lower bound on how far the least costs of the robots are below that of any solution, given the conflicts of
   /// their present paths; `kImpossible` if there is no solution.
   Cost evaluate(const Situation& situation, std::span<const Conflict* const> conflicts);
-  /// What was expanded in the trees for pairs.
-  const TreeCounts& counts() const { return pair_.counts(); }
+  /// Nodes that were expanded in the trees for pairs.
+  std::int64_t expansions() const { return pair_.counts().resolved; }
 
  private:
   struct Name {
@@ -43,6 +44,8 @@ class Dependencies {
   std::int32_t solve(const Situation& situation, int one, int other);
 
   Workbench& bench_;
+  BestFirst open_;
+  OptimalSearch low_level_;
   ConstraintTree pair_;
   std::unordered_map<Name, std::int32_t, Hash> known_;
   std::size_t counted_ = 0;

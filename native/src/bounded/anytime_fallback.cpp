@@ -1,4 +1,4 @@
-#include "mrpbench_mapf/bounded/incumbent.hpp"
+#include "mrpbench_mapf/bounded/anytime_fallback.hpp"
 
 #include "lns/improvement.hpp"
 #include "lns/repair.hpp"
@@ -12,7 +12,7 @@ constexpr std::int64_t kOverhead = 100;  // what a step takes besides, in expans
 }  // namespace
 
 /// Repairs until there is a plan without conflicts, then improves it.
-class Incumbent::Search {
+class AnytimeFallback::Search {
  public:
   Search(const Instance& instance, DistanceTables& distances, Limits& limits, Statistics& statistics)
       : relations_(instance, limits),
@@ -46,13 +46,33 @@ class Incumbent::Search {
   bool is_done_;
 };
 
-Incumbent::Incumbent(const Instance& instance, DistanceTables& distances, Limits& limits, Statistics& statistics)
-    : statistics_(statistics) {
+AnytimeFallback::AnytimeFallback(Workbench& bench, const BoundedOptions& options, Result& result)
+    : bench_(bench), options_(options), result_(result) {}
+
+AnytimeFallback::~AnytimeFallback() = default;
+
+bool AnytimeFallback::solve() {
+  if (!options_.incumbent_after || options_.techniques.goals != GoalChoice::own) return false;
+  const std::int64_t effort = result_.statistics.low_level_expansions - effort_;
+  if (!root_effort_) root_effort_ = effort;
+  if (effort < *root_effort_ + *options_.incumbent_after) return false;
+  if (!begun_) begin();
+  advance(effort / 2);
+  if (static_cast<double>(cost_) > options_.w * result_.lower_bound) return false;
+  result_.paths = paths_;
+  result_.status = Status::solved;
+  return true;
+}
+
+void AnytimeFallback::begin() {
+  begun_ = true;
+  Statistics& statistics = result_.statistics;
   const std::int64_t before = statistics.low_level_expansions;
+  const Instance& instance = bench_.space.instance();
   if (instance.resources().empty()) {
-    search_ = std::make_unique<Search>(instance, distances, limits, statistics);
+    search_ = std::make_unique<Search>(instance, bench_.distances, bench_.limits, statistics);
   } else {
-    Result first = solve_prioritized(instance, {.restarts = kRestarts}, limits);
+    Result first = solve_prioritized(instance, {.restarts = kRestarts}, bench_.limits);
     statistics.low_level_expansions += first.statistics.low_level_expansions;
     statistics.low_level_generated += first.statistics.low_level_generated;
     if (first.status == Status::solved) keep(std::move(first.paths));
@@ -60,19 +80,18 @@ Incumbent::Incumbent(const Instance& instance, DistanceTables& distances, Limits
   effort_ = statistics.low_level_expansions - before;
 }
 
-Incumbent::~Incumbent() = default;
-
-void Incumbent::advance(std::int64_t effort) {
+/// Search on until this has taken `effort` in all.
+void AnytimeFallback::advance(std::int64_t effort) {
   bool better = false;
   while (search_ != nullptr && !search_->is_done() && effort_ < effort) {
-    const std::int64_t before = statistics_.low_level_expansions;
+    const std::int64_t before = result_.statistics.low_level_expansions;
     better |= search_->advance();
-    effort_ += statistics_.low_level_expansions - before + kOverhead;
+    effort_ += result_.statistics.low_level_expansions - before + kOverhead;
   }
   if (better) keep(search_->paths());
 }
 
-void Incumbent::keep(std::vector<Path> paths) {
+void AnytimeFallback::keep(std::vector<Path> paths) {
   paths_ = std::move(paths);
   cost_ = value(Objective::flowtime, paths_).first;
 }

@@ -1,38 +1,27 @@
 // Which node of a constraint tree to expand next so that the cost of the solution stays within w times the lower bound.
 //   focal: among the nodes that are cheap enough, the one with the fewest conflicts (Barer et al., SoCS 2014).
 //   explicit_estimation: the one with the fewest conflicts among those whose solutions are estimated to be cheap
-//   enough,
-//     if its own cost is; else the one with the least estimate, if its cost is; else the one with the least lower
-//     bound, which raises the bound. Thayer and Ruml, "Bounded suboptimal search: a direct approach using inadmissible
-//     estimates", IJCAI 2011; Li, Ruml and Koenig, "EECBS: a bounded-suboptimal search for multi-agent path finding",
-//     AAAI 2021.
+//     enough, if its own cost is; else the one with the least estimate, if its cost is; else the one with the least
+//     lower bound, which raises the bound. Thayer and Ruml, "Bounded suboptimal search: a direct approach using
+//     inadmissible estimates", IJCAI 2011; Li, Ruml and Koenig, "EECBS: a bounded-suboptimal search for multi-agent
+//     path finding", AAAI 2021.
 #pragma once
 
 #include <set>
 #include <tuple>
-#include <vector>
 
 #include "mrpbench_mapf/bounded/options.hpp"
-#include "mrpbench_mapf/time.hpp"
+#include "mrpbench_mapf/cbs/open_list.hpp"
 
 namespace mrpbench::mapf {
-
-/// What the queue knows of a node. `least` is a lower bound on all solutions below it.
-struct Candidate {
-  std::int32_t id;
-  Cost least;
-  Cost cost;
-  std::int32_t conflicts;
-};
 
 /// How much dearer a node's solutions are than the node, learned from the steps that were taken so far: the global
 /// error model of Thayer, Dionne and Ruml, "Learning inadmissible heuristics during search", ICAPS 2011.
 class OnlineErrors {
  public:
-  /// The better child of a node with `conflicts` costs `dearer` more and has `left` conflicts.
-  void observe(Cost dearer, std::int32_t conflicts, std::int32_t left);
-  double estimate(Cost cost, std::int32_t conflicts) const {
-    return static_cast<double>(cost) + per_conflict_ * conflicts;
+  void observe(const Candidate& node, const Candidate& better_child);
+  double estimate(const Candidate& node) const {
+    return static_cast<double>(node.cost) + per_conflict_ * node.conflicts;
   }
 
  private:
@@ -41,19 +30,18 @@ class OnlineErrors {
   double per_conflict_ = 0.0;
 };
 
-class NodeQueue {
+class FocalList final : public OpenList {
  public:
-  NodeQueue(Selection selection, double w) : selection_(selection), w_(w) {}
+  FocalList(Selection selection, double w, Limits& limits) : selection_(selection), w_(w), limits_(limits) {}
 
-  bool empty() const { return by_least_.empty(); }
-  std::size_t size() const { return by_least_.size(); }
-  /// Lower bound on all solutions below the nodes that are in the queue.
-  Cost least() const { return std::get<0>(*by_least_.begin()); }
-  void push(const Candidate& node, double estimate);
-  /// Take out the node to expand next.
-  std::int32_t pop();
-  /// Was the one popped last taken only because it had the least lower bound?
-  bool popped_to_raise_the_bound() const { return to_raise_; }
+  void clear() override;
+  bool empty() const override { return by_least_.empty(); }
+  Cost least() const override { return std::get<0>(*by_least_.begin()); }
+  void push(const Candidate& node) override;
+  void push_root(std::int32_t id, Cost cost, std::int32_t conflicts) override;
+  std::int32_t pop() override;
+  bool popped_for_its_bound() const override { return to_raise_; }
+  void learn(const Candidate& node, std::span<const Candidate> children) override;
 
  private:
   using Estimate = double;
@@ -65,7 +53,7 @@ class NodeQueue {
   using ByEstimate = std::set<std::tuple<Estimate, std::int32_t, std::int32_t>>;   // estimate, conflicts, -id
   using ByConflicts = std::set<std::tuple<std::int32_t, Estimate, std::int32_t>>;  // conflicts, estimate, -id
 
-  double focal_bound() const;
+  void insert(const Candidate& node, double estimate);
   void update_focal();
   std::int32_t choose();
   bool affordable(std::int32_t id) const {
@@ -74,12 +62,15 @@ class NodeQueue {
 
   Selection selection_;
   double w_;
+  Limits& limits_;
+  OnlineErrors errors_;
   std::vector<Entry> entries_;  // by id
   ByLeast by_least_;
   ByEstimate by_estimate_;
   ByConflicts focal_;
   bool to_raise_ = false;
   double bound_ = -1.0;  // nodes with estimates up to this are in `focal_`
+  std::size_t counted_ = 0;
 };
 
 }  // namespace mrpbench::mapf
