@@ -26,7 +26,7 @@ class AllAtOnce(Dispatcher):
         """Begin to release any plan that uses no doors or lifts.
 
         Raises:
-            DispatchError: the plan occupations a door or a lift, which would not be opened.
+            DispatchError: the plan uses a door or a lift, which would not be opened.
         """
         refuse_facilities(problem, plan, "all_at_once")
         return AllAtOnceSession(self.stagger, problem, plan)

@@ -61,4 +61,10 @@ class ResourceRequests:
     def _is_due(self, occupation: Occupation, reached: int, frontier: int, ready: bool) -> bool:
         if occupation.first < frontier:
             return True
-        return occupation.first == frontier and ready and self._moves.segment[occupation.first] - reached <= self._ahead
+        if occupation.first != frontier or not ready:
+            return False
+        if self._moves.segment[occupation.first] - reached <= self._ahead:
+            return True
+        # The waits before a move are released with it, so a robot that has made all earlier moves cannot get nearer.
+        is_next = occupation.first == self._moves.first[occupation.robot]
+        return is_next or bool(self._moves.segment[occupation.first - 1] < reached)

@@ -18,7 +18,7 @@ class Timed(Dispatcher):
         """Begin to release any plan that uses no doors or lifts; tick 0 of the plan is simulated time 0.
 
         Raises:
-            DispatchError: the plan occupations a door or a lift, which would not be opened.
+            DispatchError: the plan uses a door or a lift, which would not be opened.
         """
         refuse_facilities(problem, plan, "timed")
         return TimedSession(problem, plan)

@@ -10,9 +10,11 @@ from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSe
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.plan import Path, Plan
 from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.roadmap import Resource
 from mrpbench_core.testing.drawing import problem
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import drain
+from mrpbench_core.testing.execution.resource_manager import ResourceManager
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.instances.named import BAY, CONVOY, CROSSING
 from mrpbench_core.testing.instances.roadmaps import path_through
@@ -77,6 +79,13 @@ class DispatcherConformance(ComponentConformance):
                 run(name, session, executor)
             require(executor.fault is None, f"releases {name}: {executor.fault}")
 
+    def test_refuses_plans_through_doors_or_requests_the_doors(self) -> None:
+        self.check_resource("door")
+
+    def test_requests_mutexes(self) -> None:
+        self.claims_safety()  # a mutex only keeps robots apart
+        self.check_resource("mutex")
+
     def test_goes_on_with_a_new_plan(self) -> None:
         for name, (asked, plan) in plans().items():
             session = self.make().start(asked, plan)
@@ -105,6 +114,18 @@ class DispatcherConformance(ComponentConformance):
         after = other.update(0.0, idle.view()).released
         require(np.array_equal(before, after), "a session releases more because another session has gone on")
 
+    def check_resource(self, kind: str) -> None:
+        """Release plans through a resource under delays, unless the dispatcher refuses them."""
+        asked, plan = through_resource(kind)
+        for seed in SEEDS:
+            try:
+                session = self.make().start(asked, plan)
+            except DispatchError as refusal:
+                raise Skip(f"it refuses plans through a {kind}: {refusal}") from None
+            manager = ResourceManager(asked, np.random.default_rng(seed))
+            run(f"a crossing with a {kind}", session, delayed(asked, plan, seed), manager)
+            require(manager.fault is None, f"a crossing with a {kind}: {manager.fault}")
+
     def claims_safety(self) -> None:
         """Skip unless the dispatcher keeps robots apart."""
         claims = self.keeps_apart
@@ -120,10 +141,12 @@ class DispatcherConformance(ComponentConformance):
             raise Skip("it does not claim to keep robots apart: it accepts plans with conflicts")
 
 
-def run(name: str, session: DispatcherSession, executor: DelayedExecutor) -> None:
+def run(
+    name: str, session: DispatcherSession, executor: DelayedExecutor, manager: ResourceManager | None = None
+) -> None:
     """Drain a plan; a fault begins with the name of the plan."""
     try:
-        drain(session, executor)
+        drain(session, executor, manager)
     except Fault as fault:
         raise Fault(f"{name}: {fault}") from None
 
@@ -143,6 +166,21 @@ def plans() -> dict[str, tuple[Problem, Plan]]:
 def conflicting() -> dict[str, tuple[Problem, Plan]]:
     """Plans in which robots collide, by name."""
     return {name: drawn(*entry) for name, entry in CONFLICTING.items()}
+
+
+def through_resource(kind: str) -> tuple[Problem, Plan]:
+    """A crossing whose middle, with the edges that lead there, admits one robot at a time.
+
+    The second robot waits for longer than any number of moves before the resource at which it is requested.
+    """
+    _, plan = drawn(CROSSING, ["dd", "...rr"])
+    asked = problem(CROSSING)
+    middle = asked.roadmap.nearest(1.5, 1.5)[0]
+    edges = tuple(np.flatnonzero((asked.roadmap.edges == middle).any(axis=1)).tolist())
+    resource = Resource(name="middle", kind=kind, vertices=(middle,), edges=edges)
+    asked = problem(CROSSING, roadmap=attrs.evolve(asked.roadmap, resources=(resource,)))
+    assert check_plan(asked, plan).valid
+    return asked, plan
 
 
 def drawn(drawing: str, steps: list[str], **fields: Any) -> tuple[Problem, Plan]:

@@ -202,6 +202,13 @@ def test_doors_are_asked_for_ahead_and_in_the_order_of_the_plan(make):
     assert session.update(0.0, make.view([3, 4], [3, 0])).requests == ((1, "door"),)
 
 
+@pytest.mark.parametrize("ahead", [0, 2])
+def test_a_door_is_asked_for_by_a_robot_that_waits_before_it_for_more_segments_than_it_asks_ahead(make, ahead):
+    session = Adg(request_ahead=ahead).start(*with_door(make, [[0, 1, 1, 1, 1, 1, 2]]))
+    requests = [session.update(0.0, make.view([reached])).requests for reached in (0, 1)]
+    assert requests == [(), ((0, "door"),)]
+
+
 def test_who_disappears_lets_go_when_its_path_ends(make):
     problem, plan = with_door(make, [[0, 1, 2], [4, 4, 4, 3, 2], [2]])
     session = Adg().start(attrs.evolve(problem, rules=Rules(at_goal="disappear")), plan)

@@ -51,6 +51,8 @@ def test_a_dispatcher_that_claims_to_keep_robots_apart():
     found = failed_checks(suite_for(variant(Dispatcher, start=start)()))
     assert set(found) == {
         "delays do not make robots meet",
+        "requests mutexes",
+        "refuses plans through doors or requests the doors",
     }
 
 
@@ -65,4 +67,10 @@ def test_a_dispatcher_that_says_it_keeps_robots_apart():
     assert failed_checks(Suite()).keys() == {
         "delays do not make robots meet",
         "refuses or survives plans with conflicts",
+        "requests mutexes",
+        "refuses plans through doors or requests the doors",
     }
+
+
+def test_a_dispatcher_that_ignores_mutexes_need_not_keep_robots_apart():
+    assert set(failed_checks(suite_for(session()))) == {"refuses plans through doors or requests the doors"}
