@@ -9,6 +9,8 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import loads
 
 _OVERRIDE = re.compile(r"[A-Za-z_][\w.,\- ]*=")
+_PATTERN = re.compile(r"""(?<![^\s,\[])[^\s,\[\]'"]*\{[A-Za-z_]\w*\}[^\s,\[\]'"]*(?![^\s,\]])""")
+"""Text with a placeholder, such as `/{robot}/odom`, without quotes. YAML reads its braces as a mapping."""
 
 
 def add_configuration(parser: argparse.ArgumentParser) -> None:
@@ -36,11 +38,11 @@ def split_names(words: str | None) -> list[str] | None:
 
 
 def read_options(words: Sequence[str], what: str) -> dict[str, Any]:
-    """Return `KEY=VALUE` words as options; values are YAML."""
+    """Return `KEY=VALUE` words as options; values are YAML, in which `/{robot}/odom` needs no quotes."""
     options = {}
     for word in words:
         key, equals, text = word.partition("=")
         if not equals or not key.isidentifier():
             raise InputError(f"{what} {word}: expected KEY=VALUE")
-        options[key] = loads(text or '""').data
+        options[key] = loads(_PATTERN.sub(lambda found: f'"{found[0]}"', text) or '""').data
     return options
