@@ -64,6 +64,8 @@ class Observed:
     """Context of the run, if mrpbench made the recording."""
     channels: Mapping[str, NDArray[Any]] = attrs.field(factory=dict)
     """Channels of `mrpbench_core.model.recording` that the recording contains unchanged, with the times of `tracks`."""
+    complete: bool = True
+    """False where the end of the recording is missing or damaged."""
     notes: tuple[str, ...] = ()
     """Data that could not be used, and what was used instead; one sentence each."""
 

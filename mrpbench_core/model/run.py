@@ -48,6 +48,9 @@ class FinishedRun:
     alike: tuple[frozenset[str], ...] = ()
     """Channels that one source gave, so that comparing them would say nothing; only where others recorded the run."""
 
+    ended: bool = True
+    """False where others recorded the run and the recording does not show how it ended."""
+
     def channel(self, name: str) -> NDArray[Any]:
         """The whole of a channel."""
         return self.channels[name]()
@@ -58,9 +61,11 @@ class FinishedRun:
         return self.context.result.status != PlanStatus.UNKNOWN
 
     def has(self, name: str) -> bool:
-        """Tell whether the recording holds a channel; for `plan` and `path`, whether these are known."""
+        """Tell whether the recording holds a channel; for `plan`, `path` and `end`, whether these are known."""
         if name == "plan":
             return self.context.result.plan is not None
+        if name == "end":
+            return self.ended
         return self.planned if name == "path" else name in self.channels
 
 

@@ -27,11 +27,13 @@ class RunStatus(StrEnum):
     """No planner can solve the scenario; found before planning."""
     SKIPPED = "skipped"
     """The planner does not support the problem."""
+    UNKNOWN = "unknown"
+    """A recording of others ends before its robots are seen to arrive or to stop."""
     CRASHED = "crashed"
     """The worker process died, or a plugin raised an exception."""
 
 
-LEFT_OUT = frozenset({RunStatus.SCENARIO_INFEASIBLE, RunStatus.SKIPPED})
+LEFT_OUT = frozenset({RunStatus.SCENARIO_INFEASIBLE, RunStatus.SKIPPED, RunStatus.UNKNOWN})
 """Statuses that say nothing about the method: these runs leave every denominator and are listed as such."""
 PLANNED = frozenset({RunStatus.SUCCEEDED, RunStatus.GOALS_MISSED, RunStatus.EXECUTION_ABORTED})
 """Statuses of runs that had a valid plan and ended regularly."""

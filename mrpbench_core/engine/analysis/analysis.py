@@ -75,10 +75,11 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
     known = {name: rows for name, rows in found.channels.items() if not (found.gaps and name == "truth")}
     channels = {name: _loader(rows) for name, rows in known.items()}
     context = with_latest_routes(first, channels)
-    run = FinishedRun(context=context, executed=True, channels=channels, alike=found.alike)
+    run = FinishedRun(context=context, executed=True, channels=channels, alike=found.alike, ended=not found.open_ends)
     values, reasons = measure(analysis.metrics, run)
-    if found.gaps:
-        reasons |= {name: "; ".join(found.gaps) for name, reason in reasons.items() if reason == "no truth"}
+    for lacking, why in (("no truth", found.gaps), ("no end", found.open_ends)):
+        if why:
+            reasons |= {name: "; ".join(why) for name, reason in reasons.items() if reason.startswith(lacking)}
     status, message = _status(found, context)
     record = StoredRecord(
         run=RunRecord(
@@ -96,8 +97,8 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
         provenance={**_code(analysis), "machine": machine(), "live": False},
         analysis={
             "bag": analysis.bag.resolve().name,
-            "sources": {track.robot: f"{track.source}: {track.topic}" for track in observed.tracks},
-            "notes": [*found.notes, *found.gaps],
+            "sources": {track.robot: f"{track.source}: {track.topic}" for track in found.tracks},
+            "notes": [*found.notes, *found.gaps, *_unknown_end(found)],
         },
     )
     return _keep(analysis, attrs.evolve(found, context=first), record).document()
@@ -138,9 +139,15 @@ def _observe(analysis: Analysis, observed: Observed) -> ObservedRun:
     assert world is not None
     assert scenario is not None
     if own is not None:
-        return observe(observed, world, own.fleet, scenario, analysis.sampling, own.assigned)
+        return observe(observed, world, own.fleet, scenario, analysis.sampling, assigned=own.assigned)
     fleet = Fleet(robots=(load_robot(analysis.robot),) * len(scenario.start))
-    return observe(observed, world, fleet, scenario, analysis.sampling)
+    ordered = len(analysis.robots) == len(scenario.start)
+    return observe(observed, world, fleet, scenario, analysis.sampling, ordered=ordered)
+
+
+def _unknown_end(found: ObservedRun) -> list[str]:
+    """The note about an end that is not known."""
+    return [f"how the run ended is unknown: {'; '.join(found.open_ends)}"] if found.open_ends else []
 
 
 def _status(found: ObservedRun, context: RunContext) -> tuple[RunStatus, str | None]:
@@ -152,6 +159,8 @@ def _status(found: ObservedRun, context: RunContext) -> tuple[RunStatus, str | N
     mode = found.channels.get("mode")
     if mode is not None and (mode[-1] == Mode.ABORTED).any():
         return RunStatus.EXECUTION_ABORTED, "a robot gave up before all had arrived"
+    if found.open_ends:
+        return RunStatus.UNKNOWN, "; ".join(found.open_ends)
     missed = f"{np.count_nonzero(~arrived)} of {len(arrived)} robots are not seen to arrive"
     return RunStatus.GOALS_MISSED, "; ".join((missed, *found.gaps))
 

@@ -1,5 +1,6 @@
 """Derives the channels and the context that metrics need from a recording of any fleet."""
 
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import attrs
@@ -8,21 +9,25 @@ from numpy.typing import NDArray
 
 from mrpbench_core.api.importer import Observed, Track
 from mrpbench_core.engine.analysis.channels import signal_channels
+from mrpbench_core.engine.analysis.matching import match
 from mrpbench_core.engine.analysis.resampling import even_times, resample
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Float, Int16, Int32
-from mrpbench_core.model.execution import Route
+from mrpbench_core.model.execution import Mode, Route
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.plan import PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.run import RunContext, with_latest_routes
 from mrpbench_core.model.scenario import Scenario, Task
 from mrpbench_core.model.world import World
 
 FAR = 1.0
 """metres from its start at which a robot is suspected to be another one."""
+MOVED = 0.1
+"""metres. A robot that moves less in the last `max_gap` seconds stands when the recording ends."""
+DAMAGED = "the end of the recording is missing or damaged"
 MOST_SAMPLES = 5_000_000
 """Positions that are kept in memory."""
 
@@ -51,6 +56,10 @@ class ObservedRun:
     notes: tuple[str, ...]
     gaps: tuple[str, ...]
     """Why not all positions are known."""
+    tracks: tuple[Track, ...]
+    """In the order of the fleet."""
+    open_ends: tuple[str, ...] = ()
+    """Why it is not known how the run ended."""
     alike: tuple[frozenset[str], ...] = ()
     """See `mrpbench_core.model.run.FinishedRun`."""
 
@@ -58,11 +67,29 @@ class ObservedRun:
 def observe_own(observed: Observed, context: RunContext) -> ObservedRun:
     """The run of a recording that mrpbench made: samples as they are."""
     if "truth" in observed.channels:
-        return ObservedRun(context=context, channels=observed.channels, notes=observed.notes, gaps=())
+        return _own(observed, context, observed.channels)
     time = observed.channels["time"]
     found = [resample(track, time, np.inf) for track in observed.tracks]
     truth = np.stack([resampled.pose for resampled in found], axis=1)
-    return ObservedRun(context=context, channels={**observed.channels, "truth": truth}, notes=observed.notes, gaps=())
+    return _own(observed, context, {**observed.channels, "truth": truth})
+
+
+def _own(observed: Observed, context: RunContext, channels: Chunk) -> ObservedRun:
+    length = np.array([len(route.speed) for route in with_latest_routes(context, _loaders(channels)).routes])
+    arrived = (channels["reached"][-1] >= length).all()
+    damaged = not observed.complete and not arrived and (channels["mode"][-1] != Mode.ABORTED).all()
+    return ObservedRun(
+        context=context,
+        channels=channels,
+        notes=observed.notes,
+        gaps=(),
+        tracks=observed.tracks,
+        open_ends=(DAMAGED,) if damaged else (),
+    )
+
+
+def _loaders(channels: Chunk) -> dict[str, Any]:
+    return {name: lambda rows=rows: rows for name, rows in channels.items()}
 
 
 def observe(
@@ -71,21 +98,32 @@ def observe(
     fleet: Fleet,
     scenario: Scenario,
     sampling: Sampling,
+    *,
     assigned: tuple[int, ...] | None = None,
+    ordered: bool = False,
 ) -> ObservedRun:
-    """The run of a recording of any fleet: track i is that of the scenario's robot i.
-
-    `assigned` gives the task of each robot, -1 = none; by default robot i has task i.
+    """The run of a recording of any fleet.
 
     Nothing is known of plans. A robot has reached its goals one after another, each when it is first seen within the
     tolerance of it (and on its level, where levels are known).
 
+    Args:
+        observed: content of the recording.
+        world: where the fleet drove.
+        fleet: robots in the order of the scenario.
+        scenario: its robots and tasks are matched with the recording by `match`.
+        sampling: how positions become a recording.
+        assigned: task of each robot, -1 = none; by default as `match` says.
+        ordered: whether the tracks are in the order of the scenario.
+
     Raises:
         InputError: the numbers of robots differ, or no time is left.
     """
-    _check(observed, scenario)
+    matched = match(observed.tracks, scenario, ordered or assigned is not None)
+    observed = attrs.evolve(observed, tracks=matched.tracks)
+    assigned = matched.assigned if assigned is None else assigned
     time = _times(observed.tracks, sampling)
-    notes = list(observed.notes)
+    notes = [*observed.notes, *matched.notes]
     gaps: list[str] = []
     poses = []
     for robot, track in enumerate(observed.tracks):
@@ -104,31 +142,45 @@ def observe(
         notes.append("the recording does not tell the world's levels apart")
     else:
         channels["level"] = level
-    if assigned is None:
-        assigned = tuple(robot if robot < len(scenario.tasks) else -1 for robot in range(len(fleet)))
     tasks = [scenario.tasks[task] if task >= 0 else None for task in assigned]
     channels["reached"] = np.stack(
         [_reached(truth[:, robot], level, robot, task, sampling.tolerance) for robot, task in enumerate(tasks)], axis=1
     )
+    goals = np.array([0 if task is None else len(task.goals) for task in tasks])
+    lacking = np.flatnonzero(channels["reached"][-1] < goals).tolist()
+    open_ends = _open_ends(observed, lacking, truth, time, sampling)
     beside, alike = signal_channels(observed, time, sampling.max_gap, notes)
     return ObservedRun(
         context=attrs.evolve(_context(world, fleet, scenario, tasks, 1 / sampling.rate), assigned=assigned),
         channels=channels | beside,
         notes=tuple(notes),
         gaps=tuple(gaps),
+        tracks=observed.tracks,
+        open_ends=tuple(open_ends),
         alike=alike,
     )
 
 
-def _check(observed: Observed, scenario: Scenario) -> None:
-    names, wanted = [track.robot for track in observed.tracks], len(scenario.start)
-    if len(names) != wanted:
-        raise InputError(
-            f"the scenario has {wanted} robots, the recording shows {len(names)}: {', '.join(names)}",
-            hint="choose and order them with --robots A,B,…",
-        )
-    if len(scenario.tasks) > wanted or any(task.release > 0 for task in scenario.tasks):
-        raise InputError("tasks released over time, or more tasks than robots, cannot be told apart in a recording")
+def _open_ends(
+    observed: Observed, lacking: Sequence[int], truth: Float, time: Float, sampling: Sampling
+) -> Iterator[str]:
+    """Why it is not known whether the robots `lacking` a goal arrived: they are seen neither there nor standing."""
+    if not lacking:
+        return
+    if not observed.complete:
+        yield DAMAGED
+    if sampling.until is not None and sampling.until < max(track.time[-1] for track in observed.tracks):
+        yield "the rest of the recording is cut off"
+    since = int(np.searchsorted(time, time[-1] - sampling.max_gap))
+    for robot in lacking:
+        track = observed.tracks[robot]
+        moved = float(np.hypot(*(truth[-1, robot, :2] - truth[since, robot, :2])))
+        if time[-1] - track.time[-1] > sampling.max_gap:
+            yield f"{track.robot} is not seen in the last {time[-1] - track.time[-1]:.1f} s"
+        elif not moved <= MOVED:
+            yield f"{track.robot} still moves when the recording ends"
+        elif not np.isfinite(truth[:, robot]).all():
+            yield f"{track.robot} moved unseen and may have been at its goals"
 
 
 def _times(tracks: tuple[Track, ...], sampling: Sampling) -> Float:

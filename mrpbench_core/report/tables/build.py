@@ -49,7 +49,7 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
         rows=tuple(rows),
         keys=len(axes),
         note=(
-            "Rates: Wilson intervals, 95 %. Infeasible and skipped runs do not count in the denominator;"
+            "Rates: Wilson intervals, 95 %. Infeasible, skipped and unknown runs do not count in the denominator;"
             " the last column lists them. "
             f"Seeds: {spans(runs.seed)}; repeats: {spans(runs.repeat)}."
         ),

@@ -39,7 +39,7 @@ class MetricConformance(ComponentConformance):
     def test_requires_channels_that_exist(self) -> None:
         metric = self.make()
         required = metric.requires.union(*(column.requires for column in metric.columns))
-        unknown = sorted(required - {*channels(), "plan", "path"})
+        unknown = sorted(required - {*channels(), "plan", "path", "end"})
         require(not unknown, f"requires channels that no recording has: {', '.join(unknown)}")
 
     def test_gives_exactly_its_columns(self) -> None:

@@ -34,7 +34,7 @@ class Delay(Metric):
         Column("p95_s", "s", "lower", "95th percentile of these delays, linear between robots"),
         Column("max_s", "s", "lower", "the largest of these delays"),
     )
-    requires: ClassVar[frozenset[str]] = frozenset({"time", "reached", "plan"})
+    requires: ClassVar[frozenset[str]] = frozenset({"time", "end", "reached", "plan"})
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
         """Return all columns; delays are null where no robot arrived."""

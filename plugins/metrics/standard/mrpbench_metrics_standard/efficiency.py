@@ -56,7 +56,7 @@ class Efficiency(Metric):
             "length of the planned paths divided by that of the shortest paths, of all robots",
         ),
     )
-    requires: ClassVar[frozenset[str]] = frozenset({"time", "truth", "reached", "plan", "path"})
+    requires: ClassVar[frozenset[str]] = frozenset({"time", "end", "truth", "reached", "plan", "path"})
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
         """Return all columns; null where no robot needs to move, or the roadmap has no path for some robot."""

@@ -19,7 +19,7 @@ from mrpbench_metrics_standard.progress import arrival_times, blocked_times, pro
 from mrpbench_metrics_standard.proximity import closest
 
 _POSITIVE = attrs.validators.gt(0)
-PROGRESS, CONTACTS = frozenset({"reached"}), frozenset({"contact_time", "contact"})
+PROGRESS, CONTACTS = frozenset({"reached", "end"}), frozenset({"contact_time", "contact"})
 
 
 @attrs.frozen(kw_only=True)

@@ -40,7 +40,7 @@ class Fairness(Metric):
             "largest delay divided by mean delay; null unless every robot arrived and at least one was late",
         ),
     )
-    requires: ClassVar[frozenset[str]] = frozenset({"time", "reached", "plan"})
+    requires: ClassVar[frozenset[str]] = frozenset({"time", "end", "reached", "plan"})
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
         """Return both columns; null where a delay is unknown, because censored delays are the largest."""

@@ -18,9 +18,17 @@ WINDOW = 10
 """Number of distances from which it follows whether a robot is blocked."""
 
 SOURCE = "Schaefer et al., A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered Environments, 2023"
+END = frozenset({"end"})
 
 COLUMNS = (
-    Column("mrp_bench.success", "", "higher", "every robot has been within `mrp_bench_tolerance` of its goal", SOURCE),
+    Column(
+        "mrp_bench.success",
+        "",
+        "higher",
+        "every robot has been within `mrp_bench_tolerance` of its goal",
+        SOURCE,
+        requires=END,
+    ),
     Column(
         "mrp_bench.duration_s",
         "s",
@@ -29,6 +37,7 @@ COLUMNS = (
         "which the last robot has been within the tolerance of its goal; `mrp_bench_timeout` if a robot never is; null "
         "if no robot left its start",
         SOURCE,
+        requires=END,
     ),
     Column(
         "mrp_bench.goals_reached",
@@ -36,6 +45,7 @@ COLUMNS = (
         "higher",
         "number of robots that have been within the tolerance of their goal",
         SOURCE,
+        requires=END,
     ),
     Column("mrp_bench.min_distance_m", "m", "higher", "smallest distance between the centres of two robots", SOURCE),
     Column("mrp_bench.min_distance_at_start_m", "m", "higher", "the same distance in the first message", SOURCE),
@@ -49,8 +59,16 @@ COLUMNS = (
         "is blocked if its distance to the goal differs by at most a cell from the oldest of the last ten such "
         "messages",
         SOURCE,
+        requires=END,
     ),
-    Column("mrp_bench.time_blocked_max_s", "s", "lower", "the largest blocked time of a single robot", SOURCE),
+    Column(
+        "mrp_bench.time_blocked_max_s",
+        "s",
+        "lower",
+        "the largest blocked time of a single robot",
+        SOURCE,
+        requires=END,
+    ),
 )
 
 

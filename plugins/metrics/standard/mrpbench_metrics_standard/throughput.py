@@ -34,7 +34,7 @@ class Throughput(Metric):
         Column("service_p95_s", "s", "lower", "95th percentile of the service times, linear between tasks"),
         Column("service_max_s", "s", "lower", "longest service time of completed tasks"),
     )
-    requires: ClassVar[frozenset[str]] = frozenset({"time", "reached"})
+    requires: ClassVar[frozenset[str]] = frozenset({"time", "end", "reached"})
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
         """Return all columns; service times are null where no task was completed."""

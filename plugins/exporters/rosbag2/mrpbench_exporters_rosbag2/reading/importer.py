@@ -77,6 +77,7 @@ class FromRosbag2(Importer):
                         signals=tuple(s for s in signals.placed(clocks, anybody, span, begin) if s.robot in names),
                         context=own.context,
                         channels=own.channels(),
+                        complete=stream.complete,
                         notes=tuple(dict.fromkeys((*stream.notes, *own.notes, *notes))),
                     )
             raise self._nothing(path, robots, topics, stream.notes)

@@ -30,6 +30,8 @@ class Stream:
         """
         self.path = path
         self.notes: list[str] = []
+        self.complete = True
+        """False where something could not be read."""
         self._stack = ExitStack()
         self._types: dict[str, Typestore | None] = {}
         try:
@@ -62,6 +64,7 @@ class Stream:
                     count += 1
                     yield connection.topic, stamp, message
             except Exception as error:  # noqa: BLE001 - of zstd, SQLite, struct, …: whatever damaged bytes lead to
+                self.complete = False
                 self.notes.append(
                     f"{Path(str(reader.path)).name} is damaged ({_words(error)}): of what is wanted, only the first "
                     f"{count} messages can be read"
@@ -119,6 +122,7 @@ class Stream:
                 with suppress(InputError, OSError):
                     copy = salvage(file, Path(self._stack.enter_context(TemporaryDirectory())))
                     readers.append(self._reader(copy))
+                    self.complete = False
                     self.notes.append(f"{file.name} is damaged ({reason}): what is before the damage was read")
         if not readers:
             raise InputError(f"nothing of it can be read: {reason}", file=self.path)
