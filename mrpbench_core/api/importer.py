@@ -30,7 +30,7 @@ class Track:
     time: Float = array("f8")
     """f8[k] seconds since the recording's first pose, strictly increasing."""
     pose: Float = array("f8", 3)
-    """f8[k,3]: x, y (metres), yaw (radians); finite."""
+    """f8[k,3]: x, y (metres; finite), yaw (radians; NaN = unknown)."""
     height: Float = array("f8")
     """f8[k] metres, NaN = unknown."""
     levels: tuple[str, ...] = ()

@@ -1,6 +1,6 @@
 """Derives the channels and the context that metrics need from a recording of any fleet."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import attrs
@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.api.importer import Observed, Track
 from mrpbench_core.engine.analysis.channels import signal_channels
+from mrpbench_core.engine.analysis.headings import with_headings
 from mrpbench_core.engine.analysis.matching import match
 from mrpbench_core.engine.analysis.resampling import even_times, resample
 from mrpbench_core.files.errors import InputError
@@ -123,9 +124,13 @@ def observe(
     observed = attrs.evolve(observed, tracks=matched.tracks)
     assigned = matched.assigned if assigned is None else assigned
     time = _times(observed.tracks, sampling)
-    notes = [*observed.notes, *matched.notes]
+    tracks, unknown = zip(*map(with_headings, observed.tracks), strict=True)
+    estimates = tuple(with_headings(track)[0] for track in observed.estimates)
+    observed = attrs.evolve(observed, tracks=tracks, estimates=estimates)
+    notes = [*observed.notes, *matched.notes, *filter(None, unknown)]
     gaps: list[str] = []
     poses = []
+    triggers = []
     for robot, track in enumerate(observed.tracks):
         track = track if track.placed else _place(track, scenario.start[robot], notes)
         resampled = resample(track, time, sampling.max_gap)
@@ -135,6 +140,7 @@ def observe(
         if away > FAR:
             notes.append(f"{track.robot} is first seen {away:.1f} m from the start of the scenario's robot {robot}")
         poses.append(resampled.pose)
+        triggers.append(resampled.trigger)
     truth = np.stack(poses, axis=1)
     level = _levels(observed.tracks, world, time)
     channels: dict[str, NDArray[Any]] = {"time": time - time[0], "truth": truth}
@@ -148,7 +154,7 @@ def observe(
     )
     goals = np.array([0 if task is None else len(task.goals) for task in tasks])
     lacking = np.flatnonzero(channels["reached"][-1] < goals).tolist()
-    open_ends = _open_ends(observed, lacking, truth, time, sampling)
+    open_ends = _open_ends(observed, {robot: triggers[robot] for robot in lacking}, truth, time, sampling)
     beside, alike = signal_channels(observed, time, sampling.max_gap, notes)
     return ObservedRun(
         context=attrs.evolve(_context(world, fleet, scenario, tasks, 1 / sampling.rate), assigned=assigned),
@@ -162,9 +168,12 @@ def observe(
 
 
 def _open_ends(
-    observed: Observed, lacking: Sequence[int], truth: Float, time: Float, sampling: Sampling
+    observed: Observed, lacking: Mapping[int, float], truth: Float, time: Float, sampling: Sampling
 ) -> Iterator[str]:
-    """Why it is not known whether the robots `lacking` a goal arrived: they are seen neither there nor standing."""
+    """Why it is not known whether robots arrived: they are seen neither at their goals nor standing.
+
+    `lacking` holds the motion trigger (see `resample`) of each robot that is not seen at its goals.
+    """
     if not lacking:
         return
     if not observed.complete:
@@ -172,10 +181,12 @@ def _open_ends(
     if sampling.until is not None and sampling.until < max(track.time[-1] for track in observed.tracks):
         yield "the rest of the recording is cut off"
     since = int(np.searchsorted(time, time[-1] - sampling.max_gap))
-    for robot in lacking:
+    for robot, trigger in lacking.items():
         track = observed.tracks[robot]
         moved = float(np.hypot(*(truth[-1, robot, :2] - truth[since, robot, :2])))
-        if time[-1] - track.time[-1] > sampling.max_gap:
+        if trigger:
+            yield f"{track.robot} may have moved up to {trigger:.2f} m after its last pose"
+        elif time[-1] - track.time[-1] > sampling.max_gap:
             yield f"{track.robot} is not seen in the last {time[-1] - track.time[-1]:.1f} s"
         elif not moved <= MOVED:
             yield f"{track.robot} still moves when the recording ends"
@@ -203,6 +214,8 @@ def _times(tracks: tuple[Track, ...], sampling: Sampling) -> Float:
 def _place(track: Track, start: Float, notes: list[str]) -> Track:
     """Transform poses in a robot's own frame so that the first pose is the scenario's start."""
     notes.append(f"{track.robot}: {track.topic} is in no frame of the map, so its first pose was put at the start")
+    if np.isnan(start[2]):
+        notes.append(f"{track.robot}: the heading at the start is unknown, so its frame is taken as parallel to `map`")
     x, y, yaw = track.pose[0]
     turn = 0.0 if np.isnan(start[2]) else start[2] - yaw
     cos, sin = np.cos(turn), np.sin(turn)

@@ -11,6 +11,12 @@ STANDING = 0.25
 less than its `update_min_d`, which is 0.25 m by default (Nav2)."""
 
 
+MOVES = 0.05
+"""metres or radians. Poses of a source that is silent while the robot stands are at least so far apart."""
+SHARE = 0.9
+"""Share of the poses that must be so far apart."""
+
+
 @attrs.frozen
 class Resampled:
     """A track at even times."""
@@ -21,6 +27,8 @@ class Resampled:
     """What had to be assumed."""
     gaps: tuple[str, ...]
     """What is unknown."""
+    trigger: float = 0.0
+    """metres that the robot moves unseen between two poses, if the source is silent while it stands; else 0."""
 
 
 def even_times(begin: float, end: float, rate: float) -> Float:
@@ -29,26 +37,53 @@ def even_times(begin: float, end: float, rate: float) -> Float:
     return np.append(times, end) if end - times[-1] > 1e-6 else times
 
 
+def motion_trigger(track: Track, max_gap: float) -> float:
+    """Metres between two poses of a moving robot, if the source gives poses only while the robot moves; else 0.
+
+    AMCL publishes a pose when the robot has moved by `update_min_d` or turned by `update_min_a` (Nav2).
+    """
+    step = np.abs(np.diff(np.column_stack([track.pose[:, :2], np.unwrap(track.pose[:, 2])]), axis=0))
+    moved, turned, silent = np.hypot(step[:, 0], step[:, 1]), step[:, 2], np.diff(track.time) > max_gap
+    if not silent.any() or silent.all():
+        return 0.0
+    moves = (moved >= MOVES) | (turned >= MOVES)
+    return float(moved[~silent].max()) if moves[~silent].mean() >= SHARE else 0.0
+
+
 def resample(track: Track, time: Float, max_gap: float) -> Resampled:
     """Poses of a track at `time` f8[T], straight between samples.
 
-    Between samples more than `max_gap` seconds apart, a robot that has moved was anywhere. Before its first sample and
-    after its last it is held where it was seen first and last.
+    Between samples more than `max_gap` seconds apart, a robot that has moved was anywhere. A robot whose source is
+    silent while it stands has stood until it began to move to the next pose. Before its first sample and after its last
+    a robot is held where it was seen first and last.
     """
     first, last = float(track.time[0]), float(track.time[-1])
-    columns = [track.pose[:, 0], track.pose[:, 1], np.unwrap(track.pose[:, 2])]
-    pose = np.stack([np.interp(time, track.time, column) for column in columns], axis=-1)
+    trigger = motion_trigger(track, max_gap)
+    moved = np.hypot(*np.diff(track.pose[:, :2], axis=0).T)
+    silent = np.diff(track.time) > max_gap
+    stood = silent & (moved <= max(STANDING, 1.5 * trigger))
+    known, poses = track.time, np.column_stack([track.pose[:, :2], np.unwrap(track.pose[:, 2])])
+    if trigger:
+        usual = float(np.median(np.diff(track.time)[~silent]))
+        places = np.flatnonzero(stood)
+        known = np.insert(known, places + 1, known[places + 1] - usual)
+        poses = np.insert(poses, places + 1, poses[places], axis=0)
+    pose = np.stack([np.interp(time, known, column) for column in poses.T], axis=-1)
     notes = []
     if first - time[0] > max_gap:
         notes.append(f"{track.robot} appears {first - time[0]:.1f} s late: held at its first position until then")
-    if time[-1] - last > max_gap:
+    if trigger:
+        notes.append(
+            f"{track.robot}: {track.topic} gives poses only while the robot moves, at most {trigger:.2f} m apart: it is"
+            f" held where it was in {np.count_nonzero(stood)} gaps"
+        )
+    elif time[-1] - last > max_gap:
         notes.append(f"{track.robot} is last seen {time[-1] - last:.1f} s before the end: held at its last position")
     gaps = []
-    moved = np.hypot(*np.diff(track.pose[:, :2], axis=0).T)
-    for index in np.flatnonzero((np.diff(track.time) > max_gap) & (moved > STANDING)):
+    for index in np.flatnonzero(silent & (moved > max(STANDING, 1.5 * trigger))):
         since, until = track.time[index], track.time[index + 1]
         inside = (time > since) & (time < until)
         if inside.any():
             pose[inside] = np.nan
             gaps.append(f"{track.robot} moved {moved[index]:.2f} m unseen from {since:.1f} to {until:.1f} s")
-    return Resampled(pose, tuple(notes), tuple(gaps))
+    return Resampled(pose, tuple(notes), tuple(gaps), trigger)

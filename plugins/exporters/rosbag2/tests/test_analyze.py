@@ -185,6 +185,71 @@ def test_robots_that_moved_unseen_have_no_distances(analyze, foreign):
     assert found["metrics"]["execution.min_distance_m"] == pytest.approx(1.0)
 
 
+def triggered(bag, standing=(), names="ab"):
+    """AMCL with Nav2's defaults: a pose for every 0.25 m; robots stand in the intervals `standing`."""
+    for index, name in enumerate(names):
+        x = last = 1.0
+        bag.amcl(f"/{name}/amcl_pose", 0.0, x, 1.0 + index, 0.0)
+        for t in np.arange(0.1, 40, 0.1):
+            if x < 5.0 and not any(since < t < until for since, until in standing):
+                x += 0.05
+            if x - last >= 0.25 - 1e-9:
+                last = x
+                bag.amcl(f"/{name}/amcl_pose", t, x, 1.0 + index, 0.0)
+    return bag
+
+
+def test_amcl_that_is_silent_while_a_robot_stands_has_no_gaps(analyze, foreign):
+    _, found, _ = analyze(triggered(foreign(), standing=[(3.0, 12.0), (15.0, 20.0)]).close())
+    assert found["status"] == "succeeded"
+    assert found["metrics"]["execution.min_distance_m"] == pytest.approx(1.0)
+    assert found["metrics"]["execution.duration_s"] == pytest.approx(22.0, abs=1.0)
+    (note,) = (note for note in found["analysis"]["notes"] if note.startswith("a: "))
+    assert "only while the robot moves, at most 0.25 m apart: it is held where it was in 2 gaps" in note
+
+
+def test_amcl_that_is_silent_near_the_goal_leaves_the_end_unknown(analyze, foreign):
+    bag = triggered(foreign(), standing=[(3.0, 6.0)])
+    bag.said = [said for said in bag.said if said[0] < 7.8e9]
+    _, found, _ = analyze(bag.close(), "--tolerance", "0.1")
+    assert found["status"] == "unknown"
+    assert "may have moved up to 0.25 m after its last pose" in found["error"]["message"]
+
+
+@pytest.mark.parametrize("source", ["quaternion", "fleet_states"])
+def test_unknown_headings_are_those_of_the_motion_and_noted(analyze, foreign, tmp_path, source):
+    bag = foreign()
+    for t in np.arange(0, 20.05, 0.1):
+        places = {name: (1.0 + min(4.0, 0.5 * t), 1.0 + index, NAN) for index, name in enumerate("ab")}
+        if source == "fleet_states":
+            bag.fleet(t, places)
+            continue
+        for name, (x, y, _) in places.items():
+            bag.amcl(f"/{name}/amcl_pose", t, x, y, 0.0)
+            orientation = bag.said[-1][3].pose.pose.orientation
+            orientation.z = orientation.w = 0.0
+    _, found, _ = analyze(bag.close())
+    assert found["status"] == "succeeded"
+    (note,) = (note for note in found["analysis"]["notes"] if note.startswith("a: "))
+    assert note.startswith("a: 201 of 201 headings are unknown")
+    assert "taken from the direction of motion" in note
+    recording = Recording(load(tmp_path / "measured").folder.run(found["run_id"]).recording)
+    assert np.allclose(recording.channel("truth")[..., 2], 0.0)
+    recording.close()
+
+
+def test_an_unknown_heading_at_the_start_of_odometry_is_noted(analyze, foreign, tmp_path):
+    start = [[1.0, 1.0, NAN], [1.0, 2.0, 0.0]]
+    write_scenario(tmp_path / "two.yaml", Scenario(start=start, start_level=[0, 0], tasks=SCENARIO.tasks))
+    bag = foreign()
+    for t in np.arange(0, 10.05, 0.1):
+        for name in "ab":
+            bag.odometry(f"/{name}/odom", t, 0.4 * t, 0.0, 0.0)
+    _, found, _ = analyze(bag.close())
+    said = "a: the heading at the start is unknown, so its frame is taken as parallel to `map`"
+    assert said in found["analysis"]["notes"]
+
+
 def test_odometry_of_a_frame_of_its_own_begins_at_the_start(analyze, foreign):
     bag = foreign()
     for t in np.arange(0, 10.05, 0.1):

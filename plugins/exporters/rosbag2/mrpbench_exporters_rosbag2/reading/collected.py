@@ -77,7 +77,7 @@ class Collected:
                     series = kept[tree, child] = Series(f"{topic}: {parent} to {child}", parent)
                 if series.frame == parent:
                     place = said.transform
-                    series.add(nanoseconds(said.header.stamp), logged, place.translation, place.rotation)
+                    series.add_transform(nanoseconds(said.header.stamp), logged, place.translation, place.rotation)
 
         return take
 

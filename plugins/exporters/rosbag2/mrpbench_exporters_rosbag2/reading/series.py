@@ -36,11 +36,20 @@ class Series:
         """Append a pose of geometry_msgs."""
         self.put(stamp, logged, (position.x, position.y, yaw(orientation), position.z))
 
+    def add_transform(self, stamp: int, logged: int, position: Any, orientation: Any) -> None:
+        """Append a transform, which is of no use without a rotation."""
+        if math.isfinite(yaw(orientation)):
+            self.add(stamp, logged, position, orientation)
+        else:
+            self.refused += 1
+
     def put(self, stamp: int, logged: int, row: tuple[float, float, float, float], level: str | None = None) -> None:
-        """Append x, y, yaw and z (NaN = unknown), if they are sound."""
-        if not all(map(math.isfinite, row[:3])):
+        """Append x, y, yaw and z (NaN = unknown), if x and y are finite."""
+        if not all(map(math.isfinite, row[:2])):
             self.refused += 1
             return
+        if not math.isfinite(row[2]):
+            row = (*row[:2], math.nan, row[3])
         if self.stamps and not -BACK <= stamp - self.stamps[-1] <= AHEAD:
             self.jumps.append((logged, stamp - self.stamps[-1]))
         self.stamps.append(stamp)
@@ -107,6 +116,8 @@ def longest_even_span(series: Iterable[Series]) -> Span:
 
 
 def yaw(orientation: Any) -> float:
-    """Turn about the vertical of a quaternion of any length."""
+    """Turn about the vertical of a quaternion of any length, NaN for one of length 0."""
     x, y, z, w = orientation.x, orientation.y, orientation.z, orientation.w
+    if x == y == z == w == 0:
+        return math.nan
     return math.atan2(2 * (w * z + x * y), w * w + x * x - y * y - z * z)

@@ -72,7 +72,7 @@ class Signals:
 
 def turn(orientation: Any) -> float:
     """Yaw of a quaternion; exactly the original yaw, if that was between -2 pi and 2 pi."""
-    if orientation.x == orientation.y == 0:
+    if orientation.x == orientation.y == 0 and (orientation.z or orientation.w):
         return 2 * math.atan2(orientation.z, orientation.w)
     return yaw(orientation)
 
