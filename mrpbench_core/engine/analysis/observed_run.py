@@ -12,6 +12,7 @@ from mrpbench_core.engine.analysis.channels import signal_channels
 from mrpbench_core.engine.analysis.headings import with_headings
 from mrpbench_core.engine.analysis.matching import match
 from mrpbench_core.engine.analysis.resampling import even_times, resample
+from mrpbench_core.engine.analysis.walls import poses_in_walls
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Float, Int16, Int32
 from mrpbench_core.model.execution import Mode, Route
@@ -155,6 +156,8 @@ def observe(
     goals = np.array([0 if task is None else len(task.goals) for task in tasks])
     lacking = np.flatnonzero(channels["reached"][-1] < goals).tolist()
     open_ends = _open_ends(observed, {robot: triggers[robot] for robot in lacking}, truth, time, sampling)
+    names = [track.robot for track in observed.tracks]
+    notes += poses_in_walls(names, channels["time"], truth, level, world)
     beside, alike = signal_channels(observed, time, sampling.max_gap, notes)
     return ObservedRun(
         context=attrs.evolve(_context(world, fleet, scenario, tasks, 1 / sampling.rate), assigned=assigned),

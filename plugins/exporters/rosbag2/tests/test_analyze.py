@@ -250,6 +250,21 @@ def test_an_unknown_heading_at_the_start_of_odometry_is_noted(analyze, foreign, 
     assert said in found["analysis"]["notes"]
 
 
+def test_poses_inside_walls_are_noted_with_robot_time_and_place(analyze, foreign, tmp_path):
+    rows = ["............"] * 6
+    rows[-3] = "..@........."  # x from 2 to 3, y from 2 to 3
+    (tmp_path / "free.map").write_text(MAP.partition("map\n")[0] + "map\n" + "\n".join(rows) + "\n")
+    bag = foreign()
+    for t in np.arange(0, 10.05, 0.1):
+        for index, name in enumerate("ab"):
+            bag.amcl(f"/{name}/amcl_pose", t, 1.0 + 0.5 * t, 1.5 + index, 0.0)
+    _, found, _ = analyze(bag.close())
+    notes = [note for note in found["analysis"]["notes"] if "inside walls" in note]
+    assert [note.partition(":")[0] for note in notes] == [
+        "b is inside walls or obstacles for 2.0 s, first at 2.0 s at (2.00, 2.50)"
+    ]
+
+
 def test_odometry_of_a_frame_of_its_own_begins_at_the_start(analyze, foreign):
     bag = foreign()
     for t in np.arange(0, 10.05, 0.1):
