@@ -15,6 +15,14 @@ hookimpl = pluggy.HookimplMarker("mrpbench")
 
 
 @hookspec
+def mrpbench_check() -> str | None:
+    """Return in one line what keeps the plugin from doing what its settings ask for, or None if nothing does.
+
+    The line is printed as a warning before the first run of a study (invoking process).
+    """
+
+
+@hookspec
 def mrpbench_study_started(study: Mapping[str, Any], runs: int) -> None:
     """A study begins with its configuration and the number of runs to do (invoking process)."""
 

@@ -95,6 +95,16 @@ class Hooks:
                 self._off.add(found.plugin)
                 LOG.warning("hook plugin %r is disabled for this run: %s: %s", found.plugin, hook, one_line(error))
 
+    def check(self) -> None:
+        """Log what each plugin says that keeps it from working, before any run."""
+        for found in self._known.get("mrpbench_check", ()):
+            try:
+                problem = found.function()
+            except (Exception, SystemExit) as error:  # noqa: BLE001 - calling a plugin runs its code
+                problem = f"mrpbench_check: {one_line(error)}"
+            if problem:
+                LOG.warning("hook plugin %r: %s", found.plugin, " ".join(str(problem).split()))
+
     def _refuse(self, name: str, reason: str) -> None:
         self.refused.append(name)
         LOG.warning("hook plugin %r is not used: %s", name, reason)

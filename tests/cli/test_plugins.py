@@ -2,6 +2,8 @@
 
 import json
 
+import pytest
+
 
 def test_everything_installed_is_listed_with_its_distribution(mrpbench):
     entries = json.loads(mrpbench("plugins", "--json")[1])
@@ -45,3 +47,18 @@ def test_components_in_an_option_are_named_as_in_a_configuration(mrpbench):
     assert (recoveries["default"], recoveries["type"]) == ("[clear, spin, wait, back_up]", "tuple[Recovery, ...]")
     assert mrpbench("plugins", "show", "recovery:spin")[1].startswith("recovery spin")
     assert mrpbench("plugins", "recoveries") == mrpbench("plugins", "recovery")
+
+
+@pytest.mark.parametrize("words", [["show", "hook:ros2"], ["show", "hooks:ros2", "--json"]])
+def test_a_hook_is_shown_with_what_it_observes(mrpbench, words):
+    code, out, _ = mrpbench("plugins", *words)
+    assert code == 0
+    for text in ("mrpbench-bridges-ros2", "MRPBENCH_ROS2", "mrpbench_stepped"):
+        assert text in out
+
+
+def test_an_unknown_hook_is_one_line(mrpbench):
+    code, _, error = mrpbench("plugins", "show", "hook:ros")
+    assert code == 2
+    assert "no hook is called 'ros'" in error
+    assert error.count("\n") == 1

@@ -70,6 +70,20 @@ def test_one_that_raises_is_logged_once_and_disabled_until_the_next_run(log):
     assert calls == [0, 9]
 
 
+def test_what_keeps_a_plugin_from_working_is_one_warning(log):
+    def broken():
+        raise ValueError("oh")
+
+    hooks = Hooks()
+    for name, check in (("blind", lambda: "no camera"), ("broken", broken), ("fine", lambda: None)):
+        hooks.register(plugin(mrpbench_check=check), name)
+    hooks.check()
+    assert [record.getMessage() for record in log.records] == [
+        "hook plugin 'blind': no camera",
+        "hook plugin 'broken': mrpbench_check: ValueError: oh",
+    ]
+
+
 def test_an_interrupt_is_the_users_and_passes():
     def stop(now):
         raise KeyboardInterrupt

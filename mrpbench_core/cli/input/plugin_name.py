@@ -6,8 +6,8 @@ from mrpbench_core.api import KINDS
 from mrpbench_core.api.component import Component
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import suggest
-from mrpbench_core.plugins.installed import installed, load
-from mrpbench_core.plugins.kinds import HOOKS, singular
+from mrpbench_core.plugins.installed import Provider, installed, load, providers
+from mrpbench_core.plugins.kinds import HOOKS, kind_of, singular
 from mrpbench_core.plugins.local import is_local, load_local
 from mrpbench_core.plugins.provenance import kind_class
 
@@ -40,6 +40,24 @@ def resolve(name: str) -> tuple[type[Component], str]:
         raise InputError(f"no plugin is called {name!r}", hint=hint)
     (found,) = kinds
     return KINDS.get(found) or _own_kind(found, name), name
+
+
+def hook_named(name: str) -> Provider | None:
+    """Return the hook that `hook:NAME` or, where no component has this name, `NAME` means.
+
+    Raises:
+        InputError: `hook:NAME` names no hook.
+    """
+    kind, _, rest = name.partition(":")
+    asked = bool(rest) and singular(kind) == kind_of(HOOKS)
+    wanted, _, owner = (rest if asked else name).partition("@")
+    hooks = [provider for provider in providers(HOOKS) if owner in ("", provider.distribution)]
+    found = next((provider for provider in hooks if provider.name == wanted), None)
+    if asked and found is None:
+        hint = suggest(rest, {provider.name for provider in hooks}, "`mrpbench plugins hook` lists what is installed:")
+        raise InputError(f"no hook is called {rest!r}", hint=hint)
+    others = any(provider.name == wanted for provider in installed() if provider.group != HOOKS)
+    return found if asked or not others else None
 
 
 def _own_kind(kind: str, name: str) -> type[Component]:

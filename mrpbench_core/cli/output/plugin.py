@@ -7,10 +7,11 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.api import Metric
+from mrpbench_core.api import Metric, hooks
 from mrpbench_core.api.component import Component
-from mrpbench_core.cli.input.plugin_name import resolve
+from mrpbench_core.cli.input.plugin_name import hook_named, resolve
 from mrpbench_core.cli.output.table import print_json, print_table
+from mrpbench_core.plugins.installed import Provider, load
 from mrpbench_core.plugins.provenance import kind_class, origin
 from mrpbench_core.plugins.registry import Registry
 
@@ -22,6 +23,9 @@ MODULES = re.compile(r"\b(?:\w+\.)+(?=[A-Z])")
 
 def show(name: str, as_json: bool) -> None:
     """Print a plugin, given as in `cli.input.plugin_name`."""
+    if hook := hook_named(name):
+        _show_hook(hook, as_json)
+        return
     base, plugin = resolve(name)
     cls = Registry(base).get(plugin, Path.cwd())
     facts: dict[str, Any] = origin(cls) | {"description": inspect.getdoc(cls) or ""} | _traits(cls)
@@ -44,6 +48,26 @@ def show(name: str, as_json: bool) -> None:
         _print_rows("option", ("name", "default", "unit", "type", "help"), facts["options"])
     else:
         print("It has no options.")
+
+
+def _show_hook(provider: Provider, as_json: bool) -> None:
+    """Print a hook plugin, and the hooks that it implements."""
+    plugin = load(provider)
+    described = plugin if inspect.isclass(plugin) or inspect.ismodule(plugin) else type(plugin)
+    facts = {
+        "kind": provider.kind,
+        "name": provider.name,
+        "distribution": provider.distribution,
+        "version": provider.version,
+        "description": inspect.getdoc(described) or "",
+        "hooks": [name for name in vars(hooks) if name.startswith("mrpbench_") and hasattr(plugin, name)],
+    }
+    if as_json:
+        print_json(facts)
+        return
+    print(f"{facts['kind']} {facts['name']}, from {facts['distribution']} {facts['version']}")
+    print(facts["description"])
+    print(f"hooks: {', '.join(facts['hooks'])}")
 
 
 def _print_rows(first: str, keys: tuple[str, ...], rows: list[dict[str, Any]]) -> None:

@@ -86,6 +86,7 @@ def _do(study: Study, request: Request, folder: ResultsFolder, selection: Select
     """Execute the selected runs; returns the mistakes in those that were refused."""
     invocation = new_invocation()
     hooks = load_hooks()
+    hooks.check()
     try:
         write_document(folder.invocation(invocation), _facts(study, request, invocation))
         write_document(folder.study, study.document)

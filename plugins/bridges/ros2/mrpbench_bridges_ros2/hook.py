@@ -1,12 +1,9 @@
-"""The hook: publishes running simulations when the environment variable `MRPBENCH_ROS2` asks for it.
-
-`MRPBENCH_ROS2=free` as fast as they go, `MRPBENCH_ROS2=1` in real time, `=2` twice as fast.
-"""
+"""The hook `ros2`, which publishes running simulations."""
 
 import os
 from collections.abc import Sequence
 
-from mrpbench_bridges_ros2.link import Link
+from mrpbench_bridges_ros2.link import Link, missing_packages
 from mrpbench_bridges_ros2.pace import Pace
 from mrpbench_bridges_ros2.publisher import Publisher
 from mrpbench_core.api import hookimpl
@@ -18,10 +15,25 @@ VARIABLE = "MRPBENCH_ROS2"
 
 
 class Watcher:
-    """Publishes one run at a time."""
+    """Publishes running simulations to ROS 2, one at a time, if the environment variable `MRPBENCH_ROS2` is set.
+
+    `MRPBENCH_ROS2=free` publishes as fast as the simulation runs, `1` in real time, `2` twice as fast.
+    """
 
     def __init__(self) -> None:
         self._link: Link | None = None
+
+    @hookimpl
+    def mrpbench_check(self) -> str | None:
+        """Say that the variable has a wrong value, or which packages of ROS are missing."""
+        wanted = os.environ.get(VARIABLE, "")
+        if not wanted:
+            return None
+        try:
+            factor(wanted)
+        except InputError as error:
+            return str(error)
+        return missing_packages()
 
     @hookimpl
     def mrpbench_executing(self, context: RunContext) -> None:

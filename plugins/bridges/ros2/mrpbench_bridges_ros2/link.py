@@ -1,5 +1,7 @@
 """A node in a context of its own, so that runs that follow one another in a process do not meet."""
 
+import importlib.util
+import sys
 import time
 from collections.abc import Callable
 from typing import Any
@@ -10,6 +12,25 @@ HINT = (
     "source a ROS 2 installation, or with Python 3.11 on Linux: "
     "pip install ros-kilted-rclpy ros-rmw-fastrtps-cpp ros-nav-msgs ros-sensor-msgs"
 )
+
+
+REQUIRED = ("rclpy", "geometry_msgs", "nav_msgs", "rosgraph_msgs", "sensor_msgs")
+"""Packages without which nothing is published."""
+
+
+def missing_packages() -> str | None:
+    """Return what is not published because packages of ROS are missing, or None; imports nothing."""
+    if missing := [name for name in REQUIRED if not _is_installed(name)]:
+        return f"nothing is published: {', '.join(missing)} cannot be imported ({HINT})"
+    if not _is_installed("tf2_msgs"):
+        return "neither /tf nor /tf_static is published: tf2_msgs cannot be imported"
+    return None
+
+
+def _is_installed(name: str) -> bool:
+    if name in sys.modules:
+        return sys.modules[name] is not None
+    return importlib.util.find_spec(name) is not None
 
 
 class Link:
