@@ -6,6 +6,7 @@ import numpy as np
 
 from mrpbench_core.model.arrays import Float, Int
 from mrpbench_core.model.run import RunContext
+from mrpbench_core.report.replay.facility_events import read_facility_events
 from mrpbench_core.store.recording import Recording
 
 PAUSE = 0.5
@@ -13,12 +14,14 @@ PAUSE = 0.5
 
 
 def read_events(recording: Recording, context: RunContext) -> list[list[Any]]:
-    """Return events and arrivals as [seconds, kind, robot, detail], in the order of time."""
+    """Return events, motions of doors and lifts, and arrivals as [seconds, kind, robot, detail], by time."""
     found: list[list[Any]] = []
     names = ("event_time", "event_kind", "event_robot", "event_detail")
     if set(names) <= recording.channels.keys():
         times, kinds, robots, details = (recording.channel(name).tolist() for name in names)
-        found += [[round(time, 3), *rest] for time, *rest in zip(times, kinds, robots, details, strict=True)]
+        rows = zip(times, kinds, robots, details, strict=True)
+        found += [[round(time, 3), *rest] for time, *rest in rows if rest[0] != "contact"]  # see `read_contacts`
+    found += read_facility_events(recording, context.world)
     if "reached" in recording.channels:
         found += _arrivals(recording.channel("time"), recording.channel("reached"), context)
     return sorted(found, key=lambda event: (event[0], event[2]))

@@ -22,3 +22,8 @@ def test_what_was_not_recorded_did_not_happen(store, chunk, run_context):
     recording = store({"time": chunk["time"], "truth": chunk["truth"]})
     assert read_events(recording, run_context) == []
     assert read_contacts(recording) == []
+
+
+def test_contacts_are_not_listed_twice(store, chunk, run_context):
+    events = {"event_kind": np.array(["contact"])}
+    assert [kind for _, kind, *_ in read_events(store(chunk | events), run_context)] == ["arrived", "arrived"]

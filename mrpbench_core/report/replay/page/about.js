@@ -82,6 +82,11 @@ function withUnit({ value, unit }) {
   return unit && unit !== "1" ? [`${text} `, make("small", "", unit)] : [text];
 }
 
+/** An event in one line. */
+export function eventText(run, [time, kind, robot, detail]) {
+  return [clockText(time), kind.replaceAll("_", " "), detail, run.names[robot]].filter(Boolean).join(" ");
+}
+
 export class EventPanel {
   constructor(run, choose) {
     this.run = run;

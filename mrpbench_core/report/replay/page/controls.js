@@ -1,7 +1,6 @@
 // The controls over the map and the tabs beside it.
 
 import { make } from "replay/list.js";
-import { STATES } from "replay/run.js";
 
 /** Check boxes for the layers, and the choice of colours. */
 export function layerControls(shown) {
@@ -55,21 +54,6 @@ export function levelControls(run, shown) {
   shown.addEventListener("change", refresh);
   refresh();
   return refresh;
-}
-
-/** What the colours of states mean; only states that occur. */
-export function legend(run) {
-  const box = document.getElementById("legend");
-  const seen = new Set();
-  const every = Math.max(1, Math.floor((run.samples * run.count) / 200000));
-  for (let robot = 0; robot < run.count; robot++) {
-    for (let sample = 0; sample < run.samples; sample += every) seen.add(run.state(robot, sample));
-  }
-  for (const state of [...seen].sort()) {
-    const swatch = make("i");
-    swatch.style.background = `var(--state-${STATES[state].replace(" ", "-")})`;
-    box.append(make("span", "", swatch, STATES[state]));
-  }
 }
 
 export function tabs(changed) {

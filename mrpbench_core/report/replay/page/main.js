@@ -1,15 +1,16 @@
 // Puts the page together and draws it, a frame at a time and only when something changed.
 
-import { EventPanel, fillAbout, fillFigures, fillHeader } from "replay/about.js";
+import { EventPanel, eventText, fillAbout, fillFigures, fillHeader } from "replay/about.js";
 import { Clock, clockText, SPEEDS } from "replay/clock.js";
 import { coloursOf } from "replay/colours.js";
-import { layerControls, legend, levelControls, tabs } from "replay/controls.js";
+import { layerControls, levelControls, tabs } from "replay/controls.js";
 import { decoded, readArrays } from "replay/data.js";
 import { Facilities } from "replay/facilities.js";
 import { FleetPanel } from "replay/fleet.js";
 import { Ground } from "replay/ground.js";
 import { Gantt } from "replay/gantt.js";
 import { helpDialog, listenToKeys } from "replay/keys.js";
+import { legend } from "replay/legend.js";
 import { Lidar } from "replay/lidar.js";
 import { Paths } from "replay/paths.js";
 import { listenToPointers } from "replay/pointer.js";
@@ -46,7 +47,7 @@ fillFigures(run);
 fillAbout(run, data.scans);
 layerControls(shown);
 const refreshLevels = levelControls(run, shown);
-legend(run);
+const drawLegend = legend(run);
 const fleet = new FleetPanel(run, shown, colours);
 const events = new EventPanel(run, ([time, , robot]) => {
   clock.seek(time);
@@ -84,6 +85,7 @@ function retheme() {
   theme = readTheme(STATES);
   timeline.prepare(theme);
   gantt.stale = true;
+  drawLegend(theme);
   stale = { ground: true, actors: true, panel: true };
 }
 
@@ -229,8 +231,8 @@ listenToPointers(get("actors"), {
 });
 
 get("timeline").addEventListener("pointermove", ({ offsetX }) => {
-  const near = run.events.find(([time]) => Math.abs(timeline.x(time) - offsetX) < 3);
-  get("timeline").title = near ? `${clockText(near[0])} ${near[1]} ${run.names[near[2]] ?? ""}` : clockText(timeline.time(offsetX));
+  const near = events.items.filter(([time]) => Math.abs(timeline.x(time) - offsetX) < 4).slice(0, 8);
+  get("timeline").title = near.map((event) => eventText(run, event)).join("\n") || clockText(timeline.time(offsetX));
 });
 
 function tip(text, px, py) {

@@ -2,12 +2,13 @@
 
 import { clockText, timeStep } from "replay/clock.js";
 import { lastAtMost } from "replay/data.js";
+import { drawMark, markOf, MARKS } from "replay/marks.js";
 import { STATES } from "replay/run.js";
 import { fitCanvas } from "replay/surface.js";
 
 const ORDER = [5, 0, 1, 2, 3, 4]; // from the bottom of the stack
 const TICKS = 16; // pixels for the labels of the axis
-const MARKS = 12; // pixels for events
+const ABOVE = 12; // pixels for events
 const EDGE = 6; // pixels left and right, so that the ends can be seen
 
 export class Timeline {
@@ -37,7 +38,7 @@ export class Timeline {
     const context = fitCanvas(this.canvas);
     const { clientWidth: width, clientHeight: height } = this.canvas;
     context.clearRect(0, 0, width, height);
-    const top = MARKS;
+    const top = ABOVE;
     const bottom = height - TICKS;
     this.#drawStates(context, theme, top, bottom);
     this.#drawAxis(context, theme, width, bottom);
@@ -82,27 +83,14 @@ export class Timeline {
     }
   }
 
-  /** Arrivals as faint ticks, other events as diamonds, contacts as bars. */
   #drawMarks(context, theme) {
-    for (const [time, kind] of this.run.events) {
-      const x = this.x(time);
-      const arrived = kind === "arrived";
-      context.fillStyle = arrived ? theme.muted : theme.accent;
-      context.beginPath();
-      context.globalAlpha = arrived ? 0.5 : 1;
-      if (arrived) context.rect(x - 0.75, 4, 1.5, MARKS - 4);
-      else {
-        context.moveTo(x, 1);
-        context.lineTo(x + 4, 6);
-        context.lineTo(x, 11);
-        context.lineTo(x - 4, 6);
-      }
-      context.fill();
-    }
-    context.globalAlpha = 1;
-    context.fillStyle = theme.alarm;
-    for (const [first, last] of this.run.contacts) {
-      context.fillRect(this.x(first) - 1, 2, Math.max(this.x(last) - this.x(first), 0) + 2, MARKS - 3);
+    const { run } = this;
+    const order = (kind) => MARKS.indexOf(markOf(kind));
+    const events = run.events.toSorted((left, right) => order(left[1]) - order(right[1]));
+    for (const [time, kind] of events) drawMark(context, theme, kind, this.x(time));
+    for (const [first, last] of run.contacts) {
+      drawMark(context, theme, "contact", this.x(first));
+      context.fillRect(this.x(first), 4, this.x(last) - this.x(first), 4);
     }
   }
 
@@ -114,7 +102,7 @@ export class Timeline {
     const x = this.x(this.run.now);
     context.fillStyle = theme.paper;
     context.globalAlpha = 0.45;
-    context.fillRect(x, MARKS, this.x(this.run.end) - x, height - TICKS - MARKS);
+    context.fillRect(x, ABOVE, this.x(this.run.end) - x, height - TICKS - ABOVE);
     context.globalAlpha = 1;
     context.fillStyle = theme.ink;
     context.fillRect(x - 1, 2, 2, height - TICKS - 1);
