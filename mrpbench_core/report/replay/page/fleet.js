@@ -50,6 +50,7 @@ export class FleetPanel {
     setText(speed, `${run.speed(robot).toFixed(2)} m/s`);
     const colours = this.colours();
     swatch.style.background = colours.palette[colours.of(robot)];
+    swatch.dataset.rim = colours.rim(robot);
     state.dataset.state = run.state(robot);
     button.fill.style.transform = `scaleX(${share})`;
     button.setAttribute("aria-pressed", String(robot === shown.selected));

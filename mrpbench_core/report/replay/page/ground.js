@@ -160,6 +160,7 @@ export class Ground {
       const half = context.measureText(text).width / 2 + 2;
       for (const [dx, dy] of [[0, -13], [0, 13], [half + 8, 0], [-half - 8, 0]]) {
         const box = [px + dx - half, py + dy - 7, px + dx + half, py + dy + 7];
+        if (box[0] < 0 || box[2] > view.width) continue; // it would be cut off
         if (taken.some((other) => box[0] < other[2] && box[2] > other[0] && box[1] < other[3] && box[3] > other[1])) continue;
         taken.push(box);
         context.strokeText(text, px + dx, py + dy);

@@ -23,9 +23,17 @@ const HELP = [
 ];
 
 export function listenToKeys(actions) {
+  let pointing = false; // the control in focus was pressed with a pointer, so it does not need the keys
+  const release = () => {
+    if (pointing && document.activeElement.matches("button, select, summary, input:not([type=search])")) document.activeElement.blur();
+  };
+  document.addEventListener("pointerdown", () => (pointing = true), true);
+  document.addEventListener("click", (event) => event.target.closest("select") || release());
+  document.addEventListener("change", release);
   document.addEventListener("keydown", (event) => {
+    if (event.key === "Tab") pointing = false;
     if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const typing = event.target.matches("input[type=search], select");
+    const typing = event.target.matches("input[type=search]") || (event.target.matches("select") && !pointing);
     const pressing = event.target.matches("button, summary, [role=tab], input[type=checkbox]");
     if (event.key === "Escape") actions.escape(event.target);
     else if (typing || document.querySelector("dialog[open]")) return;

@@ -1,5 +1,7 @@
 // Robots in their true footprint, with heading; contacts; numbers.
 
+import { RIMS } from "replay/colours.js";
+
 const LEAST = { few: 6, many: 3 }; // pixels of radius: smaller robots are drawn this large, so that they can be seen
 const NUMBERED = 9; // pixels of radius from which every robot gets its number
 const FEW = 60; // robots that always get their numbers
@@ -49,6 +51,7 @@ export class Robots {
     const bodies = colours.palette.map(() => new Path2D());
     const used = new Set();
     const noses = new Path2D();
+    const rims = RIMS.map(() => new Path2D());
     for (let i = 0; i < this.visibleCount; i++) {
       const robot = this.visible[i];
       const { footprint, radius } = run.model(robot);
@@ -56,6 +59,7 @@ export class Robots {
       const colour = colours.of(robot);
       used.add(colour);
       outline(bodies[colour], footprint, this.px[robot], this.py[robot], run.pose.yaw[robot], scale);
+      if (colours.rim(robot)) outline(rims[colours.rim(robot)], footprint, this.px[robot], this.py[robot], run.pose.yaw[robot], scale + 1.5 / radius);
       if (radius * scale >= 5) nose(noses, footprint, this.px[robot], this.py[robot], run.pose.yaw[robot], scale);
       else {
         const [cos, sin] = [Math.cos(run.pose.yaw[robot]), Math.sin(run.pose.yaw[robot])];
@@ -72,6 +76,15 @@ export class Robots {
     }
     context.fillStyle = theme.nose;
     context.fill(noses);
+    rims.forEach((rim, index) => {
+      for (const [colour, width, dash] of RIMS[index]) {
+        context.strokeStyle = theme[colour];
+        context.lineWidth = width;
+        context.setLineDash(dash);
+        context.stroke(rim);
+      }
+    });
+    context.setLineDash([]);
   }
 
   #drawGhosts(context, view, shown, colours) {
