@@ -4,8 +4,8 @@ from contextlib import AbstractContextManager
 
 from mrpbench_core.files.errors import InputError
 
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7a5195", "#8c6d31")
-"""Colours of robots that colour-blind readers can distinguish; after Okabe and Ito, "Color Universal Design", 2008."""
+COLOURS = ("#332288", "#44aa99", "#882255", "#88ccee", "#117733", "#ddcc77", "#aa4499", "#999933")
+"""Colours of robots that colour-blind readers can distinguish: Paul Tol, "Colour Schemes", SRON/EPS/TN/09-002, 2021."""
 WALL, LANE, ROAD, NAME, DOOR, LIFT = "#3b4252", "#9db4c8", "#e8f0f6", "#51606e", "#b07d2b", "#7a5195"
 PIXELS = 1280
 """Width of a picture, or height of a tall one."""

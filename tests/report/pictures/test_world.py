@@ -49,8 +49,8 @@ def test_a_run_shows_robots_in_their_colours(tmp_path, robot_model):
     file = tmp_path / "run.png"
     draw_world(world, roadmap=Lanes().build(world, fleet), fleet=fleet, routes=routes, truth=truth, file=file)
     image = pixels(file)
-    assert has(image, "#0072b2")
-    assert has(image, "#d55e00")
+    assert has(image, "#332288")
+    assert has(image, "#44aa99")
     assert not has(image, "#009e73"), "there is no third robot"
     assert has(image, "#e8f0f6"), "the roadmap is shaded"
 
@@ -63,7 +63,7 @@ def test_plans_and_drives_can_be_drawn_alone(tmp_path, part):
     else:
         extra = {"truth": np.array([[[1.2, 6, 0]], [[6, 6, 0]]])}
     draw_world(world, file=tmp_path / "a.png", **extra)
-    assert has(pixels(tmp_path / "a.png"), "#0072b2")
+    assert has(pixels(tmp_path / "a.png"), "#332288")
 
 
 def test_every_part_of_a_world_can_be_drawn(tmp_path):

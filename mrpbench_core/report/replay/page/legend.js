@@ -14,6 +14,7 @@ export function legend(run) {
     swatch.style.background = `var(--state-${STATES[state].replace(" ", "-")})`;
     box.append(make("span", "", swatch, STATES[state]));
   }
+  const note = document.getElementById("heat-note");
   const kinds = [...run.events.map(([, kind]) => kind), ...(run.contacts.length ? ["contact"] : [])];
   const marks = MARKS.filter((mark) => kinds.some((kind) => markOf(kind) === mark));
   const drawn = marks.map((mark) => {
@@ -21,6 +22,7 @@ export function legend(run) {
     box.append(make("span", "", canvas, mark.name));
     return [canvas.getContext("2d"), mark.kinds[0] ?? ""];
   });
+  box.append(note);
   return (theme) => {
     for (const [context, kind] of drawn) {
       context.setTransform(2, 0, 0, 2, 0, 0);

@@ -9,6 +9,7 @@ import { Facilities } from "replay/facilities.js";
 import { FleetPanel } from "replay/fleet.js";
 import { Ground } from "replay/ground.js";
 import { Gantt } from "replay/gantt.js";
+import { Heat } from "replay/heat.js";
 import { helpDialog, listenToKeys } from "replay/keys.js";
 import { legend } from "replay/legend.js";
 import { Lidar } from "replay/lidar.js";
@@ -33,6 +34,7 @@ const shown = new Shown(run, Boolean(data.scans));
 const view = new View(boundsOf(run));
 const [ground, paths, robots] = [new Ground(run), new Paths(run), new Robots(run)];
 const facilities = new Facilities(run);
+const heat = new Heat(run, view.bounds);
 const lidar = new Lidar(run, data.scans);
 const timeline = new Timeline(run, get("track"));
 const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
@@ -92,6 +94,7 @@ function retheme() {
 function resize() {
   const stage = get("stage");
   view.inset = { left: 0, right: 0, top: get("layers").offsetHeight + 14, bottom: get("legend").offsetHeight + 14 };
+  get("levels").style.top = `${get("layers").offsetHeight + 20}px`;
   view.resize(stage.clientWidth, stage.clientHeight);
   retheme();
 }
@@ -105,7 +108,10 @@ function draw() {
   run.seek(clock.now);
   follow();
   const painted = colours();
-  if (stale.ground) ground.draw(fitCanvas(get("ground")), view, theme, shown);
+  if (stale.ground) {
+    ground.draw(fitCanvas(get("ground")), view, theme, shown);
+    if (shown.layers.heat) heat.draw(fitCanvas(get("ground")), view, theme, shown);
+  }
   const context = fitCanvas(get("actors"));
   context.clearRect(0, 0, view.width, view.height);
   facilities.draw(context, view, theme, shown);
@@ -158,6 +164,8 @@ let before = -1;
 shown.addEventListener("change", () => {
   stale = { ground: true, actors: true, panel: true };
   gantt.show(shown.layers.gantt);
+  get("heat-note").hidden = !shown.layers.heat;
+  if (shown.layers.heat) get("heat-note").textContent = heat.text;
   if (shown.selected !== before && shown.selected >= 0) {
     if (shown.follow) view.zoom(Math.max(CLOSE / view.scale, 1));
     openTab("tab-robots");
@@ -285,5 +293,5 @@ resize();
 requestAnimationFrame(frame);
 
 /** For the console and for tests. */
-window.replay = { run, clock, shown, view, robots, lidar, facilities };
+window.replay = { run, clock, shown, view, robots, lidar, facilities, heat };
 document.body.classList.add("ready");

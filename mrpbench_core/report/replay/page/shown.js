@@ -9,6 +9,7 @@ export const LAYERS = [
   { key: "waits", label: "Waits", letter: "w" },
   { key: "estimate", label: "Estimate", letter: "m" },
   { key: "lidar", label: "Lidar", letter: "l" },
+  { key: "heat", label: "Heat", letter: "h" },
   { key: "gantt", label: "Gantt", letter: "g" },
 ];
 const FEW = 40; // number of robots whose paths a reader can distinguish
@@ -25,9 +26,10 @@ export class Shown extends EventTarget {
       waits: !run.arrays.reason,
       estimate: !run.ghost,
       lidar: !hasScans,
+      heat: !run.arrays.mode,
     };
     this.offered = LAYERS.filter(({ key }) => !missing[key]);
-    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, waits: true, estimate: false, lidar: false, gantt: false };
+    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, waits: true, estimate: false, lidar: false, heat: false, gantt: false };
     this.colour = few ? "robot" : "state";
     this.selected = -1;
     this.follow = false;
