@@ -1,16 +1,20 @@
-"""`mrpbench view RUN`: write a replay of a run, which any browser opens."""
+"""`mrpbench view RUN [RUN]`: write a replay of a run, or of two side by side, which any browser opens."""
 
 import argparse
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from mrpbench_core.cli.input.run_reference import HELP, find_run
 from mrpbench_core.cli.output.replays import replay_file, write_replay
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.report.replay.pair import write_pair
 from mrpbench_core.store.recording import Recording
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("run", metavar="RUN", help=HELP)
+    parser.add_argument("other", metavar="RUN", nargs="?", help="a second run, shown beside the first one in step")
     parser.add_argument("--out", metavar="FILE", help="the page (default: replay-<run id>.html in the results)")
     parser.add_argument(
         "--png", metavar="FILE", help="also write a picture of the planned and driven paths, one file per level"
@@ -20,6 +24,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the page, and the picture and the animation if requested."""
+    if arguments.other is not None:
+        return _view_pair(arguments)
     results, record = find_run(arguments.run)
     run_id = record["run_id"]
     page = Path(arguments.out) if arguments.out else replay_file(results, run_id)
@@ -33,6 +39,25 @@ def run(arguments: argparse.Namespace) -> int:
             _animate(recording, Path(arguments.gif))
     finally:
         recording.close()
+    return 0
+
+
+def _view_pair(arguments: argparse.Namespace) -> int:
+    if arguments.png or arguments.gif:
+        raise InputError("--png and --gif show one run", hint="leave out the second run")
+    runs = [find_run(run) for run in (arguments.run, arguments.other)]
+    names = [record["run_id"][:12] for _, record in runs]
+    out = Path(arguments.out) if arguments.out else runs[0][0].folder.path / f"replay-{'-'.join(names)}.html"
+    with TemporaryDirectory() as folder:
+        pages = [Path(folder) / f"{number}.html" for number in range(len(runs))]
+        for (results, record), page in zip(runs, pages, strict=True):
+            recording = Recording(results.folder.run(record["run_id"]).recording)
+            try:
+                write_replay(recording, results, record, page)
+            finally:
+                recording.close()
+        write_pair(pages, names, out)
+    print(f"wrote {out}")
     return 0
 
 

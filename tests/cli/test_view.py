@@ -64,3 +64,16 @@ def test_which_run_is_asked_for_must_be_clear(mrpbench):
     code, _, errors = mrpbench("view", "results/tiny")
     assert code == 2
     assert "2 runs" in errors
+
+
+def test_two_runs_become_one_page(mrpbench, driven, tmp_path):
+    code, output, _ = mrpbench("view", driven, driven, "--out", tmp_path / "pair.html")
+    assert code == 0
+    assert output.strip() == f"wrote {tmp_path / 'pair.html'}"
+    assert (tmp_path / "pair.html").read_text(encoding="utf-8").count("<iframe ") == 2
+
+
+def test_a_picture_of_two_runs_is_refused(mrpbench, driven, tmp_path):
+    code, _, error = mrpbench("view", driven, driven, "--png", tmp_path / "a.png")
+    assert code != 0
+    assert "show one run" in error
