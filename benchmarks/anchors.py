@@ -11,7 +11,7 @@ import argparse
 import math
 from pathlib import Path
 
-from movingai import Instance, Outcome, measured, run, table
+from movingai import MapfInstance, Outcome, measured, run, table
 
 CONTESTS = {
     "cbs": ("CBSH2-RTC",),
@@ -35,7 +35,7 @@ def main() -> None:
     arguments = parser.parse_args()
     for solver in arguments.solvers:
         others = measured(arguments.shared / "anchors.csv", CONTESTS[solver])
-        found: dict[Instance, Outcome] = {}
+        found: dict[MapfInstance, Outcome] = {}
         for instance in sorted(others):
             if arguments.maps and instance.map not in arguments.maps:
                 continue

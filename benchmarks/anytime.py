@@ -21,14 +21,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from movingai import LEAST_S, Instance, algorithm_of, read_instance
+from movingai import LEAST_S, MapfInstance, algorithm_of, read_instance
 from mrpbench_native import solve
 
 EARLY_S = 1.0
 OTHERS = ("lacam3", "LNS2")
 
 
-class Curve(NamedTuple):
+class CostCurve(NamedTuple):
     """What is left of a cost over time."""
 
     first: float
@@ -39,16 +39,16 @@ class Curve(NamedTuple):
     """Cost at the end."""
 
 
-NOTHING = Curve(math.inf, math.inf, math.inf)
+NOTHING = CostCurve(math.inf, math.inf, math.inf)
 
 
-def measured(file: Path, limit: float) -> dict[Instance, Curve]:
+def measured(file: Path, limit: float) -> dict[MapfInstance, CostCurve]:
     """The best of the table in each column, for instances that were measured with this limit."""
-    best: dict[Instance, Curve] = {}
+    best: dict[MapfInstance, CostCurve] = {}
     long = set()
     with file.open() as stream:
         for row in csv.DictReader(stream):
-            instance = Instance(row["map"], row["scen"], int(row["k"]))
+            instance = MapfInstance(row["map"], row["scen"], int(row["k"]))
             if not row["solver"].startswith(OTHERS):
                 continue
             if float(row["time_limit"]) == limit and row["solver"] in OTHERS:
@@ -57,33 +57,33 @@ def measured(file: Path, limit: float) -> dict[Instance, Curve]:
     return {instance: curve for instance, curve in best.items() if instance in long}
 
 
-def soonest(file: Path) -> dict[Instance, float]:
+def soonest(file: Path) -> dict[MapfInstance, float]:
     """Seconds to the first plan of the quickest setting of LaCAM3, for all instances that one of them solved."""
-    best: dict[Instance, float] = {}
+    best: dict[MapfInstance, float] = {}
     with file.open() as stream:
         for row in csv.DictReader(stream):
             if row["solver"].startswith("lacam3") and row["solved"] == "1":
-                instance = Instance(row["map"], row["scen"], int(row["k"]))
+                instance = MapfInstance(row["map"], row["scen"], int(row["k"]))
                 best[instance] = min(best.get(instance, math.inf), float(row["seconds_to_first"]))
     return best
 
 
-def curve_of(row: Mapping[str, str], limit: float) -> Curve:
+def curve_of(row: Mapping[str, str], limit: float) -> CostCurve:
     """One line of the table; a cost that is not known for some time does not count then."""
     if row["solved"] != "1":
         return NOTHING
     ended, cost = float(row["time_limit"]), float(row["soc_final"])
-    return Curve(
+    return CostCurve(
         float(row["seconds_to_first"]), cost if ended <= EARLY_S else math.inf, cost if ended <= limit else math.inf
     )
 
 
-def cheapest(curves: Sequence[Curve]) -> Curve:
+def cheapest(curves: Sequence[CostCurve]) -> CostCurve:
     """The least in each column."""
-    return Curve(*map(min, zip(*curves, strict=True)))
+    return CostCurve(*map(min, zip(*curves, strict=True)))
 
 
-def solved(data: Path, instance: Instance, solver: str, limit: float) -> Curve:
+def solved(data: Path, instance: MapfInstance, solver: str, limit: float) -> CostCurve:
     """Ours."""
     algorithm, options = algorithm_of(solver)
     solution = solve(*read_instance(data, instance), algorithm=algorithm, time_limit=limit, **options)
@@ -91,17 +91,17 @@ def solved(data: Path, instance: Instance, solver: str, limit: float) -> Curve:
         return NOTHING
     history = solution.history[:, :2].tolist()
     early = min((cost for seconds, cost in history if seconds <= EARLY_S), default=math.inf)
-    return Curve(history[0][0], early, solution.cost)
+    return CostCurve(history[0][0], early, solution.cost)
 
 
-def first(data: Path, instance: Instance, limit: float) -> float:
+def first(data: Path, instance: MapfInstance, limit: float) -> float:
     """CPU seconds to our first plan, the median of three."""
     asked = read_instance(data, instance)
     solutions = [solve(*asked, algorithm="lacam", time_limit=limit, iterations=0) for _ in range(3)]
     return statistics.median(one.cpu_seconds if one.cost is not None else math.inf for one in solutions)
 
 
-def line(instance: Instance, found: Sequence[Curve], theirs: Curve) -> str:
+def line(instance: MapfInstance, found: Sequence[CostCurve], theirs: CostCurve) -> str:
     """The curves of our solvers, then of the best of theirs, by column."""
     ratio = cheapest(found).last / theirs.last if math.isfinite(theirs.last) else math.nan
     cells = [
@@ -113,7 +113,7 @@ def line(instance: Instance, found: Sequence[Curve], theirs: Curve) -> str:
 
 
 def table(
-    instances: Sequence[Instance], anchors: Mapping[Instance, Curve], arguments: argparse.Namespace
+    instances: Sequence[MapfInstance], anchors: Mapping[MapfInstance, CostCurve], arguments: argparse.Namespace
 ) -> Iterator[str]:
     """A line for each instance, and what they come to."""
     solvers = [*arguments.solvers, "theirs"]
@@ -137,7 +137,7 @@ def table(
 
 
 def first_plans(
-    instances: Sequence[Instance], anchors: Mapping[Instance, float], arguments: argparse.Namespace
+    instances: Sequence[MapfInstance], anchors: Mapping[MapfInstance, float], arguments: argparse.Namespace
 ) -> Iterator[str]:
     """A line for each instance, and how many first plans of `lacam` come no later."""
     yield f"{'map':<24}{'scen':<10}{'robots':>6}{'lacam, s':>10}{'theirs, s':>10}"
@@ -163,7 +163,7 @@ def main() -> None:
     parser.add_argument("--time-limit", type=float, default=10.0)
     parser.add_argument("--first", action="store_true", help="only when lacam has its first plan, in CPU seconds")
     arguments = parser.parse_args()
-    anchors: Mapping[Instance, Any] = (
+    anchors: Mapping[MapfInstance, Any] = (
         soonest(arguments.anchors) if arguments.first else measured(arguments.anchors, arguments.time_limit)
     )
     chosen = [

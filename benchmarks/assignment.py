@@ -30,7 +30,7 @@ PAIRS = {
 """Ours and, in the table of measurements, theirs."""
 
 
-class Instance(NamedTuple):
+class AssignmentInstance(NamedTuple):
     """Agents on a map, and which of them share their goals."""
 
     set: str
@@ -47,18 +47,18 @@ class Question(NamedTuple):
     goals: list[list[list[int]]]
 
 
-def measured(file: Path, solver: str, limit: float) -> dict[Instance, Outcome]:
+def measured(file: Path, solver: str, limit: float) -> dict[AssignmentInstance, Outcome]:
     """What `solver` was measured to reach."""
     found = {}
     with file.open() as stream:
         for row in csv.DictReader(stream):
             if row["solver"] == solver and float(row["time_limit"]) == limit:
-                instance = Instance(row["set"], int(row["k"]), int(row["ex"]), row["goal_mode"])
+                instance = AssignmentInstance(row["set"], int(row["k"]), int(row["ex"]), row["goal_mode"])
                 found[instance] = outcome_of(row)
     return found
 
 
-def load(data: Path, instance: Instance) -> Question:
+def load(data: Path, instance: AssignmentInstance) -> Question:
     """Read the YAML file of an instance."""
     size, _, obstacles = instance.set.partition("_obst")
     side = size.partition("x")[0]
@@ -87,9 +87,9 @@ def run(question: Question, solver: str, limit: float, repeat: int) -> Outcome:
     return sorted(found)[len(found) // 2]
 
 
-def table(found: dict[Instance, Outcome], others: dict[Instance, Outcome]) -> Iterator[str]:
+def table(found: dict[AssignmentInstance, Outcome], others: dict[AssignmentInstance, Outcome]) -> Iterator[str]:
     """One line for each number of robots and mode, and for all."""
-    rows: dict[tuple[str, int, str], list[Instance]] = {}
+    rows: dict[tuple[str, int, str], list[AssignmentInstance]] = {}
     for instance in sorted(found):
         for key in ((instance.set, instance.agents, instance.mode), ("all", 0, "")):
             rows.setdefault(key, []).append(instance)

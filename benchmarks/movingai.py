@@ -42,7 +42,7 @@ PATIENCE = 2
 """Wall seconds of the machine that a solver is given for each CPU second that it may use."""
 
 
-class Instance(NamedTuple):
+class MapfInstance(NamedTuple):
     """The first `agents` rows of a scenario file."""
 
     map: str
@@ -77,12 +77,12 @@ def read_scen(file: Path, agents: int) -> tuple[NDArray[np.int64], NDArray[np.in
     return places[:, 0], places[:, 1]
 
 
-def files(data: Path, instance: Instance) -> tuple[Path, Path]:
+def files(data: Path, instance: MapfInstance) -> tuple[Path, Path]:
     """Map and scenario."""
     return data / "maps" / f"{instance.map}.map", data / "scens" / f"{instance.map}-{instance.scen}.scen"
 
 
-def read_instance(data: Path, instance: Instance) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int64]]:
+def read_instance(data: Path, instance: MapfInstance) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int64]]:
     """Free cells, starts and goals; fewer than `agents` if the scenario has fewer rows."""
     world, scen = files(data, instance)
     return read_map(world), *read_scen(scen, instance.agents)
@@ -95,20 +95,20 @@ def outcome_of(row: Mapping[str, str]) -> Outcome:
     return Outcome(float(row["seconds"]), float(row["cost"] or "nan"))
 
 
-def measured(file: Path, solvers: Sequence[str], limit: float = 10.0) -> dict[Instance, Outcome]:
+def measured(file: Path, solvers: Sequence[str], limit: float = 10.0) -> dict[MapfInstance, Outcome]:
     """The best that any of `solvers` was measured to reach, from a table of measurements."""
-    best: dict[Instance, Outcome] = {}
+    best: dict[MapfInstance, Outcome] = {}
     with file.open() as stream:
         for row in csv.DictReader(stream):
             if row["solver"] not in solvers or float(row["time_limit"]) != limit:
                 continue
-            instance = Instance(row["map"], row["scen"], int(row["k"]))
+            instance = MapfInstance(row["map"], row["scen"], int(row["k"]))
             found = outcome_of(row)
             best[instance] = min(best.get(instance, found), found)
     return best
 
 
-def attempt(data: Path, instance: Instance, solver: str, limit: float) -> Solution:
+def attempt(data: Path, instance: MapfInstance, solver: str, limit: float) -> Solution:
     """What a solver makes of an instance in so many seconds of wall time."""
     name, options = algorithm_of(solver)
     if name in ALGORITHMS:
@@ -117,7 +117,7 @@ def attempt(data: Path, instance: Instance, solver: str, limit: float) -> Soluti
     return Solution(status="unsolvable") if problem is None else solve_by_planner(name, options, problem, limit)
 
 
-def run(data: Path, instance: Instance, solver: str, limit: float, repeat: int) -> tuple[Outcome, Solution] | None:
+def run(data: Path, instance: MapfInstance, solver: str, limit: float, repeat: int) -> tuple[Outcome, Solution] | None:
     """The median outcome, and a solution; None if the scenario has fewer rows."""
     if len(read_instance(data, instance)[1]) < instance.agents:
         return None
@@ -150,12 +150,12 @@ def _option(word: str) -> tuple[str, Any]:
     return name, value
 
 
-def instances(arguments: argparse.Namespace, others: Mapping[Instance, Outcome]) -> list[Instance]:
+def instances(arguments: argparse.Namespace, others: Mapping[MapfInstance, Outcome]) -> list[MapfInstance]:
     """Those of the table, or those that the arguments span."""
     if others:
         return sorted(one for one in others if not arguments.maps or one.map in arguments.maps)
     scens = [f"random-{number}" for number in range(1, arguments.scens + 1)]
-    return [Instance(name, scen, k) for name in arguments.maps for k in arguments.agents for scen in scens]
+    return [MapfInstance(name, scen, k) for name in arguments.maps for k in arguments.agents for scen in scens]
 
 
 def ratio(ours: Sequence[Outcome], theirs: Sequence[Outcome], least: float = LEAST_S) -> float:
@@ -165,7 +165,10 @@ def ratio(ours: Sequence[Outcome], theirs: Sequence[Outcome], least: float = LEA
 
 
 def line(
-    title: str, members: Sequence[Instance], found: Mapping[Instance, Outcome], others: Mapping[Instance, Outcome]
+    title: str,
+    members: Sequence[MapfInstance],
+    found: Mapping[MapfInstance, Outcome],
+    others: Mapping[MapfInstance, Outcome],
 ) -> str:
     """What became of some instances."""
     ours = [found[one] for one in members]
@@ -179,9 +182,11 @@ def line(
 HEADER = f"{'map':<24}{'robots':>7}{'n':>5}{'solved':>8}{'theirs':>8}{'median s':>10}{'theirs':>10}{'ratio':>8}"
 
 
-def table(found: Mapping[Instance, Outcome], others: Mapping[Instance, Outcome], each: bool = True) -> Iterator[str]:
+def table(
+    found: Mapping[MapfInstance, Outcome], others: Mapping[MapfInstance, Outcome], each: bool = True
+) -> Iterator[str]:
     """One line for each map (with `each`, also for each number of robots), and one for all."""
-    rows: dict[tuple[str, str], list[Instance]] = defaultdict(list)
+    rows: dict[tuple[str, str], list[MapfInstance]] = defaultdict(list)
     for instance in found:
         if each:
             rows[instance.map, f"{instance.agents}"].append(instance)
@@ -217,7 +222,7 @@ def main() -> None:
 def compare(arguments: argparse.Namespace) -> None:
     """Run, write, and print."""
     others = measured(arguments.anchors, arguments.against) if arguments.anchors else {}
-    found: dict[Instance, Outcome] = {}
+    found: dict[MapfInstance, Outcome] = {}
     rows = []
     contest = [(arguments.solver, found)] + ([(arguments.beside, others)] if arguments.beside else [])
     for instance in instances(arguments, others):

@@ -12,7 +12,7 @@ from mrpbench_core.engine.stage import RunEnded
 from mrpbench_core.engine.stages.assign import assign
 from mrpbench_core.engine.stages.judge import judge
 from mrpbench_core.engine.stages.plan import call_planner
-from mrpbench_core.engine.stages.prepare import build_instance
+from mrpbench_core.engine.stages.prepare import build_run_instance
 from mrpbench_core.engine.stages.problem_building import build_problem
 from mrpbench_core.model.plan import Budget
 from mrpbench_core.model.problem import Problem
@@ -23,7 +23,7 @@ MEMORY = 4 << 30
 def problem_of(config: RunConfig) -> Problem | None:
     """The problem of a run; None where there cannot be a plan."""
     try:
-        instance = build_instance(config, lambda *_: None)
+        instance = build_run_instance(config, lambda *_: None)
         return build_problem(instance, assign(config, instance, lambda *_: None, {}), config.assigner)
     except RunEnded:
         return None

@@ -5,7 +5,8 @@
 
 from typing import TYPE_CHECKING, Any
 
-__version__ = "0.1.0"
+from mrpbench_core.version import __version__
+
 __all__ = ["__version__", "load", "run"]
 
 if TYPE_CHECKING:

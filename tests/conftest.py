@@ -12,7 +12,7 @@ from mrpbench_core.model.execution import Route
 from mrpbench_core.model.fleet import Fleet, Lidar, RobotModel
 from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Grid, Roadmap
+from mrpbench_core.model.roadmap import Raster, Roadmap
 from mrpbench_core.model.run import RunContext
 from mrpbench_core.model.scenario import Scenario, Task
 from mrpbench_core.model.world import Level, Vertex, World
@@ -35,7 +35,7 @@ def corridor() -> Roadmap:
         edges=[[0, 1], [1, 0], [1, 2], [2, 1]],
         duration=[[1, 1, 1, 1]],
         tick=2.0,
-        grid=Grid(shape=(1, 3), cell_size=1.0, origin=(0.0, 0.0), cell=[[0, 0], [0, 1], [0, 2]]),
+        grid=Raster(shape=(1, 3), cell_size=1.0, origin=(0.0, 0.0), cell=[[0, 0], [0, 1], [0, 2]]),
         place=[0, 2],
     )
 

@@ -23,7 +23,7 @@ def solids(level: Level) -> list[Float]:
     return [*boxes, *(obstacle.polygon for obstacle in level.obstacles), *(hole.polygon for hole in level.holes)]
 
 
-def keeps_clear(level: Level, start: Float, end: Float, radius: float) -> Bool:
+def has_clearance(level: Level, start: Float, end: Float, radius: float) -> Bool:
     """Tell bool[k] whether a disc of `radius` metres moving straight from `start` to `end` f8[k,2] touches nothing."""
     start, end = np.asarray(start, float).reshape(-1, 2), np.asarray(end, float).reshape(-1, 2)
     clear = np.ones(len(start), bool)

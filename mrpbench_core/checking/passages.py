@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.checking.clearance import keeps_clear, solids
+from mrpbench_core.checking.clearance import has_clearance, solids
 from mrpbench_core.checking.tiles import Tiles
 from mrpbench_core.model.arrays import Bool, Float
 from mrpbench_core.model.world import Level
@@ -74,11 +74,11 @@ def _leads_through(level: Level, gaps: Float, width: float) -> Bool:
     middle, across = gaps.mean(axis=1), gaps[:, 1] - gaps[:, 0]
     ahead = across[:, ::-1] * (-1.0, 1.0) / np.hypot(*across.T)[:, None]
     inside = 0.01 * across
-    through = keeps_clear(level, gaps[:, 0] + inside, gaps[:, 1] - inside, 0.0)
+    through = has_clearance(level, gaps[:, 0] + inside, gaps[:, 1] - inside, 0.0)
     far = np.linspace(width / 2, FAR, _STEPS) * np.array([[-1.0], [1.0]])
     there = middle[:, None, None] + far[..., None] * ahead[:, None, None]
     start = np.broadcast_to(middle[:, None, None], there.shape)
-    fits = keeps_clear(level, there, there, width / 2) & keeps_clear(level, start, there, 0.0)
+    fits = has_clearance(level, there, there, width / 2) & has_clearance(level, start, there, 0.0)
     sides = np.any(fits.reshape(there.shape[:3]), axis=2)
     both: Bool = through & sides[:, 0] & sides[:, 1]
     return both

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import attrs
 import numpy as np
 
-from mrpbench_core.checking.clearance import keeps_clear, solids
+from mrpbench_core.checking.clearance import has_clearance, solids
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import called, crossings, duplicates, unique_edges, vertices_on_lanes
 from mrpbench_core.checking.passages import narrow_passages
@@ -126,13 +126,13 @@ def _clearance_faults(world: World, radius: float) -> list[str]:
     for index, level in enumerate(world.levels):
         here = np.flatnonzero(storey == index)
         point = np.array([(world.vertices[vertex].x, world.vertices[vertex].y) for vertex in here]).reshape(-1, 2)
-        within = ~keeps_clear(level, point, point, 0.0)
+        within = ~has_clearance(level, point, point, 0.0)
         inside += here[within].tolist()
-        tight += here[~keeps_clear(level, point, point, radius) & ~within].tolist()
+        tight += here[~has_clearance(level, point, point, radius) & ~within].tolist()
         ours = lanes[storey[lanes[:, 0]] == index] if len(lanes) else lanes
         number = np.cumsum(storey == index) - 1
         start, end = (point[number[ends]] for ends in ours.T)
-        blocked += ours[~keeps_clear(level, start, end, radius)].tolist()
+        blocked += ours[~has_clearance(level, start, end, radius)].tolist()
     return [
         *(f"{called(world, vertex)} lies inside something solid" for vertex in inside),
         *(f"{called(world, vertex)} is nearer than {radius:.3f} m to something solid" for vertex in tight),

@@ -54,9 +54,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="M",
         help="distance at which a goal counts as reached (default: %(default)g)",
     )
-    parser.add_argument(
-        "--metrics", default="planning,execution", metavar="A,B", help="metrics to compute (default: %(default)s)"
-    )
+    parser.add_argument("--metrics", metavar="A,B", help="metrics to compute (default: those that a run computes)")
     parser.add_argument(
         "--importer", default="rosbag2", metavar="NAME", help="importer that reads BAG (default: %(default)s)"
     )
@@ -71,19 +69,21 @@ def run(arguments: argparse.Namespace) -> int:
     from mrpbench_core.api.importer import Importer
     from mrpbench_core.api.metric import Metric
     from mrpbench_core.cli.input.world import world_source
+    from mrpbench_core.config.settings import default_plugin
     from mrpbench_core.engine.analysis.analysis import Analysis, analyze
     from mrpbench_core.engine.analysis.observed_run import Sampling
 
     for name in ("rate", "max_gap", "tolerance"):
         if not 0 < getattr(arguments, name) < float("inf"):
             raise InputError(f"--{name.replace('_', '-')}: must be above 0, got {getattr(arguments, name):g}")
+    metrics = default_plugin("metrics") if arguments.metrics is None else _names(arguments.metrics)
     options = {"plugin": arguments.importer, **read_options(arguments.option, "--option")}
     if arguments.fleet is not None:
         options["fleet"] = arguments.fleet
     analysis = Analysis(
         bag=arguments.bag,
         importer=_component(Importer, options, "--importer"),
-        metrics={name: _component(Metric, {"plugin": name}, "--metrics") for name in _names(arguments.metrics)},
+        metrics={name: _component(Metric, {"plugin": name}, "--metrics") for name in metrics},
         world=None if arguments.world is None else world_source(arguments.world),
         scenario=arguments.scenario,
         robot=arguments.robot,

@@ -4,10 +4,10 @@ import argparse
 import sys
 from typing import Any
 
-from mrpbench_core import __version__
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.plugins.installed import distribution, installed
+from mrpbench_core.version import __version__
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

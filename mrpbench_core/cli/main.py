@@ -15,9 +15,9 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NoReturn
 
-from mrpbench_core import __version__
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.version import __version__
 
 COMMANDS = {
     "demo": "run a small office scenario, end to end, in under a minute",

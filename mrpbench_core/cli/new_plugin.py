@@ -9,10 +9,10 @@ from string import Template
 
 import attrs
 
-from mrpbench_core import __version__
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import installed
 from mrpbench_core.plugins.kinds import group_of, singular
+from mrpbench_core.version import __version__
 
 SHARED = {"pyproject.toml.txt", "README.md.txt", "gitignore.txt", "init.py.txt", "test.py.txt"}
 EXAMPLES = {"scenario": {"robots": 3}}

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from mrpbench_core.cli.input.arguments import add_configuration, split_words
 from mrpbench_core.config.study import load_studies
-from mrpbench_core.engine.stages.prepare import build_instance
+from mrpbench_core.engine.stages.prepare import build_run_instance
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import write_scenario
 from mrpbench_core.files.text import counted
@@ -30,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     studies = load_studies(files, overrides)
     drawn: dict[str, Scenario] = {}
     for point in (point for study in studies for point in study.runs):
-        scenario = build_instance(point.config, lambda stage, facts: None).scenario  # noqa: ARG005
+        scenario = build_run_instance(point.config, lambda stage, facts: None).scenario  # noqa: ARG005
         drawn.setdefault(scenario.id, scenario)
     target = Path(arguments.write)
     for scenario_id, scenario in drawn.items():

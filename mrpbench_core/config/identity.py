@@ -15,7 +15,14 @@ import attrs
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.canonical import json_scalar, plugin_name
 from mrpbench_core.config.content import content_hash
-from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING, ONLY_EXECUTION, FleetEntry, RunConfig
+from mrpbench_core.config.settings import (
+    EXECUTION,
+    NOT_IDENTIFYING,
+    ONLY_EXECUTION,
+    FleetEntry,
+    RunConfig,
+    default_plugin,
+)
 from mrpbench_core.config.validation import default_of
 
 LENGTH = 16
@@ -47,7 +54,7 @@ def _ignored(config: RunConfig) -> set[str]:
 
 
 def _is_default_plugin(name: str, value: Any) -> bool:
-    default = attrs.fields_dict(RunConfig)[name].metadata.get("written_default")
+    default = default_plugin(name)
     return isinstance(default, str) and value == (None if default == "none" else {"plugin": default})
 
 

@@ -204,6 +204,11 @@ class RunConfig:
     )
 
 
+def default_plugin(key: str) -> Any:
+    """Return what a setting of `RunConfig` is when the file does not name it, as the file would write it."""
+    return attrs.fields_dict(RunConfig)[key].metadata.get("written_default")
+
+
 EXECUTION = ("dispatcher", "navigator", "controller", "localizer")
 """Without a simulator these are None unless the file names them."""
 

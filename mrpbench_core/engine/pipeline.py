@@ -15,7 +15,7 @@ from mrpbench_core.engine.stages.execute import execute_plan
 from mrpbench_core.engine.stages.judge import judge
 from mrpbench_core.engine.stages.measure import measure, measure_recording
 from mrpbench_core.engine.stages.plan import STATUS, budget_of, call_planner
-from mrpbench_core.engine.stages.prepare import Instance, build_instance, require_free_doorways
+from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance, require_free_doorways
 from mrpbench_core.engine.stages.problem_building import build_problem
 from mrpbench_core.model.plan import PlanResult
 from mrpbench_core.model.problem import Problem
@@ -53,7 +53,7 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
         RunEnded: the run did not succeed; the record holds what was found until then.
     """
     config = inputs.config
-    instance = build_instance(config, inputs.announce)
+    instance = build_run_instance(config, inputs.announce)
     record.scenario_id = instance.scenario.id
     if config.simulator is not None:
         require_free_doorways(instance)
@@ -103,13 +103,13 @@ def _plan(inputs: RunInputs, problem: Problem) -> tuple[PlanResult, RunEnded | N
     return result, None
 
 
-def _router(config: RunConfig, instance: Instance, assigned: tuple[int, ...], problem: Problem) -> Router:
+def _router(config: RunConfig, instance: RunInstance, assigned: tuple[int, ...], problem: Problem) -> Router:
     yaw = np.array([instance.scenario.tasks[task].goals[-1, 2] if task >= 0 else np.nan for task in assigned])
     return Router(problem, yaw, speed_limits(instance.world, instance.roadmap), config.plan_filter)
 
 
 def _context(
-    inputs: RunInputs, run_id: str, instance: Instance, router: Router, result: PlanResult, assigned: tuple[int, ...]
+    inputs: RunInputs, run_id: str, instance: RunInstance, router: Router, result: PlanResult, assigned: tuple[int, ...]
 ) -> RunContext:
     """What is known of the run before its execution; without a plan there are no routes."""
     routes = () if result.plan is None else router(result.plan)

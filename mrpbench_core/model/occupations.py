@@ -13,7 +13,7 @@ from mrpbench_core.model.type2_edges import Moves, Type2Edges
 NEVER = -1
 
 
-class Occupation(NamedTuple):
+class ResourceOccupation(NamedTuple):
     """A robot in a resource, without interruption."""
 
     robot: int
@@ -29,14 +29,14 @@ class Occupation(NamedTuple):
     """First and last half tick of the plan at which the resource is occupied, setup included."""
 
 
-def occupations_of(problem: Problem, moves: Moves) -> list[Occupation]:
+def occupations_of(problem: Problem, moves: Moves) -> list[ResourceOccupation]:
     """All occupations of the roadmap's resources, by resource and robot, in order of time."""
     return [
         occupation for resource in problem.roadmap.resources for occupation in _occupations(problem, moves, resource)
     ]
 
 
-def _occupations(problem: Problem, moves: Moves, resource: Resource) -> Iterator[Occupation]:
+def _occupations(problem: Problem, moves: Moves, resource: Resource) -> Iterator[ResourceOccupation]:
     edges, vertices = np.zeros(len(problem.roadmap.edges), bool), np.zeros(len(problem.roadmap.position), bool)
     edges[list(resource.edges)], vertices[list(resource.vertices)] = True, True
     for robot, start in enumerate(problem.start.tolist()):
@@ -52,7 +52,9 @@ def _occupations(problem: Problem, moves: Moves, resource: Resource) -> Iterator
             yield _occupation(problem, moves, resource, robot, begin, end - 1)
 
 
-def _occupation(problem: Problem, moves: Moves, resource: Resource, robot: int, begin: int, end: int) -> Occupation:
+def _occupation(
+    problem: Problem, moves: Moves, resource: Resource, robot: int, begin: int, end: int
+) -> ResourceOccupation:
     """The occupation from element `begin` to element `end` of a robot's path."""
     zero, stop = int(moves.first[robot]), int(moves.first[robot + 1])
     first = -1 if begin == 0 else zero + (begin - 1) // 2
@@ -65,10 +67,10 @@ def _occupation(problem: Problem, moves: Moves, resource: Resource, robot: int, 
         until = np.iinfo(np.int64).max
     else:
         until = int(2 * moves.leave[last] - 1 if on_lane else 2 * moves.enter[last]) + 2 * resource.setup_ticks
-    return Occupation(robot, resource.name, first, last, on_lane, since, int(until))
+    return ResourceOccupation(robot, resource.name, first, last, on_lane, since, int(until))
 
 
-def resource_edges(problem: Problem, occupations: list[Occupation]) -> Type2Edges:
+def resource_edges(problem: Problem, occupations: list[ResourceOccupation]) -> Type2Edges:
     """The edges of rule 6: a robot enters a resource after all robots that had left it by then in the plan.
 
     Robots that occupy a resource together in any execution overlap pairwise in the plan, hence all at one instant of

@@ -28,7 +28,7 @@ class Resource:
 
 
 @attrs.frozen(kw_only=True)
-class Grid:
+class Raster:
     """The raster whose cells are the vertices of a roadmap."""
 
     shape: tuple[int, int]
@@ -57,7 +57,7 @@ class Roadmap:
     tick: float
     """seconds per tick."""
     resources: tuple[Resource, ...] = ()
-    grid: Grid | None = None
+    grid: Raster | None = None
     place: Int32 = array("i4", factory=list)
     """i4[len(World.vertices)]: the roadmap vertex that stands for each world vertex, -1 = none."""
     notes: tuple[str, ...] = ()

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from mrpbench_core.model.plan import Path
 from mrpbench_core.model.problem import Feature, Problem, features_of
-from mrpbench_core.model.roadmap import Grid, Roadmap
+from mrpbench_core.model.roadmap import Raster, Roadmap
 
 BLOCKED = "#"
 STEPS = ((0, 1), (0, -1), (1, 0), (-1, 0))
@@ -42,7 +42,7 @@ def grid(rows: int, columns: int, blocked: Iterable[tuple[int, int]] = (), cell_
         edges=np.array(edges, np.int32),
         duration=np.ones((1, len(edges)), np.int32),
         tick=1.0,
-        grid=Grid(shape=(rows, columns), cell_size=cell_size, origin=(0.0, 0.0), cell=cell),
+        grid=Raster(shape=(rows, columns), cell_size=cell_size, origin=(0.0, 0.0), cell=cell),
     )
 
 

@@ -8,7 +8,7 @@ import sys
 from math import pi
 from pathlib import Path
 
-from building import Level, write
+from building import DraftLevel, write
 
 TITLE = """An airport terminal of 282 × 64 m: two concourses with 56 gates, shops between them; 210 places, 211 lanes.
 
@@ -28,7 +28,7 @@ SHOPS = (
 
 def draft(file: Path) -> None:
     """Write the file."""
-    level = Level("L1")
+    level = DraftLevel("L1")
     concourses(level)
     for side, y, outward in (("south", SOUTH, -1), ("north", NORTH, 1)):
         gates(level, side, y, outward)
@@ -37,7 +37,7 @@ def draft(file: Path) -> None:
     write(file, TITLE, level)
 
 
-def concourses(level: Level) -> None:
+def concourses(level: DraftLevel) -> None:
     for side, y in (("south", SOUTH), ("north", NORTH)):
         names = [level.place(f"{side}_concourse_{k + 1}", x, y) for k, x in enumerate(STOPS)]
         level.lane(*names)
@@ -47,7 +47,7 @@ def concourses(level: Level) -> None:
         level.lane(f"south_concourse_{k + 1}", *inner, f"north_concourse_{k + 1}")
 
 
-def gates(level: Level, side: str, y: float, outward: int) -> None:
+def gates(level: DraftLevel, side: str, y: float, outward: int) -> None:
     """Behind each stop a gate room: a desk inside its door, and seats or a jet bridge."""
     letter = "a" if side == "south" else "b"
     back = 0.0 if side == "south" else HEIGHT
@@ -72,7 +72,7 @@ def gates(level: Level, side: str, y: float, outward: int) -> None:
         level.wall((x, back), (x, front))
 
 
-def shops(level: Level) -> None:
+def shops(level: DraftLevel) -> None:
     """Shops open to the south concourse, lounges to the north one."""
     stops = [k for k in range(28) if k not in (0, 6, 7, 13, 14, 20, 21, 26, 27, 1)]
     names = iter(SHOPS)
@@ -93,7 +93,7 @@ def shops(level: Level) -> None:
             level.model("NurseDesk", x, y + inward * 9, pi / 2)
 
 
-def shell(level: Level) -> None:
+def shell(level: DraftLevel) -> None:
     level.remark("outer walls")
     corners = [(0.0, 0.0), (WIDTH, 0.0), (WIDTH, HEIGHT), (0.0, HEIGHT), (0.0, 0.0)]
     level.wall(*corners)

@@ -7,7 +7,7 @@ the middle of the passages.
 import sys
 from pathlib import Path
 
-from building import Level, write
+from building import DraftLevel, write
 
 TITLE = """Minimal hard cases, one level each: a corridor for one, a swap, a roundabout, an alcove, a narrow door.
 
@@ -16,7 +16,7 @@ GAP = 0.8
 """Between the lines of walls that leave 0.7 m."""
 
 
-def room(level: Level, left: float, bottom: float, right: float, top: float, **gaps: float) -> None:
+def room(level: DraftLevel, left: float, bottom: float, right: float, top: float, **gaps: float) -> None:
     """Four walls, with a gap of 0.7 m in those named, at the coordinate given."""
     for side, fixed, first, last, axis in (
         ("south", bottom, left, right, "x"), ("north", top, left, right, "x"),
@@ -25,8 +25,8 @@ def room(level: Level, left: float, bottom: float, right: float, top: float, **g
         level.wall_with_gaps(fixed, first, last, [(gaps[side], GAP)] if side in gaps else [], axis)
 
 
-def corridor() -> Level:
-    level = Level("corridor")
+def corridor() -> DraftLevel:
+    level = DraftLevel("corridor")
     for side, x, toward in (("west", 0.4, 1), ("east", 9.6, -1)):
         for part, y in (("south", 0.4), ("middle", 1.2), ("north", 2.0)):
             level.place(f"{side}_{part}", x, y)
@@ -42,8 +42,8 @@ def corridor() -> Level:
     return level
 
 
-def swap() -> Level:
-    level = Level("swap")
+def swap() -> DraftLevel:
+    level = DraftLevel("swap")
     for name, x, y in (
         ("south_west", 0.4, 0.4),
         ("south_east", 2.8, 0.4),
@@ -57,8 +57,8 @@ def swap() -> Level:
     return level
 
 
-def roundabout() -> Level:
-    level = Level("roundabout")
+def roundabout() -> DraftLevel:
+    level = DraftLevel("roundabout")
     arms = {"south": (3.6, 0.4), "east": (6.8, 3.6), "north": (3.6, 6.8), "west": (0.4, 3.6)}
     ring = {"south": (3.6, 2.4), "south_east": (4.8, 2.4), "east": (4.8, 3.6), "north_east": (4.8, 4.8),
             "north": (3.6, 4.8), "north_west": (2.4, 4.8), "west": (2.4, 3.6), "south_west": (2.4, 2.4)}  # fmt: skip
@@ -85,8 +85,8 @@ def roundabout() -> Level:
     return level
 
 
-def alcove() -> Level:
-    level = Level("alcove")
+def alcove() -> DraftLevel:
+    level = DraftLevel("alcove")
     for name, x, y in (("west", 0.4, 0.8), ("west_of_alcove", 2.4, 0.8), ("mouth", 3.6, 0.8),
                        ("east_of_alcove", 4.8, 0.8), ("east", 6.8, 0.8), ("alcove", 3.6, 1.6)):  # fmt: skip
         level.place(name, x, y)
@@ -102,8 +102,8 @@ def alcove() -> Level:
     return level
 
 
-def door() -> Level:
-    level = Level("door")
+def door() -> DraftLevel:
+    level = DraftLevel("door")
     for side, x, toward in (("west", 0.4, 1), ("east", 5.2, -1)):
         for part, y in (("south", 0.4), ("middle", 1.2), ("north", 2.0)):
             level.place(f"{side}_{part}", x, y)

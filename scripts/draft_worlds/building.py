@@ -10,7 +10,7 @@ def number(value: float) -> str:
     return f"{value + 0.0:.3f}".rstrip("0").rstrip(".") if abs(value) >= 5e-4 else "0"
 
 
-class Level:
+class DraftLevel:
     """Places, walls, doors, lanes and furniture of one level, in order of drawing."""
 
     def __init__(self, name: str, elevation: float = 0.0) -> None:
@@ -100,7 +100,7 @@ class Level:
         return text
 
 
-def write(file: Path, title: str, *levels: Level, lifts: Sequence[str] = ()) -> None:
+def write(file: Path, title: str, *levels: DraftLevel, lifts: Sequence[str] = ()) -> None:
     """A whole building file; `title` is its head comment, `lifts` are the lines of that section."""
     text = [*(f"# {line}" for line in title.splitlines()), f"name: {file.name.split('.')[0]}"]
     text += ["coordinate_system: cartesian_meters", *(["lifts:", *lifts] if lifts else ["lifts: {}"]), "levels:"]

@@ -8,7 +8,7 @@ import sys
 from itertools import pairwise
 from pathlib import Path
 
-from building import Level, write
+from building import DraftLevel, write
 
 TITLE = """A hospital of 26 × 12 m on three floors: fifteen rooms with doors, four lifts, a corridor with two lanes.
 
@@ -42,8 +42,8 @@ def draft(file: Path) -> None:
     write(file, TITLE, *levels, lifts=[lift for name in LIFTS for lift in lift_lines(name)])
 
 
-def floor(name: str, elevation: float) -> Level:
-    level = Level(name, elevation)
+def floor(name: str, elevation: float) -> DraftLevel:
+    level = DraftLevel(name, elevation)
     lifts = {lift: (x, side) for lift, (x, side, served) in LIFTS.items() if name in served}
     corridor(level, sorted({x for x, _ in SITES} | {x for x, _, _ in LIFTS.values()} | {1.0, 25.0}))
     for room, (x, side), kind, width in zip(ROOMS[name], SITES, KINDS, WIDTHS, strict=True):
@@ -55,7 +55,7 @@ def floor(name: str, elevation: float) -> Level:
     return level
 
 
-def corridor(level: Level, stops: list[float]) -> None:
+def corridor(level: DraftLevel, stops: list[float]) -> None:
     for side, y in LANES.items():
         for x in stops:
             level.place(f"{level.name}_{side}_{x:g}", x, y)
@@ -69,7 +69,7 @@ def corridor(level: Level, stops: list[float]) -> None:
             level.lane(charger, f"{level.name}_{side}_{x:g}")
 
 
-def add_room(level: Level, name: str, x: float, way: int, kind: str, width: float) -> None:
+def add_room(level: DraftLevel, name: str, x: float, way: int, kind: str, width: float) -> None:
     """Three places behind a door: `way` is 1 north of the corridor and -1 south of it."""
     wall, side = (NORTH, "north") if way > 0 else (SOUTH, "south")
     entrance = level.place(name, x, wall + 2.2 * way)
@@ -80,7 +80,7 @@ def add_room(level: Level, name: str, x: float, way: int, kind: str, width: floa
     level.door(f"{name}_door", (x - width / 2, wall), (x + width / 2, wall), kind, direction=-way)
 
 
-def walls(level: Level, lifts: dict[str, tuple[float, str]]) -> None:
+def walls(level: DraftLevel, lifts: dict[str, tuple[float, str]]) -> None:
     level.remark("outer walls")
     level.wall((0, 0), (WIDTH, 0), (WIDTH, DEPTH), (0, DEPTH), (0, 0))
     for side, y in (("south", SOUTH), ("north", NORTH)):

@@ -7,7 +7,7 @@ import sys
 from math import pi
 from pathlib import Path
 
-from building import Level, write
+from building import DraftLevel, write
 
 TITLE = """A furnished flat of 12.4 × 9.2 m: five rooms on a hall, doors and passages between furniture 0.7 m wide.
 
@@ -20,14 +20,14 @@ LOW, HIGH = 3.3, 4.7
 
 def draft(file: Path) -> None:
     """Write the file."""
-    level = Level("L1")
+    level = DraftLevel("L1")
     places(level)
     walls(level)
     furniture(level)
     write(file, TITLE, level)
 
 
-def places(level: Level) -> None:
+def places(level: DraftLevel) -> None:
     for name, x, y in (
         ("front_door", 0.4, 4), ("coat_rack", 2, 4), ("hall_west", 4, 4), ("hall_middle", 5.2, 4),
         ("hall_east", 9.2, 4), ("ironing_board", 11.6, 4), ("bedroom", 2, 2.4), ("between_the_beds", 2, 0.8),
@@ -51,7 +51,7 @@ def places(level: Level) -> None:
     level.lane("hall_east", "study", "writing_desk", "bookshelf", "armchair", "study")
 
 
-def walls(level: Level) -> None:
+def walls(level: DraftLevel) -> None:
     left, right, bottom, top = -0.15, 12.15, -0.15, 8.95
     level.remark("outer walls; the front door is in the west")
     level.wall((left, bottom), (right, bottom), (right, top), (left, top))
@@ -72,7 +72,7 @@ def walls(level: Level) -> None:
         level.door(f"{name}_door", (x - half, y), (x + half, y), "sliding")  # an open leaf would bar the hall
 
 
-def furniture(level: Level) -> None:
+def furniture(level: DraftLevel) -> None:
     for x in (1.1, 2.9):
         level.model("NormalBed", x, 1.0, pi / 2)
     level.model("BedsideTable", 0.2, 0.2)

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.model.occupancy import Occupancy
 from mrpbench_core.model.world import Level, Obstacle
 
@@ -38,7 +38,7 @@ def test_a_sweep_is_clear_when_no_wall_is_nearer_than_the_radius(walls, p, q, ra
     gap = min(sampled_gap(wall, p, q) for wall in walls)
     step = math.dist(p, q) / 399
     assume(abs(gap - radius) > step + 1e-6)
-    assert keeps_clear(Level(name="", walls=walls), [p], [q], radius)[0] == (gap > radius)
+    assert has_clearance(Level(name="", walls=walls), [p], [q], radius)[0] == (gap > radius)
 
 
 def test_many_sweeps_are_judged_alike_together_and_alone():
@@ -46,25 +46,25 @@ def test_many_sweeps_are_judged_alike_together_and_alone():
     level = Level(name="", walls=rng.uniform(0, 10, (20, 4)))
     start = rng.uniform(0, 10, (300, 2))
     end = start + rng.uniform(-1, 1, (300, 2))
-    alone = [keeps_clear(level, a, b, 0.2)[0] for a, b in zip(start, end, strict=True)]
-    assert keeps_clear(level, start, end, 0.2).tolist() == alone
+    alone = [has_clearance(level, a, b, 0.2)[0] for a, b in zip(start, end, strict=True)]
+    assert has_clearance(level, start, end, 0.2).tolist() == alone
     assert 20 < sum(alone) < 280
 
 
 def test_inside_of_an_obstacle_is_not_clear():
     level = Level(name="", obstacles=(Obstacle(name="", polygon=[[0, 0], [4, 0], [4, 4], [2, 1], [0, 4]]),))
     points = np.array([[0.5, 0.7], [2, 3], [5, 5]])
-    assert keeps_clear(level, points, points, 0.0).tolist() == [False, True, True]
+    assert has_clearance(level, points, points, 0.0).tolist() == [False, True, True]
 
 
 def test_touching_at_exactly_the_radius_is_allowed():
     level = Level(name="", walls=[[0, 0, 2, 0]])
-    assert keeps_clear(level, [[1, 0.35]], [[2, 0.35]], 0.3)[0]
-    assert not keeps_clear(level, [[1, 0.349]], [[2, 0.349]], 0.3)[0]
+    assert has_clearance(level, [[1, 0.35]], [[2, 0.35]], 0.3)[0]
+    assert not has_clearance(level, [[1, 0.349]], [[2, 0.349]], 0.3)[0]
 
 
 def test_a_point_cannot_pass_through_a_wall():
-    assert not keeps_clear(Level(name="", walls=[[0, 0, 2, 0]]), [[1, -1]], [[1, 1]], 0.0)[0]
+    assert not has_clearance(Level(name="", walls=[[0, 0, 2, 0]]), [[1, -1]], [[1, 1]], 0.0)[0]
 
 
 @settings(deadline=None, max_examples=100)
@@ -82,10 +82,10 @@ def test_blocked_cells_are_solid_squares(cells, p, q, radius):
     gaps = [np.hypot(*np.maximum(np.abs(path - centre) - 0.25, 0).T).min() for centre in squares]
     gap = min(gaps, default=9.0)
     assume(abs(gap - radius) > math.dist(p, q) / 299 + 1e-6)
-    assert keeps_clear(Level(name="", occupancy=occupancy), [p], [q], radius)[0] == (gap > radius)
+    assert has_clearance(Level(name="", occupancy=occupancy), [p], [q], radius)[0] == (gap > radius)
 
 
 def test_beyond_a_raster_is_solid():
     level = Level(name="", occupancy=Occupancy(blocked=np.zeros((2, 2), bool), cell_size=1.0))
     points = np.array([[1.0, 1.0], [0.2, 1.0], [5.0, 5.0]])
-    assert keeps_clear(level, points, points, 0.3).tolist() == [True, False, False]
+    assert has_clearance(level, points, points, 0.3).tolist() == [True, False, False]

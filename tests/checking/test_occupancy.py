@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.builtin.worlds.shipped import Household
-from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.occupancy import rasterise
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.occupancy import Occupancy
@@ -28,8 +28,8 @@ def test_a_cell_is_blocked_where_a_ray_through_its_centre_hits(level, size):
     raster = rasterise(level, size)
     cells = np.argwhere(np.ones(raster.shape, bool))
     centres = raster.centres(cells)
-    far = keeps_clear(level, centres, centres, 1e-6)  # on the very border either answer is right
-    near = ~keeps_clear(level, centres, centres, 0.0)
+    far = has_clearance(level, centres, centres, 1e-6)  # on the very border either answer is right
+    near = ~has_clearance(level, centres, centres, 0.0)
     blocked = raster.blocked[cells[:, 0], cells[:, 1]]
     assert not blocked[far].any()
     inside = near & ~_on_border(level, centres)
@@ -39,7 +39,7 @@ def test_a_cell_is_blocked_where_a_ray_through_its_centre_hits(level, size):
 def _on_border(level, points):
     """Moved a little in each direction, some of these points are free."""
     moved = [points + step for step in ((1e-6, 1e-6), (-1e-6, 1e-6), (1e-6, -1e-6), (-1e-6, -1e-6))]
-    return np.any([keeps_clear(level, at, at, 0.0) for at in moved], axis=0)
+    return np.any([has_clearance(level, at, at, 0.0) for at in moved], axis=0)
 
 
 @settings(deadline=None, max_examples=60)
@@ -51,10 +51,10 @@ def test_touched_cells_are_those_that_a_fine_search_finds_and_hardly_more(level,
     cells = np.argwhere(np.ones(raster.shape, bool))
     centres = raster.centres(cells)
     points = (centres[:, None] + offset).reshape(-1, 2)
-    hit = (~keeps_clear(level, points, points, 0.0)).reshape(len(cells), -1)
+    hit = (~has_clearance(level, points, points, 0.0)).reshape(len(cells), -1)
     blocked = raster.blocked[cells[:, 0], cells[:, 1]]
     assert blocked[hit.any(axis=1)].all()
-    assert not blocked[keeps_clear(level, centres, centres, size * 0.7072)].any()
+    assert not blocked[has_clearance(level, centres, centres, size * 0.7072)].any()
 
 
 def test_holes_and_obstacles_are_in_the_raster():

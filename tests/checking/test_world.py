@@ -4,7 +4,7 @@ import pytest
 
 from mrpbench_core.checking.world import check_world, size
 from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.roadmap import Grid, Roadmap
+from mrpbench_core.model.roadmap import Raster, Roadmap
 from mrpbench_core.model.world import Lane, Level, Obstacle, Vertex, World
 
 
@@ -34,7 +34,7 @@ def world_of(*places, lanes=(), walls=(), notes=()) -> World:
 
 def test_cells_are_counted_on_a_raster_only():
     world = world_of(("a", 0.5, 0.5), ("b", 1.5, 0.5), lanes=[(0, 1)], walls=[[0, 0, 3, 0]], notes=("assumed.",))
-    grid = Grid(shape=(2, 3), cell_size=1.0, origin=(0.0, 0.0), cell=[[0, 0], [0, 1]])
+    grid = Raster(shape=(2, 3), cell_size=1.0, origin=(0.0, 0.0), cell=[[0, 0], [0, 1]])
     facts = check_world(world, roadmap_of([[0.5, 0.5], [1.5, 0.5]], [[0, 1], [1, 0]], [0, 1], grid), 0.2)
     assert (facts.cells, facts.free, facts.blocked) == (6, 2, 4)
     assert (facts.vertices, facts.edges, facts.components, facts.walls) == (2, 1, 1, 1)

@@ -3,18 +3,18 @@
 from collections.abc import Iterable
 
 from mrpbench_core.model.arrays import Int
-from mrpbench_core.model.occupations import NEVER, Occupation
+from mrpbench_core.model.occupations import NEVER, ResourceOccupation
 from mrpbench_core.model.type2_edges import Moves
 
 
 class ResourceRequests:
     """Requests resources shortly before robots need them, and releases them once robots have left them."""
 
-    def __init__(self, robots: int, moves: Moves, occupations: Iterable[Occupation], ahead: int) -> None:
+    def __init__(self, robots: int, moves: Moves, occupations: Iterable[ResourceOccupation], ahead: int) -> None:
         self._moves, self._ahead = moves, ahead
         self.needs: dict[int, set[str]] = {}
         """The resources that must be granted before a move is released."""
-        self._coming: list[list[Occupation]] = [[] for _ in range(robots)]
+        self._coming: list[list[ResourceOccupation]] = [[] for _ in range(robots)]
         for occupation in occupations:
             self._coming[occupation.robot].append(occupation)
             stop = (
@@ -26,7 +26,7 @@ class ResourceRequests:
                 self.needs.setdefault(move, set()).add(occupation.resource)
         for own in self._coming:
             own.sort(key=lambda occupation: occupation.first, reverse=True)  # the next is the last
-        self._open: list[Occupation] = []
+        self._open: list[ResourceOccupation] = []
         """The longest requested first."""
 
     def __bool__(self) -> bool:
@@ -52,13 +52,13 @@ class ResourceRequests:
         """The robots and resources requested now; a robot that is about to return to a resource keeps it."""
         return tuple(dict.fromkeys((occupation.robot, occupation.resource) for occupation in self._open))
 
-    def _has_left(self, occupation: Occupation, reached: Int, cleared: Int) -> bool:
+    def _has_left(self, occupation: ResourceOccupation, reached: Int, cleared: Int) -> bool:
         if occupation.last == NEVER:
             return False
         done = reached if occupation.completed else cleared
         return bool(done[occupation.robot] > self._moves.segment[occupation.last])
 
-    def _is_due(self, occupation: Occupation, reached: int, frontier: int, ready: bool) -> bool:
+    def _is_due(self, occupation: ResourceOccupation, reached: int, frontier: int, ready: bool) -> bool:
         if occupation.first < frontier:
             return True
         if occupation.first != frontier or not ready:

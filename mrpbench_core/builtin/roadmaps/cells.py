@@ -5,14 +5,14 @@ import numpy as np
 
 from mrpbench_core.builtin.roadmaps.facilities import with_facilities
 from mrpbench_core.builtin.roadmaps.open_doors import clears_open_doors
-from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Bool, Float, Int
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.roadmap import Grid, Roadmap
+from mrpbench_core.model.roadmap import Raster, Roadmap
 from mrpbench_core.model.world import World
 
 LIMIT = 10_000_000
@@ -85,7 +85,7 @@ def without_contacts(cells: Cells, world: World, radius: float) -> Cells:
     """Return the cells and edges on which a disc of `radius` metres touches nothing solid."""
 
     def clear(start: Float, end: Float) -> Bool:
-        solid = keeps_clear(world.levels[0], start, end, radius)
+        solid = has_clearance(world.levels[0], start, end, radius)
         return solid & clears_open_doors(world, 0, start, end, radius)
 
     cells = cells.only(clear(cells.centre, cells.centre))
@@ -111,7 +111,7 @@ def places(cells: Cells, world: World) -> Int:
     far = np.hypot(*(centre - np.repeat(point, len(_AROUND), axis=0)).T).reshape(candidate.shape)
     far[:, 0] = -1.0  # the own cell first
     place, k = np.where(candidate >= 0)
-    behind = ~keeps_clear(world.levels[0], point[place], cells.raster.centres(around[place, k]), 0.0)
+    behind = ~has_clearance(world.levels[0], point[place], cells.raster.centres(around[place, k]), 0.0)
     candidate[place[behind], k[behind]] = -1
     best = np.where(candidate >= 0, far, np.inf).argmin(axis=1) if len(point) else np.empty(0, np.int64)
     chosen: Int = candidate[np.arange(len(point)), best]
@@ -163,7 +163,7 @@ def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: li
         edges=edges,
         duration=np.ones((len(profiles), len(edges)), np.int32),
         tick=raster.cell_size / slowest,
-        grid=Grid(
+        grid=Raster(
             shape=raster.shape, cell_size=raster.cell_size, origin=raster.origin, cell=cells.cell.astype(np.int32)
         ),
         place=place.astype(np.int32),

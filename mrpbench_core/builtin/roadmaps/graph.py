@@ -8,7 +8,7 @@ from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.builtin.roadmaps.facilities import with_facilities
 from mrpbench_core.builtin.roadmaps.junctions import LaneSegments, cut_at_junctions
 from mrpbench_core.builtin.roadmaps.open_doors import clears_open_doors
-from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.arrays import Bool, Float, Int
@@ -18,7 +18,7 @@ from mrpbench_core.model.world import Lane, World
 
 
 @attrs.frozen(kw_only=True)
-class Graph(RoadmapBuilder):
+class NavigationGraph(RoadmapBuilder):
     """Vertices are places and junctions of lanes, edges are lanes of the RMF navigation graphs. A robot that is bound
     to a graph (`fleet: [{robot: …, graph: 0}]`) uses the lanes of that graph only.
 
@@ -96,7 +96,7 @@ def _clear(world: World, level: Int, start: Float, end: Float, radius: float) ->
     clear = np.ones(len(start), bool)
     for index in np.unique(level):
         here = level == index
-        clear[here] = keeps_clear(world.levels[index], start[here], end[here], radius)
+        clear[here] = has_clearance(world.levels[index], start[here], end[here], radius)
         clear[here] &= clears_open_doors(world, int(index), start[here], end[here], radius)
     return clear
 

@@ -17,7 +17,7 @@ from mrpbench_core.builtin.roadmaps.cells import (
     without_contacts,
 )
 from mrpbench_core.builtin.roadmaps.mrp_bench import mrp_bench_raster
-from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
@@ -119,7 +119,7 @@ def _broken(world: World, place: Int, label: Int, radius: float) -> list[str]:
         start, end = place[lane.start], place[lane.end]
         if start < 0 or end < 0 or label[start] != label[end]:
             ends = np.array([(world.vertices[index].x, world.vertices[index].y) for index in (lane.start, lane.end)])
-            clear = keeps_clear(world.levels[0], ends[:1], ends[1:], radius)[0]
+            clear = has_clearance(world.levels[0], ends[:1], ends[1:], radius)[0]
             reason = (
                 "the passage is too narrow for cells of the raster"
                 if clear

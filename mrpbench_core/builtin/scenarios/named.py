@@ -1,6 +1,5 @@
 """Starts and goals given by the names of places."""
 
-import difflib
 from collections import defaultdict
 
 import attrs
@@ -10,6 +9,7 @@ from mrpbench_core.api.component import option
 from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.builtin.scenarios.places import places_of_world
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.model.arrays import Int
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.roadmap import Roadmap
@@ -50,8 +50,7 @@ def _find(world: World, option_name: str, wanted: tuple[str, ...]) -> Int:
     found = []
     for name in wanted:
         if name not in indices:
-            close = difflib.get_close_matches(name, indices, 1)
-            hint = f"did you mean {close[0]!r}?" if close else f"names are {_listed(list(indices))}"
+            hint = did_you_mean(name, indices, f"names are {_listed(list(indices))}")
             raise InputError(f"scenario.{option_name}: world {world.name} has no vertex {name!r}", hint=hint)
         where = {(world.vertices[i].x, world.vertices[i].y, world.vertices[i].level) for i in indices[name]}
         if len(where) > 1:

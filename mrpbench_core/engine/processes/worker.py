@@ -18,7 +18,6 @@ from typing import Any
 
 import psutil
 
-import mrpbench_core
 from mrpbench_core.config.study import unpack
 from mrpbench_core.engine.json_values import jsonable, printable
 from mrpbench_core.engine.observers import Observers
@@ -105,7 +104,7 @@ def describe(error: BaseException) -> str:
     """One line: what was raised, and the innermost place outside the core."""
     text = printable(str(error))[:300]
     frames = traceback.extract_tb(error.__traceback__)
-    own = str(Path(mrpbench_core.__file__).parent), "<"  # attrs compiles without a file
+    own = str(Path(__file__).parents[2]), "<"  # attrs compiles without a file
     outside = [frame for frame in frames if not frame.filename.startswith(own)]
     place = next(reversed(outside or frames[-1:]), None)
     where = "" if place is None else f" ({Path(place.filename).name}:{place.lineno})"

@@ -11,14 +11,14 @@ from mrpbench_core.checking.scenario import check_travel
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.costs import cost_matrix
-from mrpbench_core.engine.stages.prepare import Instance, summary
+from mrpbench_core.engine.stages.prepare import RunInstance, summary
 from mrpbench_core.model.assignment import AssignmentProblem
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.status import RunStatus, Stage
 
 
-def assign(config: RunConfig, instance: Instance, announce: Announce, timing: dict[str, Any]) -> tuple[int, ...]:
+def assign(config: RunConfig, instance: RunInstance, announce: Announce, timing: dict[str, Any]) -> tuple[int, ...]:
     """The task of each robot, -1 = none.
 
     Raises:
@@ -46,7 +46,7 @@ def assign(config: RunConfig, instance: Instance, announce: Announce, timing: di
     return tuple(int(task) for task in assignment.task)
 
 
-def tasks_of_plan(instance: Instance, problem: Problem, plan: Plan) -> tuple[int, ...]:
+def tasks_of_plan(instance: RunInstance, problem: Problem, plan: Plan) -> tuple[int, ...]:
     """The task of each robot when the planner has chosen: the one whose goal is where its path ends."""
     task = {sequence[0]: index for index, sequence in reversed(list(enumerate(instance.goals)))}
     starts = problem.start.tolist()

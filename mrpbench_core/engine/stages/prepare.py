@@ -17,7 +17,7 @@ from mrpbench_core.model.world import World
 
 
 @attrs.frozen(kw_only=True)
-class Instance:
+class RunInstance:
     """The world, robots, roadmap and tasks of a run."""
 
     world: World
@@ -35,7 +35,7 @@ class Instance:
         return [task.name for task in self.scenario.tasks]
 
 
-def build_instance(config: RunConfig, announce: Announce) -> Instance:
+def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
     """Load the world, build fleet and roadmap, and draw the scenario.
 
     Raises:
@@ -52,7 +52,7 @@ def build_instance(config: RunConfig, announce: Announce) -> Instance:
     if any(task.release > 0 for task in scenario.tasks) or len(scenario.tasks) > len(fleet):
         raise InputError("scenario: tasks released over time, or more tasks than robots, cannot be executed yet")
     start = roadmap.locate(scenario.start[:, :2], scenario.start_level)
-    return Instance(
+    return RunInstance(
         world=world,
         fleet=fleet,
         roadmap=roadmap,
@@ -62,7 +62,7 @@ def build_instance(config: RunConfig, announce: Announce) -> Instance:
     )
 
 
-def require_free_doorways(instance: Instance) -> None:
+def require_free_doorways(instance: RunInstance) -> None:
     """Require that no robot starts where a door swings.
 
     Raises:

@@ -7,7 +7,7 @@ from mrpbench_core.api.assigner import Assigner
 from mrpbench_core.checking.scenario import check_reach, check_scenario, check_travel
 from mrpbench_core.engine.stage import RunEnded
 from mrpbench_core.engine.stages.costs import cost_matrix
-from mrpbench_core.engine.stages.prepare import Instance, summary
+from mrpbench_core.engine.stages.prepare import RunInstance, summary
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.fleet import Fleet
 from mrpbench_core.model.problem import Feature, GoalSet, Problem, features_of
@@ -15,7 +15,7 @@ from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.status import RunStatus, Stage
 
 
-def build_problem(instance: Instance, assigned: tuple[int, ...] | None, assigner: Assigner) -> Problem:
+def build_problem(instance: RunInstance, assigned: tuple[int, ...] | None, assigner: Assigner) -> Problem:
     """The problem for the planner; `assigned` is the task that `assigner` gave each robot, None: the planner chooses.
 
     Raises:
@@ -68,12 +68,12 @@ def problem_with_features(
     return attrs.evolve(problem, features=features)
 
 
-def _can_be_assigned(instance: Instance) -> bool:
+def _can_be_assigned(instance: RunInstance) -> bool:
     """Tell whether every robot, or every task, could have one that can be reached."""
     return not check_travel(cost_matrix("roadmap", instance.roadmap, instance.fleet, instance.scenario))
 
 
-def candidate_goals(instance: Instance) -> tuple[tuple[GoalSet, ...], ...]:
+def candidate_goals(instance: RunInstance) -> tuple[tuple[GoalSet, ...], ...]:
     """For every robot the goals of all tasks, of which it may take any that no other takes.
 
     Raises:

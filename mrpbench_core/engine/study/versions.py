@@ -8,8 +8,8 @@ from typing import Any
 from packaging.markers import UndefinedEnvironmentName
 from packaging.requirements import InvalidRequirement, Requirement
 
-from mrpbench_core import __version__
 from mrpbench_core.plugins.installed import CORE, distribution
+from mrpbench_core.version import __version__
 
 
 def versions(components: Iterable[Mapping[str, Any]]) -> dict[str, str]:

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core import __version__
 from mrpbench_core.files.text import counted
 from mrpbench_core.report.reading.invocations import made_with, read_invocations
 from mrpbench_core.report.report import Report
 from mrpbench_core.report.statistics.means import RESAMPLES, SEED
 from mrpbench_core.report.tables.spans import spans
 from mrpbench_core.store.invocation import dumps
+from mrpbench_core.version import __version__
 
 _BLOCK = 2**20
 

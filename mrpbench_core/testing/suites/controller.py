@@ -35,7 +35,7 @@ class Drive:
     """f8[t,2] commands in m/s, rad/s"""
 
 
-class Track:
+class PathAhead:
     """The part of a path from `START` that is ahead, as the navigator `waypoints` passes it on."""
 
     def __init__(self, path: Sequence[Point]) -> None:
@@ -106,7 +106,7 @@ class ControllerConformance(ComponentConformance):
         alone = [drive(self.start(), path, seconds=5.0).twist for path in (STRAIGHT, CORNER)]
         together = self.make().start_fleet([ROBOT, ROBOT], room(), PERIOD)
         poses, twists = np.array([START, START]), np.zeros((2, 2))
-        tracks = [Track(STRAIGHT), Track(CORNER)]
+        tracks = [PathAhead(STRAIGHT), PathAhead(CORNER)]
         said = []
         for step in range(round(5.0 / PERIOD)):
             answers = together.command(observations(step, poses, twists, tracks))
@@ -122,7 +122,7 @@ class ControllerConformance(ComponentConformance):
 
     def test_answers_the_optional_questions(self) -> None:
         session = self.start()
-        seen = observation(0, START, np.zeros(2), Track(STRAIGHT).ahead(START))
+        seen = observation(0, START, np.zeros(2), PathAhead(STRAIGHT).ahead(START))
         session.command(seen)
         session.clear()
         poses = np.array([START, (2.0, 1.0, 1.0), (2.5, 1.5, -1.0)])
@@ -150,7 +150,7 @@ def drive(
     pose, twist = START.copy(), np.zeros(2)
     poses, twists = [], []
     at_rest = 0
-    track = Track(path)
+    track = PathAhead(path)
     for step in range(round(seconds / PERIOD)):
         command = session.command(observation(step, pose, twist, track.ahead(pose), speed))
         require(
@@ -167,7 +167,7 @@ def drive(
     return Drive(np.array(poses), np.array(twists))
 
 
-def observations(step: int, poses: Float, twists: Float, tracks: Sequence[Track]) -> Observations:
+def observations(step: int, poses: Float, twists: Float, tracks: Sequence[PathAhead]) -> Observations:
     """What the controllers of several robots see; see `observation`."""
     paths = [track.ahead(pose) for track, pose in zip(tracks, poses, strict=True)]
     ends = np.cumsum([len(path) - 1 for path in paths])

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mrpbench_core.api.roadmap import RoadmapBuilder
-from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.model.roadmap import Roadmap
 from mrpbench_core.model.world import World
@@ -55,7 +55,7 @@ class RoadmapConformance(ComponentConformance):
         roadmap, level = self.build(), self.world().levels[0]
         usable = roadmap.edges[roadmap.duration[0] >= 0]
         start, end = roadmap.position[usable[:, 0]], roadmap.position[usable[:, 1]]
-        hits = np.flatnonzero(~keeps_clear(level, start, end, ROBOT.radius))
+        hits = np.flatnonzero(~has_clearance(level, start, end, ROBOT.radius))
         where = [tuple(point.round(2).tolist()) for index in hits[:1] for point in (start[index], end[index])]
         require(
             not len(hits), f"{len(hits)} edges pass a wall closer than the radius {ROBOT.radius:.3f} m, e.g. {where}"

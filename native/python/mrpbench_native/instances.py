@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from mrpbench_native import mapf
 
 
-class Roadmap(NamedTuple):
+class SolverRoadmap(NamedTuple):
     """A graph; `edges` and `duration` as in `mrpbench_core.model.roadmap.Roadmap`."""
 
     position: NDArray[np.float64]
@@ -41,14 +41,14 @@ class Robots(NamedTuple):
     ready: NDArray[np.int64] | None = None
     """i8[n]: ticks before which robots do not leave; None = 0."""
     profile: NDArray[np.int32] | None = None
-    """i4[n]: rows of `Roadmap.duration`; None = 0."""
+    """i4[n]: rows of `SolverRoadmap.duration`; None = 0."""
     radius: NDArray[np.float64] | None = None
     """f8[n] metres; None = 0."""
     committed: Sequence[Segments] = ()
     """For each robot what is fixed of its path; () = nothing."""
 
 
-class Exclusions(NamedTuple):
+class SolverExclusions(NamedTuple):
     """Elements (vertices, then edges) closer than the robots' radii allow, as sparse rows."""
 
     first: NDArray[np.int64]
@@ -57,7 +57,7 @@ class Exclusions(NamedTuple):
     """f8 metres."""
 
 
-class Resource(NamedTuple):
+class SolverResource(NamedTuple):
     """Elements that at most `capacity` robots use at a time, each for `setup` ticks longer than it is on them."""
 
     element: NDArray[np.int32]
@@ -65,15 +65,15 @@ class Resource(NamedTuple):
     setup: int = 0
 
 
-NO_EXCLUSIONS = Exclusions(np.empty(0, "i8"), np.empty(0, "i4"), np.empty(0))
+NO_EXCLUSIONS = SolverExclusions(np.empty(0, "i8"), np.empty(0, "i4"), np.empty(0))
 
 
 def build_instance(
-    roadmap: Roadmap,
+    roadmap: SolverRoadmap,
     robots: Robots,
     *,
-    exclusions: Exclusions = NO_EXCLUSIONS,
-    resources: Sequence[Resource] = (),
+    exclusions: SolverExclusions = NO_EXCLUSIONS,
+    resources: Sequence[SolverResource] = (),
     following_forbidden: bool = False,
     disappear_at_goal: bool = False,
 ) -> mapf.Instance:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mrpbench_native import mapf
 from mrpbench_native.algorithms import options_of
-from mrpbench_native.instances import Roadmap, Robots, build_instance
+from mrpbench_native.instances import Robots, SolverRoadmap, build_instance
 from mrpbench_native.roadmaps import Arrays, Graph, Grid
 
 _BYTES_PER_VERTEX = 48
@@ -123,7 +123,7 @@ def _instance(arrays: Arrays, starts: NDArray[np.int32], goals: list[NDArray[np.
     if len(goals) != len(starts):
         raise ValueError(f"goals: {len(goals)} for {len(starts)} robots")
     position = np.zeros((arrays.vertices, 2)) if arrays.cell is None else arrays.cell.astype(float, order="C")
-    return build_instance(Roadmap(position, arrays.edges, arrays.duration[None]), Robots(starts, goals))
+    return build_instance(SolverRoadmap(position, arrays.edges, arrays.duration[None]), Robots(starts, goals))
 
 
 def _solution(arrays: Arrays, starts: NDArray[np.int32], answer: mapf.Answer) -> Solution:

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
 from mrpbench_core.builtin.worlds.rmf import Rmf
-from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.fleet import Fleet, RobotModel
@@ -83,7 +83,7 @@ def test_no_robot_touches_a_wall_of_the_original_maps(shared_data, name):
     roadmap = Lanes().build(world, FLEET)
     assert time.process_time() - begin < 2
     start, end = roadmap.position[roadmap.edges[:, 0]], roadmap.position[roadmap.edges[:, 1]]
-    assert keeps_clear(world.levels[0], start, end, 0.12).all()
+    assert has_clearance(world.levels[0], start, end, 0.12).all()
     label = components(len(roadmap.position), roadmap.edges)
     assert (roadmap.place >= 0).all()
     assert len(set(label[roadmap.place])) == 1

@@ -9,7 +9,7 @@ from mrpbench_core.checking.scenario import check_scenario
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.fleet import Fleet, RobotModel
 from mrpbench_core.model.problem import Feature, Problem
-from mrpbench_core.model.roadmap import Grid, Roadmap
+from mrpbench_core.model.roadmap import Raster, Roadmap
 from mrpbench_core.model.world import Vertex, World
 
 WORLD = World(name="plain", levels=())
@@ -37,7 +37,7 @@ def raster(rows, columns, cell_size=1.0, walls=()):
         edges=edges,
         duration=[[1] * len(edges)],
         tick=1.0,
-        grid=Grid(shape=(rows, columns), cell_size=cell_size, origin=(0.0, 0.0), cell=cells),
+        grid=Raster(shape=(rows, columns), cell_size=cell_size, origin=(0.0, 0.0), cell=cells),
     )
 
 

@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
 
-from mrpbench_core.builtin.roadmaps.graph import Graph
+from mrpbench_core.builtin.roadmaps.graph import NavigationGraph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
 from mrpbench_core.builtin.worlds.shipped import CASES, Airport, Bottlenecks, Household, Office, Warehouse
-from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.world import check_world, size
 from mrpbench_core.files.robot import load_robot
@@ -50,8 +50,8 @@ def test_every_place_has_a_name_of_its_own(world):
 def test_places_and_lanes_keep_clear_of_walls(world):
     point = np.array([(vertex.x, vertex.y) for vertex in world.vertices])
     lane = np.array([(lane.start, lane.end) for lane in world.lanes])
-    assert keeps_clear(world.levels[0], point, point, 0.3).all()
-    assert keeps_clear(world.levels[0], point[lane[:, 0]], point[lane[:, 1]], 0.3).all()
+    assert has_clearance(world.levels[0], point, point, 0.3).all()
+    assert has_clearance(world.levels[0], point[lane[:, 0]], point[lane[:, 1]], 0.3).all()
 
 
 def test_their_doors_and_furniture_are_there():
@@ -72,8 +72,8 @@ def test_the_cases_are_as_narrow_as_they_say():
     }.items():
         level = Bottlenecks(case=case).load().levels[0]
         ends = np.array([a]), np.array([b])
-        assert keeps_clear(level, *ends, 0.349).all(), case
-        assert not keeps_clear(level, *ends, 0.36).any(), case
+        assert has_clearance(level, *ends, 0.349).all(), case
+        assert not has_clearance(level, *ends, 0.36).any(), case
 
 
 @pytest.mark.parametrize(
@@ -82,7 +82,7 @@ def test_the_cases_are_as_narrow_as_they_say():
         *(kind(cell_size=size) for kind in (Lanes, GridRoadmap) for size in (0.35, 0.37, 0.39, 0.4)),
         Lanes(cell_size=0.35, compatible="mrp_bench"),
         Lanes(cell_size=0.4, compatible="mrp_bench"),
-        Graph(),
+        NavigationGraph(),
     ],
     ids=repr,
 )
@@ -94,13 +94,13 @@ def test_every_place_can_be_reached_from_every_other(world, roadmap):
 
 
 def test_nothing_is_wrong_with_them(world):
-    for roadmap in (Lanes(), GridRoadmap(), Graph()):
+    for roadmap in (Lanes(), GridRoadmap(), NavigationGraph()):
         assert check_world(world, roadmap.build(world, BURGERS), 0.125).faults == ()
 
 
 @pytest.mark.parametrize("source", ROOMY, ids=repr)
 def test_nothing_is_left_out_of_the_roadmaps_of_roomy_worlds(source):
-    for roadmap in (Lanes(), GridRoadmap(), Graph()):
+    for roadmap in (Lanes(), GridRoadmap(), NavigationGraph()):
         assert roadmap.build(source.load(), BURGERS).notes == ()
 
 

@@ -10,7 +10,7 @@ from mrpbench_core.builtin.worlds.building.coordinates import Frame
 from mrpbench_core.builtin.worlds.building.footprints import Footprint, Footprints
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
-from mrpbench_core.checking.clearance import keeps_clear
+from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.world import Level, Obstacle
 
@@ -74,7 +74,7 @@ def _off_lanes(
     kept = []
     blocked: dict[str, list[str]] = defaultdict(list)
     for model, obstacle in found:
-        clear = keeps_clear(Level(name="", obstacles=(obstacle,)), start, end, clearance)
+        clear = has_clearance(Level(name="", obstacles=(obstacle,)), start, end, clearance)
         if clear.all() or not obstacle.estimated:
             kept.append(obstacle)
         else:

@@ -13,7 +13,7 @@ from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2.messages import Topic, time
 from mrpbench_exporters_rosbag2.rmf import ADAPTER_ERROR, IDLE, MOVING, WAITING, Release, rmf_message, rmf_types
-from mrpbench_exporters_rosbag2.source import Pace, Rows, TopicSource
+from mrpbench_exporters_rosbag2.source import Rows, Throttle, TopicSource
 from mrpbench_exporters_rosbag2.template import STAMP, Template, hole
 
 FLEET = "mrpbench"
@@ -31,13 +31,13 @@ def fleet_states(context: RunContext, release: Release) -> TopicSource:
     topic = Topic("/fleet_states", "rmf_fleet_msgs/FleetState", types=rmf_types(release))
     length = np.array([len(route.speed) for route in context.routes])
     modes = np.array([RMF_MODE.get(mode, MOVING) for mode in Mode])
-    pace, said = Pace(INTERVAL), 0
+    throttle, said = Throttle(INTERVAL), 0
 
     def rows(block: Chunk) -> Rows | None:
         nonlocal said
         if not all(name in block for name in ("estimate", "level", "mode", "reached")):
             return None
-        shown = pace.due(block["time"])
+        shown = throttle.due(block["time"])
         numbers = np.arange(said, said + len(shown))
         said += len(shown)
         mode = np.where(block["reached"][shown] >= length, IDLE, modes[block["mode"][shown]])

@@ -28,6 +28,7 @@ def marker(
     kind: int,
     scale: tuple[float, float, float],
     colour: Colour,
+    *,
     points: list[Float] | tuple[()] = (),
     text: str = "",
     values: Float = POSE,

@@ -8,7 +8,7 @@ from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2.frames import floor
 from mrpbench_exporters_rosbag2.marker import CYLINDER, DARK, LINE_STRIP, TEXT, colour_of, marker
 from mrpbench_exporters_rosbag2.messages import Topic, message, spatial
-from mrpbench_exporters_rosbag2.source import POSE, Pace, Rows, TopicSource
+from mrpbench_exporters_rosbag2.source import POSE, Rows, Throttle, TopicSource
 from mrpbench_exporters_rosbag2.template import Template
 
 INTERVAL = 0.1
@@ -22,12 +22,12 @@ def robot_markers(context: RunContext) -> TopicSource:
     named = zip(fleet.robots, fleet.names, strict=True)
     markers = [mark for index, (robot, name) in enumerate(named) for mark in _marks(index, robot, name)]
     rise = np.array([[robot.height / 2, robot.height, robot.height + 0.2] for robot in fleet.robots])
-    pace = Pace(INTERVAL)
+    throttle = Throttle(INTERVAL)
 
     def rows(block: Chunk) -> Rows | None:
         if "truth" not in block:
             return None
-        shown = pace.due(block["time"])
+        shown = throttle.due(block["time"])
         planar = np.repeat(block["truth"][:, :, None], 3, axis=2)
         full = spatial(planar, floor(block, context.world)[..., None] + rise)
         return block["time"][shown], {"pose": full[shown].reshape(len(shown), 3 * len(fleet), 7)}

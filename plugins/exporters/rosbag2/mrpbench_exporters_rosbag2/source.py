@@ -19,7 +19,7 @@ POSE, TWIST = hole(7), hole(6)
 """Holes of templates for poses (see `messages.spatial`) and twists."""
 
 
-class Pace:
+class Throttle:
     """Chooses samples that are an interval apart, at least."""
 
     def __init__(self, interval: float) -> None:

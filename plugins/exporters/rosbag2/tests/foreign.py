@@ -80,7 +80,7 @@ class Foreign:
         )
         self.say(topic, "sensor_msgs/LaserScan", message, stamp if log is None else log)
 
-    def odometry(self, topic, stamp, x, y, yaw, frame="odom", log=None, speed=(0.0, 0.0)):
+    def odometry(self, topic, stamp, x, y, yaw, *, frame="odom", log=None, speed=(0.0, 0.0)):
         message = self.make(
             "nav_msgs/Odometry",
             header=self.header(stamp, frame),
@@ -98,7 +98,7 @@ class Foreign:
         )
         self.say(topic, "geometry_msgs/PoseWithCovarianceStamped", message, stamp if log is None else log)
 
-    def transform(self, topic, stamp, parent, child, x, y, yaw, log=None):
+    def transform(self, topic, stamp, parent, child, x, y, yaw, *, log=None):
         at = self.pose(x, y, yaw)
         said = self.make(
             "geometry_msgs/TransformStamped",

@@ -10,7 +10,7 @@ import numpy as np
 
 from mrpbench_core.model.arrays import Int
 from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Grid, Roadmap
+from mrpbench_core.model.roadmap import Raster, Roadmap
 
 
 def why_not(problem: Problem) -> str | None:
@@ -58,12 +58,12 @@ def vertex_at(roadmap: Roadmap) -> dict[tuple[int, int], int]:
     return {cell: vertex for vertex, cell in enumerate(zip(row.tolist(), column.tolist(), strict=True))}
 
 
-def _cells(grid: Grid) -> tuple[Int, Int]:
+def _cells(grid: Raster) -> tuple[Int, Int]:
     """Row from the top and column i8[V] of each vertex."""
     return grid.shape[0] - 1 - grid.cell[:, 0].astype(np.int64), grid.cell[:, 1].astype(np.int64)
 
 
-def _neighbours(grid: Grid) -> int:
+def _neighbours(grid: Raster) -> int:
     """Number of ordered pairs of cells side by side."""
     free = np.zeros(grid.shape, bool)
     free[grid.cell[:, 0], grid.cell[:, 1]] = True

@@ -14,7 +14,7 @@ from mrpbench_planners_external import External
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.plan import Budget, PlanStatus
 from mrpbench_core.model.problem import Problem, features_of
-from mrpbench_core.model.roadmap import Grid, Roadmap
+from mrpbench_core.model.roadmap import Raster, Roadmap
 
 AMPLE = Budget(wall_s=30.0, memory_bytes=1 << 30, seed=7)
 BLOCKED = {(1, 1), (2, 1)}  # row from the top, column
@@ -90,7 +90,7 @@ def problem(starts=((0, 0), (0, 2)), goals=((3, 0), (3, 2))) -> Problem:
         edges=edges,
         duration=[[1] * len(edges)],
         tick=1.0,
-        grid=Grid(shape=(ROWS, COLUMNS), cell_size=1.0, origin=(0.0, 0.0), cell=[(ROWS - 1 - r, c) for r, c in free]),
+        grid=Raster(shape=(ROWS, COLUMNS), cell_size=1.0, origin=(0.0, 0.0), cell=[(ROWS - 1 - r, c) for r, c in free]),
     )
     return Problem(
         roadmap=roadmap,

@@ -8,11 +8,11 @@ import numpy as np
 from mrpbench_native import mapf
 from mrpbench_native.instances import (
     NO_EXCLUSIONS,
-    Exclusions,
-    Resource,
-    Roadmap,
     Robots,
     Segments,
+    SolverExclusions,
+    SolverResource,
+    SolverRoadmap,
     build_instance,
 )
 
@@ -59,7 +59,7 @@ def _instance(problem: Problem) -> mapf.Instance:
     )
     edges_after = len(roadmap.position)  # elements are vertices, then edges
     resources = [
-        Resource(
+        SolverResource(
             np.array([*resource.vertices, *(edges_after + edge for edge in resource.edges)]),
             resource.capacity,
             resource.setup_ticks,
@@ -67,7 +67,7 @@ def _instance(problem: Problem) -> mapf.Instance:
         for resource in roadmap.resources
     ]
     return build_instance(
-        Roadmap(roadmap.position, roadmap.edges, roadmap.duration),
+        SolverRoadmap(roadmap.position, roadmap.edges, roadmap.duration),
         robots,
         exclusions=_exclusions(problem),
         resources=resources,
@@ -76,12 +76,12 @@ def _instance(problem: Problem) -> mapf.Instance:
     )
 
 
-def _exclusions(problem: Problem) -> Exclusions:
+def _exclusions(problem: Problem) -> SolverExclusions:
     """Elements closer than the sum of the two largest radii; none without footprints."""
     if Feature.FOOTPRINTS not in problem.features:
         return NO_EXCLUSIONS
     near = exclusions(problem.roadmap, float(np.sort(problem.radius)[-2:].sum()))
-    return Exclusions(near.first.astype("i8"), near.element.astype("i4"), near.distance.astype("f8"))
+    return SolverExclusions(near.first.astype("i8"), near.element.astype("i4"), near.distance.astype("f8"))
 
 
 def _plan(answer: mapf.Answer) -> Plan:

@@ -54,7 +54,8 @@ def test_a_mover_that_walks_through_pushes_as_in_the_kinematic_simulator():
 
     starts, command = [[0, 0, 0], [0.3, 0.05, 2]], [[0.1, 0]] * 2
     ours, theirs = (
-        drive(kind, EMPTY, (BURGER,) * 2, starts, command, 100, (0.3,), place)[0] for kind in (Planar(), Kinematic())
+        drive(kind, EMPTY, (BURGER,) * 2, starts, command, 100, movers=(0.3,), place=place)[0]
+        for kind in (Planar(), Kinematic())
     )
     assert np.allclose(poses(ours), poses(theirs), rtol=0, atol=1e-9)
     assert [state.contacts.tolist() for state in ours] == [state.contacts.tolist() for state in theirs]

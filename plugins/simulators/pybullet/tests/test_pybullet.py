@@ -22,9 +22,9 @@ pytest.importorskip("pybullet", reason="PyBullet has no wheel for this Python")
 MODELS = pytest.mark.parametrize("model", ["wheels", "body"])
 
 
-def run(simulator, world, robots, starts, command, seconds, movers=(), place=None):
+def run(simulator, world, robots, starts, command, seconds, **options):
     """States before and after every period, and all scans."""
-    return drive(simulator, world, robots, starts, command, round(seconds / PERIOD), movers, place)
+    return drive(simulator, world, robots, starts, command, round(seconds / PERIOD), **options)
 
 
 def turned(states):
@@ -119,7 +119,7 @@ def test_ray_tests_and_the_native_caster_see_the_same():
     door = Door(name="door", start=(4.0, 2.5), end=(5.9, 2.5), motion="hinged")
     world = attrs.evolve(FURNISHED, levels=(attrs.evolve(FURNISHED.levels[0], doors=(door,)),))
     (_, rays), (_, cast) = (
-        run(PyBullet(lidar=kind), world, (BURGER,) * 6, starts, command, 2, (0.2, 0.3), place)
+        run(PyBullet(lidar=kind), world, (BURGER,) * 6, starts, command, 2, movers=(0.2, 0.3), place=place)
         for kind in ("pybullet", "native")
     )
     assert [(a.stamp, a.robot.tolist()) for a in rays] == [(b.stamp, b.robot.tolist()) for b in cast]
