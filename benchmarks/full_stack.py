@@ -2,7 +2,7 @@
 
 Everything is on: lidars of 360 beams at 5 Hz, for every robot a costmap and Nav2's DWB with seven critics at 20 Hz,
 recoveries, the dispatcher `adg`, the recording. Robots cross a generated warehouse by plans of `prioritized`. The last
-row is a thousand robots with pure pursuit and no lidars. What is asked is simulated seconds per second on one core;
+row is a thousand robots with pure pursuit and no lidars. The target is simulated seconds per second on one core;
 CPU time counts less of what else a machine does than wall time. From the first control period to the last; of several
 rounds the fastest.
 """
@@ -31,7 +31,7 @@ PARTS = {
     "navigator": ("session.py", "step"),
     "dispatcher": ("adg.py", "update"),
     "localizer": ("ground_truth.py", "update"),
-    "checks": ("answers.py", ""),
+    "checks": ("contract_checks.py", ""),
     "recorder": ("recorder.py", ""),
 }
 """File and function of each part of the loop; without a function, all of the file's that the loop calls."""

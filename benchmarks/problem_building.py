@@ -29,7 +29,7 @@ def problem_of(config: RunConfig) -> Problem | None:
         return None
 
 
-@lru_cache(maxsize=1)  # the next run of the median asks the same
+@lru_cache(maxsize=1)  # the next run of the median needs the same
 def grid_problem(world: Path, scen: Path, robots: int) -> Problem | None:
     """The problem of the first `robots` rows of a MovingAI scenario."""
     block = {
@@ -45,7 +45,7 @@ def grid_problem(world: Path, scen: Path, robots: int) -> Problem | None:
 
 
 def solve_by_planner(name: str, options: dict[str, Any], problem: Problem, wall_s: float) -> Solution:
-    """What a planner makes of `problem`; `failed` if it does not know such problems or its plan does not hold.
+    """What a planner makes of `problem`; `failed` if it does not support such problems or its plan has conflicts.
 
     Of a planner that runs a program (`external`) the time of that program counts.
 

@@ -35,7 +35,7 @@ class Column:
     """What this number needs in addition to `Metric.requires`. Where it is missing, only this column is null:
     recordings of real fleets lack what only a simulator knows."""
     primary: bool = False
-    """Whether tables, figures, summaries and replays show it when nobody asks for particular columns."""
+    """Whether tables, figures, summaries and replays show it unless the user selects columns."""
     stage: ColumnStage = "execution"
     """What it measures. Figures that count runs without a value as failures use the runs that have a plan, or those
     that succeeded."""

@@ -1,7 +1,7 @@
-"""Checks the return values of components against their contracts, most of them in every control period.
+"""Checks that what components return, most of it in every control period, meets their contracts.
 
-Arrays of a wrong shape broadcast, and comparisons with NaN are false: without this a defect of a plugin would not stop
-the run but spoil its numbers.
+Arrays of a wrong shape broadcast, and comparisons with NaN are false: without these checks a defect of a plugin would
+not stop the run but falsify its numbers.
 """
 
 from typing import Any, NoReturn
@@ -18,9 +18,9 @@ _LAST_MODE = int(max(Mode))
 
 
 class ContractChecks:
-    """Checks the return values of one execution; each method returns its argument.
+    """Checks what the components of one execution return; each method returns its argument.
 
-    An array that is the same object as in the last period is not checked again: returned arrays do not change.
+    An array that is identical (`is`) to the one of the last call is not checked again: returned arrays do not change.
 
     Args:
         length: i8[n] segments of each robot's path.
@@ -33,27 +33,27 @@ class ContractChecks:
         self._released = self._reached = self._cleared = nothing
 
     def adopt(self, length: NDArray[Any]) -> None:
-        """Go on with the paths of a new plan."""
+        """Continue with the paths of a new plan."""
         self.length = length
-        self._released = self._released.copy()  # so that the next answer is looked at
+        self._released = self._released.copy()  # so that the next array is checked
 
     def state(self, state: State) -> State:
-        """Check the answer of a simulator."""
-        who = "the simulator"
-        self._is(who, state, State)
-        self._finite(who, "pose", state.pose)
-        self._finite(who, "twist", state.twist)
-        self._one_each(who, "level", state.level)
+        """Check the state that a simulator returns."""
+        kind = "the simulator"
+        self._is(kind, state, State)
+        self._finite(kind, "pose", state.pose)
+        self._finite(kind, "twist", state.twist)
+        self._one_each(kind, "level", state.level)
         one, other = state.contacts.T
         if (
             len(one)
             and ((one < 0) | (one >= self._robots) | (other < -1) | (other >= self._robots) | (one == other)).any()
         ):
-            _refuse(who, "contacts that name no robot, or a robot twice")
+            _refuse(kind, "contacts that name no robot, or a robot twice")
         return state
 
     def scans(self, batches: tuple[ScanBatch, ...]) -> tuple[ScanBatch, ...]:
-        """Check the answer of a simulator."""
+        """Check the scans that a simulator returns."""
         for batch in batches:
             self._is("the simulator", batch, ScanBatch)
             if batch.robot.ndim != 1 or batch.ranges.ndim != 2 or len(batch.robot) != len(batch.ranges):
@@ -65,7 +65,7 @@ class ContractChecks:
         return batches
 
     def estimate(self, estimate: Estimate) -> Estimate:
-        """Check the answer of a localizer."""
+        """Check the estimate that a localizer returns."""
         self._is("the localizer", estimate, Estimate)
         self._finite("the localizer", "pose", estimate.pose)
         if estimate.covariance is not None and np.shape(estimate.covariance) != (self._robots, 3, 3):
@@ -73,55 +73,55 @@ class ContractChecks:
         return estimate
 
     def orders(self, orders: Orders) -> Orders:
-        """Check the answer of a dispatcher."""
-        who = "the dispatcher"
-        self._is(who, orders, Orders)
+        """Check the orders that a dispatcher returns."""
+        kind = "the dispatcher"
+        self._is(kind, orders, Orders)
         if orders.released is self._released:
             return orders
-        self._one_each(who, "released", orders.released)
-        self._no_robot(who, "released less than before", orders.released < self._released)
-        self._no_robot(who, "released more segments than there are", orders.released > self.length)
+        self._one_each(kind, "released", orders.released)
+        self._no_robot(kind, "released less than before", orders.released < self._released)
+        self._no_robot(kind, "released more segments than there are", orders.released > self.length)
         self._released = orders.released
         return orders
 
     def motion(self, motion: Motion) -> Motion:
-        """Check the answer of a navigator, after the orders that it got."""
-        who = "the navigator"
-        self._is(who, motion, Motion)
-        self._finite(who, "twist", motion.twist)
+        """Check the motion that a navigator returns, after the orders of the same period."""
+        kind = "the navigator"
+        self._is(kind, motion, Motion)
+        self._finite(kind, "twist", motion.twist)
         for name in ("reached", "cleared", "mode"):
-            self._one_each(who, name, getattr(motion, name))
+            self._one_each(kind, name, getattr(motion, name))
         if motion.reached is not self._reached or motion.cleared is not self._cleared:
-            self._no_robot(who, "reached less than before", motion.reached < self._reached)
-            self._no_robot(who, "reached what was not released", motion.reached > self._released)
-            self._no_robot(who, "cleared less than before", motion.cleared < self._cleared)
-            self._no_robot(who, "cleared what it had not come to", motion.cleared > motion.reached + 1)
+            self._no_robot(kind, "reached less than before", motion.reached < self._reached)
+            self._no_robot(kind, "reached what was not released", motion.reached > self._released)
+            self._no_robot(kind, "cleared less than before", motion.cleared < self._cleared)
+            self._no_robot(kind, "cleared what it had not come to", motion.cleared > motion.reached + 1)
             self._reached, self._cleared = motion.reached, motion.cleared
-        self._no_robot(who, "a mode that does not exist", motion.mode > _LAST_MODE)
+        self._no_robot(kind, "a mode that does not exist", motion.mode > _LAST_MODE)
         return motion
 
-    def _is(self, who: str, answer: object, wanted: type) -> None:
-        if not isinstance(answer, wanted):
-            _refuse(who, f"{type(answer).__name__} instead of {wanted.__name__}")
+    def _is(self, kind: str, returned: object, wanted: type) -> None:
+        if not isinstance(returned, wanted):
+            _refuse(kind, f"{type(returned).__name__} instead of {wanted.__name__}")
 
-    def _finite(self, who: str, name: str, values: NDArray[Any]) -> None:
+    def _finite(self, kind: str, name: str, values: NDArray[Any]) -> None:
         if len(values) != self._robots:
-            _refuse(who, f"{name} of {len(values)} robots instead of {self._robots}")
+            _refuse(kind, f"{name} of {len(values)} robots instead of {self._robots}")
         if not np.isfinite(values).all():
             robot = int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])
-            _refuse(who, f"for robot {robot} the {name} {values[robot].tolist()}, which is not finite")
+            _refuse(kind, f"for robot {robot} the {name} {values[robot].tolist()}, which is not finite")
 
-    def _one_each(self, who: str, name: str, values: NDArray[Any]) -> None:
+    def _one_each(self, kind: str, name: str, values: NDArray[Any]) -> None:
         if values.shape != (self._robots,):
-            _refuse(who, f"{name} of shape {values.shape} for {self._robots} robots")
+            _refuse(kind, f"{name} of shape {values.shape} for {self._robots} robots")
 
-    def _no_robot(self, who: str, what: str, bad: NDArray[np.bool_]) -> None:
+    def _no_robot(self, kind: str, what: str, bad: NDArray[np.bool_]) -> None:
         if bad.any():
-            _refuse(who, f"for robot {int(bad.argmax())}: {what}")
+            _refuse(kind, f"for robot {int(bad.argmax())}: {what}")
 
 
 def check_drawn(scenario: Scenario, robots: int) -> Scenario:
-    """Check a scenario, on which other components rely for the number of robots."""
+    """Check a drawn scenario: later stages rely on its number of robots."""
     if not len(scenario.start) == len(scenario.start_level) == robots:
         _refuse("the scenario", f"{len(scenario.start)} starts for {robots} robots")
     for place, rows in (
@@ -134,7 +134,7 @@ def check_drawn(scenario: Scenario, robots: int) -> Scenario:
 
 
 def check_kept(kept: Any, waypoints: int) -> NDArray[np.bool_]:
-    """Check the answer of a plan filter."""
+    """Check the waypoints that a plan filter keeps."""
     if not isinstance(kept, np.ndarray) or kept.dtype != bool or kept.shape != (waypoints,):
         _refuse("the plan filter", f"something other than bool[{waypoints}]")
     if not (kept[0] and kept[-1]):
@@ -142,5 +142,5 @@ def check_kept(kept: Any, waypoints: int) -> NDArray[np.bool_]:
     return kept
 
 
-def _refuse(who: str, what: str) -> NoReturn:
-    raise BrokenContractError(f"{who} returned {what}")
+def _refuse(kind: str, what: str) -> NoReturn:
+    raise BrokenContractError(f"{kind} returned {what}")

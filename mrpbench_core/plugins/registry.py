@@ -88,9 +88,9 @@ class Registry(Generic[C]):
         """Return the provider of `cls`, or None for a local component."""
         return next((provider for provider in self if _offers(provider, cls)), None)
 
-    def _accept(self, cls: Any, who: str) -> type[C]:
+    def _accept(self, cls: Any, described: str) -> type[C]:
         if fault := violation(cls, self.base):
-            raise InputError(f"{who}: {getattr(cls, '__name__', cls)} {fault}")
+            raise InputError(f"{described}: {getattr(cls, '__name__', cls)} {fault}")
         return cast("type[C]", cls)
 
     def _unknown(self, name: str, part: str, known: list[str]) -> InputError:

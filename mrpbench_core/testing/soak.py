@@ -28,7 +28,7 @@ def no_further_faults(_problem: Problem, _planner: Planner, _result: PlanResult)
 
 
 class Soak(NamedTuple):
-    """What a soak draws, whom it asks, and what is true."""
+    """The problems that a soak draws, the planners it calls, and the oracle."""
 
     kinds: Mapping[str, Draw]
     """Kinds of problems, drawn in turn."""

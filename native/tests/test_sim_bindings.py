@@ -8,7 +8,7 @@ import pytest
 from mrpbench_native import sim
 
 NOTHING = np.empty((0, 4))
-NOBODY = np.empty((0, 2))
+NO_MOVERS = np.empty((0, 2))
 
 
 def plane(robots=1, **changes):
@@ -92,15 +92,15 @@ def test_scans_that_make_no_sense_are_refused():
         caster(range=np.inf)
     for robots in ([1], [-1]):
         with pytest.raises(ValueError, match="no such robot"):
-            caster().scan(np.array(robots, np.int32), np.zeros((1, 3)), NOBODY, np.ones(1))
+            caster().scan(np.array(robots, np.int32), np.zeros((1, 3)), NO_MOVERS, np.ones(1))
     with pytest.raises(ValueError, match="finite"):
-        caster().scan(np.array([0], np.int32), np.full((1, 3), np.nan), NOBODY, np.ones(1))
+        caster().scan(np.array([0], np.int32), np.full((1, 3), np.nan), NO_MOVERS, np.ones(1))
     with pytest.raises(ValueError, match="radius"):
-        caster().scan(np.array([0], np.int32), np.zeros((1, 3)), NOBODY, np.ones(2))
+        caster().scan(np.array([0], np.int32), np.zeros((1, 3)), NO_MOVERS, np.ones(2))
 
 
 def test_nothing_to_scan_gives_no_rows():
-    assert caster().scan(np.empty(0, np.int32), np.zeros((1, 3)), NOBODY, np.ones(1)).shape == (0, 8)
+    assert caster().scan(np.empty(0, np.int32), np.zeros((1, 3)), NO_MOVERS, np.ones(1)).shape == (0, 8)
 
 
 def test_other_threads_run_meanwhile():
@@ -111,7 +111,7 @@ def test_other_threads_run_meanwhile():
 
     def work():
         for _ in range(5):
-            it.scan(robots, pose, NOBODY, np.full(400, 0.1))
+            it.scan(robots, pose, NO_MOVERS, np.full(400, 0.1))
         done.set()
 
     worker = threading.Thread(target=work)

@@ -102,7 +102,7 @@ def test_footprints_on_lanes_that_come_close(make, conflicts):
     assert not conflicts(parallel, *both, features=FOOTPRINTS, radius=0.5)  # exactly two radii apart
     assert not conflicts(parallel, *both, features=FOOTPRINTS, radius=[0.3, 0.7])
     assert kinds(conflicts(parallel, *both, features=FOOTPRINTS, radius=[0.4, 0.7])) == ["footprint"] * 3
-    assert not conflicts(parallel, *both, radius=2.0)  # nobody asked
+    assert not conflicts(parallel, *both, radius=2.0)  # the problem does not exclude them
     other_floor = attrs.evolve(parallel, level=[0, 0, 1, 1])
     assert not conflicts(other_floor, *both, features=FOOTPRINTS, radius=2.0)
 

@@ -189,9 +189,9 @@ def test_random_mutations_of_a_sound_path_are_judged_as_by_walking_it(make, seed
 def test_robots_that_disappear_at_their_goals_let_others_end_there(make, lane):
     paths = (make.path(lane, (0, 1, 1)), make.path(lane, (2, 2, 1), (2, 1, 2)))
     goals = (((1,),), ((1,),))
-    stay = make.problem(lane, [0, 2], goals=goals)
-    assert [conflict.kind for conflict in check_plan(stay, Plan(paths=paths)).conflicts] == ["vertex"]
-    gone = attrs.evolve(stay, rules=Rules(at_goal="disappear"))
+    staying = make.problem(lane, [0, 2], goals=goals)
+    assert [conflict.kind for conflict in check_plan(staying, Plan(paths=paths)).conflicts] == ["vertex"]
+    gone = attrs.evolve(staying, rules=Rules(at_goal="disappear"))
     assert check_plan(gone, Plan(paths=paths)).valid
     waits = Plan(paths=(make.path(lane, (0, 1, 1), (1, 1, 2)), paths[1]))
     assert not check_plan(gone, waits).valid  # it disappears only when its path ends

@@ -6,12 +6,12 @@ import pytest
 from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.model.plan import AnytimePoint, Path, Plan, PlanResult, PlanStatus
 
-STAY = Path(edge=[], enter=[], leave=[])
+EMPTY = Path(edge=[], enter=[], leave=[])
 FLAT = Path(edge=np.zeros((1, 1)), enter=np.zeros((1, 1)), leave=np.ones((1, 1)))
 
 
 def solved(**values):
-    return PlanResult(**{"status": PlanStatus.SOLVED, "plan": Plan(paths=(STAY,)), **values})
+    return PlanResult(**{"status": PlanStatus.SOLVED, "plan": Plan(paths=(EMPTY,)), **values})
 
 
 @pytest.mark.parametrize(
@@ -23,9 +23,9 @@ def solved(**values):
         (solved(status="done"), "status 'done'"),
         (solved(status=PlanStatus.UNKNOWN), "status 'unknown'"),
         (solved(status=[]), "status '[]'"),
-        (solved(plan=[STAY]), "type list instead of a Plan"),
+        (solved(plan=[EMPTY]), "type list instead of a Plan"),
         (solved(plan=Plan(paths=None)), "None instead of a tuple of paths"),
-        (solved(plan=Plan(paths=(STAY, None))), "robot 1: None instead of a Path"),
+        (solved(plan=Plan(paths=(EMPTY, None))), "robot 1: None instead of a Path"),
         (solved(plan=Plan(paths=(FLAT,))), "robot 0: edge, enter and leave are not all one-dimensional"),
         (solved(lower_bound="low"), "type str as lower bound"),
         (solved(statistics=[1]), "type list instead of a mapping"),

@@ -21,7 +21,7 @@ class Mine(Identity):
 
 @attrs.frozen(kw_only=True)
 class Bad(Identity):
-    \"\"\"Gives everybody the first task.\"\"\"
+    \"\"\"Gives every robot the first task.\"\"\"
 
     def assign(self, problem):
         import attrs, numpy

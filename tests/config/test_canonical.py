@@ -77,7 +77,7 @@ def test_another_process_in_another_folder_reads_the_same(full, tmp_path):
         "parcel = json.load(sys.stdin); config = unpack(parcel); folder = Path(parcel['folder']);"
         "print(json.dumps([canonical(config, folder), run_id(config, folder)]))"
     )
-    # The toy plugins there stand beside the real ones, so they are named with their distribution.
+    # The toy plugins there are installed together with the real ones, so they are named with their distribution.
     parcel = json.dumps(full.parcel)
     names = {"rmf", "lanes", "random", "ortools_mip", "adg", "waypoints", "kinematic", "ground_truth", "execution"}
     for name in [*names, "rosbag2", "ecbs", "dwb"]:

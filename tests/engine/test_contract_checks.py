@@ -1,4 +1,4 @@
-"""What components return is held against their contracts before anyone else sees it."""
+"""What components return is checked against their contracts before other components see it."""
 
 import attrs
 import numpy as np
@@ -15,13 +15,13 @@ ORDERS = Orders(released=[2, 1])
 MOTION = Motion(twist=np.zeros((2, 2)), reached=[1, 1], cleared=[2, 0], mode=[0, 4])
 
 
-def answers():
+def checks():
     """Two robots with paths of two segments and one."""
     return ContractChecks(np.array([2, 1]))
 
 
 def test_what_keeps_the_contract_goes_through():
-    checked = answers()
+    checked = checks()
     assert checked.state(STATE) is STATE
     assert checked.scans((SCAN,)) == (SCAN,)
     assert checked.estimate(ESTIMATE) is ESTIMATE
@@ -42,7 +42,7 @@ def test_what_keeps_the_contract_goes_through():
 )
 def test_states_that_are_none_are_refused(changes, message):
     with pytest.raises(BrokenContractError, match=f"the simulator returned {message}"):
-        answers().state(attrs.evolve(STATE, **changes))
+        checks().state(attrs.evolve(STATE, **changes))
 
 
 @pytest.mark.parametrize(
@@ -50,7 +50,7 @@ def test_states_that_are_none_are_refused(changes, message):
 )
 def test_scans_that_are_none_are_refused(changes):
     with pytest.raises(BrokenContractError, match="the simulator returned"):
-        answers().scans((attrs.evolve(SCAN, **changes),))
+        checks().scans((attrs.evolve(SCAN, **changes),))
 
 
 @pytest.mark.parametrize(
@@ -58,17 +58,17 @@ def test_scans_that_are_none_are_refused(changes):
 )
 def test_estimates_that_are_none_are_refused(changes):
     with pytest.raises(BrokenContractError, match="the localizer returned"):
-        answers().estimate(attrs.evolve(ESTIMATE, **changes))
+        checks().estimate(attrs.evolve(ESTIMATE, **changes))
 
 
 @pytest.mark.parametrize(("released", "message"), [([2], "shape"), ([3, 1], "more segments"), ([-1, 0], "less than")])
 def test_orders_that_are_none_are_refused(released, message):
     with pytest.raises(BrokenContractError, match=f"the dispatcher returned .*{message}"):
-        answers().orders(Orders(released=released))
+        checks().orders(Orders(released=released))
 
 
 def test_what_was_released_is_not_taken_back():
-    checked = answers()
+    checked = checks()
     checked.orders(ORDERS)
     with pytest.raises(BrokenContractError, match="for robot 0: released less than before"):
         checked.orders(Orders(released=[1, 1]))
@@ -86,7 +86,7 @@ def test_what_was_released_is_not_taken_back():
     ],
 )
 def test_motions_that_are_none_are_refused(changes, message):
-    checked = answers()
+    checked = checks()
     checked.orders(ORDERS)
     with pytest.raises(BrokenContractError, match=f"the navigator returned {message}"):
         checked.motion(attrs.evolve(MOTION, **changes))
@@ -94,7 +94,7 @@ def test_motions_that_are_none_are_refused(changes, message):
 
 @pytest.mark.parametrize("changes", [{"reached": [0, 1]}, {"cleared": [1, 0]}])
 def test_progress_is_not_taken_back(changes):
-    checked = answers()
+    checked = checks()
     checked.orders(ORDERS)
     checked.motion(MOTION)
     with pytest.raises(BrokenContractError, match="less than before"):
@@ -102,7 +102,7 @@ def test_progress_is_not_taken_back(changes):
 
 
 def test_other_things_than_the_contract_names_are_refused():
-    for check in (answers().state, answers().estimate, answers().orders, answers().motion):
+    for check in (checks().state, checks().estimate, checks().orders, checks().motion):
         with pytest.raises(BrokenContractError, match="returned NoneType instead of"):
             check(None)
 
@@ -122,7 +122,7 @@ def test_scenarios_that_are_none_are_refused(start, goal, message):
 
 
 def test_what_was_answered_before_is_held_against_a_new_plan():
-    checked = answers()
+    checked = checks()
     checked.orders(ORDERS)
     checked.adopt(np.array([1, 1]))
     with pytest.raises(BrokenContractError, match="for robot 0: released more segments than there are"):

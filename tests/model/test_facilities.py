@@ -9,7 +9,7 @@ from mrpbench_core.model.level_layout import LevelLayout
 from mrpbench_core.model.world import Door, Level, World
 from mrpbench_core.testing.fixtures.building import CABIN, RISE, building
 
-NOBODY = np.empty((0, 3)), np.empty(0, np.int16), np.empty(0)
+NO_ROBOTS = np.empty((0, 3)), np.empty(0, np.int16), np.empty(0)
 
 
 @pytest.fixture
@@ -17,7 +17,7 @@ def facilities():
     return Facilities(building())
 
 
-def run(facilities, state, commands, seconds, robots=NOBODY, period=0.05):
+def run(facilities, state, commands, seconds, robots=NO_ROBOTS, period=0.05):
     for _ in range(round(seconds / period)):
         state = facilities.advance(state, commands, period, *robots)
     return state

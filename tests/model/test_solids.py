@@ -53,7 +53,7 @@ def test_the_outline_of_a_raster_is_the_border_of_its_free_cells(blocked):
     # Just right of the middle of every segment is a free cell, just left of it none.
     middle, along = (outline[:, :2] + outline[:, 2:]) / 2, outline[:, 2:] - outline[:, :2]
     right = np.sign(along[:, ::-1] * (1, -1)) * 1e-3
-    # The middle of a run of even length lies on a corner of cells: step aside.
+    # The middle of a run of even length lies on a corner of cells: move a little along it.
     middle = middle + np.sign(along) * 1e-3
     for side, wanted in ((right, True), (-right, False)):
         column, row = np.floor((middle + side - (-1.0, 2.0)) / 0.5).astype(int).T

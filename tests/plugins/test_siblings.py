@@ -1,4 +1,4 @@
-"""Modules beside a local plugin are part of it."""
+"""Modules in the folder of a local plugin are part of it."""
 
 import sys
 from pathlib import Path

@@ -67,8 +67,8 @@ class RouteTables:
         self.is_wait[self.first + self.last] = False
         heading = self._add_legs(np.repeat(clearances, self.last_corner + 1))
         self.arrival = self._arrival(waypoint, row, heading, rules)
-        """W entries: when each waypoint is reached. Nobody reaches the last one, nor a wait before the first corner, by
-        passing it."""
+        """W entries: when each waypoint is reached. The last one, and a wait before the first corner, are
+        not reached by passing them."""
         self.yaw: Float = waypoint[:, 2].copy()
         """f8[W] prescribed at each waypoint, NaN = any. A robot that stops at each turns there to the next one."""
         if rules.stops:

@@ -158,10 +158,10 @@ def observe(
     open_ends = _open_ends(observed, {robot: triggers[robot] for robot in lacking}, truth, time, sampling)
     names = [track.robot for track in observed.tracks]
     notes += poses_in_walls(names, channels["time"], truth, level, world)
-    beside, alike = signal_channels(observed, time, sampling.max_gap, notes)
+    further, alike = signal_channels(observed, time, sampling.max_gap, notes)
     return ObservedRun(
         context=attrs.evolve(_context(world, fleet, scenario, tasks, 1 / sampling.rate), assigned=assigned),
-        channels=channels | beside,
+        channels=channels | further,
         notes=tuple(notes),
         gaps=tuple(gaps),
         tracks=observed.tracks,

@@ -55,7 +55,7 @@ class Sample:
 class Recorder:
     """Samples the periodic channels every `1 / rate` simulated seconds; contacts, scans and events as they come.
 
-    `sink` gets every chunk; memory does not grow with the run. Scans are kept where somebody wants them.
+    `sink` gets every chunk; memory does not grow with the run. Scans are recorded only on request.
     """
 
     def __init__(self, rate: float, period: float, sink: Callable[[Chunk], None], scans: bool = True) -> None:

@@ -44,7 +44,7 @@ class Router:
 def _straightened(waypoint: Float, kept: Bool) -> Float:
     """Move the waypoints f8[k,3] that are not kept onto the straight line between those that are, at even distances.
 
-    So segments keep their indices, and whoever follows the route passes the lines that were left.
+    So segments keep their indices, and a robot that follows the route crosses the lines that were left out.
     """
     index = np.arange(len(waypoint))
     moved = waypoint.copy()

@@ -15,13 +15,13 @@ from mrpbench_core.model.problem import Problem
 def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
     """Count the plan's conflicts, and say which promise it breaks, or None.
 
-    Sound paths are asked of every planner, a task of its own for every robot of those that assign, and freedom from
-    conflicts, bounds and optimality of those that promise them.
+    Every planner must return valid paths, and one that assigns must give each robot a task of its own. Freedom from
+    conflicts, bounds and optimality are required of planners that promise them.
     """
     if fault := result_fault(result):
         return PlanResult(status=PlanStatus.GAVE_UP), fault
     if result.plan is None:
-        return result, None if result.status != PlanStatus.SOLVED else "says it solved the problem but gives no plan"
+        return result, None if result.status != PlanStatus.SOLVED else "has the status solved but returns no plan"
     report = check_plan(problem, result.plan)
     if report.faults:
         return result, report.faults[0]

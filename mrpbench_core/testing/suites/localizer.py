@@ -70,5 +70,5 @@ def in_odometry_frames(pose: Float) -> Float:
     """Poses f8[n,3] relative to the pose at which each robot was placed."""
     offset, angle = pose[:, :2] - PLACES[:, :2], PLACES[:, 2]
     along = offset[:, 0] * np.cos(angle) + offset[:, 1] * np.sin(angle)
-    aside = offset[:, 1] * np.cos(angle) - offset[:, 0] * np.sin(angle)
-    return np.column_stack([along, aside, np.remainder(pose[:, 2] - angle + np.pi, 2 * np.pi) - np.pi])
+    across = offset[:, 1] * np.cos(angle) - offset[:, 0] * np.sin(angle)
+    return np.column_stack([along, across, np.remainder(pose[:, 2] - angle + np.pi, 2 * np.pi) - np.pi])

@@ -59,10 +59,10 @@ class SimulatorConformance(ComponentConformance):
         with self.open() as simulation:
             drive(simulation, [(CRUISE, 0.0), STILL], 5.0)
             (x, y, yaw), other = simulation.state.pose
-            ahead, aside = x - PLACES[0][0], abs(y - PLACES[0][1])
+            ahead, off = x - PLACES[0][0], abs(y - PLACES[0][1])
             wanted = 5.0 * CRUISE
             require(0.85 * wanted < ahead < 1.05 * wanted, f"at {CRUISE:g} m/s the robot moved {ahead:.3f} m in 5 s")
-            require(aside < 0.03, f"the robot left its straight line by {aside:.3f} m")
+            require(off < 0.03, f"the robot left its straight line by {off:.3f} m")
             require(abs(yaw) < 0.05, f"the robot turned by {yaw:.3f} rad")
             require(np.abs(other - PLACES[1]).max() < 0.01, "the other robot, without a command, moved too")
 
@@ -212,9 +212,9 @@ class SimulatorConformance(ComponentConformance):
         alone = self.history()
         with self.open([(2.0, 0.5, 1.0)]) as other:
             drive(other, [(CRUISE, 1.0)], 0.5)
-            beside = self.history()
+            together = self.history()
             other.step(inputs((CRUISE, 1.0)))
-        require(alone == beside, "a second simulation in the same process changes the first")
+        require(alone == together, "a second simulation in the same process changes the first")
 
     def test_closes_twice(self) -> None:
         simulation = self.open()

@@ -66,7 +66,7 @@ def ways(roadmap: Roadmap) -> tuple[np.ndarray, np.ndarray]:
 
 
 def bars_somebody(roadmap: Roadmap, door: Door) -> bool:
-    """Whether somebody who holds the door open can come to a way that its open leaf is on, by search over what he did.
+    """Whether a robot that holds the door open can come to an edge that its open leaf blocks, by search over its moves.
 
     Independent of the code under test: edges and vertices by turns, through the resource only.
     """

@@ -8,13 +8,13 @@ from mrpbench_core.model.fleet import Lidar
 from mrpbench_core.model.solids import wall_boxes
 
 NOTHING = np.empty((0, 4))
-NOBODY = np.empty((0, 2)), np.empty(0)
+NO_DISCS = np.empty((0, 2)), np.empty(0)
 
 
 def test_beams_are_counted_from_straight_ahead_counter_clockwise_and_from_the_sensor():
     lidar = Lidar(beams=4, mount=(0.5, 0.0, 0.2), range=10.0, min_range=0.0)
     room = wall_boxes(np.array([[0, 0, 8, 0], [8, 0, 8, 6], [8, 6, 0, 6], [0, 6, 0, 0]], float), 0.0)
-    ranges = scan(lidar, np.array([3.0, 2.0, np.pi / 2]), room, *NOBODY)  # the sensor is at (3, 2.5), facing +y
+    ranges = scan(lidar, np.array([3.0, 2.0, np.pi / 2]), room, *NO_DISCS)  # the sensor is at (3, 2.5), facing +y
     assert np.allclose(ranges, [3.5, 3.0, 2.5, 5.0])
 
 

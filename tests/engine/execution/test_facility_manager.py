@@ -60,7 +60,7 @@ def test_everybody_gets_through_and_no_leaf_ever_touches_anybody(planner, seed, 
         assert run.gap().min() > 0, "a leaf touches a robot"
         for name, capacity in rooms.items():
             assert sum(pair[1] == name for pair in run.granted) <= capacity
-        assert run.waited.max() < 2000, "somebody waits for ever"
+        assert run.waited.max() < 2000, "a robot waits for ever"
         if run.done:
             break
     assert run.done
@@ -128,7 +128,7 @@ def test_keys_go_to_who_asked_first_and_on_when_they_are_given_back():
     shut = {"door": 0.0, "lift/entrance": 0.0, "lift": 0.0}
     facility_manager, view, state = stand(world, problem, plan, shut)
     facility_manager.assign(asking((1, "door"), (0, "door")))
-    assert facility_manager.waits_for(2).tolist() == [0, 0], "nobody may use it before it is open"
+    assert facility_manager.waits_for(2).tolist() == [0, 0], "no robot may use it before it is open"
     zero = np.zeros(2, "i4")
     assert facility_manager.commands(zero, zero, state)["door"] == 1.0
     open_ = attrs.evolve(state, facilities=shut | {"door": 1.0})

@@ -1,4 +1,4 @@
-"""`kill -9` of any process: nothing lost, nothing doubled, nobody left working, and the records as if undisturbed."""
+"""`kill -9` of any process loses and doubles no record, leaves no process running and changes no record."""
 
 import os
 import random
@@ -62,7 +62,7 @@ def essence(folder):
 
 @pytest.fixture
 def undisturbed(slow_study):
-    """What the study's records are when nobody disturbs it; worked out once, as it does not depend on the folder."""
+    """The records of the undisturbed study; computed once, because they do not depend on the folder."""
     if not UNDISTURBED:
         run("odd.yaml", out="undisturbed", workers=2)
         UNDISTURBED.update(essence("undisturbed"))

@@ -1,4 +1,4 @@
-"""Cost matrices against sums written out by hand and against textbook Dijkstra."""
+"""Cost matrices against sums computed by hand and a plain Dijkstra search."""
 
 import heapq
 

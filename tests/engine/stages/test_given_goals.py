@@ -8,7 +8,7 @@ from mrpbench_core.store.paths import RunPaths
 
 MAP = "type octile\nheight 2\nwidth 4\nmap\n....\n....\n"
 ROWS = ["0\topen.map\t4\t2\t0\t0\t3\t0\t3", "0\topen.map\t4\t2\t3\t1\t0\t1\t3"]
-"""Each robot starts beside the goal of the other."""
+"""Each robot starts next to the goal of the other."""
 
 
 @pytest.fixture

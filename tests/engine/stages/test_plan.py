@@ -107,7 +107,7 @@ def test_costs_are_held_against_the_lower_bound(run_context, planner, bound, hol
 
 def test_solved_without_a_plan_is_a_fault(run_context):
     _, fault = judged(Careful, run_context.problem, PlanResult(status=PlanStatus.SOLVED))
-    assert fault == "says it solved the problem but gives no plan"
+    assert fault == "has the status solved but returns no plan"
 
 
 def test_a_plan_at_the_deadline_is_a_success_that_depends_on_the_clock(run_context):

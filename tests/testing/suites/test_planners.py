@@ -19,7 +19,7 @@ from mrpbench_core.testing.variant import variant
 
 @attrs.frozen(kw_only=True)
 class Still(Planner):
-    """Plans that nobody moves."""
+    """Returns plans in which no robot moves."""
 
     def plan(self, problem, budget):
         nothing = Path(edge=[], enter=[], leave=[])

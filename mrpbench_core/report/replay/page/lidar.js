@@ -1,4 +1,4 @@
-// Scans, read only when somebody wants to see them.
+// Scans, read only when the reader switches them on.
 
 import { decoded, lastAtMost, readArrays } from "replay/data.js";
 

@@ -12,7 +12,7 @@ export class Paths {
     this.trails = new Array(run.count);
   }
 
-  /** Whose paths are drawn: the selected robot's, else everybody's. */
+  /** The robots whose paths are drawn: the selected one, or all. */
   #each(shown, draw) {
     if (shown.selected >= 0) draw(shown.selected);
     else for (let robot = 0; robot < this.run.count; robot++) draw(robot);

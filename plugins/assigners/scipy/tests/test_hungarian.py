@@ -1,4 +1,4 @@
-"""The Hungarian method answers as trying all pairings does."""
+"""The Hungarian method finds the same cost as trying all assignments."""
 
 import numpy as np
 import pytest

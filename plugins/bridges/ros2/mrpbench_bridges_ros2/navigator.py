@@ -54,7 +54,7 @@ class Ros2(Navigator):
         """Begin when there is a publisher of commands for every robot.
 
         Raises:
-            InputError: there is no ROS 2 here, or nobody sends commands.
+            InputError: ROS 2 is not installed, or no node publishes commands.
         """
         del controller
         link = Link("mrpbench")
@@ -76,7 +76,7 @@ def _meet(link: Link, commands: Commands, patience: float) -> None:
     while silent := [topic for topic in commands.topics if not link.node.count_publishers(topic)]:
         if time.monotonic() > until:
             raise InputError(
-                f"ros2: after {patience:g} s nobody publishes {silent[0]}"
+                f"ros2: after {patience:g} s no node publishes {silent[0]}"
                 + (f" (nor {len(silent) - 1} more)" if len(silent) > 1 else ""),
                 hint="start the outside stack with the same ROS_DOMAIN_ID; the option patience waits longer",
             )

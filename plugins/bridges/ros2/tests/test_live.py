@@ -81,7 +81,7 @@ def test_a_robot_stops_when_its_stack_falls_silent(started):
 
 
 def test_without_a_stack_the_run_is_refused_in_one_line():
-    with pytest.raises(Exception, match="nobody publishes /robot_0/cmd_vel"):
+    with pytest.raises(Exception, match="no node publishes /robot_0/cmd_vel"):
         run({**STUDY, "navigator": {"plugin": "ros2", "patience": "0.2 s"}})
 
 

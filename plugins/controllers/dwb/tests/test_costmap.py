@@ -121,7 +121,7 @@ def test_the_static_map_is_a_layer():
 def test_robots_keep_their_maps_while_they_wait():
     controller = session(plugins=("obstacle_layer",))
     see(controller, (0.0, 0.0, 0.0), [1.0] * 24)
-    nobody = Observations.alone(
+    observations = Observations.alone(
         Observation(
             now=0.2,
             pose=np.zeros(3),
@@ -130,8 +130,8 @@ def test_robots_keep_their_maps_while_they_wait():
             scan=ScanBatch(stamp=0.2, robot=[0], ranges=[[1.3] * 24]),
         )
     )
-    nothing = {name: getattr(nobody, name)[:0] for name in ("robot", "pose", "twist", "foot", "begin", "end")}
-    controller.command(attrs.evolve(nobody, yaw=np.empty(0), speed=np.empty(0), **nothing))
+    nothing = {name: getattr(observations, name)[:0] for name in ("robot", "pose", "twist", "foot", "begin", "end")}
+    controller.command(attrs.evolve(observations, yaw=np.empty(0), speed=np.empty(0), **nothing))
     costs, x, y, _ = controller.costmap(0)
     ahead = costs[int((0.01 - y) / 0.05), :]
     assert x + (np.flatnonzero(ahead == 254)[-1] + 0.5) * 0.05 == pytest.approx(1.3 - 0.032, abs=0.05)

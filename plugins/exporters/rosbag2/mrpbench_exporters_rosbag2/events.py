@@ -28,8 +28,8 @@ def contacts(block: Chunk, names: tuple[str, ...], start: int) -> Iterator[tuple
             yield stamp, _diagnostic(stamp, names[robot], "contact", {"other": _name(other, names, "wall")})
 
 
-def _name(robot: int, names: tuple[str, ...], nobody: str) -> str:
-    return names[robot] if robot >= 0 else nobody
+def _name(robot: int, names: tuple[str, ...], otherwise: str) -> str:
+    return names[robot] if robot >= 0 else otherwise
 
 
 def _diagnostic(stamp: int, name: str, kind: str, values: dict[str, str]) -> bytes:

@@ -32,7 +32,9 @@ _DIFFERENTIAL = ("nav2_amcl::DifferentialMotionModel", "differential")
 class Amcl(Localizer):
     """Localizes robots on one level by particle filters on a likelihood field, with an adaptive number of particles."""
 
-    nav2: Path | None = option(None, help="Nav2 parameter file whose block `amcl` is read; options given here win")
+    nav2: Path | None = option(
+        None, help="Nav2 parameter file whose block `amcl` is read; options given here take precedence"
+    )
     resolution: float = option(0.05, help="side of the squares of the likelihood field", unit="m", validator=gt(0))
     alpha1: float | None = parameter(0.2, help="noise of rotation from rotation", validator=ge(0))
     alpha2: float | None = parameter(0.2, help="noise of rotation from translation", validator=ge(0))

@@ -28,7 +28,7 @@ def test_one_that_gets_on_is_no_deadlock(executed):
 
 
 def test_those_who_arrived_do_not_count(executed):
-    """Robot 0 arrives at 3 while robot 1 stands all along: from 3 to the end at 8 nobody gets on."""
+    """Robot 0 arrives at 3 while robot 1 stands all along: from 3 to the end at 8 no robot makes progress."""
     tracks = [along_x([0, 3, 6, 9, 9, 9, 9, 9, 9]), along_x([0] * 9)]
     reached = [[0, 0, 0, 1, 1, 1, 1, 1, 1], [0] * 9]
     values = METRIC.measure(executed(range(9), tracks, reached, [WAY] * 2))

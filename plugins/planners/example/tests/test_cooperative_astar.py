@@ -1,4 +1,4 @@
-"""The example planner: sound plans, honest answers."""
+"""The example planner: valid plans, correct statuses."""
 
 import attrs
 import numpy as np

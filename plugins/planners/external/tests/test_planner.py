@@ -162,7 +162,7 @@ def test_a_program_that_fails_is_named_with_what_it_said(tmp_path, text, said):
 
 @pytest.mark.parametrize("starter", ["", "setsid"])
 def test_a_program_that_passes_its_time_is_killed_with_all_it_started(tmp_path, starter):
-    sleep = ["sleep", f"321.{os.getpid()}"]  # as nobody else does on this machine
+    sleep = ["sleep", f"321.{os.getpid()}"]  # no other process on this machine has it
     hangs = f"#!/bin/sh\n{starter} {' '.join(sleep)} &\n{' '.join(sleep)}\n"
     result = External(binary=program(tmp_path, hangs)).plan(problem(), attrs.evolve(AMPLE, wall_s=1))
     assert result.status is PlanStatus.TIMEOUT

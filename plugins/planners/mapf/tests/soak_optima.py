@@ -1,5 +1,5 @@
-"""Every published optimum of the MovingAI benchmark, for one planner: nobody is cheaper, no lower bound is higher, and
-who promises the optimum finds it.
+"""Every published optimum of the MovingAI benchmark, for one planner: no solution is cheaper, no lower bound is higher,
+and a planner that promises the optimum finds it.
 
     python soak_optima.py --shared ../shared/data --planner cbs --limit 10
     python soak_optima.py --shared ../shared/data --planner "eecbs w=1.2" --limit 1 --first 100 --count 50

@@ -1,4 +1,4 @@
-"""LaCAM, LNS, PIBT and PBS: valid plans by the independent checker, definite answers, the same again."""
+"""LaCAM, LNS, PIBT and PBS return valid plans and definite statuses, and repeat themselves for equal seeds."""
 
 import attrs
 import numpy as np

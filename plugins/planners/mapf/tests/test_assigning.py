@@ -107,8 +107,8 @@ def test_goals_too_near_one_another_are_not_taken_together(kind):
     road = grid_of(["......."])
     asked = problem_on(road, [1, 5], [(2, 3), (3, 4)], radius=0.6)
     assert ask(kind(), asked, 2, AMPLE).status is PlanStatus.SOLVED
-    hopeless = problem_on(road, [1, 5], [(3,), (4, 3)], radius=0.6)
-    assert kind().plan(hopeless, AMPLE).status is PlanStatus.UNSOLVABLE
+    unsolvable = problem_on(road, [1, 5], [(3,), (4, 3)], radius=0.6)
+    assert kind().plan(unsolvable, AMPLE).status is PlanStatus.UNSOLVABLE
 
 
 @pytest.mark.parametrize("kind", KINDS)

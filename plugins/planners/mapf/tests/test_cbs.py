@@ -145,5 +145,5 @@ def test_robots_that_disappear_could_share_a_task_so_assigning_them_is_refused()
         "cannot `assign` where robots disappear at their goals; ita_cbs and cbs_ta can"
     )
     assert ask(ItaCbs(), asked).plan.sum_of_costs == 5
-    stay = attrs.evolve(asked, rules=Rules())
-    assert ask(Cbs(assign=True), stay, least_sum_of_costs(stay, assign=True)).plan.sum_of_costs == 5
+    staying = attrs.evolve(asked, rules=Rules())
+    assert ask(Cbs(assign=True), staying, least_sum_of_costs(staying, assign=True)).plan.sum_of_costs == 5

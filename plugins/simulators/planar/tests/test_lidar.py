@@ -1,4 +1,4 @@
-"""What lidars see, held against the kinematic simulator's, which tries every beam against everything near."""
+"""Lidar ranges agree with those of the kinematic simulator, which tests every beam against everything near."""
 
 import attrs
 import numpy as np
@@ -16,7 +16,7 @@ from mrpbench_core.testing.fixtures.drive import BURGER, EMPTY, FURNISHED, RASTE
 
 
 def both(world, robots, starts, periods=8, **options):
-    """Ranges of all scans by both simulators, which must agree on who scans when."""
+    """Ranges of all scans by both simulators, which must agree on which robot scans when."""
     command = np.zeros((len(starts), 2))
     (_, ours), (_, theirs) = (
         drive(kind, world, robots, starts, command, periods, **options) for kind in (Planar(), Kinematic())
@@ -99,7 +99,7 @@ def test_a_scan_does_not_depend_on_which_others_are_taken_with_it():
     caster = Caster(
         segments=segments(FURNISHED), beams=lidar.beams, range=lidar.range, min_range=0.12, forward=-0.032, leftward=0.0
     )
-    pose, radius, nobody = np.array(STARTS, float), np.full(6, BURGER.radius), np.empty((0, 2))
-    together = caster.scan(np.arange(6, dtype=np.int32), pose, nobody, radius)
-    parts = [caster.scan(np.array(part, np.int32), pose, nobody, radius) for part in ([0, 1], [2], [3, 4, 5])]
+    pose, radius, movers = np.array(STARTS, float), np.full(6, BURGER.radius), np.empty((0, 2))
+    together = caster.scan(np.arange(6, dtype=np.int32), pose, movers, radius)
+    parts = [caster.scan(np.array(part, np.int32), pose, movers, radius) for part in ([0, 1], [2], [3, 4, 5])]
     assert np.array_equal(together, np.concatenate(parts))

@@ -1,4 +1,4 @@
-"""How robots move and touch, held against the simulators whose rules are the same and whose code is not."""
+"""Motion and contacts agree with the simulators that have the same rules and other code."""
 
 import attrs
 import numpy as np

@@ -1,4 +1,4 @@
-"""Rigid bodies, held against the kinematic simulator of the core where the two must agree."""
+"""Rigid bodies move like robots of the kinematic simulator where the two must agree."""
 
 import math
 import subprocess

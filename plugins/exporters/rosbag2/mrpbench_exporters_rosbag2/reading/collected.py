@@ -47,7 +47,7 @@ class Collected:
 
         def take(logged: int, message: Any) -> None:
             pose = message.pose
-            pose = getattr(pose, "pose", pose)  # some have a covariance beside it
+            pose = getattr(pose, "pose", pose)  # some messages nest it next to a covariance
             series.frame = message.header.frame_id.lstrip("/")
             series.add(nanoseconds(message.header.stamp), logged, pose.position, pose.orientation)
 

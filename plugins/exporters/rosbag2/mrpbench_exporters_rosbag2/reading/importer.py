@@ -37,9 +37,9 @@ class FromRosbag2(Importer):
     odometry: tuple[str, ...] = option(("/{robot}/odom",), help="topics with odometry")
     command: tuple[str, ...] = option(("/{robot}/cmd_vel",), help="topics with commands, Twist or TwistStamped")
     scan: tuple[str, ...] = option(("/{robot}/scan",), help="topics with laser scans; empty = they are left out")
-    tf: tuple[str, ...] = option(("/{robot}/tf",), help="topics with one robot's transforms, beside `/tf` of all")
+    tf: tuple[str, ...] = option(("/{robot}/tf",), help="topics with the transforms of one robot, in addition to `/tf`")
     fleet_states: tuple[str, ...] = option(("/fleet_states",), help="topics with rmf_fleet_msgs/FleetState")
-    fleet: str = option("", help="the fleet whose states are read, of several; empty = all")
+    fleet: str = option("", help="name of the fleet whose states are read; empty = all fleets")
     map_frame: str = option("map", help="the frame in which the world is given")
     base_frames: tuple[str, ...] = option(
         ("{robot}/base_footprint", "{robot}/base_link"), help="frames of the robots' bases, the first that there is"
