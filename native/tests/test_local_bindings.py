@@ -74,7 +74,7 @@ def test_critics_that_do_not_exist_are_refused():
         critic("PreferForward", {"penalti": 1.0})
 
 
-def test_scans_of_nobody_are_refused():
+def test_scans_of_no_robot_are_refused():
     with pytest.raises(ValueError, match="no such robot"):
         fleet().see(0.0, np.ones(1, np.int32), np.zeros((1, 3)), np.ones((1, 8)))
     with pytest.raises(ValueError, match="a scan for each robot"):

@@ -50,7 +50,7 @@ def swap(**changes) -> dict:
     return problem
 
 
-def test_answers_outlive_what_they_came_from():
+def test_results_outlive_the_objects_they_came_from():
     enter = mapf.solve(mapf.Instance(**swap()), "astar", {}, **LIMITS).enter
     assert enter.tolist() == [0, 0]
     assert not enter.flags.writeable

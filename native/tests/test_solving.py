@@ -55,7 +55,7 @@ def test_an_unsolvable_problem_has_no_paths():
 
 @settings(deadline=None, max_examples=40)
 @given(st.integers(0, 2**32 - 1), st.sampled_from(sorted(ALGORITHMS)))
-def test_every_algorithm_answers_with_paths_from_starts_to_goals(seed, algorithm):
+def test_every_algorithm_returns_paths_from_starts_to_goals(seed, algorithm):
     random = np.random.default_rng(seed)
     free = random.random((5, 5)) < 0.8
     cells = random.permutation(np.argwhere(free))

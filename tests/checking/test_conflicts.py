@@ -81,7 +81,7 @@ def test_robots_swap_nowhere(make, conflicts):
     assert kinds(late) == ["swap"]
 
 
-def test_nobody_overtakes_on_an_edge(make, conflicts):
+def test_overtaking_on_an_edge_is_a_conflict(make, conflicts):
     lane = make.grid(1, 5)
     first = (1, (1, 2, 6), (2, 2, 8), (2, 3, 9))
     assert kinds(conflicts(lane, first, (0, (0, 1, 1), (1, 2, 4), (2, 3, 5), (3, 4, 6)))) == ["overtaking"]

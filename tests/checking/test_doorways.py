@@ -36,11 +36,11 @@ def faults(door, place, used=True, level=0, radius=0.1):
         ("below", []),
     ],
 )
-def test_who_starts_in_a_door_or_in_its_swing_is_named(place, found):
+def test_robots_that_start_in_a_door_or_in_its_swing_are_named(place, found):
     assert faults(HINGED, place) == found
 
 
-def test_a_door_that_slides_or_is_not_in_use_opens_in_nobodys_way():
+def test_a_door_that_slides_or_is_not_in_use_blocks_no_start():
     assert faults(attrs.evolve(HINGED, motion="sliding"), "in the swing") == []
     assert faults(HINGED, "in the swing", used=False) == []
     assert faults(HINGED, "in it", used=False) == ["robot 0 starts at in it, in the closed door ward"]

@@ -72,7 +72,7 @@ def test_each_robot_is_held_to_its_own_profile(make, lane):
     assert fault(back, make.path(two, (1, 0, 2))) is None
 
 
-def test_nobody_moves_before_it_is_ready(make, lane):
+def test_no_robot_moves_before_it_is_ready(make, lane):
     asked = make.problem(lane, [0], goals=(((1,),),), ready=[3])
     assert fault(asked, make.path(lane, (0, 0, 2), (0, 1, 3))) == "moves at tick 2, before it is ready at 3"
     assert fault(asked, make.path(lane, (0, 0, 3), (0, 1, 4))) is None

@@ -96,7 +96,7 @@ def test_rows_by_some_options_only(study):
     assert [group["runs"] for group in json.loads(output)["groups"]] == [4]
 
 
-def test_a_page_is_written_beside_the_results_or_where_asked(study):
+def test_a_page_is_written_next_to_the_results_or_to_a_given_file(study):
     _, output, _ = study("report", "results/tiny")
     page = Path("results/tiny/report.html").resolve()
     assert output.splitlines()[-1] == f"wrote {page}"

@@ -37,7 +37,7 @@ def test_a_study_is_run_reported_and_not_done_twice(mrpbench):
     assert "0 of 2 runs to do, 2 recorded" in mrpbench("run", "tiny.yaml")[1]
 
 
-def test_what_came_of_it_is_printed_as_json_on_demand(mrpbench):
+def test_records_are_printed_as_json_on_request(mrpbench):
     code, output, errors = mrpbench("run", "tiny.yaml", "--json")
     assert code == 0
     assert json.loads(output) == [{"out": "results/tiny", "runs": 2, "statuses": {"succeeded": 2}}]

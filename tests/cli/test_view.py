@@ -28,7 +28,7 @@ def driven(tmp_path_factory, tiny_map):
     return folder / "results"
 
 
-def test_a_run_becomes_a_page_beside_its_results(mrpbench, driven):
+def test_a_run_becomes_a_page_next_to_its_results(mrpbench, driven):
     code, output, _ = mrpbench("view", driven)
     assert code == 0
     (page,) = driven.glob("replay-*.html")

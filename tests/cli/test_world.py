@@ -87,7 +87,7 @@ def test_what_a_map_cannot_say_is_said(invoke, tmp_path, capsys):
     assert "pairs of neighbouring cells are separated by something solid" in capsys.readouterr().err
 
 
-def test_further_levels_are_drawn_beside_the_first(invoke, tmp_path, shared_data):
+def test_further_levels_are_drawn_next_to_the_first(invoke, tmp_path, shared_data):
     pytest.importorskip("matplotlib")
     invoke(shared_data / "rmf/rmf_demos/hotel.building.yaml", "--render", tmp_path / "hotel.png")
     assert sorted(file.name for file in tmp_path.iterdir()) == ["hotel-L2.png", "hotel-L3.png", "hotel.png"]

@@ -82,7 +82,7 @@ def test_points_that_match_all_of_an_entry_are_excluded(study):
     assert len(axes(study, text + "    - {planner: astar}\n    - {scenario.robots: 9}")) == 10
 
 
-def test_included_points_are_added_beside_the_product(study):
+def test_included_points_are_added_to_the_product(study):
     text = "matrix:\n  planner: [astar, ecbs]\n  include:\n    - {scenario.robots: 50, planner: astar, seed: 1..3}\n"
     found = study(SMALL + text).runs
     drawn = [(run.config.scenario.robots, run.config.seed) for run in found]

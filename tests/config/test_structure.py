@@ -175,7 +175,7 @@ def test_metrics_and_exporters_are_kept_by_name(study, errors):
     assert "metrics.1: 'planning' is listed twice" in errors(BASE + "metrics: [planning, planning]")[0]
 
 
-def test_files_lie_relative_to_the_configuration_and_must_exist(study, errors, tmp_path, monkeypatch):
+def test_files_are_relative_to_the_configuration_and_must_exist(study, errors, tmp_path, monkeypatch):
     (tmp_path / "maps").mkdir()
     (tmp_path / "maps" / "a.yaml").write_text("x")
     monkeypatch.chdir("/")

@@ -43,7 +43,7 @@ metrics: planing
         assert f"did you mean {word!r}?" in hints
 
 
-def test_points_that_cannot_run_are_listed_beside_those_that_can(study):
+def test_points_that_cannot_run_are_listed_with_those_that_can(study):
     found = study(SMALL + "matrix:\n  planner: [astar, ecbs, ecsb]\n  planner.w: [1.0, 1.5]\n  seed: 0..2\n")
     assert len(found.runs) == 6
     assert found.invalid == 12

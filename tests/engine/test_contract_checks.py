@@ -121,7 +121,7 @@ def test_scenarios_that_are_none_are_refused(start, goal, message):
         check_drawn(scenario, 2)
 
 
-def test_what_was_answered_before_is_held_against_a_new_plan():
+def test_earlier_return_values_are_checked_against_a_new_plan():
     checked = checks()
     checked.orders(ORDERS)
     checked.adopt(np.array([1, 1]))

@@ -16,7 +16,7 @@ def test_the_first_line_of_a_map_is_the_highest(tmp_path):
     np.testing.assert_array_equal(read.blocked, RASTER.blocked)
 
 
-def test_a_ros_map_is_an_image_beside_its_yaml(tmp_path):
+def test_a_ros_map_is_an_image_next_to_its_yaml(tmp_path):
     write_ros_map(tmp_path / "a.yaml", RASTER)
     assert (tmp_path / "a.pgm").read_bytes() == b"P5\n3 2\n255\n" + bytes([254, 254, 254, 0, 254, 254])
     assert "resolution: 0.5\norigin: [1, 2, 0]" in (tmp_path / "a.yaml").read_text()

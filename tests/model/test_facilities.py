@@ -52,12 +52,12 @@ def test_a_leaf_stops_before_a_robot_and_goes_on_when_it_is_gone(facilities):
     assert run(facilities, opened, {"door": 0.0}, 10.0, elsewhere)["door"] == 0.0
 
 
-def test_who_touches_a_shut_door_does_not_keep_it_shut(facilities):
+def test_a_robot_that_touches_a_closed_door_does_not_keep_it_closed(facilities):
     robot = np.array([[1.885, 1.5, 0.0]]), np.zeros(1, np.int16), np.array([0.1])
     assert run(facilities, facilities.initial_state(), {"door": 1.0}, 3.0, robot)["door"] == 1.0
 
 
-def test_cabins_carry_who_is_in_them_on_their_level(facilities):
+def test_cabins_carry_the_robots_in_them_on_their_level(facilities):
     pose = np.array([[*CABIN, 0.0], [*CABIN, 0.0], [1.0, 1.0, 0.0]])
     before, after = facilities.initial_state(), facilities.initial_state() | {"lift": 2.0}
     assert facilities.carry(before, after, pose, np.array([0, 1, 0], np.int16)).tolist() == [1, 1, 0]
@@ -72,14 +72,14 @@ def test_doors_of_a_lift_are_shut_where_the_cabin_is_not(facilities):
     assert np.array_equal(elsewhere, facilities.outlines(facilities.initial_state(), 0))
 
 
-def test_levels_without_elevations_lie_a_storey_apart():
+def test_levels_without_elevations_are_a_storey_apart():
     world = building()
     flat = attrs.evolve(world, levels=tuple(attrs.evolve(level, elevation=0.0) for level in world.levels))
     assert Facilities(flat).heights == {"lift": {0: 0.0, 1: STOREY_HEIGHT}}
     assert ride_time(world, world.lifts[0], 0, 1) == pytest.approx(2 * 0.8 + RISE)
 
 
-def test_levels_lie_out_of_reach_of_one_another():
+def test_levels_are_out_of_reach_of_each_other():
     layout = LevelLayout(building(), reach=10.0)
     places = np.array([[0.0, 0.0, 0.3], [4.0, 3.0, 0.2]])
     low, high = (layout.to_plane(places, np.full(2, level, np.int16)) for level in (0, 1))

@@ -94,7 +94,7 @@ def test_an_interrupt_is_the_users_and_passes():
         hooks.call("mrpbench_stepped", now=0, state=None)
 
 
-def test_nobody_can_write_into_a_record():
+def test_hooks_cannot_change_a_record():
     def spoil(record):
         record["metrics"]["x"] = 99
         return {"x": 1}

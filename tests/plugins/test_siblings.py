@@ -57,7 +57,7 @@ def status(folder, known=None):
     return str(planner(folder, known).plan(None, None).status)
 
 
-def test_a_plugin_imports_what_lies_beside_it(folder):
+def test_a_plugin_imports_modules_of_its_folder(folder):
     assert status(folder) == "gave_up"
     assert not {"aid", "tables", "late"} & set(sys.modules), "other folders may have modules of these names"
 
@@ -112,7 +112,7 @@ def test_modules_that_import_one_another_are_read_once(tmp_path):
     ("text", "message"),
     [("1 +", "aid.py:1:"), ("import no_such_module", "aid.py cannot be imported: ModuleNotFoundError")],
 )
-def test_a_broken_module_beside_a_plugin_is_named(folder, text, message):
+def test_a_broken_module_in_the_folder_of_a_plugin_is_named(folder, text, message):
     (folder / "aid.py").write_text(text)
     with pytest.raises(InputError) as caught:
         planner(folder)

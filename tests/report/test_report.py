@@ -93,7 +93,7 @@ def test_only_groups_that_differ_in_one_choice_are_compared(results, record):
     assert compared == {("control_rate=10 a", "control_rate=20 a"), ("control_rate=10 a", "control_rate=10 b")}
 
 
-def test_a_column_nobody_has_is_refused(results, record):
+def test_a_column_that_no_run_has_is_refused(results, record):
     with pytest.raises(InputError, match=r"did you mean 'planning\.cost'"):
         make_report([results([record(cost=1.0)])], ["planning.costs"])
 

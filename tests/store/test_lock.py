@@ -13,7 +13,7 @@ HOLD = "import sys, time; from pathlib import Path; from mrpbench_core.store.loc
 HOLD += "with locked(Path(sys.argv[1])): print('held', flush=True); time.sleep(60)"
 
 
-def test_a_second_holder_is_told_who_the_first_is(tmp_path):
+def test_the_error_of_a_second_holder_names_the_first(tmp_path):
     with subprocess.Popen([sys.executable, "-c", HOLD, tmp_path], stdout=subprocess.PIPE) as holder:
         assert holder.stdout.readline() == b"held\n"
         told = f"another invocation is working in this folder .process {holder.pid} on"

@@ -35,7 +35,7 @@ def signal_channels(observed: Observed, time: Float, max_gap: float, notes: list
         twist = np.stack([_between(driven[name], time)[:, 3:] for name in names], axis=1)
         found["odometry"] = np.concatenate([poses, twist], axis=-1)
     told = _of(observed, "command")
-    if _everybody("command", names, told, notes):
+    if _is_known_for_all("command", names, told, notes):
         found["command"] = np.stack([_held(told[name], time) for name in names], axis=1)
     found |= _scans([_of(observed, "scan_ranges").get(name) for name in names], time)
     same = {SAME[track.source] for track in observed.tracks if track.source in SAME}
@@ -46,7 +46,7 @@ def _of(observed: Observed, channel: str) -> dict[str, Signal]:
     return {signal.robot: signal for signal in observed.signals if signal.channel == channel}
 
 
-def _everybody(channel: str, names: Sequence[str], found: Any, notes: list[str]) -> bool:
+def _is_known_for_all(channel: str, names: Sequence[str], found: Any, notes: list[str]) -> bool:
     lacking = [name for name in names if name not in found]
     if lacking and len(lacking) < len(names):
         notes.append(f"{', '.join(lacking)}: no {channel}, so the channel is not given")
@@ -57,7 +57,7 @@ def _poses(
     channel: str, names: Sequence[str], tracks: dict[str, Track], time: Float, max_gap: float, notes: list[str]
 ) -> Float | None:
     """Poses f8[T,n,3], or None."""
-    if not _everybody(channel, names, tracks, notes):
+    if not _is_known_for_all(channel, names, tracks, notes):
         return None
     found = [resample(tracks[name], time, max_gap) for name in names]
     gaps = [gap for resampled in found for gap in resampled.gaps]

@@ -120,7 +120,7 @@ class ControllerConformance(ComponentConformance):
             same = np.allclose(first[: len(alone[robot]), robot], alone[robot][: len(first)], atol=1e-9)
             require(same, "a robot gets other commands when a second robot is controlled in the same call")
 
-    def test_answers_the_optional_questions(self) -> None:
+    def test_optional_methods_return_valid_values(self) -> None:
         session = self.start()
         seen = observation(0, START, np.zeros(2), PathAhead(STRAIGHT).ahead(START))
         session.command(seen)

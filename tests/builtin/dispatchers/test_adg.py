@@ -21,7 +21,7 @@ def square(make):
     return make.solved(make.grid(2, 2), [[0, 1], [1, 3], [3, 2], [2, 0]])
 
 
-def test_who_meets_nobody_is_released_whole(make):
+def test_a_path_without_conflicts_is_released_at_once(make):
     session = Adg().start(*make.solved(make.grid(2, 3), [[0, 1, 1, 2], [3, 3, 4, 5, 5]]))
     assert session.update(0.0, make.view([0, 0])).released.tolist() == [3, 4]
 
@@ -217,7 +217,7 @@ def test_who_disappears_lets_go_when_its_path_ends(make):
     assert session.update(0.0, make.view([2, 3, 0])).requests == ((1, "door"),)
 
 
-def test_who_rides_in_a_lift_is_told_where_to_go_when_it_has_arrived(make):
+def test_a_robot_in_a_lift_is_released_when_the_cabin_has_arrived(make):
     problem, plan = make.solved(make.grid(1, 4), [[0, 1, 2, 3]])
     lanes = tuple(range(len(problem.roadmap.edges)))
     lift = Resource(name="lift", kind="lift", vertices=(1, 2), edges=lanes)
@@ -274,7 +274,7 @@ def test_a_new_plan_continues_what_was_released(make):
     assert session.update(1.0, make.view([1, 1], [1, 1], revision=1)).released.tolist() == [4, 4]
 
 
-def test_a_new_plan_may_send_those_first_who_are_not_on_their_way(make):
+def test_a_new_plan_may_send_those_robots_first_that_have_not_started(make):
     grid = make.grid(3, 3)
     problem, plan = make.solved(grid, [[3, 4, 5], [1, 1, 1, 4, 7]])
     session = Adg().start(problem, plan)

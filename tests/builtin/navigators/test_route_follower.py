@@ -83,7 +83,7 @@ def test_waypoints_are_reached_within_the_tolerance_and_only_as_far_as_released(
     assert follow(LINE, along([(0, 0), (1.2, 0)])).reached == 3
 
 
-def test_a_waypoint_passed_beside_is_reached_but_not_one_passed_far_off():
+def test_a_waypoint_is_reached_by_passing_close_to_it_but_not_far_from_it():
     assert follow(LINE, [(0, 0, 0), (0.55, 0.09, 0)]).reached == 1
     assert follow(LINE, [(0, 0, 0), (0.55, 0.11, 0)]).reached == 0
 
@@ -123,7 +123,7 @@ def test_a_robot_that_comes_back_does_not_clear_early():
     assert (follower.reached, follower.cleared) == (2, 2)
 
 
-def test_the_path_begins_beside_the_robot_and_ends_where_the_release_ends():
+def test_the_path_begins_next_to_the_robot_and_ends_where_the_release_ends():
     follower = follow(LINE, along([(0, 0), (0.5, 0)]), released=2)
     assert np.allclose(follower.path, [(0.5, 0), (0.8, 0)])
 
@@ -271,7 +271,7 @@ def test_a_robot_that_stops_at_waypoints_turns_there_to_the_next():
     assert turned.reached == 1
 
 
-def test_an_occupied_waypoint_can_be_skipped_and_the_route_goes_on_from_beside_it():
+def test_an_occupied_waypoint_can_be_skipped_and_the_route_continues_next_to_it():
     follower = follow(LINE, [(0.2, 0.0, 0.0)], rules=Waypoints(waypoints="stop").arrival_rules)
     follower.fleet.skip_path_end(0)
     follower.update(0.3, 0.2, 0.0, 0.0, 3)

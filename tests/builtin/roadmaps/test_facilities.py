@@ -65,7 +65,7 @@ def ways(roadmap: Roadmap) -> tuple[np.ndarray, np.ndarray]:
     return roadmap.position[roadmap.edges[:, 0]], roadmap.position[roadmap.edges[:, 1]]
 
 
-def bars_somebody(roadmap: Roadmap, door: Door) -> bool:
+def blocks_a_robot(roadmap: Roadmap, door: Door) -> bool:
     """Whether a robot that holds the door open can come to an edge that its open leaf blocks, by search over its moves.
 
     Independent of the code under test: edges and vertices by turns, through the resource only.
@@ -93,17 +93,17 @@ def bars_somebody(roadmap: Roadmap, door: Door) -> bool:
 
 @pytest.mark.parametrize("cell_size", [None, 0.25])
 @given(door=DOORS)
-def test_nobody_who_comes_through_a_door_is_barred_by_its_open_leaf(make_fleet, cell_size, door):
+def test_an_open_leaf_blocks_no_robot_that_comes_through_its_door(make_fleet, cell_size, door):
     world = hall(door)
     builder = NavigationGraph() if cell_size is None else GridRoadmap(cell_size=cell_size)
     roadmap = builder.build(world, make_fleet(RADIUS))
     event(f"{door.motion}: {len(roadmap.notes)} notes")
     if roadmap.resources:
-        assert not bars_somebody(roadmap, door)
+        assert not blocks_a_robot(roadmap, door)
 
 
 @given(door=DOORS, opening=st.floats(0, 1))
-def test_who_is_in_no_resource_is_out_of_the_leaves_way_however_far_they_are_open(make_fleet, door, opening):
+def test_leaves_at_any_opening_touch_no_robot_outside_the_resource(make_fleet, door, opening):
     roadmap = GridRoadmap(cell_size=0.25).build(hall(door), make_fleet(RADIUS))
     if not roadmap.resources:
         return
@@ -116,7 +116,7 @@ def test_who_is_in_no_resource_is_out_of_the_leaves_way_however_far_they_are_ope
 
 
 @given(door=DOORS)
-def test_who_drives_through_a_doorway_needs_it_open_and_touches_no_open_leaf(make_fleet, door):
+def test_a_robot_in_a_doorway_needs_it_open_and_touches_no_open_leaf(make_fleet, door):
     roadmap = GridRoadmap(cell_size=0.25).build(hall(door), make_fleet(RADIUS))
     start, end = ways(roadmap)
     crossing = (np.sign(start[:, 1] - 2) != np.sign(end[:, 1] - 2)).nonzero()[0]

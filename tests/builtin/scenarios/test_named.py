@@ -53,6 +53,6 @@ def test_a_world_without_names_is_refused(corridor):
         draw(("a",), ("b",), corridor, World(name="bare", levels=()))
 
 
-def test_nobody_starting_or_going_anywhere_is_refused():
+def test_empty_starts_or_goals_are_refused():
     with pytest.raises(ValueError, match="starts"):
         Named(starts=(), goals=("a",))

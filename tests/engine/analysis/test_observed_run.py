@@ -48,7 +48,7 @@ def test_times_are_even_and_end_at_the_end(begin, span, rate):
     assert (steps > 0).all()
 
 
-def test_samples_are_kept_and_others_lie_straight_between():
+def test_samples_are_kept_and_others_are_interpolated_linearly():
     drive = track([0, 1, 2], [0, 2, 3])
     found = resample(drive, np.array([0, 0.5, 1, 1.25, 2]), 5)
     assert found.pose[:, 0].tolist() == [0, 1, 2, 2.25, 3]

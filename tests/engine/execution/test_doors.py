@@ -81,7 +81,7 @@ def test_a_robot_goes_round_the_leaf_that_it_opened_across_the_hall(tmp_path):
     assert opening[-1].max() == 0
 
 
-def test_who_starts_in_the_swing_of_a_door_is_told_in_one_line(tmp_path):
+def test_a_robot_that_starts_in_the_swing_of_a_door_is_named_in_one_line(tmp_path):
     record, _ = run(tmp_path, ["front"], ["room"])
     assert (record["status"], record["error"]["stage"]) == ("scenario_infeasible", "scenario")
     assert record["error"]["message"] == "robot 0 starts at front, where the leaf of door ward opens"

@@ -40,7 +40,7 @@ def planner():
     motion=st.sampled_from(["sliding", "double_sliding", "hinged", "double_hinged", "telescope"]),
     direction=st.sampled_from([1, -1]),
 )
-def test_everybody_gets_through_and_no_leaf_ever_touches_anybody(planner, seed, robots, motion, direction):
+def test_all_robots_pass_the_door_and_no_leaf_touches_one(planner, seed, robots, motion, direction):
     random = np.random.default_rng(seed)
     world = furnished_building(motion, direction)
     starts, goals = (random.permutation(ENDS)[:robots].tolist() for _ in range(2))
@@ -67,7 +67,7 @@ def test_everybody_gets_through_and_no_leaf_ever_touches_anybody(planner, seed, 
     assert run.level.tolist() == [int(goal[-1]) for goal in goals]
 
 
-def test_a_door_opens_for_who_passes_and_stays_shut_for_who_drives_by():
+def test_a_door_opens_for_robots_that_pass_through_it_and_not_for_robots_that_drive_by():
     world = furnished_building("hinged")
     through = problem_between(world, ["middle_0"], ["landing_0"])
     goal = through.goals[0][0][0]
@@ -123,7 +123,7 @@ def asking(*pairs):
     return Orders(released=np.zeros(2, "i4"), requests=pairs)
 
 
-def test_keys_go_to_who_asked_first_and_on_when_they_are_given_back():
+def test_a_resource_is_granted_to_the_first_request_and_to_the_next_when_it_is_free():
     world, problem, plan = two_before_the_door()
     shut = {"door": 0.0, "lift/entrance": 0.0, "lift": 0.0}
     facility_manager, view, state = stand(world, problem, plan, shut)

@@ -97,7 +97,7 @@ def test_doors_and_lifts_are_a_channel_where_there_are_some():
     assert joined(chunks, "waits_for").tolist() == [[-1, -1], [-1, -1]]
 
 
-def test_scans_that_nobody_wants_are_not_kept():
+def test_scans_are_not_kept_unless_requested():
     chunks = []
     recorder = Recorder(10.0, 0.05, chunks.append, scans=False)
     recorder.scans((ScanBatch(stamp=0.0, robot=[0], ranges=[[1, 2]]),))

@@ -99,7 +99,7 @@ def test_a_planner_that_assigns_must_give_every_robot_another_task(run_context):
     ("planner", "bound", "holds"),
     [(Optimal, 3.0, True), (Optimal, 2.0, False), (Bounded, 2.0, True), (Bounded, 1.5, False), (Careful, 4.0, False)],
 )
-def test_costs_are_held_against_the_lower_bound(run_context, planner, bound, holds):
+def test_costs_are_compared_with_the_lower_bound(run_context, planner, bound, holds):
     result = attrs.evolve(run_context.result, lower_bound=bound)
     _, fault = judged(planner, run_context.problem, result)
     assert (fault is None) is holds
@@ -145,7 +145,7 @@ def test_cpu_time_counts_the_programs_that_a_planner_runs(run_context):
     assert timing["planning_cpu_s"] > 0.01
 
 
-def test_what_is_no_result_is_a_fault_and_watchers_still_get_one(run_context):
+def test_an_invalid_result_is_a_fault_and_hooks_still_receive_a_result(run_context):
     result, fault = judged(Fixed, run_context.problem, None)
     assert fault == "returned None instead of a PlanResult"
     assert result.plan is None

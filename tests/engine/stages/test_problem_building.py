@@ -34,5 +34,5 @@ def test_a_robot_without_a_task_may_end_anywhere(corridor, robot_model):
     assert Feature.GOAL_SEQUENCES in features(corridor, (robot_model, robot_model), (((1,),), ()))
 
 
-def test_goals_lie_in_the_cells_that_hold_them(run_context):
+def test_goals_are_in_the_cells_that_contain_them(run_context):
     assert goal_vertices(run_context.problem.roadmap, run_context.scenario) == [(1,), (2,)]

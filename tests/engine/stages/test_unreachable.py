@@ -25,7 +25,7 @@ levels:
         (["c", "b"], "identity", "scenario_infeasible"),
     ],
 )
-def test_who_is_to_blame(tmp_path, goals, assigner, status):
+def test_an_unreachable_goal_is_a_fault_of_the_scenario_or_of_the_assignment(tmp_path, goals, assigner, status):
     pytest.importorskip("mrpbench_assigners_ortools")
     (tmp_path / "islands.building.yaml").write_text(ISLANDS)
     study = {

@@ -29,7 +29,7 @@ def test_ticks_of_a_logarithmic_axis_are_powers_of_ten(low, factor):
 
 
 @given(st.lists(st.floats(-1e6, 1e6), min_size=1, max_size=5))
-def test_values_lie_within_their_axis(values):
+def test_values_are_within_their_axis(values):
     low, high = spread(values)
     assert low <= min(values)
     assert max(values) <= high

@@ -26,7 +26,7 @@ def test_values_under_a_former_name_fill_gaps(read):
     np.testing.assert_array_equal(runs.values[COUNTED], [2, 3, 4, np.nan])
 
 
-def test_values_that_differ_stay_apart(read):
+def test_values_that_differ_are_kept_apart(read):
     runs, _ = read_folders([read({FORMER: 2, COUNTED: 1}, {FORMER: 3})])
     assert runs.values[FORMER].tolist() == [2, 3]
     np.testing.assert_array_equal(runs.values[COUNTED], [1, np.nan])

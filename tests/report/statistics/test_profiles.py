@@ -22,7 +22,7 @@ def test_profiles_by_hand():
     assert np.allclose(second[1], [1 / 3, 2 / 3])
 
 
-def test_a_problem_that_nobody_solves_keeps_every_profile_below_one():
+def test_a_problem_that_no_planner_solves_keeps_every_profile_below_one():
     first, second = profiles([np.array([1.0, NAN]), np.array([3.0, NAN])])
     assert first[1].tolist() == second[1].tolist() == [0.5]
     assert second[0].tolist() == [3]

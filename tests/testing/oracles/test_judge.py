@@ -75,7 +75,7 @@ def answer(steps=SHORTEST, bound=2.0, **fields) -> PlanResult:
         (Careless(), answer(None, status=PlanStatus.GAVE_UP)),
     ],
 )
-def test_true_answers_have_no_faults(planner, result, optimum):
+def test_true_results_have_no_faults(planner, result, optimum):
     assert answer_faults(ASKED, planner, result, optimum) == []
 
 
@@ -99,7 +99,7 @@ def test_true_answers_have_no_faults(planner, result, optimum):
         (Careless(), answer(ROUND, history=ROUND_CURVE), None, "rise"),
     ],
 )
-def test_false_answers_have_faults(planner, result, optimum, said):
+def test_false_results_have_faults(planner, result, optimum, said):
     assert any(said in fault for fault in answer_faults(ASKED, planner, result, optimum))
 
 
@@ -111,7 +111,7 @@ def test_conflicts_are_faults_of_those_that_promise_none():
     assert answer_faults(asked, Careless(), result) == []
 
 
-def test_answers_that_cannot_both_be_true_are_found():
+def test_contradicting_results_are_found():
     some, better = (Bounded(w=9.0), answer(ROUND)), (Optimal(), answer())
     assert contradictions([some, better]) == []
     (high,) = contradictions([(Bounded(), answer(None, 3.0)), better])

@@ -85,7 +85,7 @@ def test_without_a_stack_the_run_is_refused_in_one_line():
         run({**STUDY, "navigator": {"plugin": "ros2", "patience": "0.2 s"}})
 
 
-def test_a_run_can_be_watched_and_stays_what_it_is(started, monkeypatch):
+def test_watching_a_run_does_not_change_it(started, monkeypatch):
     robot = {"robot": "turtlebot3_burger", "lidar": {"beams": 30, "range": 3.5}}
     study = {**STUDY, "fleet": [robot], "limits": {"execution": "4 s"}}
     (alone,) = run({**study, "name": "alone"})

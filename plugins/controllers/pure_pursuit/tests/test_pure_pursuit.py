@@ -46,7 +46,7 @@ def test_the_arc_leads_through_the_point_that_is_chased():
     assert turn / speed == pytest.approx(curvature, rel=1e-6)
 
 
-def test_a_robot_beside_its_path_steers_back_to_it():
+def test_a_robot_next_to_its_path_steers_back_to_it():
     assert command([(0, 0), (5, 0)], pose=(0, 0.05, 0))[1] < 0
     assert command([(0, 0), (5, 0)], pose=(0, -0.05, 0))[1] > 0
 

@@ -154,7 +154,7 @@ def test_where_the_clock_jumps_the_longer_part_is_used(foreign, by, way):
         assert track.time == pytest.approx(TIMES[TIMES >= 0.999] - 1.0, abs=1e-6)
 
 
-def test_log_times_stand_in_for_stamps_that_nobody_set(foreign):
+def test_log_times_replace_stamps_that_are_not_set(foreign):
     bag = foreign()
     for t in TIMES:
         bag.odometry("/a/ground_truth", 0, *drive(0, t), frame="map", log=50 + t)

@@ -148,7 +148,7 @@ def test_a_database_without_definitions_is_read_by_those_of_ros(tmp_path):
     assert track.pose[:, :2] == pytest.approx(np.array([(2 * t, 1.0) for t in np.arange(0, 3, 0.25)]))
 
 
-def test_a_database_of_a_type_that_nobody_knows_is_refused(tmp_path):
+def test_a_database_of_an_unknown_type_is_refused(tmp_path):
     file = sqlite(tmp_path / "own.db3", "acme_msgs/msg/Place", [(1, b"\x00\x01\x00\x00")])
     with pytest.raises(InputError, match=r"holds no pose of any robot.*acme_msgs/Place"):
         FromRosbag2().read(file)

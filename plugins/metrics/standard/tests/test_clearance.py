@@ -19,7 +19,7 @@ def within(run, *levels):
     return attrs.evolve(run, context=attrs.evolve(run.context, world=World(name="w", levels=levels)))
 
 
-def test_gaps_lie_between_surfaces(executed):
+def test_gaps_are_measured_between_surfaces(executed):
     """Radii 0.1 and 0.3 m, centres 1 to 3 m apart; the wall's side is at y = 1.9 m."""
     tracks = [[(0, 0), (0, 0), (0, 0)], [(1, 0), (2, 0), (3, 0)]]
     run = within(executed(range(3), tracks, [[0] * 3] * 2, [WAY] * 2, radii=[0.1, 0.3]), WALL)
@@ -46,7 +46,7 @@ def test_levels_do_not_see_one_another(executed):
     assert values["walls_p50_m"] == pytest.approx(1.8)
 
 
-def test_where_nobody_is_under_way_nothing_is_measured(executed):
+def test_without_a_robot_under_way_nothing_is_measured(executed):
     values = Clearance().measure(within(executed([0, 1], [[(0, 0)] * 2], [[1, 1]], [WAY]), WALL))
     assert set(values.values()) == {None}
 

@@ -12,7 +12,7 @@ def along_x(xs):
     return [(x, 0.0) for x in xs]
 
 
-def test_a_deadlock_begins_a_window_after_everybody_stands(executed):
+def test_a_deadlock_begins_a_window_after_all_robots_stand(executed):
     """Both stand from t = 2; robot 0 goes on at 6, so that at 7 it has advanced 1 m in 2 s: the three
     seconds that end at 4, 5 and 6 count.
     """
@@ -21,13 +21,13 @@ def test_a_deadlock_begins_a_window_after_everybody_stands(executed):
     assert values == {"time_s": 3.0, "longest_s": 3.0, "count": 1, "unresolved": False}
 
 
-def test_one_that_gets_on_is_no_deadlock(executed):
+def test_progress_of_one_robot_is_no_deadlock(executed):
     one_goes = [along_x(range(9)), along_x([0] * 9)]
     values = METRIC.measure(executed(range(9), one_goes, [[0] * 9] * 2, [WAY] * 2))
     assert values == {"time_s": 0.0, "longest_s": 0.0, "count": 0, "unresolved": False}
 
 
-def test_those_who_arrived_do_not_count(executed):
+def test_robots_that_arrived_do_not_count(executed):
     """Robot 0 arrives at 3 while robot 1 stands all along: from 3 to the end at 8 no robot makes progress."""
     tracks = [along_x([0, 3, 6, 9, 9, 9, 9, 9, 9]), along_x([0] * 9)]
     reached = [[0, 0, 0, 1, 1, 1, 1, 1, 1], [0] * 9]

@@ -44,7 +44,7 @@ def test_cutting_corners_gains_no_spl(executed):
 
 
 @pytest.mark.parametrize("goals", [((),), (((0,),),)])
-def test_where_nobody_needs_to_move_there_is_no_efficiency(executed, goals):
+def test_without_a_robot_that_has_to_move_there_is_no_efficiency(executed, goals):
     run = asked(executed([0, 1], [[(0, 0)] * 2], [[0, 0]], [[(0, 0)]]), [0], goals)
     assert set(Efficiency().measure(run).values()) == {None}
 

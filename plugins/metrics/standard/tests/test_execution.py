@@ -61,7 +61,7 @@ def test_robots_on_different_levels_are_not_near(executed):
     assert Execution().measure(run)["min_distance_m"] == 3.0
 
 
-def test_one_robot_is_near_nobody(executed):
+def test_a_single_robot_has_no_nearest_robot(executed):
     values = Execution().measure(executed([0, 1], [[(0, 0), (1, 0)]], [[0, 1]], [[(0, 0), (1, 0)]]))
     assert values["min_distance_m"] is None
     assert values["min_clearance_m"] is None

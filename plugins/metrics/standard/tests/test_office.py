@@ -40,7 +40,7 @@ def test_ways_agree(measured):
     assert 0 <= coasted < 5 * 0.1, "what robots still drive after arriving within the tolerance of their goal"
 
 
-def test_nobody_is_nearer_than_the_nearest(measured):
+def test_no_robot_is_nearer_than_the_nearest(measured):
     assert (
         measured["execution.min_clearance_m"] <= measured["clearance.robots_min_m"] <= measured["clearance.robots_p5_m"]
     )

@@ -37,7 +37,7 @@ def test_a_part_of_the_path_far_ahead_hides_no_error(executed):
     assert Tracking().measure(released(run, [[5, 5]]))["mean_m"] == 1
 
 
-def test_who_has_arrived_is_not_looked_at(executed):
+def test_robots_that_have_arrived_are_not_measured(executed):
     run = executed([0, 1], [[(5, 5), (5, 5)]], [[1, 1]], [[(0, 0), (1, 0)]])
     assert set(Tracking().measure(released(run, [[1, 1]])).values()) == {None}
 

@@ -33,7 +33,7 @@ def run(executed):
     return FinishedRun(context=context, executed=True, channels=channels)
 
 
-def test_who_stands_and_has_asked_waits(run):
+def test_robots_that_stand_with_an_open_request_wait(run):
     values = Waiting().measure(run)
     assert values["doors_s"] == 2.0  # in the third second it drives
     assert values["lifts_s"] == 1.0  # in the second it drives, then it rides

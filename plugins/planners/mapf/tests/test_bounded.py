@@ -91,7 +91,7 @@ def test_a_bound_of_one_is_optimal(planner):
 
 
 @pytest.mark.parametrize("corridor", [True, False])
-def test_who_meets_in_a_corridor_lets_the_other_out(corridor):
+def test_robots_that_meet_in_a_corridor_let_each_other_out(corridor):
     # Two robots meet head-on in a corridor of eight cells with a bay at each end.
     road = grid_of(["#.########.#", "............"])
     asked = problem_on(road, [2, 13], [13, 2])
@@ -110,7 +110,7 @@ def test_a_robot_that_has_arrived_makes_way():
 
 @pytest.mark.parametrize("seed", [1, 2, 4])
 @pytest.mark.parametrize("planner", [Cbs(), Eecbs()])
-def test_who_comes_later_to_a_crossing_of_long_lanes_waits_until_the_other_has_left_it(planner, seed):
+def test_the_later_robot_waits_until_the_earlier_one_has_left_a_junction_of_long_lanes(planner, seed):
     # Split lane by lane, the same conflicts take 12 to 360 expansions, and cbs at least 30.
     random = np.random.default_rng(seed)
     road = grid_of(["...", "...", "..."])

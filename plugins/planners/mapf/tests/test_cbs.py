@@ -129,7 +129,7 @@ def test_techniques_save_expansions(shared_data):
 
 
 @pytest.mark.parametrize("goal", [21, 19])
-def test_who_ends_in_a_corridor_comes_there_after_the_other_has_left_it(goal):
+def test_a_robot_that_ends_in_a_corridor_enters_it_after_the_other_has_left_it(goal):
     # Between two rooms; robot 1 is there first. Without the reasoning: 276 and 7,369 expansions.
     road = grid_of(["....#########....", ".................", "....#########...."])
     asked = problem_on(road, [8, 22], [24, goal])

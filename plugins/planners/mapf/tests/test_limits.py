@@ -61,7 +61,7 @@ def test_robots_that_can_never_pass_one_another_are_unsolvable(planner, rows, st
 
 @settings(max_examples=40, deadline=None)
 @given(seed=st.integers(0, 2**32 - 1), planner=st.sampled_from([Prioritized(), Pbs(), Lns(), Cbs()]))
-def test_what_is_called_unsolvable_where_nobody_may_follow_has_no_plan(seed, planner):
+def test_problems_reported_as_unsolvable_without_following_have_no_plan(seed, planner):
     random = np.random.default_rng(seed)
     rows = ["".join("#" if random.random() < 0.2 else "." for _ in range(3)) for _ in range(2)]
     road = grid_of(rows)

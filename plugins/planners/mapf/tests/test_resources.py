@@ -91,7 +91,7 @@ def test_two_robots_pass_a_door_one_after_the_other(planner, setup):
 
 
 @pytest.mark.parametrize("planner", [Cbs(), Eecbs(w=1.0), Ecbs(w=1.0), Pbs(), Prioritized()])
-def test_who_parks_in_a_doorway_lets_the_others_through_first(planner):
+def test_a_robot_that_ends_in_a_doorway_lets_the_others_through_first(planner):
     asked = problem_on(hall(setup=3), [5, 0, 2], [7, 3, 1])
     result = ask(planner, asked, budget=AMPLE)
     assert result.status is PlanStatus.SOLVED

@@ -62,7 +62,7 @@ def test_every_part_is_read(fleet):
     assert roadmap.place[[0, 5]].min() >= 0
 
 
-def test_levels_that_are_drawn_to_another_scale_lie_on_one_another():
+def test_levels_that_are_drawn_to_another_scale_are_aligned():
     """Level 1 has 25 pixels to the metre where G has 50; both show the lift where it is."""
     world = Rmf(file=FILE).load()
     stops = [(vertex.x, vertex.y) for vertex in world.vertices if vertex.lift]

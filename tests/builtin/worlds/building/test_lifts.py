@@ -92,7 +92,7 @@ def test_lifts_in_one_shaft_are_refused(load, x, yaw, levels):
 
 
 @pytest.mark.parametrize(("x", "yaw", "levels"), [(7, 0, "GU"), (7.3, 0.8, "GU"), (5, 0, "VW")])
-def test_lifts_that_only_touch_or_lie_above_one_another_are_two(load, x, yaw, levels):
+def test_lifts_that_only_touch_or_are_above_each_other_are_two(load, x, yaw, levels):
     text = TOWER.replace("  V: {}", "  V: {}\n  W: {}") + SECOND % (x, yaw, *levels)
     assert [lift.name for lift in load(text).lifts] == ["up", "side"]
 
