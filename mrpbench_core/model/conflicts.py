@@ -76,14 +76,3 @@ def _near_boxes(start: Float, end: Float, distance: float) -> tuple[Int, Int]:
     left, right = left[meet], right[meet]
     other = left != right
     return np.concatenate([left, right[other]]), np.concatenate([right, left[other]])
-
-
-def reverse_edges(roadmap: Roadmap) -> Int32:
-    """The edge i4[E] that runs the other way between the same vertices, -1 = none."""
-    keys = roadmap.edges[:, 0].astype(np.int64) * len(roadmap.position) + roadmap.edges[:, 1]
-    wanted = roadmap.edges[:, 1].astype(np.int64) * len(roadmap.position) + roadmap.edges[:, 0]
-    if not len(keys):
-        return np.empty(0, np.int32)
-    order = np.argsort(keys, kind="stable")
-    found = np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)
-    return np.where(keys[order[found]] == wanted, order[found], -1).astype(np.int32)

@@ -4,7 +4,7 @@ from enum import StrEnum
 
 
 class RunStatus(StrEnum):
-    """How a run ended; see `docs/results.md`."""
+    """How a run ended; see `docs/results-folder.md`."""
 
     SUCCEEDED = "succeeded"
     """Every robot arrived; without a simulator, the planner found a valid plan."""

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.model.conflicts import exclusions, reverse_edges
+from mrpbench_core.model.conflicts import exclusions
 from mrpbench_core.model.geometry import point_segment_distance, segment_distance
 from mrpbench_core.model.roadmap import Roadmap
 
@@ -43,17 +43,6 @@ def test_exclusions_are_exactly_the_pairs_closer_than_the_distance(roadmap, dist
             if same_level and segment_distance(*ends) < distance - 1e-9:
                 expected.append(y)
         assert table.element[table.first[x] : table.first[x + 1]].tolist() == expected
-
-
-@given(roadmaps())
-@settings(deadline=None, max_examples=50)
-def test_reverse_edges_swap_the_ends(roadmap):
-    edges = [tuple(edge) for edge in roadmap.edges]
-    for (tail, head), back in zip(edges, reverse_edges(roadmap), strict=True):
-        if back >= 0:
-            assert edges[back] == (head, tail)
-        else:
-            assert (head, tail) not in edges
 
 
 @given(*[st.tuples(coordinates, coordinates).map(np.array) for _ in range(4)])
