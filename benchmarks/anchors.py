@@ -23,13 +23,13 @@ CONTESTS = {
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--shared", type=Path, required=True, help="folder with movingai/ and anchors.csv")
     parser.add_argument("--solvers", nargs="*", default=list(CONTESTS), choices=list(CONTESTS))
     parser.add_argument("--maps", nargs="*", default=[])
     parser.add_argument("--each", action="store_true", help="a line for each number of robots too")
-    parser.add_argument("--solvable", action="store_true", help="only what the others solved")
+    parser.add_argument("--solvable", action="store_true", help="only instances that the other solvers solved")
     parser.add_argument("--time-limit", type=float, default=10.0, help="CPU seconds")
     parser.add_argument("--repeat", type=int, default=1)
     arguments = parser.parse_args()

@@ -29,7 +29,7 @@ OTHERS = ("lacam3", "LNS2")
 
 
 class CostCurve(NamedTuple):
-    """What is left of a cost over time."""
+    """The cost of an anytime solver over time."""
 
     first: float
     """Seconds to the first plan; infinite: none."""
@@ -151,7 +151,7 @@ def first_plans(
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, required=True, help="folder with maps/ and scens/")
     parser.add_argument("--anchors", type=Path, required=True, help="table of what others reach")

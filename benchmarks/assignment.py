@@ -40,7 +40,7 @@ class AssignmentInstance(NamedTuple):
 
 
 class Question(NamedTuple):
-    """What a solver is asked."""
+    """An instance as the solver receives it."""
 
     free: np.ndarray
     starts: list[list[int]]
@@ -48,7 +48,7 @@ class Question(NamedTuple):
 
 
 def measured(file: Path, solver: str, limit: float) -> dict[AssignmentInstance, Outcome]:
-    """What `solver` was measured to reach."""
+    """The measured outcomes of `solver`."""
     found = {}
     with file.open() as stream:
         for row in csv.DictReader(stream):
@@ -76,7 +76,7 @@ def load(data: Path, instance: AssignmentInstance) -> Question:
 
 
 def run(question: Question, solver: str, limit: float, repeat: int) -> Outcome:
-    """What a solver makes of a question, in the median."""
+    """The median outcome of a solver on an instance."""
     algorithm, options = algorithm_of(solver)
     found = []
     for _ in range(repeat):
@@ -105,7 +105,7 @@ def table(found: dict[AssignmentInstance, Outcome], others: dict[AssignmentInsta
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, required=True, help="folder with mapf_ta/ and anchors_assignment.csv")
     parser.add_argument("--solver", help="an algorithm and its options, such as 'ecbs_ta w=1.3'; default: all four")

@@ -29,7 +29,7 @@ def same(one: Solution, other: Solution) -> bool:
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, required=True, help="folder with maps/ and scens/")
     parser.add_argument("--maps", nargs="+", default=["den520d", "warehouse-10-20-10-2-1"])

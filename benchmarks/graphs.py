@@ -66,7 +66,7 @@ def measure(world: str, planner: str, arguments: argparse.Namespace) -> str:
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--worlds", nargs="+", default=["office"], metavar="WORLD")
     parser.add_argument("--planners", nargs="+", default=list(PLANNERS), metavar='"NAME OPTION=VALUE…"')

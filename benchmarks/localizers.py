@@ -84,7 +84,7 @@ def cost(robots: int, localizer: Amcl, seconds: float = 20.0, period: float = 0.
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("worlds", nargs="*", default=["office", "warehouse"])
     options = parser.parse_args()

@@ -56,7 +56,7 @@ def call(side: int, robots: int, algorithm: str, limit: int, time_limit: float) 
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--side", type=int, default=1000, help="cells in a row")
     parser.add_argument("--robots", type=int, default=1000)

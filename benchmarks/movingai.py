@@ -51,7 +51,7 @@ class MapfInstance(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """What a solver made of an instance."""
+    """The outcome of a solver on an instance."""
 
     seconds: float
     """infinite: not solved."""
@@ -89,7 +89,7 @@ def read_instance(data: Path, instance: MapfInstance) -> tuple[NDArray[np.bool_]
 
 
 def outcome_of(row: Mapping[str, str]) -> Outcome:
-    """What one line of a table of measurements says."""
+    """The outcome in one line of a table of measurements."""
     if row["solved"] != "1":
         return Outcome(math.inf, math.nan)
     return Outcome(float(row["seconds"]), float(row["cost"] or "nan"))
@@ -109,7 +109,7 @@ def measured(file: Path, solvers: Sequence[str], limit: float = 10.0) -> dict[Ma
 
 
 def attempt(data: Path, instance: MapfInstance, solver: str, limit: float) -> Solution:
-    """What a solver makes of an instance in so many seconds of wall time."""
+    """Run a solver on an instance for so many seconds of wall time."""
     name, options = algorithm_of(solver)
     if name in ALGORITHMS:
         return solve(*read_instance(data, instance), algorithm=name, time_limit=limit, **options)
@@ -170,7 +170,7 @@ def line(
     found: Mapping[MapfInstance, Outcome],
     others: Mapping[MapfInstance, Outcome],
 ) -> str:
-    """What became of some instances."""
+    """A line of the table for some instances."""
     ours = [found[one] for one in members]
     theirs = [others.get(one, UNKNOWN) for one in members]
     times = [[outcome.seconds for outcome in outcomes] for outcomes in (ours, theirs)]
@@ -199,7 +199,7 @@ def table(
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path, required=True, help="folder with maps/ and scens/")
     parser.add_argument("--solver", default="cbs", help="a solver and its options, such as 'eecbs w=1.2'")
@@ -207,7 +207,7 @@ def main() -> None:
     parser.add_argument("--agents", nargs="*", type=int, default=[10])
     parser.add_argument("--scens", type=int, default=5, help="scenario files random-1 to random-N")
     parser.add_argument("--anchors", type=Path, help="table of what others reach")
-    parser.add_argument("--against", nargs="*", default=[], help="solvers of that table")
+    parser.add_argument("--against", nargs="*", default=[], help="solvers in that table")
     parser.add_argument("--beside", metavar="SOLVER", help="another solver, to be run as well")
     parser.add_argument("--time-limit", type=float, default=10.0, help="CPU seconds")
     parser.add_argument("--repeat", type=int, default=3)

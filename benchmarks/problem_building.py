@@ -45,7 +45,7 @@ def grid_problem(world: Path, scen: Path, robots: int) -> Problem | None:
 
 
 def solve_by_planner(name: str, options: dict[str, Any], problem: Problem, wall_s: float) -> Solution:
-    """What a planner makes of `problem`; `failed` if it does not support such problems or its plan has conflicts.
+    """The outcome of a planner on `problem`; `failed` if it does not support such problems or its plan has conflicts.
 
     Of a planner that runs a program (`external`) the time of that program counts.
 

@@ -56,7 +56,7 @@ def durations(repeats: int, simulator: str, folder: Path) -> list[float]:
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("repeats", nargs="?", type=int, default=100)
     parser.add_argument("--simulator", default="planar")

@@ -69,7 +69,7 @@ def context(robots: int) -> RunContext:
 
 
 def chunks(robots: int, seconds: float) -> Iterator[Chunk]:
-    """What the recorder hands on: 256 samples, or 4096 scans."""
+    """Chunks like those of the recorder: 256 samples, or 4096 scans."""
     random = np.random.default_rng(0)
     samples = max(RATE // SCAN_RATE, min(256, 4096 * RATE // SCAN_RATE // robots))
     steps = int(seconds * RATE)
@@ -112,7 +112,7 @@ def measure(robots: int, storage: str) -> tuple[float, float, float]:
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--robots", type=int, nargs="+", default=[1, 9, 100, 1000])

@@ -76,7 +76,7 @@ def simulators() -> dict[str, Simulator]:
 
 
 def drive(simulator: Simulator, world: World, robots: int, lidars: bool) -> Iterator[float]:
-    """Simulated seconds per second, measured anew each time it is asked for."""
+    """Simulated seconds per second, measured at each step of the iterator."""
     robot = BURGER if lidars else attrs.evolve(BURGER, lidar=None)
     random, per_second = np.random.default_rng(2), round(1 / PERIOD)
     with simulator.open(world, Fleet(robots=(robot,) * robots), placements(world, robots), 0, PERIOD) as simulation:
@@ -119,7 +119,7 @@ def fastest(work: Callable[[], object], times: int = 30) -> float:
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("robots", nargs="*", type=int, default=[9, 100, 1000], help="numbers of robots")
     parser.add_argument("--rounds", type=int, default=3)

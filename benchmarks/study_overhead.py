@@ -17,7 +17,7 @@ RUNS = 1000
 
 
 def main() -> None:
-    """Measure and print."""
+    """Measure the rows and print the table."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "tiny.map").write_text("type octile\nheight 3\nwidth 3\nmap\n...\n...\n...\n")

@@ -1,4 +1,4 @@
-"""What users get is in the wheels, not only in the checkout."""
+"""Wheels contain all files that users need."""
 
 import subprocess
 import tomllib

@@ -49,7 +49,7 @@ def mrpbench_planned(problem: Problem, result: PlanResult) -> None:
 
 @hookspec
 def mrpbench_executing(context: RunContext) -> None:
-    """The execution of a plan begins (the run's process)."""
+    """Called in the process of the run when the execution of a plan begins."""
 
 
 @hookspec

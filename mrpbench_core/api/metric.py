@@ -32,13 +32,13 @@ class Column:
     source: str = ""
     """Paper or standard that defines it."""
     requires: frozenset[str] = frozenset()
-    """What this number needs in addition to `Metric.requires`. Where it is missing, only this column is null:
-    recordings of real fleets lack what only a simulator knows."""
+    """The data that this number needs in addition to `Metric.requires`. If they are missing, only this column is null;
+    recordings of real fleets lack data that only a simulator has."""
     primary: bool = False
     """Whether tables, figures, summaries and replays show it unless the user selects columns."""
     stage: ColumnStage = "execution"
-    """What it measures. Figures that count runs without a value as failures use the runs that have a plan, or those
-    that succeeded."""
+    """The stage that it measures. Figures that count runs without a value as failures use the runs that have a plan, or
+    the runs that succeeded."""
     drawn: Drawn = "interval"
     """The figures of a primary column: its mean with an interval; also a performance profile (Dolan and Moré 2002); or
     also a profile and a cactus plot, on a logarithmic axis. The last two are for values above 0 of which less is

@@ -9,7 +9,7 @@ from mrpbench_core.model.fleet import RobotModel
 
 
 class Surroundings(ABC):
-    """What the controller of one robot knows of its surroundings."""
+    """The surroundings of one robot, as its controller knows them."""
 
     @abstractmethod
     def clear(self) -> None:

@@ -10,10 +10,10 @@ from mrpbench_core.model.problem import Problem
 
 @attrs.frozen(kw_only=True)
 class PlanReport:
-    """What is wrong with a plan."""
+    """The faults of a plan."""
 
     faults: tuple[str, ...] = ()
-    """Why paths are not paths of this problem, one sentence each."""
+    """Reasons why paths are not valid for this problem, one sentence each."""
     conflicts: tuple[Conflict, ...] = ()
     """Conflicts between robots; not searched for, so empty, if there are faults."""
 

@@ -46,7 +46,7 @@ class WorldFacts:
     narrow: tuple[str, ...]
     """Passages narrower than the robot, one sentence each."""
     notes: tuple[str, ...]
-    """What the loader and the roadmap left out or assumed, one sentence each."""
+    """Omissions and assumptions of the loader and the roadmap, one sentence each."""
 
 
 def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:

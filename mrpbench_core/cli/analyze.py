@@ -34,7 +34,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--robot", default="turtlebot3_burger", metavar="MODEL", help="robot model (default: %(default)s)"
     )
-    parser.add_argument("--fleet", metavar="NAME", help="which fleet of /fleet_states, if there are several")
+    parser.add_argument("--fleet", metavar="NAME", help="name of the fleet in /fleet_states, if there are several")
     parser.add_argument(
         "--start-time", type=float, metavar="S", help="ignore everything before this time, in seconds from the start"
     )

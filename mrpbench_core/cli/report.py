@@ -38,7 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--markdown", metavar="FILE", help="write the tables")
     parser.add_argument("--latex", metavar="FILE", help="write the tables, for the package booktabs")
     parser.add_argument(
-        "--html", metavar="FILE", help="the page (default: report.html in the first DIR; `none` = no page)"
+        "--html", metavar="FILE", help="file of the page (default: report.html in the first DIR; `none` = no page)"
     )
     parser.add_argument(
         "--replays",

@@ -19,7 +19,7 @@ from mrpbench_core.files.errors import InputError, InputErrors
 
 
 class Expected(NamedTuple):
-    """What a configuration should hold at some place."""
+    """The type that a configuration must have at some key."""
 
     kind: Any
     """A type, as an annotation writes it."""

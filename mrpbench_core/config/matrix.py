@@ -45,7 +45,7 @@ class Point:
     axes: dict[str, Any]
     """Plain value of each key that varies."""
     fault: InputError | None = None
-    """Why the configuration cannot be combined."""
+    """The reason why the configuration cannot be combined."""
 
     @property
     def label(self) -> str:

@@ -35,7 +35,7 @@ def block(plugin: Any = attrs.NOTHING, *, help: str, validator: Any = None) -> A
 
 @attrs.frozen(kw_only=True)
 class LidarOptions:
-    """What differs from the robot's own lidar; None = as the robot has it."""
+    """Settings that replace those of the robot's lidar; None = as in the robot model."""
 
     beams: int | None = option(None, help="beams per turn", validator=validators.optional(validators.ge(1)))
     range: float | None = option(None, help="reach", unit="m", validator=validators.optional(validators.gt(0)))
@@ -61,7 +61,7 @@ class FleetEntry:
     lidar: LidarOptions | Literal["none"] | None = option(None, help="changes to its lidar; `none` takes it off")
     count: int | None = option(
         None,
-        help="how many; entries without a count share the scenario's remaining robots",
+        help="number of robots; entries without a count share the remaining robots of the scenario",
         validator=validators.optional(validators.ge(1)),
     )
 
@@ -78,7 +78,7 @@ class FleetEntry:
 
 @attrs.frozen(kw_only=True)
 class Noise:
-    """What the engine adds to the simulator's exact output, and takes from the exactness of commands."""
+    """Noise that the engine adds to the exact output of the simulator and to commands; zero by default."""
 
     lidar: float = option(0.0, help="standard deviation of each range", unit="m", validator=validators.ge(0))
     lidar_dropout: float = option(
@@ -106,7 +106,7 @@ class Noise:
 
 @attrs.frozen(kw_only=True)
 class RecordingOptions:
-    """What is kept of an execution."""
+    """Settings of recordings."""
 
     keep: Literal["all", "failed", "none"] = option("all", help="of which runs the recording is kept")
     rate: float = option(10.0, help="samples per simulated second", unit="Hz", validator=validators.gt(0))
@@ -130,7 +130,7 @@ class Limits:
 
 @attrs.frozen(kw_only=True)
 class Replanning:
-    """When the planner is asked again during execution, and what that costs."""
+    """Settings for calls of the planner during execution."""
 
     delay: float | None = option(
         None,
@@ -186,14 +186,14 @@ class RunConfig:
     simulator: Simulator | None = block("kinematic", help="moves the robots; `none` ends the run after planning")
     localizer: Localizer | None = block("ground_truth", help="tells robots where they are", validator=_drives)
     control_rate: float = option(
-        20.0, help="how often dispatcher, navigator and controller act", unit="Hz", validator=validators.gt(0)
+        20.0, help="rate at which dispatcher, navigator and controller act", unit="Hz", validator=validators.gt(0)
     )
     noise: Noise = option(Noise(), help="errors of sensors, motors and starts")
-    metrics: Mapping[str, Metric] = block(("planning", "execution"), help="what is measured")
+    metrics: Mapping[str, Metric] = block(("planning", "execution"), help="metrics to compute")
     export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")
-    recording: RecordingOptions = option(RecordingOptions(), help="what is kept of an execution")
-    limits: Limits = option(Limits(), help="when a stage is ended")
-    replanning: Replanning = option(Replanning(), help="when the planner is asked again during execution")
+    recording: RecordingOptions = option(RecordingOptions(), help="settings of recordings")
+    limits: Limits = option(Limits(), help="limits of time and memory")
+    replanning: Replanning = option(Replanning(), help="calls of the planner during execution")
     seed: int = option(
         0, help="of the scenario, the planner's random choices and the noise", validator=validators.ge(0)
     )

@@ -111,7 +111,7 @@ def _router(config: RunConfig, instance: RunInstance, assigned: tuple[int, ...],
 def _context(
     inputs: RunInputs, run_id: str, instance: RunInstance, router: Router, result: PlanResult, assigned: tuple[int, ...]
 ) -> RunContext:
-    """What is known of the run before its execution; without a plan there are no routes."""
+    """The context of the run before its execution; without a plan there are no routes."""
     routes = () if result.plan is None else router(result.plan)
     return RunContext(
         run_id=run_id,

@@ -9,7 +9,7 @@ from mrpbench_core.model.status import RunStatus, Stage
 
 @attrs.frozen(kw_only=True)
 class RunError:
-    """Why a run did not succeed."""
+    """The reason why a run did not succeed."""
 
     stage: Stage
     message: str
@@ -29,11 +29,11 @@ class RunRecord:
     metrics: dict[str, Any] = attrs.field(factory=dict)
     """Values by `<metric>.<column>`, None = not measurable."""
     unmeasured: dict[str, str] = attrs.field(factory=dict)
-    """Why a metric or `<metric>.<column>` cannot be measured."""
+    """The reason why a metric or `<metric>.<column>` cannot be measured, by name."""
     unexported: dict[str, str] = attrs.field(factory=dict)
-    """Why an export failed, by the exporter's name."""
+    """The reason why an export failed, by the name of the exporter."""
     reassigned: int = 0
-    """How many robots got another goal than the one that the scenario gives them."""
+    """The number of robots whose goal is not the one that the scenario gives them."""
     timing: dict[str, Any] = attrs.field(factory=dict)
     """Wall and CPU seconds, bytes, and what depends on them."""
 

@@ -1,4 +1,4 @@
-"""What a stage is given and what it tells: that it begins, and that the run ends in it."""
+"""The interface of the stages: inputs, announcements, and the exception that ends a run."""
 
 from collections.abc import Callable
 from typing import Any
@@ -16,7 +16,7 @@ Announce = Callable[[Stage, dict[str, Any]], None]
 
 @attrs.frozen(kw_only=True)
 class RunInputs:
-    """What the stages of one run share."""
+    """The inputs that the stages of one run share."""
 
     config: RunConfig
     paths: RunPaths

@@ -31,7 +31,7 @@ TOLERANCE = 1e-9
 
 
 class Exclusions(NamedTuple):
-    """Which elements of a roadmap are closer than a distance, as sparse rows sorted by element.
+    """The elements of a roadmap that are closer than a distance, as sparse rows sorted by element.
 
     Element v < V is a vertex, element V + e is edge e. Row x lists the *other* elements near x (and x itself).
     """

@@ -1,4 +1,4 @@
-"""How doors move: the position of each leaf, the area that it sweeps, and the time that it takes.
+"""The motion of doors: the position of each leaf, the area that it sweeps, and its duration.
 
 The map gives the kind and the width of a door. Maps do not give its speed; ours is that of a common automatic door.
 """

@@ -11,7 +11,7 @@ from mrpbench_core.model.arrays import Byte, Float, Int, Int16, Int32, array
 
 
 class Mode(IntEnum):
-    """What a robot does now. Recordings keep the numbers; 3 is no longer used."""
+    """The current activity of a robot. Recordings store the numbers; 3 is no longer used."""
 
     FOLLOWING = 0
     WAITING = 1
@@ -21,7 +21,7 @@ class Mode(IntEnum):
 
 @attrs.frozen(kw_only=True)
 class FleetView:
-    """What a dispatcher knows of the fleet: estimates, never ground truth."""
+    """The state of the fleet as a dispatcher sees it: estimates, never ground truth."""
 
     revision: int
     """Number of calls of `adopt`, which tells the plan that the indices below refer to."""
@@ -42,14 +42,14 @@ class FleetView:
 
 @attrs.frozen(kw_only=True)
 class Orders:
-    """What a dispatcher allows."""
+    """The segments that a dispatcher releases, and its requests."""
 
     released: Int32 = array("i4")
     """i4[n]: number of leading path segments each robot may complete; never decreases within a revision."""
     requests: tuple[tuple[int, str], ...] = ()
     """(robot, resource) pairs requested or in use, the longest requested first. A pair that is left out is released."""
     replan: str | None = None
-    """Why a new plan is needed, or None."""
+    """The reason why a new plan is needed, or None."""
 
 
 @attrs.frozen(kw_only=True)
@@ -98,7 +98,7 @@ class Estimate:
 
 @attrs.frozen(kw_only=True)
 class FleetObservation:
-    """What a navigator knows."""
+    """The inputs of a navigator."""
 
     estimate: Estimate
     odometry: Odometry
@@ -109,7 +109,7 @@ class FleetObservation:
 
 @attrs.frozen(kw_only=True)
 class Observation:
-    """What the controller of one robot knows."""
+    """The inputs of the controller of one robot."""
 
     now: float
     pose: Float = array("f8")
@@ -131,7 +131,7 @@ class Observation:
 
 @attrs.frozen(kw_only=True, eq=False)
 class Observations:
-    """What the controllers of k robots know, row by row; see `Observation`. The arrays must not be changed."""
+    """The inputs of the controllers of k robots, row by row; see `Observation`. The arrays must not be changed."""
 
     now: float
     robot: Int

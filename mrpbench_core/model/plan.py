@@ -1,4 +1,4 @@
-"""What a planner returns: one timed path per robot, and how it went."""
+"""The result of a planner: one timed path per robot, a status and statistics."""
 
 from collections.abc import Mapping
 from enum import StrEnum
@@ -66,7 +66,7 @@ class Plan:
 
 
 class PlanStatus(StrEnum):
-    """How planning ended."""
+    """The outcome of planning."""
 
     SOLVED = "solved"
     TIMEOUT = "timeout"
@@ -104,12 +104,12 @@ class PlanResult:
     statistics: Mapping[str, float] = attrs.field(factory=dict)
     """e.g. `expansions`, `generated`, `low_level_expansions`."""
     history: tuple[AnytimePoint, ...] = attrs.field(default=(), eq=False)  # wall times: no two runs have the same
-    """How plan and bound became better, oldest first; () if the planner does not say. In a record: `timing`."""
+    """The improvements of plan and bound, oldest first; () if the planner reports none. In a record: `timing`."""
 
 
 @attrs.frozen(kw_only=True)
 class Budget:
-    """What a planner may use."""
+    """The limits of one call of a planner."""
 
     wall_s: float
     """seconds of wall time from the call; the planner returns `TIMEOUT` (or its best plan) when they are over."""

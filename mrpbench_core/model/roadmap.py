@@ -61,7 +61,7 @@ class Roadmap:
     place: Int32 = array("i4", factory=list)
     """i4[len(World.vertices)]: the roadmap vertex that stands for each world vertex, -1 = none."""
     notes: tuple[str, ...] = ()
-    """What the builder left out and why, such as edges that hit a wall or blocked places; one sentence each."""
+    """Omissions of the builder, such as edges that hit a wall and blocked places, and their reasons, as sentences."""
 
     def nearest(self, x: float, y: float, level: int = 0) -> tuple[int, float]:
         """Return the vertex nearest to a point on a level and its distance in metres; -1 and inf if there is none."""

@@ -17,7 +17,7 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class RunContext:
-    """What was known before execution began."""
+    """The context of a run: everything that is known before execution begins."""
 
     run_id: str
     world: World
@@ -27,7 +27,7 @@ class RunContext:
     result: PlanResult
     """The first plan."""
     routes: tuple[Route, ...]
-    """Of the first plan; in a finished run, of the last, which begins with all that was driven before."""
+    """The routes of the first plan. In a finished run: of the last plan, which begins with everything driven before."""
     goal: tuple[tuple[float, float, float], ...]
     """Final goal x, y (metres), yaw (NaN = any) of each robot: where its path ends."""
     period: float = 0.05

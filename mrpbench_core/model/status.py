@@ -1,10 +1,10 @@
-"""How a run ended and in which of its stages: the one place for what a status says about a run."""
+"""Statuses of runs, and stages of a run: the only definition of what a status means."""
 
 from enum import StrEnum
 
 
 class RunStatus(StrEnum):
-    """How a run ended; see `docs/results-folder.md`."""
+    """The status of a finished run; see `docs/results-folder.md`."""
 
     SUCCEEDED = "succeeded"
     """Every robot arrived; without a simulator, the planner found a valid plan."""
@@ -46,14 +46,14 @@ FAILED = frozenset(
         RunStatus.ASSIGNMENT_FAILED,
     }
 )
-"""What `--rerun failed` does again: runs that say more about a defect or the machine than about the method.
+"""Statuses that `--rerun failed` repeats: such runs say more about a defect or the machine than about the method.
 
 A plan timeout or a missed goal is a result; repeating only those would favour luck.
 """
 
 
 class Stage(StrEnum):
-    """What a run was doing; in the order of a run."""
+    """The stages of a run, in order."""
 
     START = "start"
     """The worker has received the run and has not begun it."""

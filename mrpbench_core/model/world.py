@@ -154,5 +154,5 @@ class World:
     vertices: tuple[Vertex, ...] = ()
     lanes: tuple[Lane, ...] = ()
     notes: tuple[str, ...] = ()
-    """What the loader does not support or had to assume, one sentence each."""
+    """Unsupported features and assumptions of the loader, one sentence each."""
     lifts: tuple[Lift, ...] = ()

@@ -31,7 +31,7 @@ class Provider:
     value: str
     """`package.module:Class`."""
     problem: str | None = None
-    """Why it does not work with this core, or None; known before the import."""
+    """The reason why it does not work with this core, or None; known before the import."""
 
     @property
     def origin(self) -> str:

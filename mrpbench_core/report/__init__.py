@@ -1,4 +1,4 @@
-"""What people look at.
+"""Reports, tables, figures and replays.
 
 `reading` turns results folders into columns of numbers. `estimation` groups the runs and compares the groups with the
 methods in `statistics`. `tables` arranges the numbers. `report` does all of this once, and `html` and `data` write its

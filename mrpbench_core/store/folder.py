@@ -38,7 +38,7 @@ class ResultsFolder:
         return self.path / "study.yaml"
 
     def invocation(self, invocation: str) -> Path:
-        """What was run, with what, and where."""
+        """The study, the versions and the machine of each invocation."""
         return self.path / "invocations" / f"{invocation}.yaml"
 
     def shard(self, invocation: str) -> Path:
@@ -54,7 +54,7 @@ class ResultsFolder:
         return RunPaths(recording=self.path / "recordings" / f"{run_id}.zip", exports=self.path / "exports" / run_id)
 
     def log(self, run_id: str) -> Path:
-        """What the plugins of a run printed."""
+        """The log file of a run, with the output of its plugins."""
         return self.path / "logs" / f"{run_id}.txt"
 
     def create(self) -> None:
@@ -65,7 +65,9 @@ class ResultsFolder:
         """
         try:
             if self.path.is_dir() and not (self.path / "runs").is_dir() and any(self.path.iterdir()):
-                raise InputError("is not empty and is no results folder", file=self.path, hint="choose another --out")
+                raise InputError(
+                    "is not empty and is not a results folder", file=self.path, hint="choose another --out"
+                )
             for part in PARTS:
                 (self.path / part).mkdir(parents=True, exist_ok=True)
         except OSError as error:

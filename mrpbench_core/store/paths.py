@@ -1,4 +1,4 @@
-"""Where the files of one run go."""
+"""The paths of the files of one run."""
 
 from pathlib import Path
 

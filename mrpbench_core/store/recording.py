@@ -92,7 +92,7 @@ class Recording:
         return array
 
     def first_context(self) -> RunContext:
-        """What was known before execution began, as exporters take it; new plans are in the channels `route_...`."""
+        """The context before execution began, as exporters receive it; new plans are in the channels `route_...`."""
         return decode(self._context, RunContext, self._load)
 
     def context(self) -> RunContext:

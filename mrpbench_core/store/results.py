@@ -84,7 +84,7 @@ class Results:
         return self._entries.get(run_id)
 
     def statuses(self) -> dict[str, int]:
-        """How many runs ended in each status."""
+        """The number of runs by status."""
         counts: dict[str, int] = {}
         for entry in self._entries.values():
             counts[entry.status] = counts.get(entry.status, 0) + 1

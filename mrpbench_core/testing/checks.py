@@ -16,7 +16,7 @@ class Check:
     """The outcome of one check."""
 
     name: str
-    """What the component does if the check is ok, in words."""
+    """The behaviour of the component that the check expects, in words."""
     outcome: Literal["ok", "failed", "skipped"]
     reason: str = ""
 
@@ -39,7 +39,7 @@ def run_checks(suite: ComponentConformance) -> Iterator[Check]:
 
 
 def failed_checks(suite: ComponentConformance) -> dict[str, str]:
-    """Why each check failed, by name; empty if none did."""
+    """The reason for each failed check, by name; empty if none failed."""
     return {check.name: check.reason for check in run_checks(suite) if check.outcome == "failed"}
 
 

@@ -1,4 +1,4 @@
-"""What checks raise: a fault, or that the check does not apply."""
+"""Exceptions of checks: a fault, or that the check does not apply."""
 
 from unittest import SkipTest
 
@@ -7,7 +7,7 @@ Skip = SkipTest
 
 
 class Fault(AssertionError):  # noqa: N818 - the fault is the component's
-    """What is wrong with a component, in one sentence."""
+    """The fault of a component, in one sentence."""
 
 
 def require(holds: object, otherwise: str) -> None:

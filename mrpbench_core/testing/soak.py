@@ -81,7 +81,7 @@ def drawn_switches(random: Random, planner: type[Planner]) -> dict[str, Any]:
 def _faults(
     soak: Soak, problem: Problem, optimum: float | None, random: Random, ends: Counter[tuple[str, str]]
 ) -> Iterable[str]:
-    """What is wrong with the planners' answers; one planner, drawn, is asked twice."""
+    """Return the faults of the planners' results; one planner, drawn at random, is called twice."""
     planners = [planner for planner in soak.planners(random) if planner.skip(problem) is None]
     twice = int(random.integers(len(planners)))
     answers = []

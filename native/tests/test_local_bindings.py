@@ -1,4 +1,4 @@
-"""What local navigation refuses, from Python."""
+"""Invalid arguments of local navigation raise errors in Python."""
 
 import numpy as np
 import pytest

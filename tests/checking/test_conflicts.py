@@ -132,7 +132,7 @@ def test_beyond_the_horizon_conflicts_may_stay(make, conflicts):
 
 
 def in_half_ticks(problem, plan, end):
-    """What each robot does in each half tick: (vertex, vertex), (tail, head) of an edge, or None when it is gone."""
+    """The element of each robot in each half tick: (vertex, vertex), (tail, head) of an edge, or None after its end."""
     table = []
     for robot, path in enumerate(plan.paths):
         at = int(problem.start[robot])

@@ -1,4 +1,4 @@
-"""What is no result of a planner is told from what is one."""
+"""Invalid results of planners are found."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""What every command has in common."""
+"""Properties of every command."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""Which runs are the same run."""
+"""The identity of runs."""
 
 import pytest
 import yaml

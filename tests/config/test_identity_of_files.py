@@ -1,4 +1,4 @@
-"""What files that components read contribute to a run's identity, with the plugins that are installed."""
+"""Files that components read are part of the identity of runs, with the installed plugins."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What varies."""
+"""The matrix of a study."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What components return is checked against their contracts before other components see it."""
+"""Return values of components are checked against their contracts before other components see them."""
 
 import attrs
 import numpy as np

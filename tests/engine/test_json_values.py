@@ -1,4 +1,4 @@
-"""What plugins return becomes what JSON can say."""
+"""Return values of plugins become JSON values."""
 
 import enum
 import json

@@ -1,4 +1,4 @@
-"""Where leaves are, by hand."""
+"""The positions of leaves, computed by hand."""
 
 import math
 

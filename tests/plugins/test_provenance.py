@@ -1,4 +1,4 @@
-"""Where components came from."""
+"""The provenance of components."""
 
 import hashlib
 import json

@@ -1,4 +1,4 @@
-"""What is written as YAML is read back."""
+"""Values that are written as YAML are read back unchanged."""
 
 from hypothesis import given, settings
 from hypothesis import strategies as st

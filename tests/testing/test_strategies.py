@@ -1,4 +1,4 @@
-"""What the strategies draw is what they say; they can draw what matters."""
+"""Strategies draw valid values, and values of every relevant kind."""
 
 import numpy as np
 from hypothesis import Phase, find, given, settings

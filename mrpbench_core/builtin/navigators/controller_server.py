@@ -41,7 +41,7 @@ class ControllerServer:
         return failed
 
     def failure_reason(self, robot: int) -> str:
-        """Why there was no admissible command for a robot."""
+        """Return the reason why there was no admissible command for a robot."""
         return self._controllers.failure_reason(robot)
 
     def _check(self, command: object, robots: np.ndarray) -> None:

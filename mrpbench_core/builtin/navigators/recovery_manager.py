@@ -16,7 +16,7 @@ from mrpbench_core.model.fleet import RobotModel
 
 @attrs.frozen(kw_only=True)
 class RecoveryOptions:
-    """What robots try, and how often."""
+    """The recoveries that robots try, and their limits."""
 
     recoveries: Sequence[Recovery]
     """In the order in which a robot tries them."""
@@ -95,7 +95,7 @@ class RecoveryManager:
 
 
 class _KnownSurroundings(Surroundings):
-    """What the controller of a robot knows, without the vertex that the robot has left to others.
+    """The surroundings of a robot, without the vertex that it has left to other robots.
 
     Args:
         controllers: know which poses are free.

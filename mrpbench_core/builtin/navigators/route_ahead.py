@@ -1,4 +1,4 @@
-"""What lies ahead of each robot on its route, as named arrays that are refreshed when its progress changes."""
+"""The next waypoints of each robot, as named arrays that are refreshed when its progress changes."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from mrpbench_core.model.arrays import Bool, Float, Int
 
 
 class RouteAhead:
-    """What has to be checked for each of n robots until it reaches, rounds or clears something.
+    """The values to check for each of n robots until it reaches, rounds or clears a waypoint.
 
     Args:
         progress: how far the robots are.

@@ -1,4 +1,4 @@
-"""How far each robot is on its route: which waypoints it has reached, which vertices it has cleared, and its leg."""
+"""The progress of each robot on its route: the waypoints reached, the vertices cleared, and the current leg."""
 
 import math
 from collections.abc import Sequence

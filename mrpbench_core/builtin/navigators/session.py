@@ -1,4 +1,4 @@
-"""What the navigator `waypoints` does in every control period: check progress, command, detour, recover."""
+"""A session of the navigator `waypoints`. Each control period checks progress, commands, detours and recovers."""
 
 from collections.abc import Sequence
 

@@ -73,7 +73,7 @@ class Waypoints(Navigator):
         validator=ge(0),
     )
     recoveries: tuple[Recovery, ...] = option(
-        (Clear(), Spin(), Wait(), BackUp()), help="what a robot that is stuck tries, in turn"
+        (Clear(), Spin(), Wait(), BackUp()), help="recoveries of a robot that is stuck, in turn"
     )
     max_recoveries: int = option(
         6, help="recoveries that a robot tries between two waypoints before it gives up", validator=ge(0)

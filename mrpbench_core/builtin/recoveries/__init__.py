@@ -1,1 +1,1 @@
-"""What robots try when they are stuck, by the names and values of Nav2's behaviours."""
+"""Recoveries of robots that are stuck, with the names and values of Nav2's behaviours."""

@@ -51,7 +51,7 @@ class Discs:
         return np.concatenate([owner, robot]), np.concatenate([*near, leaves[leaf]])
 
     def _push(self, centres: Float, owner: Int, walls: Float) -> tuple[Float | None, set[tuple[int, int]]]:
-        """Where one round of pushing leads (None when nothing overlaps), and what overlapped."""
+        """The positions after one round of pushing (None if nothing overlaps), and the overlaps."""
         contacts: set[tuple[int, int]] = set()
         shift = np.zeros_like(centres)
         offset = centres[self._second] - centres[self._first]
@@ -107,7 +107,7 @@ def _close(centres: Float, radii: Float, leaves: Float) -> tuple[Int, Int]:
 
 
 def _overlap(centres: Float, radii: Float, owner: Int, walls: Float) -> Float:
-    """How deep f8[k] each robot is in the segment it is paired with, metres; negative = apart."""
+    """The depth f8[k] of each robot in the segment that it is paired with, metres; negative = apart."""
     overlap: Float = radii[owner] - point_segment_distance(centres[owner], walls[:, :2], walls[:, 2:])
     return overlap
 

@@ -58,7 +58,7 @@ class Analysis:
     """Names or shell patterns, in the scenario's order; () = all."""
     sampling: Sampling = Sampling()
     label: str = "recorded"
-    """What stands in tables where runs have the name of their simulator."""
+    """The label that tables show in the column `simulator`."""
     out: Path = Path("results")
 
 
@@ -151,7 +151,7 @@ def _unknown_end(found: ObservedRun) -> list[str]:
 
 
 def _status(found: ObservedRun, context: RunContext) -> tuple[RunStatus, str | None]:
-    """How the run ended, as far as the recording shows, and why it did not succeed."""
+    """The status of the run, as far as the recording shows it, and the reason if it did not succeed."""
     last = found.channels["reached"][-1]
     arrived = last >= np.array([len(route.speed) for route in context.routes])
     if arrived.all():

@@ -36,7 +36,7 @@ MOST_SAMPLES = 5_000_000
 
 @attrs.frozen(kw_only=True)
 class Sampling:
-    """How positions become a recording."""
+    """Settings for the conversion of positions to a recording."""
 
     rate: float = 10.0
     """Hz."""
@@ -249,7 +249,7 @@ def _levels(tracks: tuple[Track, ...], world: World, time: Float) -> Int16 | Non
 
 
 def _reached(pose: Float, level: Int16 | None, robot: int, task: Task | None, tolerance: float) -> Int32:
-    """How many goals the robot has reached i4[T]."""
+    """The number i4[T] of goals that the robot has reached."""
     reached = np.zeros(len(pose), np.int32)
     since = 0
     for goal, wanted in zip(task.goals, task.levels, strict=True) if task else ():
@@ -264,7 +264,7 @@ def _reached(pose: Float, level: Int16 | None, robot: int, task: Task | None, to
 
 
 def _context(world: World, fleet: Fleet, scenario: Scenario, tasks: list[Task | None], period: float) -> RunContext:
-    """What is known of a run whose plans are not: starts, goals, and no roadmap but these places."""
+    """The context of a run without known plans: starts, goals, and a roadmap of these places only."""
     places, levels, goals, routes, ends = list(scenario.start[:, :2]), list(scenario.start_level), [], [], []
     for robot, task in enumerate(tasks):
         visited = np.concatenate([scenario.start[robot : robot + 1], task.goals]) if task else scenario.start[[robot]]

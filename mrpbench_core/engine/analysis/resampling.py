@@ -24,7 +24,7 @@ class Resampled:
     pose: Float
     """f8[T,3]; NaN where the robot's position is unknown."""
     notes: tuple[str, ...]
-    """What had to be assumed."""
+    """Assumptions, one sentence each."""
     gaps: tuple[str, ...]
     """What is unknown."""
     trigger: float = 0.0

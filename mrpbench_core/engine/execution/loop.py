@@ -53,7 +53,7 @@ class LoopComponents:
 
 @attrs.frozen(kw_only=True)
 class ExecutionResult:
-    """How an execution ended."""
+    """The end of an execution."""
 
     arrived: bool
     """Every robot completed its path."""
@@ -64,7 +64,7 @@ class ExecutionResult:
 
 @attrs.frozen(kw_only=True)
 class LoopInputs:
-    """What an execution is given."""
+    """The inputs of an execution."""
 
     context: RunContext
     """World, fleet, problem, plan and routes."""
@@ -144,7 +144,7 @@ class ExecutionLoop:
             self._simulate()
 
     def _sense(self) -> FleetObservation:
-        """What the robots' sensors and localizers say now."""
+        """The current data of sensors and localizers."""
         inputs, state = self._inputs, self._state
         odometry = inputs.noise.odometry(state)
         scans = inputs.noise.scans(self._checks.scans(inputs.simulation.scans()))
@@ -206,7 +206,7 @@ class ExecutionLoop:
         self._motion = self._checks.motion(self._navigator.step(self._now, observation, orders))
 
     def _result(self) -> ExecutionResult | None:
-        """How the execution ended, or None if it goes on."""
+        """Return the end of the execution, or None if it continues."""
         motion = self._motion
         at_goal = (motion.reached >= self._checks.length) & (motion.mode == WAITING)
         gave_up = motion.mode == ABORTED

@@ -83,7 +83,7 @@ class Disturbances:
         return ranges
 
     def actuated(self, twist: Float) -> Float:
-        """What the motors make of the commands f8[n,2] of one control period."""
+        """Return the executed commands f8[n,2] of one control period, with the noise of the motors."""
         if not self._size.actuation:
             return twist
         return twist * (1 + self._size.actuation * self._motors.next())

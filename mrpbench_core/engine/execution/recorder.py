@@ -39,7 +39,7 @@ INTEGERS = dict.fromkeys(("contact", "scan_robot", "event_robot", "route_revisio
 
 @attrs.frozen(kw_only=True)
 class Sample:
-    """What the periodic channels hold of one control period; see `mrpbench_core.model.recording`."""
+    """The values of the periodic channels in one control period; see `mrpbench_core.model.recording`."""
 
     now: float
     """Simulated seconds."""

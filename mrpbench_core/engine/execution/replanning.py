@@ -32,7 +32,7 @@ class Revision:
     plan: Plan | None
     routes: tuple[Route, ...] = ()
     fault: str = ""
-    """Why there is no plan, or why it must not be used."""
+    """The reason why there is no plan, or why it must not be used."""
 
 
 class Replanner:
@@ -64,7 +64,7 @@ class Replanner:
         self._leave: Int = np.concatenate([*(path.leave for path in plan.paths), [0]])  # one more to index at the end
 
     def reason(self, now: float, view: FleetView, wish: str | None) -> str | None:
-        """Why a new plan is wanted now, or None; `wish` is the dispatcher's."""
+        """Return the reason why a new plan is needed now, or None; `wish` is that of the dispatcher."""
         settings = self._settings
         if now < self._not_before:
             return None
@@ -125,7 +125,7 @@ class Replanner:
 
 
 def replanning_fault(config: RunConfig) -> str | None:
-    """Why the planner cannot be asked again during execution as the configuration wants, or None."""
+    """Return the reason why the planner cannot replan during execution as configured, or None."""
     wanted = config.replanning.delay is not None or config.replanning.period is not None
     if config.simulator is not None and wanted and Feature.COMMITMENTS not in config.planner.supports:
         return "does not support commitments, which replanning during execution needs"

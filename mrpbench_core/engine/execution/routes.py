@@ -66,7 +66,7 @@ def speed_limits(world: World, roadmap: Roadmap) -> np.ndarray:
 
 
 def start_poses(routes: tuple[Route, ...], start_yaw: np.ndarray) -> np.ndarray:
-    """Where the simulator puts the robots, f8[n,3]: the first waypoints, facing `start_yaw` (0 where it is NaN).
+    """The initial poses f8[n,3] of the robots: the first waypoints, facing `start_yaw` (0 where it is NaN).
 
     The yaw must not depend on the plan, or planners would be compared from different starts.
     """

@@ -159,7 +159,7 @@ class Child:
         return os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
 
     def _end(self) -> WorkerDied:
-        """How it ended."""
+        """Return the exception that describes how the child ended."""
         deadline = time.monotonic() + CLOSING_S
         while not self._ended():
             if time.monotonic() > deadline:

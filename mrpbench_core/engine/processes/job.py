@@ -1,4 +1,4 @@
-"""What a worker is given and what it returns: plain data, which may cross machines."""
+"""The input and the output of a worker: plain data, which may cross machines."""
 
 from pathlib import Path
 from typing import Any
@@ -50,7 +50,7 @@ class Failure:
 
 @attrs.frozen(kw_only=True)
 class JobOutcome:
-    """How a job ended: with a record, a failure, or a mistake."""
+    """The result of a job: a record, a failure, or a user's mistake."""
 
     run_id: str
     record: RunRecord | None = None

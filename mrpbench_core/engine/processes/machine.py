@@ -24,7 +24,7 @@ def machine() -> dict[str, Any]:
 
 
 def oom_kills() -> int:
-    """How many processes the kernel has ended since boot because memory ran out."""
+    """The number of processes that the kernel has ended since boot for lack of memory."""
     try:
         for line in Path("/proc/vmstat").read_text().splitlines():
             if line.startswith("oom_kill "):

@@ -11,7 +11,7 @@ from mrpbench_core.model.scenario import Scenario
 
 
 def cost_matrix(kind: Cost, roadmap: Roadmap, fleet: Fleet, scenario: Scenario) -> Float:
-    """What it costs each robot to do each task, f8[n,m]: from its start through all goals of the task, in order.
+    """The cost f8[n,m] of each task for each robot: from its start through all goals of the task, in order.
 
     `euclidean` and `manhattan` are metres between the places of the scenario in the plane, whatever lies between;
     `roadmap` is the shortest travel time in seconds on the roadmap with the robot's motion profile, without other

@@ -118,7 +118,7 @@ def _simulate(inputs: RunInputs, context: RunContext, recorder: Recorder, replan
 
 
 def _failure(result: ExecutionResult, config: RunConfig) -> RunEnded | None:
-    """How the run ended, None if every robot arrived."""
+    """Return the status of the run, None if every robot arrived."""
     if result.arrived:
         return None
     if result.aborted:

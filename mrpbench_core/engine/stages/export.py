@@ -17,7 +17,7 @@ class Exports:
 
     def __init__(self) -> None:
         self.failed: dict[str, str] = {}
-        """Why an export failed, by its name."""
+        """The reason why an export failed, by its name."""
         self._open: dict[str, ExporterSession] = {}
 
     def open(self, exporters: Mapping[str, Exporter], context: RunContext, folder: Path) -> None:

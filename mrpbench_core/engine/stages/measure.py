@@ -39,7 +39,7 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
 
 
 def _measured(metric: Metric, run: FinishedRun) -> tuple[Mapping[str, Any], str | None]:
-    """What a metric returns, or why it returned nothing: its defects must not cost the run or the other metrics."""
+    """The result of a metric, or the reason why it has none: its defects must not affect the run or other metrics."""
     try:
         measured = metric.measure(run)
     except (Exception, SystemExit) as error:  # noqa: BLE001 - a plugin may raise anything
@@ -78,7 +78,7 @@ def describe(metrics: Mapping[str, Metric]) -> dict[str, dict[str, Any]]:
 
 
 def _obstacle(requires: frozenset[str], run: FinishedRun) -> str | None:
-    """Why what is required is not there, or None if it is."""
+    """Return the reason why required data are missing, or None."""
     lacking = sorted(channel for channel in requires if not run.has(channel))
     if not lacking:
         same = next((channels for channels in run.alike if channels <= requires), None)

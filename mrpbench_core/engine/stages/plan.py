@@ -27,7 +27,7 @@ STATUS = {
 
 
 def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[PlanResult, dict[str, Any]]:
-    """What the planner returned, sound or not, and timing of the call alone.
+    """The result of the planner, valid or not, and the timing of the call alone.
 
     CPU time counts programs that the planner ran to their end; peak memory is that of this process alone.
     """
@@ -62,7 +62,7 @@ def _history(result: Any) -> list[list[float | None]]:
 
 
 def budget_of(config: RunConfig) -> Budget:
-    """What one call of a planner may use.
+    """The budget of one call of a planner.
 
     The memory is less than the run's, so that the planner stops by itself before the run is killed. The seed comes from
     a stream of its own, keyed by the run's seed and repeat.

@@ -74,7 +74,7 @@ def prepare(
     rerun: Rerun | None = None,
     progress: StudyProgress | None = None,
 ) -> Request:
-    """How a study is to be run; see `run`.
+    """The options of a study; see `run`.
 
     Raises:
         InputErrors, InputError: what is wrong with that.

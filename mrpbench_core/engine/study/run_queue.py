@@ -36,7 +36,7 @@ class RunQueue:
     hooks: Hooks
     progress: StudyProgress
     mistakes: dict[str, str] = attrs.field(factory=dict)
-    """What was wrong with runs that were refused, by run id."""
+    """The errors of refused runs, by run id."""
     _going: dict[Future[JobOutcome], tuple[RunPoint, int]] = attrs.field(factory=dict, init=False)
     _losses: Counter[str] = attrs.field(factory=Counter, init=False)
 

@@ -28,7 +28,7 @@ from mrpbench_core.store.results import Results, origin
 
 @attrs.frozen(kw_only=True)
 class Request:
-    """How a study is to be run."""
+    """The options of a study."""
 
     out: Path
     executor: ExecutorSource
@@ -37,7 +37,7 @@ class Request:
     """Part i of n."""
     rerun: Rerun | None = None
     overrides: tuple[str, ...] = ()
-    """What of the study came from the command line, to be written down."""
+    """The part of the study that came from the command line."""
     progress: StudyProgress = attrs.field(factory=StudyProgress)
 
 
@@ -48,7 +48,7 @@ class StudyOutcome:
     results: Results
     """Every record of the chosen runs, new and old."""
     mistakes: dict[str, str]
-    """What was wrong with each run that was refused, by run id."""
+    """The error of each refused run, by run id."""
 
 
 def choose(study: Study, request: Request) -> tuple[Selection, Results]:

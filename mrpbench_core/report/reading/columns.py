@@ -32,7 +32,7 @@ TIMING = (
     Column("timing.real_time_factor", "", "higher", "simulated time over wall time of the execution"),
     Column("timing.clock_bound", "", "lower", "a clock ended the planning", stage="planning"),
 )
-"""What the engine itself measures, in wall time. All other columns are declared by the metrics that give them."""
+"""The columns that the engine measures, in wall time. Metrics declare all other columns."""
 _KNOWN = {column.name: column for column in (*OUTCOME, *TIMING)}
 
 

@@ -25,7 +25,7 @@ HOLD_MS = 1500
 LEAST = 5.0
 """Smallest radius in pixels with which a robot is drawn."""
 WORLD_COLOURS, SHADES = 128, 12
-"""How many of the 256 colours of a GIF the world gets, and how many shades each robot gets."""
+"""Of the 256 colours of a GIF: the number for the world, and the number of shades of each robot."""
 CROWD = 60
 """Number of robots above which trails are thinner."""
 

@@ -19,5 +19,5 @@ class IntervalEstimate:
 
     @property
     def has_interval(self) -> bool:
-        """Whether there is an interval."""
+        """True if there is an interval."""
         return self.low == self.low and self.high == self.high

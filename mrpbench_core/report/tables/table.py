@@ -42,7 +42,7 @@ class Table:
     keys: int
     """Number of leading columns that identify the row."""
     note: str
-    """How to read the table."""
+    """Notes on how to read the table."""
 
 
 def text(cell: Cell) -> str:

@@ -72,7 +72,7 @@ class DelayedExecutor:
         return self._progress > 0
 
     def view(self, revision: int = 0, granted: tuple[tuple[int, str], ...] = ()) -> FleetView:
-        """What a dispatcher sees."""
+        """Return the fleet as a dispatcher sees it."""
         tails = [route[at] for route, at in zip(self.routes, self.reached, strict=True)]
         return FleetView(
             revision=revision,
@@ -184,7 +184,7 @@ class DelayedExecutor:
         return [(route[at], route[at + going]) for route, at, going in moves]
 
     def _places(self) -> Float:
-        """Where robots are, f8[n,2]."""
+        """The positions f8[n,2] of the robots."""
         ends = np.array(self._ends(), int).reshape(-1, 2)
         tail, head = (self.problem.roadmap.position[ends[:, side]] for side in (0, 1))
         places: Float = tail + self._progress[:, None] * (head - tail)

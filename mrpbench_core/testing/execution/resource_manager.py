@@ -32,7 +32,7 @@ class ResourceManager:
             self._violate(f"requests name a robot and a resource twice: {requests}")
 
     def granted(self, sure: bool = False) -> Requests:
-        """What robots may use now: some of what they hold, or all of it if `sure`."""
+        """Grants of resources: some of those that robots hold, or all if `sure`."""
         pairs = [(robot, name) for name, holders in self._holders.items() for robot in holders]
         return tuple(pair for pair in pairs if sure or self._random.random() < 0.3)
 

@@ -1,1 +1,1 @@
-"""What is true of a problem, and whether a planner's answer agrees."""
+"""Oracles for problems, and the comparison of planners' results with them."""

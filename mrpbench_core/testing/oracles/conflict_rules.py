@@ -13,7 +13,7 @@ Uses = tuple[tuple[int, ...], ...]
 
 
 class ConflictRules:
-    """Which elements robots must not occupy at one moment; a moment is a tick or the time between two ticks."""
+    """The elements that robots must not occupy at one moment; a moment is a tick or the time between two ticks."""
 
     def __init__(self, problem: Problem, edges: Sequence[tuple[int, int]]) -> None:
         self.problem, self.edges = problem, edges

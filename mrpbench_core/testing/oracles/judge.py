@@ -33,7 +33,7 @@ def ask(planner: Planner, problem: Problem, optimum: float | None = None, budget
 
 
 def compare_with_optimum(planner: Planner, problem: Problem, most_states: int = 2000) -> PlanStatus | None:
-    """How the planner ends, with the optimum found by brute force; None if the planner skips the problem.
+    """Return the status of the planner, with the optimum by brute force; None if the planner skips the problem.
 
     Raises:
         Fault: see `ask`.
@@ -44,7 +44,7 @@ def compare_with_optimum(planner: Planner, problem: Problem, most_states: int = 
 
 
 def answer_faults(problem: Problem, planner: Planner, result: PlanResult, optimum: float | None = None) -> list[str]:
-    """What is wrong with an answer, one sentence each.
+    """Return the faults of a result, one sentence each.
 
     Args:
         problem: what the planner was asked.
@@ -65,7 +65,7 @@ def answer_faults(problem: Problem, planner: Planner, result: PlanResult, optimu
 
 
 def _optimum_faults(planner: Planner, result: PlanResult, optimum: float) -> list[str]:
-    """What contradicts the optimum."""
+    """Return the contradictions of the result to the optimum."""
     found = []
     if result.status is PlanStatus.UNSOLVABLE and optimum < math.inf:
         found.append(f"says unsolvable, the optimum is {optimum:g}")
@@ -80,7 +80,7 @@ def _optimum_faults(planner: Planner, result: PlanResult, optimum: float) -> lis
 
 
 def contradictions(answers: Sequence[tuple[Planner, PlanResult]]) -> list[str]:
-    """What cannot be true together of the answers of several planners to one problem, one sentence each."""
+    """Return the contradictions between the results of several planners for one problem, one sentence each."""
     costs = {
         planner: result.plan.sum_of_costs
         for planner, result in answers
@@ -100,7 +100,7 @@ def contradictions(answers: Sequence[tuple[Planner, PlanResult]]) -> list[str]:
 
 
 def changes(problem: Problem, planner: Planner, budget: Budget, result: PlanResult) -> list[str]:
-    """How another call differs from the first, unless limits ended one of them or the planner promises nothing."""
+    """Return the differences between two calls, unless a limit ended one or the planner promises nothing."""
     if Promise.DETERMINISTIC not in planner.promises or _ended_by_limits(result):
         return []
     again = planner.plan(problem, budget)

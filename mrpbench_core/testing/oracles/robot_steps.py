@@ -1,4 +1,4 @@
-"""What one robot may do from one tick to the next: wait, move, end at its goal; part of `optimum`."""
+"""The steps of one robot from one tick to the next: wait, move, end at its goal; part of `optimum`."""
 
 import math
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ AT, ARRIVED, ON, DONE = range(4)
 
 
 class RobotState(NamedTuple):
-    """Where a robot is at a tick."""
+    """The state of a robot at a tick."""
 
     phase: int
     place: int
@@ -25,7 +25,7 @@ class RobotState(NamedTuple):
 
 
 class RobotStep(NamedTuple):
-    """What a robot does from one tick to the next."""
+    """A step of a robot from one tick to the next."""
 
     during: int | None
     """The element that the robot occupies between the ticks: a vertex, V + edge, or None after it has disappeared."""
@@ -57,11 +57,11 @@ class RobotSteps:
         """From this tick on, the steps no longer depend on time."""
         self._to_go = [self._distances(robot) for robot in robots]
         self.first = tuple(self._standing(robot, 0, int(problem.start[robot]), 0) for robot in robots)
-        """Where the robots are at tick 0."""
+        """The states of the robots at tick 0."""
         self._known: dict[tuple[int, int, RobotState], list[RobotStep]] = {}
 
     def steps(self, robot: int, tick: int, state: RobotState) -> list[RobotStep]:
-        """What a robot may do from `tick` to the next."""
+        """The steps that a robot may take from `tick` to the next."""
         key = (robot, min(tick, self.settled), state)
         if key not in self._known:
             self._known[key] = [

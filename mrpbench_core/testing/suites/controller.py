@@ -168,7 +168,7 @@ def drive(
 
 
 def observations(step: int, poses: Float, twists: Float, tracks: Sequence[PathAhead]) -> Observations:
-    """What the controllers of several robots see; see `observation`."""
+    """The inputs of the controllers of several robots; see `observation`."""
     paths = [track.ahead(pose) for track, pose in zip(tracks, poses, strict=True)]
     ends = np.cumsum([len(path) - 1 for path in paths])
     return Observations(
@@ -187,6 +187,6 @@ def observations(step: int, poses: Float, twists: Float, tracks: Sequence[PathAh
 
 
 def observation(step: int, pose: Float, twist: Float, path: Float, speed: float = math.inf) -> Observation:
-    """What a controller sees, without scans, which may be missing in any period."""
+    """The inputs of a controller, without scans, which may be missing in any period."""
     yaw = math.remainder(pose[2], math.tau)
     return Observation(now=step * PERIOD, pose=np.array([pose[0], pose[1], yaw]), twist=twist, path=path, speed=speed)

@@ -6,11 +6,11 @@ from typing import Any
 from mrpbench_native import mapf
 
 ALGORITHMS: Mapping[str, mapf.Algorithm] = {algorithm.name: algorithm for algorithm in mapf.algorithms()}
-"""What `solve` can run. The planners of mrpbench have the same names and options."""
+"""The algorithms of `solve`. The planners of mrpbench have the same names and options."""
 
 
 def describe(algorithm: str) -> mapf.Algorithm:
-    """What an algorithm does, and its options with types, defaults, ranges, help and papers.
+    """Describe an algorithm and its options with types, defaults, ranges, help and papers.
 
     Raises:
         ValueError: there is no such algorithm.

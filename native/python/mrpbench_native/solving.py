@@ -21,7 +21,7 @@ _BYTES_PER_VERTEX = 48
 
 @dataclass(frozen=True)
 class Solution:
-    """What a solver found."""
+    """The result of a solver."""
 
     status: str
     """solved | timeout | out_of_memory | unsolvable (proved) | gave_up (by a solver that is incomplete)."""

@@ -35,7 +35,7 @@ def solved(roadmap: Roadmap, routes, **fields) -> tuple[Problem, Plan]:
 
 
 def view(reached, cleared=None, revision: int = 0) -> FleetView:
-    """What a dispatcher sees of robots that got this far."""
+    """The view of a dispatcher of robots with this progress."""
     robots = len(reached)
     return FleetView(
         revision=revision,

@@ -33,7 +33,7 @@ def released_under_delays(session, problem, plan, random):
 
 
 def accepted(problem, plan, take):
-    """What `take` makes of a plan, or None where it refuses it for a cycle that is there indeed."""
+    """The result of `take` for a plan, or None if it refuses the plan for a cycle that exists."""
     try:
         return take(problem, plan)
     except DispatchError as refusal:

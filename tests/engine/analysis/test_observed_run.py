@@ -1,4 +1,4 @@
-"""What can be told of a run from positions alone."""
+"""Runs that are known from positions only."""
 
 import attrs
 import numpy as np

@@ -1,4 +1,4 @@
-"""What a new plan must begin with; that it never conflicts is tested with the dispatcher that keeps a plan's order."""
+"""The commitments of a new plan. The tests of `adg` show that they never conflict."""
 
 import numpy as np
 import pytest

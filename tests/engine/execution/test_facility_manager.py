@@ -1,4 +1,4 @@
-"""Who is let through doors and into lifts, and what these do."""
+"""Grants of doors and lifts, and the motion of doors and lifts."""
 
 from importlib.metadata import entry_points
 from itertools import product

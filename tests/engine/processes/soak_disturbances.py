@@ -70,7 +70,7 @@ def disturb(study: psutil.Popen, chance: random.Random) -> str:
 
 
 def recorded(out: Path) -> int:
-    """How many runs have their record."""
+    """The number of runs that have a record."""
     return len(load(out)) if Path(out, "runs").is_dir() else 0
 
 
@@ -82,7 +82,7 @@ def contents(folder: Path) -> dict[str, bytes | int]:
 
 
 def differences(one: Path, other: Path) -> list[str]:
-    """Which records and files are not the same in two results folders."""
+    """The records and files that differ between two results folders."""
     pairs = (essence(one), essence(other)), (contents(one), contents(other))
     return [key for left, right in pairs for key in left.keys() | right.keys() if left.get(key) != right.get(key)]
 

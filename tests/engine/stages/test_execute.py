@@ -1,4 +1,4 @@
-"""What an execution leaves behind, however it ends."""
+"""The recording and the record of an execution, for each kind of end."""
 
 import numpy as np
 import pytest

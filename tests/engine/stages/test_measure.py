@@ -1,4 +1,4 @@
-"""What cannot be measured is null with a reason, never 0."""
+"""A value that cannot be measured is null with a reason, never 0."""
 
 import attrs
 import numpy as np

@@ -1,4 +1,4 @@
-"""Which features a problem gets, and where goals lie."""
+"""The features of a problem, and the vertices of its goals."""
 
 import attrs
 import numpy as np

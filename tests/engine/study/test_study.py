@@ -1,4 +1,4 @@
-"""What a study does again, and what it leaves."""
+"""The runs that a study repeats, and those that it keeps."""
 
 import json
 import shutil

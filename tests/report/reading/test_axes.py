@@ -1,4 +1,4 @@
-"""What tells configurations apart."""
+"""The options in which configurations differ."""
 
 import pytest
 

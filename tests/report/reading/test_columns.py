@@ -1,4 +1,4 @@
-"""What a report knows of columns: declared by invocations, completed by installed metrics."""
+"""Columns of a report: invocations declare them, installed metrics complete them."""
 
 from mrpbench_core.report.reading.columns import describe_columns, heading, primary_columns
 

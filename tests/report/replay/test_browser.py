@@ -26,7 +26,7 @@ def press(browser, keys):
 
 
 def pixels(browser, canvas="actors"):
-    """How many pixels of a canvas are painted."""
+    """The number of painted pixels of a canvas."""
     script = f"""
         const canvas = document.getElementById("{canvas}");
         const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");

@@ -17,7 +17,7 @@ from mrpbench_core.testing.variant import variant
 
 @attrs.frozen(kw_only=True)
 class First(Metric):
-    """Where the first robot ended."""
+    """The place where the first robot ended."""
 
     columns = (Column("x", "m", "neither", "of the first robot"),)
     requires = frozenset({"truth"})

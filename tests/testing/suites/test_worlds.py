@@ -11,7 +11,7 @@ from mrpbench_core.testing.variant import variant
 
 
 def wrapped(base, method, change):
-    """A component whose `method` returns what `change` makes of it."""
+    """A component whose `method` returns the result of `change`."""
     return variant(base, **{method: lambda self, *arguments: change(getattr(base, method)(self, *arguments))})
 
 

@@ -1,4 +1,4 @@
-"""What both solvers share: which pairs are allowed, and sum and bottleneck in terms of one least-sum problem."""
+"""Shared by both solvers: allowed pairs, and sum and bottleneck in terms of one least-sum problem."""
 
 from abc import abstractmethod
 from collections.abc import Callable
@@ -20,7 +20,7 @@ class Pairing(Assigner):
     """An assigner that finds a set of pairs with the least sum or the least largest cost."""
 
     objective: Literal["sum", "bottleneck"] = option(
-        "sum", help="what is least: the sum of costs, or the largest cost and, among those, the sum"
+        "sum", help="objective: the sum of costs, or the largest cost and then the sum"
     )
 
     @abstractmethod

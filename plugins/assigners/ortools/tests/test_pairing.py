@@ -16,7 +16,7 @@ RECIPES = (OrToolsMip, OrToolsSat)
 
 
 def worth(paid, objective):
-    """What is minimised first, and among the best of that."""
+    """The primary objective, and the secondary one."""
     return (sum(paid) if objective == "sum" else max(paid, default=0.0)), sum(paid)
 
 

@@ -20,7 +20,7 @@ class Hungarian(Assigner):
     """The exact polynomial method, by SciPy."""
 
     objective: Literal["sum", "bottleneck"] = option(
-        "sum", help="what is least: the sum of costs, or the largest cost and, among those, the sum"
+        "sum", help="objective: the sum of costs, or the largest cost and then the sum"
     )
 
     def assign(self, problem: AssignmentProblem) -> Assignment:

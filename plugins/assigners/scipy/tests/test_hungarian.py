@@ -15,7 +15,7 @@ OBJECTIVES = ("sum", "bottleneck")
 
 
 def worth(paid, objective):
-    """What is minimised first, and among the best of that."""
+    """The primary objective, and the secondary one."""
     return (sum(paid) if objective == "sum" else max(paid, default=0.0)), sum(paid)
 
 

@@ -1,4 +1,4 @@
-"""What an outside stack tells the robots to do, on `/robot_0/cmd_vel`."""
+"""Commands from an external stack, on `/robot_0/cmd_vel`."""
 
 import math
 from collections.abc import Sequence

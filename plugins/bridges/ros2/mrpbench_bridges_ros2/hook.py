@@ -65,7 +65,7 @@ class Watcher:
 
 
 def factor(text: str) -> float | None:
-    """How many times real time; None = freely.
+    """Return the real-time factor; None = as fast as possible.
 
     Raises:
         InputError: it is neither `free` nor a number above 0.

@@ -34,7 +34,7 @@ def _is_installed(name: str) -> bool:
 
 
 class Link:
-    """What connects one run with ROS."""
+    """The connection of one run with ROS."""
 
     def __init__(self, name: str) -> None:
         """Open a node.

@@ -53,7 +53,7 @@ def path(now: float, waypoints: Float, z: float = 0.0) -> Any:
 
 
 def odometry(now: float, robot: str, planar: Float, twist: Float) -> Any:
-    """Where a robot believes to have driven, and its speed forward and turn rate."""
+    """The odometry of a robot: pose, forward speed and turn rate."""
     message = OdometryMessage(header=header(now, f"{robot}/odom"), child_frame_id=f"{robot}/base_footprint")
     message.pose.pose = pose(planar)
     message.twist.twist.linear.x, message.twist.twist.angular.z = map(float, twist)
@@ -76,7 +76,7 @@ def scan(now: float, robot: str, lidar: Lidar, ranges: Float) -> Any:
 
 
 def transform(now: float, parent: str, child: str, planar: Iterable[float], z: float = 0.0) -> Any:
-    """Where the frame `child` is in `parent`."""
+    """The transform from the frame `child` to `parent`."""
     x, y, yaw = map(float, planar)
     message = TransformStamped(header=header(now, parent), child_frame_id=child)
     message.transform.translation = Vector3(x=x, y=y, z=z)

@@ -1,4 +1,4 @@
-"""How fast simulated time may pass."""
+"""Synchronises simulated time with the wall clock."""
 
 import time
 

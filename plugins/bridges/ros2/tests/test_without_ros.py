@@ -1,4 +1,4 @@
-"""What can be told where no ROS is."""
+"""Behaviour without ROS."""
 
 import sys
 

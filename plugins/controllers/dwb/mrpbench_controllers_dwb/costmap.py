@@ -18,17 +18,19 @@ Polygon = tuple[tuple[float, float], ...]
 
 @attrs.frozen(kw_only=True, slots=False)
 class InflationLayer:
-    """How costs fall off around obstacles (Nav2: the inflation layer)."""
+    """The decrease of costs around obstacles (Nav2: the inflation layer)."""
 
     inflation_radius: float | None = parameter(
         0.55, help="distance up to which obstacles cost something", unit="m", validator=ge(0)
     )
-    cost_scaling_factor: float | None = parameter(3.0, help="how fast costs fall, 1/m", validator=ge(0))
+    cost_scaling_factor: float | None = parameter(
+        3.0, help="rate at which costs decrease with distance, 1/m", validator=ge(0)
+    )
 
 
 @attrs.frozen(kw_only=True, slots=False)
 class ObservationSource:
-    """How scans mark and clear cells (Nav2: an observation source)."""
+    """Marking and clearing of cells by scans (Nav2: an observation source)."""
 
     obstacle_max_range: float | None = parameter(
         2.5, help="returns beyond this mark nothing", unit="m", validator=ge(0)
@@ -58,7 +60,7 @@ class CostmapGrid:
         3.0, help="side of the costmap, which is centred on the robot", unit="m", validator=gt(0)
     )
     resolution: float | None = parameter(0.05, help="side of a cell", unit="m", validator=gt(0))
-    update_frequency: float | None = parameter(5.0, help="how often the costmap is updated", unit="Hz", validator=gt(0))
+    update_frequency: float | None = parameter(5.0, help="update rate of the costmap", unit="Hz", validator=gt(0))
     footprint_padding: float | None = parameter(0.01, help="room around the footprint", unit="m", validator=ge(0))
     robot_radius: float | None = parameter(
         None,

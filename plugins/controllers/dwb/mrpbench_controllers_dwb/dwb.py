@@ -44,7 +44,7 @@ class Dwb(Controller):
         1.0, help="highest turn rate, within the robot's limit", unit="rad/s", validator=gt(0)
     )
     min_speed_xy: float | None = parameter(
-        0.0, help="samples slower than this must turn faster than min_speed_theta", unit="m/s"
+        0.0, help="samples with a lower speed must turn faster than min_speed_theta", unit="m/s"
     )
     max_speed_xy: float | None = parameter(None, help="highest speed in the plane; by default max_vel_x", unit="m/s")
     min_speed_theta: float | None = parameter(
@@ -105,7 +105,7 @@ class Dwb(Controller):
         "rotation shim of Nav2 does; 0 = never, as DWB alone",
         validator=ge(0),
     )
-    max_detour: float = option(0.5, help="how far a detour may lead from a blocked path", unit="m", validator=ge(0))
+    max_detour: float = option(0.5, help="largest distance of a detour from a blocked path", unit="m", validator=ge(0))
     threads: int = option(
         1, help="threads that share the robots; results do not depend on their number", validator=ge(1)
     )

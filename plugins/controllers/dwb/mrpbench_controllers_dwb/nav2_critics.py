@@ -12,7 +12,7 @@ from mrpbench_core.model.fleet import RobotModel
 from mrpbench_core.model.world import World
 
 Aggregation = Literal["last", "sum", "product"]
-_AGGREGATION: Any = option("last", help="how the scores of the poses are combined to that of the trajectory")
+_AGGREGATION: Any = option("last", help="combination of the scores of poses into the score of the trajectory")
 _FORWARD: Any = option(0.325, help="distance of the point that is scored ahead of the robot", unit="m", validator=ge(0))
 _SUM: Any = option(False, help="sum the costs of all poses instead of taking the last")
 
@@ -122,7 +122,7 @@ class PreferForward(NativeCritic):
     """Prefers driving straight ahead."""
 
     penalty: float = option(1.0, help="cost of driving back, and of driving slowly and nearly straight")
-    strafe_x: float = option(0.1, help="speed below which driving is slow", unit="m/s")
+    strafe_x: float = option(0.1, help="speed below which a robot drives slowly", unit="m/s")
     strafe_theta: float = option(0.2, help="turn rate below which driving is nearly straight", unit="rad/s")
     theta_scale: float = option(10.0, help="cost of turning, per rad/s")
 

@@ -1,4 +1,4 @@
-"""What the native part is told of one robot."""
+"""The parameters of one robot for the native part."""
 
 from typing import NamedTuple
 

@@ -31,7 +31,7 @@ PATH = ((0.025, 0.025), (0.625, 0.025))
 
 
 class Judged:
-    """What critics said of the trajectories of one robot."""
+    """The scores of the trajectories of one robot by critics."""
 
     def __init__(self, critics, poses=(POSE,), twist=(0.0, 0.0), path=PATH, yaw=math.nan, scan=None, **options):
         costmap = options.pop("costmap", LocalCostmap(robot_radius=0.1))

@@ -27,7 +27,7 @@ NOWHERE = World(name="w", levels=())
 
 
 def look(now, pose, twist, path, scans=()):
-    """What robots see that all have paths of as many points."""
+    """Observations of robots whose paths have equally many points."""
     count, points = path.shape[:2]
     return Observations(
         now=now,

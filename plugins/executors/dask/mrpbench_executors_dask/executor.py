@@ -30,7 +30,7 @@ class Dask(ExecutorSource):
     """Executes runs on the workers of a Dask cluster, which share the results folder and have the same plugins."""
 
     scheduler: str = option(help="address of the scheduler, e.g. tcp://10.0.0.1:8786")
-    timeout: float = option(10.0, help="how long to wait for the scheduler", unit="s", validator=attrs.validators.gt(0))
+    timeout: float = option(10.0, help="time to wait for the scheduler", unit="s", validator=attrs.validators.gt(0))
 
     def open(self, workers: int) -> Executor:  # noqa: ARG002 - the engine hands out no more calls than this
         """Connect to the scheduler."""

@@ -43,7 +43,7 @@ class Rosbag2(Exporter):
     version: Version = option(9, help="of the bag's metadata: 9 for Jazzy and later, 8 for Humble and Iron")
     start_time: float = option(
         0.0,
-        help="what the bag's clock shows when the run begins",
+        help="time of the bag's clock when the run begins",
         unit="s",
         validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(LATEST_START)),
     )

@@ -21,7 +21,7 @@ FLEET = "mrpbench"
 INTERVAL = 0.5
 """seconds between two messages, at least: free_fleet's and the original benchmark's 2 Hz."""
 PLACE, STATE, COUNT = hole(3, "<f4"), hole(1, "<u4"), hole(1, "<u8")
-"""Where x, y, yaw; the mode; and the number of the message go."""
+"""Positions of x, y, yaw; of the mode; and of the number of the message."""
 RMF_MODE = {Mode.WAITING: WAITING, Mode.ABORTED: ADAPTER_ERROR}
 """All other modes are MOVING."""
 
@@ -30,7 +30,7 @@ def fleet_states(context: RunContext, release: Release) -> TopicSource:
     """States of all robots, by estimates. RMF has 32-bit floats. Paths are left out: `/robot_0/plan` has them."""
     topic = Topic("/fleet_states", "rmf_fleet_msgs/FleetState", types=rmf_types(release))
     length = np.array([len(route.speed) for route in context.routes])
-    modes = np.array([RMF_MODE.get(mode, MOVING) for mode in Mode])
+    modes = np.array([RMF_MODE.get(mode, MOVING) for mode in range(max(Mode) + 1)])
     throttle, said = Throttle(INTERVAL), 0
 
     def rows(block: Chunk) -> Rows | None:

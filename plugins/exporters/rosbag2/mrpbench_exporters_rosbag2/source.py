@@ -28,7 +28,7 @@ class Throttle:
         self._next = -math.inf
 
     def due(self, times: Float) -> list[int]:
-        """Which of `times` f8[k], the next of a run, are chosen."""
+        """Return the indices of those of `times` f8[k], the next of a run, that are chosen."""
         chosen = []
         for index, now in enumerate(times.tolist()):
             if now >= self._next:

@@ -1,4 +1,4 @@
-"""How far estimates are off on the built-in worlds, in runs of the whole engine with noisy lidars and odometry.
+"""The errors of estimates on the built-in worlds, in runs of the whole engine with noisy lidars and odometry.
 
 The bounds are about one and a half times what was measured; `benchmarks/localizers.py` prints the figures.
 """

@@ -57,7 +57,7 @@ def test_a_wrong_placement_is_found_out():
 
 
 def kidnapped(localizer):
-    """How far off f8[T] the estimate is while a robot drives circles, of which it is carried away after 20 s."""
+    """The error f8[T] of the estimate of a robot that drives circles and is moved away after 20 s."""
     fleet, found = Fleet(robots=(BURGER,)), []
     session = localizer.start(fleet, ROOM, np.array([[2.3, 1.2, 0.3]]), 0)
     odometry, now = np.zeros((1, 3)), 0.0

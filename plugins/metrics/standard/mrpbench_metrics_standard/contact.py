@@ -1,4 +1,4 @@
-"""How long and how early robots touch. Their contacts are counted by the metric `execution`."""
+"""The durations and the first times of contacts. The metric `execution` counts contacts."""
 
 from collections.abc import Mapping
 from typing import Any, ClassVar

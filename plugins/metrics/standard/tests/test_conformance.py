@@ -1,4 +1,4 @@
-"""What every metric must keep, kept by each of ours."""
+"""The contract of metrics, checked for each metric of this package."""
 
 import mrpbench_metrics_standard as ours
 import pytest

@@ -28,7 +28,9 @@ class Example(Planner):
 
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
 
-    order: Literal["given", "farthest_first"] = option("given", help="which robots plan first, and so have priority")
+    order: Literal["given", "farthest_first"] = option(
+        "given", help="order in which robots plan; earlier robots have priority"
+    )
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """Plan robot by robot; `GAVE_UP` if a robot finds no path around the reservations."""

@@ -14,7 +14,7 @@ from mrpbench_core.model.roadmap import Raster, Roadmap
 
 
 def why_not(problem: Problem) -> str | None:
-    """Why a problem cannot be written as such files, as the end of a sentence about the planner, or None."""
+    """Return why a problem cannot be written as such files, as the end of a sentence about the planner, or None."""
     roadmap = problem.roadmap
     if roadmap.grid is None:
         return "needs a map of cells, which this roadmap does not have"

@@ -18,7 +18,7 @@ _GLANCE_S = 0.005
 
 @attrs.frozen
 class Ended:
-    """How a program ended: by itself, or by one of the limits."""
+    """The end of a program: by itself, or by one of the limits."""
 
     code: int
     """Exit code, negative: killed by that signal."""

@@ -1,4 +1,4 @@
-"""What planners by conflict-based search have in common."""
+"""Base classes of planners by conflict-based search."""
 
 from typing import ClassVar
 

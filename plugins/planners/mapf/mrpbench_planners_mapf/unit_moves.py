@@ -15,7 +15,7 @@ class UnitMoves(NativePlanner):
 
 
 def _no_unit_moves(problem: Problem) -> str | None:
-    """Why a problem without further features has more than unit moves to goals where robots stay, or None."""
+    """Return the reason why a problem needs more than unit moves to goals where robots stay, or None."""
     if problem.rules.at_goal != "stay":
         return "does not support robots that disappear at their goals"
     if len(np.unique(problem.profile)) > 1:

@@ -66,7 +66,7 @@ def _one(random: Random, planner: type[NativePlanner], name: str) -> str:
 
 
 def more_faults(asked: Problem, planner: Planner, result: PlanResult) -> list[str]:
-    """What only some planners claim: shortest paths of robots that are alone; the optimum when the search has ended."""
+    """Claims of some planners only: shortest paths of single robots; the optimum when the search has ended."""
     if isinstance(planner, Astar) and result.plan is not None:
         alone = sum(earliest_arrival(asked, robot) for robot in range(len(asked)))
         return [f"cost {result.plan.sum_of_costs}, alone {alone}"] * (result.plan.sum_of_costs != alone)

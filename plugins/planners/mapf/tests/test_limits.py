@@ -1,4 +1,4 @@
-"""What all native planners share: limits, quick proofs that there is no plan, refusals."""
+"""Common to all native planners: limits, quick proofs of infeasibility, refusals."""
 
 import time
 

@@ -19,7 +19,7 @@ from mrpbench_core.model.world import World
 
 @attrs.frozen(kw_only=True)
 class WheelNoise:
-    """How far motion differs from the commands; draws are functions of the seed, the robot's index and the period."""
+    """The deviation of motion from the commands; draws are functions of the seed, the robot's index and the period."""
 
     slip: float
     """Mean share of its travel that a wheel loses."""

@@ -25,7 +25,7 @@ HAIR = 0.001
 
 
 def compared(level, cell_size):
-    """How many cells both find blocked; they may differ only where the middle is within `HAIR` of an edge."""
+    """The number of cells that both find blocked; they may differ only if the middle is within `HAIR` of an edge."""
     low, high = bounds(level)
     origin = (float(low[0]) - ASIDE, float(low[1]) - ASIDE)
     columns, rows = np.ceil((high - origin) / cell_size).astype(int).tolist()

@@ -1,4 +1,4 @@
-"""What holds with and without PyBullet."""
+"""Behaviour with and without PyBullet."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-"""What holds for all generated worlds."""
+"""Properties of all generated worlds."""
 
 import time
 
