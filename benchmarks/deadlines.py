@@ -22,7 +22,7 @@ MEMORY = 64 << 20
 
 
 def same(one: Solution, other: Solution) -> bool:
-    """The same paths."""
+    """Tell whether two solutions have the same paths."""
     return len(one.paths) == len(other.paths) and all(
         np.array_equal(a, b) for a, b in zip(one.paths, other.paths, strict=True)
     )

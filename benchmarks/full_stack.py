@@ -49,7 +49,7 @@ class Case:
 
     @property
     def simulator_name(self) -> str:
-        """Of the plugin."""
+        """The name of the plugin of the simulator."""
         return self.simulator if isinstance(self.simulator, str) else str(self.simulator["plugin"])
 
     @property
@@ -114,7 +114,7 @@ class Clock:
 
 
 def run(case: Case, profile: cProfile.Profile | None = None) -> Clock:
-    """Execute once."""
+    """Execute the case once."""
     (point,) = load_study(case.config).runs
     clock = Clock()
     with tempfile.TemporaryDirectory() as name:

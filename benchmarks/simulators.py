@@ -65,7 +65,7 @@ def placements(world: World, robots: int) -> Float:
 
 
 def simulators() -> dict[str, Simulator]:
-    """Those that can run here."""
+    """Return the simulators whose libraries are installed."""
     found: dict[str, Simulator] = {"planar": Planar(), "kinematic": Kinematic()}
     if find_spec("pybullet") is not None:
         from mrpbench_simulators_pybullet import PyBullet

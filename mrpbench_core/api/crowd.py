@@ -21,7 +21,7 @@ class CrowdSession(ABC):
 
 
 class Crowd(Component):
-    """Makes movers."""
+    """Starts sessions of movers."""
 
     group: ClassVar[str] = "mrpbench.crowds"
 

@@ -24,7 +24,7 @@ class Column:
     """
 
     name: str
-    """As the metric names it; in records and reports `<metric>.<column>`."""
+    """Name within the metric; in records and reports `<metric>.<column>`."""
     unit: str
     """SI unit, or '' for a count or ratio."""
     better: Literal["lower", "higher", "neither"]

@@ -37,9 +37,9 @@ class Item:
 
     value: Any
     location: Location
-    """Of the value."""
+    """Location of the value."""
     key: Location
-    """Of its key; the same as `location` for values without one."""
+    """Location of its key; the same as `location` for values without a key."""
 
     @property
     def data(self) -> Any:

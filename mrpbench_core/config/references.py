@@ -19,7 +19,7 @@ class References:
     """Files and local plugins of one configuration."""
 
     folder: Path
-    """Of the configuration; names of files are relative to it."""
+    """Folder of the configuration; names of files are relative to it."""
     sources: Mapping[str, str]
     """Texts of local plugins by name of file; the file itself is read for one without a text."""
     verify: bool

@@ -140,7 +140,7 @@ class Replanning:
     )
     period: float | None = option(
         None,
-        help="a new plan this often, whatever happens; none: never",
+        help="interval between new plans; none: no new plans by time",
         unit="s",
         validator=validators.optional(validators.gt(0)),
     )

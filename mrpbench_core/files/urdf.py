@@ -35,7 +35,7 @@ class DifferentialDrive:
     signs: tuple[int, int]
     """1 if a positive speed of the joint drives forward, -1 if backward; left, then right."""
     mass: float
-    """Of all links, kilogram."""
+    """Mass of all links, kilogram."""
 
 
 def read_urdf(file: Path) -> ET.Element:

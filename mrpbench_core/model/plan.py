@@ -86,7 +86,7 @@ class AnytimePoint:
     seconds: float
     """wall seconds since the call."""
     cost: float
-    """Of the best plan until then: sum of costs in ticks, or whatever the planner minimises instead; inf = none."""
+    """Cost of the best plan until then: the sum of costs in ticks, or the planner's own objective; inf = none."""
     lower_bound: float = float("nan")
     """Proved until then, of the same cost; NaN if none."""
 

@@ -62,8 +62,8 @@ def load(provider: Provider) -> Any:
         for attribute in filter(None, path.strip().split(".")):
             found = getattr(found, attribute)
     except (Exception, SystemExit) as error:
-        who = f"{provider.kind} {provider.name!r} of {provider.origin}"
-        raise InputError(f"{who} cannot be imported: {one_line(error)}") from error
+        name = f"{provider.kind} {provider.name!r} of {provider.origin}"
+        raise InputError(f"{name} cannot be imported: {one_line(error)}") from error
     return found
 
 

@@ -27,7 +27,7 @@ SHOPS = (
 
 
 def draft(file: Path) -> None:
-    """Write the file."""
+    """Write the building file."""
     level = DraftLevel("L1")
     concourses(level)
     for side, y, outward in (("south", SOUTH, -1), ("north", NORTH, 1)):

@@ -37,7 +37,7 @@ WIDTHS = (1.0, 1.0, 1.2, 1.0, 1.8)
 
 
 def draft(file: Path) -> None:
-    """Write the file."""
+    """Write the building file."""
     levels = [floor(name, 4.0 * index) for index, name in enumerate(ROOMS)]
     write(file, TITLE, *levels, lifts=[lift for name in LIFTS for lift in lift_lines(name)])
 

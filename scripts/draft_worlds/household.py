@@ -19,7 +19,7 @@ LOW, HIGH = 3.3, 4.7
 
 
 def draft(file: Path) -> None:
-    """Write the file."""
+    """Write the building file."""
     level = DraftLevel("L1")
     places(level)
     walls(level)

@@ -14,7 +14,7 @@ LANE = [(0, 1, 1), (1, 1, 3), (1, 2, 4)]
 
 
 def fault(problem, path):
-    """The one fault of a plan of one path, without the robot's name; None when there is none."""
+    """Return the fault of a plan of one path, without the robot's name, or None."""
     report = check_plan(problem, Plan(paths=(path,)))
     assert not report.conflicts
     assert report.valid == (not report.faults)

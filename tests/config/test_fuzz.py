@@ -1,4 +1,4 @@
-"""Whatever a file says, it is runs or one line for each mistake."""
+"""Any file gives runs, or one line for each mistake."""
 
 import pytest
 from hypothesis import HealthCheck, given, settings

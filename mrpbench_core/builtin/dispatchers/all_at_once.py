@@ -1,4 +1,4 @@
-"""The dispatcher `all_at_once`: sends every path whole, whatever other robots do.
+"""The dispatcher `all_at_once`: releases every path as a whole, independently of other robots.
 
 MRP-Bench does the same (Schaefer et al., "A Benchmark for Multi-Robot Planning in Realistic, Complex and Cluttered
 Environments", ICRA 2023), with 2.5 s between one robot and the next. Only their sensors keep robots apart.
@@ -48,7 +48,7 @@ class AllAtOnceSession(DispatcherSession):
             self.released = np.maximum(self.released, [len(path) for path in problem.commitments])
 
     def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - progress does not matter
-        """Release the whole paths of the robots whose turn has come."""
+        """Release the whole paths of the robots that may start now."""
         if self.begun is None:
             self.begun = now
         turn = self.begun + self.stagger * np.arange(len(self.length)) <= now + 1e-9

@@ -20,7 +20,7 @@ _MOVING = 0.05
 
 @attrs.frozen(kw_only=True)
 class DetourOptions:
-    """When robots ask for detours."""
+    """Options for requests of detours."""
 
     every: int
     """Control periods between two requests of the same robot; 0 = robots never ask."""

@@ -100,7 +100,7 @@ def _open_road(blocked: Bool, raster: Occupancy, a: Float, b: Float) -> None:
 
 
 def _own_cells(cell: Int, raster: Occupancy, world: World) -> Int:
-    """Return the cell of each place as the original does: the cell that contains it, whatever the walls."""
+    """Return the cell of each place as the original does: the cell that contains it, regardless of walls."""
     number = np.full(raster.shape, -1)
     number[cell[:, 0], cell[:, 1]] = np.arange(len(cell))
     row, column = raster.cells(np.array([(vertex.x, vertex.y) for vertex in world.vertices])).T

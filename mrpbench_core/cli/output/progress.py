@@ -31,7 +31,7 @@ class Printed(StudyProgress):
         self._began = self._drawn = time.monotonic()
 
     def selected(self, selection: Selection, results: Results) -> None:
-        """Print the number of runs to do."""
+        """Print the number of runs to execute."""
         for error in results.damaged:
             sys.stderr.write(f"{error}\n")
         self._total = len(selection.todo)

@@ -185,7 +185,7 @@ def _plain(component: Component) -> dict[str, Any]:
 
 
 def _identity(analysis: Analysis, found: ObservedRun) -> str:
-    """Hash of the recording's bytes and of what was asked of it; metrics and places of files do not count."""
+    """Hash of the bytes of the recording and of the options of the analysis, without metrics and paths of files."""
     digest = hashlib.sha256()
     files = [analysis.bag] if analysis.bag.is_file() else sorted(analysis.bag.iterdir())
     for file in (file for file in files if file.is_file()):

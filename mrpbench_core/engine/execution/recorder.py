@@ -100,7 +100,7 @@ class Recorder:
         self._touching = touching
 
     def scans(self, batches: Sequence[ScanBatch]) -> None:
-        """Record scans, one row per robot; rows of unlike lidars are padded with NaN."""
+        """Record scans, one row per robot; rows of different lidars are padded with NaN."""
         if not self._keeps_scans:
             return
         for batch in batches:

@@ -94,7 +94,7 @@ class Replanner:
         self.pending = Revision(due=due, reason=reason, problem=problem, plan=plan, routes=routes, fault=fault or "")
 
     def take_due(self, now: float) -> Revision | None:
-        """The new plan, once its time has come."""
+        """Return the new plan when it takes effect, else None."""
         if self.pending is None or now < self.pending.due - 1e-9:
             return None
         revision, self.pending = self.pending, None

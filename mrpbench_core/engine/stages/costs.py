@@ -13,7 +13,7 @@ from mrpbench_core.model.scenario import Scenario
 def cost_matrix(kind: Cost, roadmap: Roadmap, fleet: Fleet, scenario: Scenario) -> Float:
     """The cost f8[n,m] of each task for each robot: from its start through all goals of the task, in order.
 
-    `euclidean` and `manhattan` are metres between the places of the scenario in the plane, whatever lies between;
+    `euclidean` and `manhattan` are metres between the places of the scenario in the plane, regardless of walls;
     `roadmap` is the shortest travel time in seconds on the roadmap with the robot's motion profile, without other
     robots, inf where there is no way.
     """

@@ -37,7 +37,7 @@ def run(
         executor_options: options of that executor.
         shard: `"i/n"`, only part i (from 0) of n.
         rerun: also do again what `failed`, `changed`, or `all`.
-        progress: told what happens.
+        progress: receives the progress of the study.
 
     Raises:
         InputErrors, InputError: the configuration is wrong, or some runs cannot be made of it. Runs that could be made

@@ -16,7 +16,7 @@ BEGUN = 1e-9
 
 
 class DelayedExecutor:
-    """Executes plans without metres or seconds, and watches by rules of its own that robots keep apart.
+    """Executes plans without metres or seconds, and checks by independent rules that robots keep apart.
 
     A robot holds the vertex that it comes from until it has cleared it, and the vertex that it goes to. Only robots of
     a ring that start together may enter vertices that others have not cleared. Footprints do not overlap.
@@ -40,7 +40,7 @@ class DelayedExecutor:
         self.fault: str | None = None
         """The first violation, as a sentence."""
         self.reordered = False
-        """True after robots have come to a vertex in another order than in the plan."""
+        """True after robots have reached a vertex in another order than in the plan."""
         self._entered: dict[int, list[int]] = defaultdict(list)
         for robot, start in enumerate(problem.start.tolist()):
             self._entered[start].append(robot)

@@ -12,7 +12,7 @@ Random = np.random.Generator
 
 
 def with_releases(random: Random, problem: Problem) -> Problem:
-    """The same problem, but robots have set out already, for no or a few segments, in whatever directions."""
+    """The same problem, but robots have already driven up to a few segments in random directions."""
     return _with_commitments(problem, tuple(_wandering(random, problem, robot) for robot in range(len(problem))))
 
 

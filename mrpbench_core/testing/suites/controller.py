@@ -1,4 +1,4 @@
-"""Checks that every controller must pass: one TurtleBot3 Burger that does exactly what it is told."""
+"""Checks that every controller must pass: one TurtleBot3 Burger that executes commands exactly."""
 
 import math
 from collections.abc import Sequence

@@ -192,7 +192,7 @@ def asked(planner: Planner) -> Iterator[tuple[str, Problem]]:
 
 
 def compared(planner: Planner) -> Iterator[tuple[str, Problem, float]]:
-    """Those whose optimum brute force finds, with it."""
+    """Return the problems whose optimum brute force finds, with the optimum."""
     for name, problem in asked(planner):
         if not problem.features & UNSUPPORTED:
             optimum = least_sum_of_costs(problem, MOST_STATES)

@@ -35,7 +35,7 @@ def load(tmp_path):
 
 
 def blocked(world):
-    """As the image shows it: the first row is the top."""
+    """The raster as the image shows it: the first row is at the top."""
     return world.levels[0].occupancy.blocked[::-1].tolist()
 
 

@@ -41,12 +41,12 @@ def invoke(out: Path) -> psutil.Popen:
 
 
 def kill(process: psutil.Process) -> None:
-    """As `kill -9`, or the kernel when memory ends."""
+    """Kill like `kill -9`, or like the kernel when memory runs out."""
     process.kill()
 
 
 def terminate(process: psutil.Process) -> None:
-    """As a batch system at the end of its time."""
+    """Terminate like a batch system at the end of the allowed time."""
     process.terminate()
 
 
@@ -60,7 +60,7 @@ DISTURBANCES: tuple[Callable[[psutil.Process], None], ...] = (kill, terminate, f
 
 
 def disturb(study: psutil.Popen, chance: random.Random) -> str:
-    """Do something to the invoking process or to a worker; says what."""
+    """Disturb the invoking process or a worker, and return a description."""
     workers = study.children()
     victim = chance.choice(workers) if workers and chance.random() < 0.5 else study
     act = chance.choice(DISTURBANCES)

@@ -3,7 +3,7 @@
 from mrpbench_core.report.reading.columns import describe_columns, heading, primary_columns
 
 OLD = {"unit": "s", "better": "lower", "description": "how long", "source": ""}
-"""As invocations of version 0.1 declare a column."""
+"""A column as invocations of version 0.1 declare it."""
 
 
 def names(known):

@@ -23,7 +23,7 @@ SILENT = SimpleNamespace(channels={})
 
 
 def moved(leaf, opening):
-    """As `page/facilities.js` moves a leaf."""
+    """Move a leaf like `page/facilities.js`."""
     x1, y1, x2, y2, dx, dy, turn = leaf
     cosine, sine = math.cos(turn * opening), math.sin(turn * opening)
     x, y = x1 + dx * opening, y1 + dy * opening

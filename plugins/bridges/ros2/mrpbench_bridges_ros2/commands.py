@@ -43,7 +43,7 @@ class Commands:
 
 @attrs.frozen(kw_only=True)
 class Outside(Controller):
-    """Passes commands on, whatever they are."""
+    """Passes all commands on unchanged."""
 
     commands: Commands
 

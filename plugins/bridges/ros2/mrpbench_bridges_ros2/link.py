@@ -1,4 +1,4 @@
-"""A node in a context of its own, so that runs that follow one another in a process do not meet."""
+"""A node in a separate context, so that consecutive runs in one process do not affect each other."""
 
 import importlib.util
 import sys

@@ -1,4 +1,4 @@
-"""Counts, in a process of its own, what a running simulation publishes, until /clock says SECONDS; prints it as JSON.
+"""Counts, in a separate process, the messages of a running simulation until /clock reaches SECONDS; prints JSON.
 
 `python listener.py SECONDS ROBOT…`
 """

@@ -1,4 +1,4 @@
-"""An outside stack in a process of its own: drives every robot along what is released to it.
+"""An external stack in a separate process: drives every robot along its released path.
 
 `python outside.py MODE ROBOT…`: `drive` drives; `mute` says twenty times, for a second, to turn, and then nothing more.
 It knows nothing of mrpbench: paths and odometry come, and commands go, over ROS alone.

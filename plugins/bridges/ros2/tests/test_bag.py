@@ -46,7 +46,7 @@ def test_ros_reads_every_message_and_writes_the_same(tmp_path, monkeypatch):
             absent.add(package)
             continue
         message = serialization.deserialize_message(data, message_type)
-        again = serialization.serialize_message(message)  # whose padding holds whatever was in memory
+        again = serialization.serialize_message(message)  # its padding is not initialised
         assert types.serialize_cdr(types.deserialize_cdr(again, name), name) == data, topic
         read.add(package)
     assert absent <= NOT_ON_PYPI

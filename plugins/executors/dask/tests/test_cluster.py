@@ -146,7 +146,7 @@ def essence(folder):
 
 
 def kill_a_worker_at_work(marks):
-    """The one whose child has just begun a run, which lasts a while."""
+    """Kill a worker whose child has just begun a run, which lasts a while."""
     deadline = time.monotonic() + 90
     while len(names := sorted(mark.name for mark in marks.iterdir())) < 3:
         assert time.monotonic() < deadline

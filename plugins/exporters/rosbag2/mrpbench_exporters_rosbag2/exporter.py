@@ -111,7 +111,7 @@ class Rosbag2Session(ExporterSession):
             raise
 
     def _messages(self, block: Chunk) -> Iterator[tuple[int, Topic, bytes]]:
-        """Everything in a block, topic by topic."""
+        """The messages of a block, topic by topic."""
         said = [(source.topic, source.messages(block, self.start)) for source in self.sources]
         said.append((CONTACTS, contacts(block, self.names, self.start)))
         said.append((EVENTS, events(block, self.names, self.start)))

@@ -52,7 +52,7 @@ def fleet_states(context: RunContext, release: Release) -> TopicSource:
 
 
 class _ByLevel:
-    """A template for every combination of levels that robots are on: their names are of unlike lengths."""
+    """A template for every combination of levels that robots are on: the lengths of their names differ."""
 
     def __init__(self, context: RunContext, topic: Topic) -> None:
         self._context, self._topic = context, topic

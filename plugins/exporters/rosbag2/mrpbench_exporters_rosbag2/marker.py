@@ -17,7 +17,7 @@ DARK = (0.1, 0.1, 0.1, 1.0)
 
 
 def colour_of(robot: int) -> Colour:
-    """A colour unlike those of the robots of neighbouring numbers: hues by the golden ratio."""
+    """A colour that differs from those of robots with close numbers: hues by the golden ratio."""
     red, green, blue = colorsys.hsv_to_rgb(robot * 0.618034 % 1, 0.75, 0.9)
     return red, green, blue, 0.7
 

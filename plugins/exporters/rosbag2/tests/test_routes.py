@@ -57,7 +57,7 @@ from mrpbench_core.api import Column, Metric
 
 @attrs.frozen(kw_only=True)
 class Beside(Metric):
-    """Sums of everything that robots believed, measured and were told."""
+    """Sums of all estimates, measurements and commands."""
 
     columns = tuple(Column(name, "", "higher", name) for name in ("estimate", "odometry", "command", "scans", "twist"))
     requires = frozenset({"estimate", "odometry", "command", "scan_time", "scan_robot", "scan_ranges", "truth_twist"})

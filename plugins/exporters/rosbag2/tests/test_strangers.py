@@ -47,7 +47,7 @@ def pose(t, x, y, yaw):
 
 
 def write(file, topic, text, **more):
-    """Poses of two robots beside messages of a type of its own, without metadata.yaml."""
+    """Poses of two robots and messages of a custom type, without metadata.yaml."""
     with file.open("wb") as stream:
         writer = Writer(stream)
         schema = writer.register_msgdef("geometry_msgs/msg/PoseStamped", text)

@@ -19,7 +19,7 @@ _OURS = ("laser_max_range", "laser_min_range", "laser_model_type", "robot_model_
 
 
 class AmclSession(LocalizerSession):
-    """Estimates the poses of a fleet, each robot's by a filter of its own."""
+    """Estimates the poses of a fleet, with one filter per robot."""
 
     def __init__(
         self,

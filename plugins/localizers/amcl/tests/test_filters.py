@@ -1,4 +1,4 @@
-"""Filters against a world that they are told too little about."""
+"""Filters in a world of which their map lacks parts."""
 
 import attrs
 import numpy as np

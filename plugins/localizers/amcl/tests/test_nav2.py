@@ -66,7 +66,7 @@ def test_the_file_sets_what_is_not_set_here(tmp_path):
 
 
 def test_defaults_are_nav2s():
-    """Those of the file above, which is the one that Nav2 starts with, but for what the tests changed."""
+    """The file above is Nav2's default file, except for the values that the tests change."""
     lines = [line.strip().split(": ") for line in NAV2.splitlines()[2:]]
     theirs = {name: value.strip('"') for name, value in lines}
     ours = settle(Amcl())

@@ -2,7 +2,7 @@
 joint-space oracle, and against one another.
 
 `make soak` runs it; `python soak_assigning.py COUNT SEED [FIRST]` prints every instance on which something is wrong,
-and what became of all of them.
+and the outcomes of all of them.
 """
 
 from collections.abc import Callable

@@ -2,7 +2,7 @@
 oracle that searches the joint space, and against one another.
 
 `make soak` runs it; `python soak_planners.py COUNT SEED [FIRST]` prints every instance on which something is wrong, and
-what became of all of them.
+the outcomes of all of them.
 """
 
 from mrpbench_native import describe

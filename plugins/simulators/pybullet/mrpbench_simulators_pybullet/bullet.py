@@ -1,4 +1,4 @@
-"""A PyBullet world of its own, and the collision groups in it."""
+"""A separate PyBullet world, and the collision groups in it."""
 
 import os
 import sys

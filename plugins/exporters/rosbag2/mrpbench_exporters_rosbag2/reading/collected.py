@@ -113,5 +113,5 @@ class Patterns:
 
 
 def nanoseconds(stamp: Any) -> int:
-    """Of a builtin_interfaces/Time."""
+    """Return a builtin_interfaces/Time in nanoseconds."""
     return int(stamp.sec) * SECOND + int(stamp.nanosec)
