@@ -5,7 +5,7 @@
     python benchmarks/anytime.py --data … --anchors … --first
 
 Runs every map, scenario and number of robots that the table has a measurement for with the longest limit; `--subset n`
-takes every n-th. All costs are sums of arrival times, also for solvers with another objective. Of the others the best of the
+takes every n-th. All costs are sums of arrival times. Of the others the best of the
 settings of LaCAM3 and LNS2 counts, in each column by itself: the one with the earliest first plan need not be the one
 with the cheapest in the end. `ours/theirs` compares the best of our solvers with the best of theirs at the end: 1 or
 less is no costlier; first plans that take less than 5 ms are alike. With `--first`, only first plans count, of all

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mrpbench_native import ALGORITHMS, Graph, Grid, describe, options_of, solve, solving
+from mrpbench_native import ALGORITHMS, DirectedGraph, Grid, describe, options_of, solve, solving
 
 OPEN = np.ones((4, 4), bool)
 
@@ -29,7 +29,7 @@ def test_paths_on_a_grid_are_cells_at_every_tick():
 
 
 def test_paths_on_a_graph_are_vertices_and_when_they_are_reached():
-    loop = Graph(edges=[(0, 1), (1, 2), (2, 0)], duration=[2, 3, 4])
+    loop = DirectedGraph(edges=[(0, 1), (1, 2), (2, 0)], duration=[2, 3, 4])
     solution = solve(loop, [0], [2], algorithm="cbs")
     assert solution.paths[0].tolist() == [[0, 0], [1, 2], [2, 5]]
     assert (solution.cost, solution.makespan) == (5, 5)
@@ -133,7 +133,7 @@ def test_every_algorithm_returns_paths_from_starts_to_goals(seed, algorithm):
         ({"goals": [[0, 0], [0]]}, "goals: an array is needed, but the rows differ in length"),
         ({"goals": [[[0, 0], [0]]]}, "goals: one for each robot, or a list of candidates"),
         ({"goals": [np.empty((0, 2), int)]}, "robot 0: has no goal"),
-        ({"roadmap": Graph(edges=[(0, 1)]), "starts": [5], "goals": [1]}, "starts: number 0 is 5"),
+        ({"roadmap": DirectedGraph(edges=[(0, 1)]), "starts": [5], "goals": [1]}, "starts: number 0 is 5"),
     ],
 )
 def test_mistakes_are_named(arguments, said):
@@ -161,7 +161,7 @@ def test_mistakes_are_named(arguments, said):
 )
 def test_invalid_graphs_are_refused(arguments, said):
     with pytest.raises(ValueError, match=said):
-        Graph(**arguments)
+        DirectedGraph(**arguments)
 
 
 anything = st.recursive(
@@ -201,7 +201,7 @@ def test_arrays_need_not_be_contiguous():
 
 @pytest.mark.parametrize("algorithm", sorted(ALGORITHMS))
 def test_a_roadmap_larger_than_the_memory_is_out_of_memory(algorithm):
-    endless = Graph(edges=[(0, 1)], vertices=2**30)
+    endless = DirectedGraph(edges=[(0, 1)], vertices=2**30)
     assert solve(endless, [0], [1], algorithm=algorithm, memory_limit=1 << 30).status == "out_of_memory"
 
 

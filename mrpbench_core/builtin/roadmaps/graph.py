@@ -18,7 +18,7 @@ from mrpbench_core.model.world import Lane, World
 
 
 @attrs.frozen(kw_only=True)
-class NavigationGraph(RoadmapBuilder):
+class Graph(RoadmapBuilder):
     """Vertices are places and junctions of lanes, edges are lanes of the RMF navigation graphs. A robot that is bound
     to a graph (`fleet: [{robot: …, graph: 0}]`) uses the lanes of that graph only.
 

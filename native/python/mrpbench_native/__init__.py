@@ -3,7 +3,7 @@
 """
 
 from mrpbench_native.algorithms import ALGORITHMS, describe, options_of
-from mrpbench_native.roadmaps import Graph, Grid
+from mrpbench_native.roadmaps import DirectedGraph, Grid
 from mrpbench_native.solving import Solution, solve
 
-__all__ = ["ALGORITHMS", "Graph", "Grid", "Solution", "describe", "options_of", "solve"]
+__all__ = ["ALGORITHMS", "DirectedGraph", "Grid", "Solution", "describe", "options_of", "solve"]

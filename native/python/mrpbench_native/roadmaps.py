@@ -12,7 +12,7 @@ LONGEST_DURATION = 2**20
 
 
 @dataclass(frozen=True)
-class Graph:
+class DirectedGraph:
     """Vertices joined by directed edges, each of which takes a whole number of ticks."""
 
     edges: ArrayLike

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from mrpbench_native import mapf
 from mrpbench_native.algorithms import options_of
 from mrpbench_native.instances import Robots, SolverRoadmap, build_instance
-from mrpbench_native.roadmaps import Arrays, Graph, Grid
+from mrpbench_native.roadmaps import Arrays, DirectedGraph, Grid
 
 _BYTES_PER_VERTEX = 48
 """Least memory of a roadmap, before a solver begins to count."""
@@ -46,7 +46,7 @@ class Solution:
 
 
 def solve(
-    roadmap: Graph | Grid | NDArray[np.bool_],
+    roadmap: DirectedGraph | Grid | NDArray[np.bool_],
     starts: ArrayLike,
     goals: ArrayLike | Sequence[ArrayLike],
     *,
@@ -60,7 +60,7 @@ def solve(
     Two robots must not be at one vertex at the same time, nor pass each other on an edge; they stay at their goals.
 
     Args:
-        roadmap: a `Graph`, a `Grid`, or bool[rows, columns], true where free.
+        roadmap: a `DirectedGraph`, a `Grid`, or bool[rows, columns], true where free.
         starts: on a grid int[n,2], row and column of each robot; on a graph int[n].
         goals: likewise; or a list with several candidates for each robot, of which it takes one that no other robot
             takes (robots stay, so no two can end at one place). `cbs`, `cbs_ta` and `ita_cbs` make the choice of least
@@ -80,7 +80,7 @@ def solve(
         >>> solution.status, solution.cost
         ('solved', 28)
     """
-    place = roadmap if isinstance(roadmap, Graph | Grid) else Grid(roadmap)
+    place = roadmap if isinstance(roadmap, DirectedGraph | Grid) else Grid(roadmap)
     known = options_of(algorithm)
     _require_limits(time_limit, memory_limit)
     if unknown := sorted(set(options) - set(known)):
@@ -104,7 +104,7 @@ def _require_limits(time_limit: object, memory_limit: object) -> None:
         raise ValueError(f"memory_limit: a whole number of bytes from 0 is needed, not {memory_limit!r}")
 
 
-def _goal_sets(place: Graph | Grid, goals: Any) -> list[NDArray[np.int32]]:
+def _goal_sets(place: DirectedGraph | Grid, goals: Any) -> list[NDArray[np.int32]]:
     """The candidates of each robot."""
     try:
         each = list(goals)

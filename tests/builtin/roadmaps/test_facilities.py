@@ -9,7 +9,7 @@ import pytest
 from hypothesis import event, given
 from hypothesis import strategies as st
 
-from mrpbench_core.builtin.roadmaps.graph import NavigationGraph
+from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.model.doors import leaf_segments, opening_time
 from mrpbench_core.model.facilities import Facilities, ride_time
@@ -95,7 +95,7 @@ def blocks_a_robot(roadmap: Roadmap, door: Door) -> bool:
 @given(door=DOORS)
 def test_an_open_leaf_blocks_no_robot_that_comes_through_its_door(make_fleet, cell_size, door):
     world = hall(door)
-    builder = NavigationGraph() if cell_size is None else GridRoadmap(cell_size=cell_size)
+    builder = Graph() if cell_size is None else GridRoadmap(cell_size=cell_size)
     roadmap = builder.build(world, make_fleet(RADIUS))
     event(f"{door.motion}: {len(roadmap.notes)} notes")
     if roadmap.resources:
@@ -132,7 +132,7 @@ def test_a_leaf_across_the_only_hall_leaves_the_door_shut_rather_than_the_hall_p
     more = [Vertex(name=f"bay_{index}", x=1 + 0.3 * index, y=0.5) for index in range(3)]
     lanes = [Lane(start=0, end=4 + index) for index in range(3)]
     world = attrs.evolve(world, vertices=(*world.vertices, *more), lanes=(*world.lanes, *lanes))
-    roadmap = NavigationGraph().build(world, make_fleet(RADIUS))
+    roadmap = Graph().build(world, make_fleet(RADIUS))
     assert roadmap.resources == ()
     (note,) = [note for note in roadmap.notes if "room door" in note]
     assert note.startswith(
@@ -150,7 +150,7 @@ def test_a_leaf_that_bars_a_way_with_a_way_round_keeps_that_way_out(make_fleet):
     detour = (Vertex(name="south", x=3, y=0.4),)
     lanes = (*world.lanes, Lane(start=0, end=4), Lane(start=4, end=2), Lane(start=4, end=1))
     world = attrs.evolve(world, vertices=(*world.vertices, *detour), lanes=lanes)
-    roadmap = NavigationGraph().build(world, make_fleet(RADIUS))
+    roadmap = Graph().build(world, make_fleet(RADIUS))
     west, front = roadmap.place[:2].tolist()
     assert [resource.name for resource in roadmap.resources] == ["door"]
     assert not {(west, front), (front, west)} & {tuple(edge) for edge in roadmap.edges.tolist()}
@@ -159,14 +159,14 @@ def test_a_leaf_that_bars_a_way_with_a_way_round_keeps_that_way_out(make_fleet):
 
 def test_a_leaf_that_opens_into_the_room_bars_nothing_in_the_hall(make_fleet):
     door = Door(name="door", start=(2.5, 2.0), end=(3.5, 2.0), motion="hinged", motion_direction=-1)
-    roadmap = NavigationGraph().build(hall(door), make_fleet(RADIUS))
+    roadmap = Graph().build(hall(door), make_fleet(RADIUS))
     assert roadmap.notes == ()
     assert len(roadmap.edges) == 6
 
 
 def test_the_setup_of_a_door_is_what_it_takes_to_open(make_fleet):
     door = Door(name="door", start=(2.5, 2.0), end=(3.5, 2.0), motion="sliding")
-    (resource,) = NavigationGraph(tick=0.5).build(hall(door), make_fleet(RADIUS)).resources
+    (resource,) = Graph(tick=0.5).build(hall(door), make_fleet(RADIUS)).resources
     assert (resource.kind, resource.capacity) == ("door", 1)
     assert resource.setup_ticks * 0.5 == pytest.approx(opening_time(door), abs=0.5)
     assert resource.setup_ticks * 0.5 >= opening_time(door)
@@ -174,7 +174,7 @@ def test_the_setup_of_a_door_is_what_it_takes_to_open(make_fleet):
 
 def test_lifts_join_levels_by_edges_that_take_a_ride(make_fleet):
     world = tower()
-    roadmap = NavigationGraph(tick=0.5).build(world, make_fleet(RADIUS))
+    roadmap = Graph(tick=0.5).build(world, make_fleet(RADIUS))
     lift = world.lifts[0]
     start, end = roadmap.level[roadmap.edges].T
     (rides,) = np.nonzero(start != end)
@@ -189,7 +189,7 @@ def test_lifts_join_levels_by_edges_that_take_a_ride(make_fleet):
 def test_mutexes_keep_their_lanes_when_lifts_bring_edges_of_their_own(make_fleet):
     world = tower()
     world = attrs.evolve(world, lanes=(world.lanes[0], attrs.evolve(world.lanes[1], mutex="narrow")))
-    roadmap = NavigationGraph().build(world, make_fleet(RADIUS))
+    roadmap = Graph().build(world, make_fleet(RADIUS))
     (mutex,) = [resource for resource in roadmap.resources if resource.kind == "mutex"]
     ends = set(roadmap.place[[1, 3]].tolist())
     assert [set(edge) for edge in roadmap.edges[list(mutex.edges)].tolist()] == [ends, ends]
@@ -199,6 +199,6 @@ def test_a_mutex_named_like_a_door_gets_another_name(make_fleet):
     door = Door(name="door", start=(2.5, 2.0), end=(3.5, 2.0), motion="sliding")
     world = hall(door)
     world = attrs.evolve(world, lanes=(attrs.evolve(world.lanes[0], mutex="door"), *world.lanes[1:]))
-    kinds = {resource.name: resource.kind for resource in NavigationGraph().build(world, make_fleet(RADIUS)).resources}
+    kinds = {resource.name: resource.kind for resource in Graph().build(world, make_fleet(RADIUS)).resources}
     assert kinds == {"mutex door": "mutex", "door": "door"}
     assert Facilities(world).names == ("door",)

@@ -4,7 +4,7 @@ import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.builtin.roadmaps.graph import NavigationGraph
+from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
 from mrpbench_core.builtin.scenarios.random import Random
@@ -36,7 +36,7 @@ def test_a_raster_has_one_level_and_says_so(tower, make_fleet, builder):
 
 
 def test_a_graph_has_all_levels_and_no_crossing_between_them(tower, make_fleet):
-    roadmap = NavigationGraph().build(tower, make_fleet(0.12))
+    roadmap = Graph().build(tower, make_fleet(0.12))
     assert roadmap.level[roadmap.place].tolist() == [1, 0, 0, 1]
     np.testing.assert_allclose(roadmap.position[roadmap.place], [(v.x, v.y) for v in tower.vertices])
     ends = [set(np.flatnonzero(np.isin(roadmap.place, edge)).tolist()) for edge in roadmap.edges]
@@ -46,7 +46,7 @@ def test_a_graph_has_all_levels_and_no_crossing_between_them(tower, make_fleet):
 
 def test_walls_block_lanes_of_their_own_level_only(tower, make_fleet):
     closed = attrs.evolve(tower.levels[1], walls=[[3, 2, 5, 2]])
-    roadmap = NavigationGraph().build(attrs.evolve(tower, levels=(tower.levels[0], closed)), make_fleet(0.12))
+    roadmap = Graph().build(attrs.evolve(tower, levels=(tower.levels[0], closed)), make_fleet(0.12))
     assert len(roadmap.edges) == 2
     assert roadmap.notes == ("Lane south – north is left out where a robot on it would touch something solid.",)
 
@@ -55,7 +55,7 @@ def test_random_scenarios_take_the_largest_connected_part_whatever_its_level(tow
     upstairs = [Vertex(name=f"attic_{x}", x=x, y=3.5, level=1) for x in (3, 5)]
     lanes = [Lane(start=3, end=4), Lane(start=3, end=5), Lane(start=0, end=3)]
     world = attrs.evolve(tower, vertices=(*tower.vertices, *upstairs), lanes=(*lanes, tower.lanes[1]))
-    roadmap, fleet = NavigationGraph().build(world, make_fleet(0.12, 0.12)), make_fleet(0.12, 0.12)
+    roadmap, fleet = Graph().build(world, make_fleet(0.12, 0.12)), make_fleet(0.12, 0.12)
     for seed in range(5):
         scenario = Random(robots=2).draw(world, roadmap, fleet, seed)
         assert set(scenario.start_names) <= {"south", "north", "attic_3", "attic_5"}
@@ -64,7 +64,7 @@ def test_random_scenarios_take_the_largest_connected_part_whatever_its_level(tow
 
 def test_the_hotel_is_one_part_with_lifts_and_the_doors_that_lanes_lead_through(shared_data, make_fleet):
     world = Rmf(file=shared_data / "rmf/rmf_demos/hotel.building.yaml").load()
-    graph = NavigationGraph().build(world, make_fleet(0.12))
+    graph = Graph().build(world, make_fleet(0.12))
     assert (graph.place >= 0).all()
     assert graph.level[graph.place].tolist() == [vertex.level for vertex in world.vertices]
     assert len(np.unique(round_trips(graph, 0))) == 1

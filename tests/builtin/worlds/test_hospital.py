@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mrpbench_core.builtin.roadmaps.graph import NavigationGraph
+from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.worlds.shipped import Hospital
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.checking.world import check_world
@@ -49,7 +49,7 @@ def test_it_has_three_floors_four_lifts_and_fifteen_doors(world):
 
 
 def test_its_graph_is_one_part_through_all_doors_and_lifts(world):
-    roadmap = NavigationGraph().build(world, BURGER)
+    roadmap = Graph().build(world, BURGER)
     assert len(np.unique(round_trips(roadmap, 0))) == 1
     assert check_world(world, roadmap, 0.125).faults == ()
     assert roadmap.notes == ()
@@ -58,7 +58,7 @@ def test_its_graph_is_one_part_through_all_doors_and_lifts(world):
 
 
 def test_robots_ride_to_the_levels_that_a_lift_serves_only(world):
-    roadmap = NavigationGraph().build(world, BURGER)
+    roadmap = Graph().build(world, BURGER)
     rides = [
         (lift.name, *roadmap.level[edge].tolist())
         for edge in roadmap.edges

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from mrpbench_core.builtin.roadmaps.graph import NavigationGraph
+from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
 from mrpbench_core.builtin.worlds.shipped import CASES, Airport, Bottlenecks, Household, Office, Warehouse
@@ -82,7 +82,7 @@ def test_the_cases_are_as_narrow_as_they_say():
         *(kind(cell_size=size) for kind in (Lanes, GridRoadmap) for size in (0.35, 0.37, 0.39, 0.4)),
         Lanes(cell_size=0.35, compatible="mrp_bench"),
         Lanes(cell_size=0.4, compatible="mrp_bench"),
-        NavigationGraph(),
+        Graph(),
     ],
     ids=repr,
 )
@@ -94,13 +94,13 @@ def test_every_place_can_be_reached_from_every_other(world, roadmap):
 
 
 def test_nothing_is_wrong_with_them(world):
-    for roadmap in (Lanes(), GridRoadmap(), NavigationGraph()):
+    for roadmap in (Lanes(), GridRoadmap(), Graph()):
         assert check_world(world, roadmap.build(world, BURGERS), 0.125).faults == ()
 
 
 @pytest.mark.parametrize("source", ROOMY, ids=repr)
 def test_nothing_is_left_out_of_the_roadmaps_of_roomy_worlds(source):
-    for roadmap in (Lanes(), GridRoadmap(), NavigationGraph()):
+    for roadmap in (Lanes(), GridRoadmap(), Graph()):
         assert roadmap.build(source.load(), BURGERS).notes == ()
 
 

@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.builtin.roadmaps.graph import NavigationGraph
+from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.scenarios.random import Random
 from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.testing import failed_checks, suite_for
@@ -31,12 +31,12 @@ def test_a_roadmap_through_walls():
             duration=np.concatenate([roadmap.duration, [[1]]], axis=1),
         )
 
-    assert set(failed_checks(suite_for(wrapped(NavigationGraph, "build", through)()))) == {"robots keep clear of walls"}
+    assert set(failed_checks(suite_for(wrapped(Graph, "build", through)()))) == {"robots keep clear of walls"}
 
 
 def test_a_roadmap_with_instant_edges():
     found = failed_checks(
-        suite_for(wrapped(NavigationGraph, "build", lambda made: attrs.evolve(made, duration=0 * made.duration))())
+        suite_for(wrapped(Graph, "build", lambda made: attrs.evolve(made, duration=0 * made.duration))())
     )
     assert "arrays fit together" in found
 

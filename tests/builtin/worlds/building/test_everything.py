@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mrpbench_core.builtin.roadmaps.graph import NavigationGraph
+from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.world import check_world
@@ -54,7 +54,7 @@ def test_every_part_is_read(fleet):
         "lane with orientation backward is driven forward, like all lanes.",
         "model 'Nobody/KnowsThis' has no known footprint and is not an obstacle (option footprints).",
     ]
-    roadmap = NavigationGraph().build(world, fleet)
+    roadmap = Graph().build(world, fleet)
     kinds = {resource.name: resource.kind for resource in roadmap.resources}
     assert kinds == {"aisle": "mutex", "crossing": "mutex", "double_sliding": "door", "hoist": "lift"}
     facts = check_world(world, roadmap, 0.12)
