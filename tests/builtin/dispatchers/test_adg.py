@@ -209,7 +209,7 @@ def test_a_door_is_asked_for_by_a_robot_that_waits_before_it_for_more_segments_t
     assert requests == [(), ((0, "door"),)]
 
 
-def test_who_disappears_lets_go_when_its_path_ends(make):
+def test_a_robot_that_disappears_releases_its_resource_when_its_path_ends(make):
     problem, plan = with_door(make, [[0, 1, 2], [4, 4, 4, 3, 2], [2]])
     session = Adg().start(attrs.evolve(problem, rules=Rules(at_goal="disappear")), plan)
     held = attrs.evolve(make.view([1, 0, 0]), granted=((0, "door"),))

@@ -152,7 +152,7 @@ def test_runs_of_unknown_end_leave_the_success_rate(analyze, foreign, capsys):
     assert "1 unknown" in table
 
 
-def test_a_goal_that_nobody_is_seen_at_is_missed(analyze, foreign):
+def test_a_goal_at_which_no_robot_is_seen_is_missed(analyze, foreign):
     _, found, _ = analyze(stopping(foreign()).close())
     assert found["status"] == "goals_missed"
     assert found["metrics"]["execution.goals_reached"] == 1
