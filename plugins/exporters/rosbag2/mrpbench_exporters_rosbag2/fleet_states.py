@@ -22,7 +22,7 @@ INTERVAL = 0.5
 """seconds between two messages, at least: free_fleet's and the original benchmark's 2 Hz."""
 PLACE, STATE, COUNT = hole(3, "<f4"), hole(1, "<u4"), hole(1, "<u8")
 """Positions of x, y, yaw; of the mode; and of the number of the message."""
-RMF_MODE = {Mode.WAITING: WAITING, Mode.ABORTED: ADAPTER_ERROR}
+RMF_MODE: dict[int, int] = {Mode.WAITING: WAITING, Mode.ABORTED: ADAPTER_ERROR}
 """All other modes are MOVING."""
 
 
