@@ -14,7 +14,7 @@ from mrpbench_core.model.arrays import Float
 from mrpbench_core.model.recording import PERIODIC, Chunk
 
 AXES = {
-    "time": PERIODIC,
+    "time": (*PERIODIC, "facility"),
     "scan_time": ("scan_robot", "scan_ranges"),
     "contact_time": ("contact",),
     "event_time": ("event_kind", "event_robot", "event_detail"),

@@ -10,12 +10,15 @@ import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.exporter import Exporter, ExporterSession
+from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2 import motion
 from mrpbench_exporters_rosbag2.advance import advance
 from mrpbench_exporters_rosbag2.bag import Bag, Storage, Version
 from mrpbench_exporters_rosbag2.blocks import AXES, Blocks
+from mrpbench_exporters_rosbag2.covariances import Covariances
+from mrpbench_exporters_rosbag2.doors_and_lifts import FacilityStates, facility_numbers
 from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS, contacts, events
 from mrpbench_exporters_rosbag2.fleet_states import fleet_states
 from mrpbench_exporters_rosbag2.frames import frames
@@ -76,6 +79,7 @@ class Rosbag2Session(ExporterSession):
         self.patterns = recipe.topics
         self.start = int(nanoseconds(recipe.start_time))
         self.sources = [source for source in sources(context, recipe.rmf) if self._wanted(source.topic)]
+        self.facilities = FacilityStates(context.world)
         self.blocks = Blocks(max(1, POSES_PER_BLOCK // max(1, len(context.fleet))))
         latched = [said for said in opening(context, self.start, recipe.map_cell_size) if self._wanted(said[0])]
         self.bag: Bag | None = Bag(destination, recipe.storage, recipe.version)
@@ -118,6 +122,7 @@ class Rosbag2Session(ExporterSession):
         yield from chain.from_iterable(
             ((stamp, topic, data) for stamp, data in found) for topic, found in said if self._wanted(topic)
         )
+        yield from (new for new in self.facilities.messages(block, self.start) if self._wanted(new[1]))
         yield from (new for new in routes(block, self.context, self.start) if self._wanted(new[1]))
 
     def _wanted(self, topic: Topic) -> bool:
@@ -127,16 +132,20 @@ class Rosbag2Session(ExporterSession):
 def sources(context: RunContext, rmf: Release) -> Iterator[TopicSource]:
     """Every periodic topic, in the order of writing at one instant: the clock, frames before what stands in them."""
     robots = list(zip(context.fleet.names, context.fleet.robots, strict=True))
+    covariances = Covariances()
     yield clock()
     yield frames(context.fleet.names, context.world)
     for index, (name, _) in enumerate(robots):
-        yield motion.odometry(index, name)
+        yield motion.odometry(index, name, covariances)
+        yield motion.amcl_pose(index, name, context.world, covariances)
         yield motion.ground_truth(index, name, context.world)
         yield motion.command(index, name)
     if robots:
         yield advance(len(robots))
         yield fleet_states(context, rmf)
     yield robot_markers(context)
+    if Facilities(context.world).names:
+        yield facility_numbers(context.world)
     for index, (name, robot) in enumerate(robots):
         if robot.lidar:
             yield scan(index, name, robot.lidar)

@@ -15,8 +15,8 @@ from mrpbench_exporters_rosbag2.template import Template, hole
 Rows = tuple[Float, Mapping[str, NDArray[Any]]]
 """Times f8[k] in simulated seconds and the values of each hole at them."""
 
-POSE, TWIST = hole(7), hole(6)
-"""Holes of templates for poses (see `messages.spatial`) and twists."""
+POSE, TWIST, COVARIANCE = hole(7), hole(6), hole(36)
+"""Holes of templates for poses (see `messages.spatial`), twists and covariances."""
 
 
 class Throttle:

@@ -7,9 +7,12 @@ from typing import Any
 FLEET = (
     "/clock",
     "/contacts",
+    "/door_states",
     "/events",
+    "/facilities",
     "/fleet_states",
     "/goals",
+    "/lift_states",
     "/map",
     "/navigation_graph",
     "/progress",
@@ -21,7 +24,7 @@ FLEET = (
     "/tf_static",
 )
 """Once per bag; further levels have `/map_1`, `/map_2`, ..."""
-ROBOT = ("cmd_vel", "goal_pose", "ground_truth", "odom", "plan", "scan")
+ROBOT = ("amcl_pose", "cmd_vel", "goal_pose", "ground_truth", "odom", "plan", "scan")
 """Once per robot: `/robot_0/odom`."""
 MANY = 1000
 """Patterns are tried on a fleet (and a house) of this size: which robots there are is not known yet."""

@@ -63,6 +63,7 @@ def test_holds_every_topic_as_often_as_recorded(bag, recording):
     instants = len({*recording["time"], *recording["scan_time"], *recording["event_time"], *recording["contact_time"]})
     expected = dict.fromkeys(LATCHED, 1)
     expected |= {"/clock": instants, "/progress": samples, "/tf": samples, "/events": 3, "/contacts": 3}
+    expected |= {f"/{name}/amcl_pose": 9 for name in ROBOTS}
     expected |= {"/robots": 41, "/fleet_states": 9}  # 4 s at 10 and 2 Hz, and the start
     for name in ROBOTS:
         expected |= {f"/{name}/{topic}": samples for topic in ("odom", "ground_truth", "cmd_vel")}
@@ -143,7 +144,7 @@ def test_odometry_truth_and_commands_are_the_recorded(bag, recording, index):
             assert message.pose.pose.position.z == (0.5 if topic == "ground_truth" else 0.0)
             assert (message.twist.twist.linear.x, message.twist.twist.angular.z) == tuple(twist)
             assert message.twist.twist.linear.y == message.twist.twist.angular.x == 0
-            assert not np.any(message.pose.covariance)
+            assert topic == "odom" or not np.any(message.pose.covariance)
     for (_, message), command in zip(bag[f"/robot_{index}/cmd_vel"], recording["command"][:, index], strict=True):
         assert (message.linear.x, message.angular.z) == tuple(command)
 

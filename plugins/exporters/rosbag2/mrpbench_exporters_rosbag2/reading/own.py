@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 from mrpbench_core.model.recording import Chunk
 from mrpbench_core.model.run import RunContext
 from mrpbench_exporters_rosbag2 import advance, routes, whole
+from mrpbench_exporters_rosbag2.doors_and_lifts import NUMBERS
 from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS
 from mrpbench_exporters_rosbag2.messages import SECOND, full_name
 from mrpbench_exporters_rosbag2.reading.collected import TRANSFORMS, Take, nanoseconds
 from mrpbench_exporters_rosbag2.reading.signals import Said, Signals, table, turn
 from mrpbench_exporters_rosbag2.reading.transforms import compose
 
-TOPICS = (whole.TOPIC, advance.TOPIC, CONTACTS, EVENTS, routes.TOPIC)
+TOPICS = (whole.TOPIC, advance.TOPIC, CONTACTS, EVENTS, NUMBERS, routes.TOPIC)
 TF = "/tf"
 KINDS = {"released": "i4", "reached": "i4", "cleared": "i4", "mode": "u1", "level": "i2"}
 
@@ -43,6 +44,7 @@ class Own:
             advance.TOPIC.name: self._progress,
             CONTACTS.name: self._contact,
             EVENTS.name: self._event,
+            NUMBERS.name: self._facility,
             routes.TOPIC.name: self._routes,
         }
         return {topic: takes[topic] for topic in self._topics} | (
@@ -74,6 +76,7 @@ class Own:
             **found,
             **self._sampled(),
             **self._scans(begin),
+            **self._facilities(),
             "contact_time": times("contact_time"),
             "contact": np.array(pairs, "i4").reshape(-1, 2),
             "event_time": times("event_time"),
@@ -115,6 +118,20 @@ class Own:
             "scan_robot": robot[order],
             "scan_ranges": ranges[order],
         }
+
+    def _facilities(self) -> Chunk:
+        """States of doors and lifts, if there is one at every sample."""
+        states = self._rows["facility"]
+        if not states:
+            return {}
+        if self._rows["facility_time"] != self._rows["time"]:
+            self.notes.append(f"not every sample is on {NUMBERS.name}: the states of doors and lifts were not read")
+            return {}
+        return {"facility": np.array(states, float)}
+
+    def _facility(self, logged: int, message: Any) -> None:
+        self._rows["facility_time"].append(logged)
+        self._rows["facility"].append(message.data)
 
     def _transforms(self, logged: int, message: Any) -> None:
         """Estimates, which are what a robot's two transforms make together; see `frames`."""
