@@ -20,3 +20,5 @@ class Observers:
     stepped: Callable[..., Any] = _ignore
     """now: float (simulated seconds), state: State, observation: FleetObservation, routes: Sequence[Route]."""
     executed: Callable[..., Any] = _ignore
+    progress: Callable[..., Any] = _ignore
+    """simulated_s, limit_s: float (simulated seconds), arrived, robots: int; at most twice a second of wall time."""

@@ -54,7 +54,7 @@ def _show_hook(provider: Provider, as_json: bool) -> None:
     """Print a hook plugin, and the hooks that it implements."""
     plugin = load(provider)
     described = plugin if inspect.isclass(plugin) or inspect.ismodule(plugin) else type(plugin)
-    facts = {
+    facts: dict[str, Any] = {
         "kind": provider.kind,
         "name": provider.name,
         "distribution": provider.distribution,

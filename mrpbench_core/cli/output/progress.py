@@ -17,6 +17,8 @@ from mrpbench_core.store.results import Results
 SHORT = 12
 """Printed characters of a run id; commands accept any unique prefix."""
 REFRESH_S = 0.1
+GOING_S = 0.5
+"""Seconds between two looks at how far a run is."""
 
 
 class Printed(StudyProgress):
@@ -25,6 +27,8 @@ class Printed(StudyProgress):
     def __init__(self, live: bool | None = None) -> None:
         """With `live` (default: on a terminal), successful runs are only counted."""
         self._live = sys.stdout.isatty() if live is None else live
+        self.interval_s = GOING_S if self._live else None
+        self._progress: dict[str, dict[str, Any]] = {}
         self._total = 0
         self._going: dict[str, RunPoint] = {}
         self._counts: Counter[str] = Counter()
@@ -48,6 +52,11 @@ class Printed(StudyProgress):
     def started(self, point: RunPoint) -> None:
         """Show the run in the live line."""
         self._going[point.run_id] = point
+        self._draw()
+
+    def going(self, progress: list[dict[str, Any]]) -> None:
+        """Show simulated time and arrived robots of the runs in the live line."""
+        self._progress = {facts["run_id"]: facts for facts in progress}
         self._draw()
 
     def finished(self, point: RunPoint, record: dict[str, Any]) -> None:
@@ -82,6 +91,17 @@ class Printed(StudyProgress):
             self._say(f"{line}: {message}" if message else line)
         self._draw()
 
+    def _far(self, run_id: str) -> str:
+        """The run, and how far it is in its execution."""
+        name, facts = run_id[:SHORT], self._progress.get(run_id)
+        if facts is None:
+            return name
+        simulated, limit = f"{facts['simulated_s']:.0f}", f"{facts['limit_s']:g} s"
+        arrived, robots = facts["arrived"], counted(facts["robots"], "robot")
+        if len(self._going) > 1:
+            return f"{name} ({simulated}/{limit}, {arrived}/{facts['robots']})"
+        return f"{name}: {simulated} of {limit} simulated, {arrived} of {robots} arrived"
+
     def _say(self, line: str) -> None:
         print(("\r\x1b[K" if self._live else "") + line, flush=True)
 
@@ -94,7 +114,7 @@ class Printed(StudyProgress):
         counts = ", ".join(f"{count} {status}" for status, count in self._counts.most_common())
         left = (now - self._began) / done * (self._total - done) if done else 0.0
         eta = f" · {_clock(left)} left" if done else ""
-        going = " ".join(run_id[:SHORT] for run_id in self._going)
+        going = " ".join(self._far(run_id) for run_id in self._going)
         line = f"[{done}/{self._total}] {counts}{eta} · {going}"
         width = shutil.get_terminal_size().columns - 1  # a wrapped line cannot be erased
         print("\r\x1b[K" + line[:width], end="", flush=True)

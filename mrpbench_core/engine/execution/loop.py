@@ -83,6 +83,8 @@ class LoopInputs:
     """Seed and repeat of the run."""
     stepped: Callable[..., Any]
     """Called after every control period; see `mrpbench_core.api.hooks`."""
+    progress: Callable[[float, NDArray[np.bool_]], None] = lambda now, arrived: None  # noqa: ARG005
+    """Called in every control period with the simulated seconds and whether each robot has arrived."""
 
 
 class ExecutionLoop:
@@ -210,6 +212,7 @@ class ExecutionLoop:
         motion = self._motion
         at_goal = (motion.reached >= self._checks.length) & (motion.mode == WAITING)
         gave_up = motion.mode == ABORTED
+        self._inputs.progress(self._now, at_goal)
         if not (at_goal | gave_up).all() and self._now < self._inputs.limit_s:
             return None
         return ExecutionResult(arrived=bool(at_goal.all()), aborted=bool(gave_up.any()), simulated_s=self._now)

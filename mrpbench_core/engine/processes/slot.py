@@ -35,6 +35,8 @@ class Slot:
     """Executes runs one at a time; `stop` may be called from another thread."""
 
     def __init__(self) -> None:
+        self.progress: dict[str, Any] | None = None
+        """How far the current run is in its execution, with its `run_id`; None outside of executions."""
         self._child: Child | None = None
         self._machine: dict[str, Any] | None = None
         self._stopped = False
@@ -67,6 +69,7 @@ class Slot:
         except OSError as error:
             return JobOutcome(run_id=job.run_id, mistake=f"no worker can be started: {error}")
         finally:
+            self.progress = None
             if self._stopped:
                 self._discard()
                 raise SlotStopped
@@ -92,7 +95,10 @@ class Slot:
                 if failure is not None:
                     self._discard()
                     return JobOutcome(run_id=job.run_id, failure=failure)
+            elif "progress" in message:
+                self.progress = {"run_id": job.run_id, **message["progress"]}
             elif "stage" in message:
+                self.progress = None
                 monitor.enter(Stage(message["stage"]), message.get("limit_s"), message.get("scenario_id"))
             elif "record" in message:
                 return JobOutcome(run_id=job.run_id, record=RunRecord.of_message(message["record"]))

@@ -1,6 +1,7 @@
 """The worker slots of this process, shared by the threads of an executor or of a remote worker."""
 
 import threading
+from typing import Any
 
 from mrpbench_core.engine.processes.job import Job, JobOutcome
 from mrpbench_core.engine.processes.slot import Slot, SlotStopped
@@ -37,6 +38,11 @@ class Slots:
                 if not self._closed:
                     self._idle.append(slot)
 
+    def progress(self) -> list[dict[str, Any]]:
+        """How far each run is that is being executed; see `Slot.progress`."""
+        with self._lock:
+            return [found for slot in self._busy if (found := slot.progress) is not None]
+
     def close(self) -> None:
         """End every child, and with them the runs in flight."""
         with self._lock:
@@ -53,6 +59,13 @@ def run_in_slot(invocation: str, job: Job) -> JobOutcome:
     with _LOCK:
         slots = _POOLS.setdefault(invocation, Slots())
     return slots.run(job)
+
+
+def progress_in_slots(invocation: str) -> list[dict[str, Any]]:
+    """How far each run of an invocation is that is executed in this process; see `Slot.progress`."""
+    with _LOCK:
+        slots = _POOLS.get(invocation)
+    return [] if slots is None else slots.progress()
 
 
 def close_slots(invocation: str) -> None:

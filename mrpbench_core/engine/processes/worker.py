@@ -84,6 +84,7 @@ def _execute(job: dict[str, Any], say: Send, hooks: Hooks) -> dict[str, Any]:
         executing=lambda context: hooks.call("mrpbench_executing", context=context),
         stepped=lambda **seen: hooks.call("mrpbench_stepped", **seen),
         executed=lambda: hooks.call("mrpbench_executed"),
+        progress=lambda **facts: say({"progress": facts}),
     )
     try:
         record = jsonable(execute(unpack(job["parcel"]), job["run_id"], paths, announce, observers).message())

@@ -9,6 +9,7 @@ from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution.facility_manager import ExecutionError
 from mrpbench_core.engine.execution.loop import ExecutionLoop, ExecutionResult, LoopComponents, LoopInputs
 from mrpbench_core.engine.execution.noise import Disturbances
+from mrpbench_core.engine.execution.progress import ExecutionProgress
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.execution.routes import Router, start_poses
@@ -112,6 +113,7 @@ def _simulate(inputs: RunInputs, context: RunContext, recorder: Recorder, replan
                 limit_s=config.limits.execution,
                 seeds=seeds,
                 stepped=inputs.observers.stepped,
+                progress=ExecutionProgress(inputs.observers.progress, config.limits.execution),
             )
         )
         return loop.run()

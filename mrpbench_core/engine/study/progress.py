@@ -10,11 +10,17 @@ from mrpbench_core.store.results import Results
 class StudyProgress:
     """Receives notifications and ignores them; subclasses print or draw."""
 
+    interval_s: float | None = None
+    """Wall seconds after which `going` is called while no run ends; None = never."""
+
     def selected(self, selection: Selection, results: Results) -> None:
         """The runs to execute are selected."""
 
     def started(self, point: RunPoint) -> None:
         """A run was handed to a worker."""
+
+    def going(self, progress: list[dict[str, Any]]) -> None:
+        """Runs are executed; `progress` says of each how far it is: run_id, simulated_s, limit_s, arrived, robots."""
 
     def finished(self, point: RunPoint, record: dict[str, Any]) -> None:
         """A run's record was stored."""

@@ -10,7 +10,7 @@ import attrs
 from mrpbench_core.api.executor import RemoteExecutor, WorkerLost
 from mrpbench_core.config.study import RunPoint
 from mrpbench_core.engine.processes.job import Failure, Job, JobOutcome
-from mrpbench_core.engine.processes.slots import close_slots, run_in_slot
+from mrpbench_core.engine.processes.slots import close_slots, progress_in_slots, run_in_slot
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.engine.study.record import complete_record
 from mrpbench_core.files.errors import InputError
@@ -47,7 +47,10 @@ class RunQueue:
         """
         with self._ending(executor):
             while self._hand_out(executor):
-                done = wait(self._going, return_when=FIRST_COMPLETED).done
+                done = wait(self._going, self.progress.interval_s, FIRST_COMPLETED).done
+                if not done:
+                    self.progress.going(progress_in_slots(self.invocation))
+                    continue
                 ended = [(*self._going.pop(future), future) for future in done]
                 self._hand_out(executor)  # before storing, so that no worker waits for the disk
                 for point, attempt, future in ended:

@@ -56,3 +56,20 @@ def test_the_live_line_does_not_wrap(capsys, monkeypatch):
 )
 def test_an_axis_value_is_said_in_few_words(value, text):
     assert word(value) == text
+
+
+def test_the_live_line_says_how_far_a_single_run_is(capsys, monkeypatch):
+    monkeypatch.setattr(progress, "REFRESH_S", 0.0)
+    monkeypatch.setenv("COLUMNS", "120")
+    shown = Printed(live=True)
+    shown.started(types.SimpleNamespace(run_id="abc", axes={}))
+    facts = {"simulated_s": 34.05, "limit_s": 600.0, "arrived": 3, "robots": 9}
+    shown.going([{"run_id": "abc", **facts}])
+    assert capsys.readouterr().out.endswith("abc: 34 of 600 s simulated, 3 of 9 robots arrived")
+    shown.started(types.SimpleNamespace(run_id="def", axes={}))
+    assert capsys.readouterr().out.endswith("abc (34/600 s, 3/9) def")
+
+
+@pytest.mark.parametrize(("live", "interval"), [(True, progress.GOING_S), (False, None)])
+def test_only_a_terminal_is_kept_up_to_date_during_runs(live, interval):
+    assert Printed(live=live).interval_s == interval
