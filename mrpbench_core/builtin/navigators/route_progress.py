@@ -146,7 +146,7 @@ class RouteProgress:
         near = tables.arrival.take(goal).holds(pose[robots, 0], pose[robots, 1])
         near |= tables.is_wait[goal]
         here = level[robots] == tables.level[goal]
-        ends = here & (self.reached[robots] + 1 == tables.last[robots]) if not rules.stops else here
+        ends = here & (self.reached[robots] + 1 == tables.goal[robots]) if not rules.stops else here
         if ends.any():
             near[ends] |= self.at_goal[robots[ends]] & rules.stateful
             self.at_goal[robots[ends]] = near[ends]

@@ -44,6 +44,10 @@ class RouteTables:
         """i8[n]: the waypoints of robot i are the rows from `first[i]` on."""
         self.last = sizes - 1
         """i8[n]: the last waypoint of robot i is the row `first[i] + last[i]`."""
+        last_move = np.array([route.last_move for route in routes], np.int64)
+        self.goal: Int = np.maximum(last_move, np.minimum(self.last, 1))
+        """i8[n]: robot i arrives at the row `first[i] + goal[i]`. Only waits follow, which are reached at once, so that
+        a new plan that only adds waits changes nothing."""
         self.level = np.concatenate([np.empty(0, np.int16), *(route.level for route in routes)])
         """i2[W]."""
         self.speed: Float = np.concatenate([np.empty(0), *(np.append(route.speed, np.inf) for route in routes)])
@@ -63,11 +67,11 @@ class RouteTables:
         self.corner: Int = row - np.repeat(self.first_corner, sizes)
         """i8[W]: the corner of its robot at which each waypoint lies."""
         self.is_wait: Bool = ~is_corner
-        """bool[W]: the waypoint is at the place of the one before, and is not the last of its route."""
-        self.is_wait[self.first + self.last] = False
+        """bool[W]: the waypoint is at the place of the one before, and is not the goal of its route."""
+        self.is_wait[self.first + self.goal] = False
         heading = self._add_legs(np.repeat(clearances, self.last_corner + 1))
         self.arrival = self._arrival(waypoint, row, heading, rules)
-        """W entries: when each waypoint is reached. The last one, and a wait before the first corner, are
+        """W entries: when each waypoint is reached. The goal, and a wait before the first corner, are
         not reached by passing them."""
         self.yaw: Float = waypoint[:, 2].copy()
         """f8[W] prescribed at each waypoint, NaN = any. A robot that stops at each turns there to the next one."""
@@ -105,7 +109,7 @@ class RouteTables:
         return heading
 
     def _arrival(self, waypoint: Float, row: Int, heading: Float, rules: ArrivalRules) -> WaypointCheck:
-        goal = self.first + self.last
+        goal = self.first + self.goal
         tolerance = np.full(len(waypoint), rules.waypoint_tolerance)
         tolerance[goal] = rules.xy_goal_tolerance
         into = np.concatenate([np.full((1, 2), np.nan), heading[:-1]])[: len(heading)]  # NaN at each first corner

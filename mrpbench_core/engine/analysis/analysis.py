@@ -153,7 +153,7 @@ def _unknown_end(found: ObservedRun) -> list[str]:
 def _status(found: ObservedRun, context: RunContext) -> tuple[RunStatus, str | None]:
     """The status of the run, as far as the recording shows it, and the reason if it did not succeed."""
     last = found.channels["reached"][-1]
-    arrived = last >= np.array([len(route.speed) for route in context.routes])
+    arrived = last >= np.array([route.last_move for route in context.routes])
     if arrived.all():
         return RunStatus.SUCCEEDED, None
     mode = found.channels.get("mode")

@@ -20,7 +20,7 @@ from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.replanning import Replanner, Revision
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.execution import Event, FleetObservation, FleetView, Inputs, Mode, Motion, Orders, State
+from mrpbench_core.model.execution import Event, FleetObservation, FleetView, Inputs, Mode, Motion, Orders, Route, State
 from mrpbench_core.model.plan import Plan
 from mrpbench_core.model.run import RunContext
 
@@ -56,7 +56,7 @@ class ExecutionResult:
     """The end of an execution."""
 
     arrived: bool
-    """Every robot completed its path."""
+    """Every robot completed the last move of its path."""
     aborted: bool
     """At least one robot gave up."""
     simulated_s: float
@@ -118,7 +118,7 @@ class ExecutionLoop:
             seed_of(*inputs.seeds, "navigator"),
         )
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
-        self._routes = context.routes
+        self._take(context.routes)
         self._orders = Orders(released=np.zeros(robots, "i4"))
         self._motion = Motion(
             twist=np.zeros((robots, 2)),
@@ -188,7 +188,7 @@ class ExecutionLoop:
                 fault = str(error)
             else:
                 self._revision += 1
-                self._routes = new.routes
+                self._take(new.routes)
                 self._navigator.adopt(new.routes)
                 self._inputs.replanner.use(new.problem, new.plan)
                 self._checks.adopt(_segments(new.plan))
@@ -200,6 +200,11 @@ class ExecutionLoop:
         self._inputs.recorder.events((Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}"),))
         return False
 
+    def _take(self, routes: tuple[Route, ...]) -> None:
+        """Follow routes from now on."""
+        self._routes = routes
+        self._arrival = np.array([route.last_move for route in routes], np.int64)
+
     def _drive(self, observation: FleetObservation) -> None:
         """Command the robots; nothing is released to a robot that has not started yet."""
         orders, late = self._orders, self._now < self._inputs.noise.start_delay
@@ -210,7 +215,7 @@ class ExecutionLoop:
     def _result(self) -> ExecutionResult | None:
         """Return the end of the execution, or None if it continues."""
         motion = self._motion
-        at_goal = (motion.reached >= self._checks.length) & (motion.mode == WAITING)
+        at_goal = (motion.reached >= self._arrival) & (motion.mode == WAITING)
         gave_up = motion.mode == ABORTED
         self._inputs.progress(self._now, at_goal)
         if not (at_goal | gave_up).all() and self._now < self._inputs.limit_s:

@@ -61,6 +61,8 @@ class Replanner:
         """Note that a plan is in force."""
         self.problem, self.plan = problem, plan
         self._first: Int = np.cumsum([0, *(len(path) for path in plan.paths)])
+        moves = [np.flatnonzero(path.edge >= 0) for path in plan.paths]
+        self._arrival: Int = self._first[:-1] + [own[-1] + 1 if len(own) else 0 for own in moves]
         self._leave: Int = np.concatenate([*(path.leave for path in plan.paths), [0]])  # one more to index at the end
 
     def reason(self, now: float, view: FleetView, wish: str | None) -> str | None:
@@ -106,7 +108,7 @@ class Replanner:
 
     def _late(self, now: float, reached: Int32) -> Float:
         """Seconds f8[n] by which robots are late with the first segment that they have not reached; 0 = arrived."""
-        under_way = self._first[:-1] + reached < self._first[1:]
+        under_way = self._first[:-1] + reached < self._arrival
         planned = self._leave[np.minimum(self._first[:-1] + reached, len(self._leave) - 1)]
         late: Float = np.where(under_way, now - planned * self.problem.roadmap.tick, 0.0)
         return late

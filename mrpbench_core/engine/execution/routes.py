@@ -5,7 +5,7 @@ import numpy as np
 
 from mrpbench_core.api.plan_filter import PlanFilter
 from mrpbench_core.engine.contract_checks import check_kept
-from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.arrays import Bool, Float, Int16
 from mrpbench_core.model.execution import Route
 from mrpbench_core.model.plan import Path, Plan
 from mrpbench_core.model.problem import Problem
@@ -34,11 +34,17 @@ class Router:
         vertices = path.vertices(roadmap, int(self.problem.start[robot]))
         waypoint = np.column_stack([roadmap.position[vertices], roadmap.heading[vertices]])
         if not np.isnan(self.final_yaw[robot]):
-            waypoint[-1, 2] = self.final_yaw[robot]
+            waypoint[_end(waypoint, roadmap.level[vertices]) :, 2] = self.final_yaw[robot]
         if self.plan_filter is not None:
             waypoint = _straightened(waypoint, check_kept(self.plan_filter.keep(waypoint[:, :2].copy()), len(waypoint)))
         limits = self.speed_limits[path.edge] if len(self.speed_limits) else np.inf
         return Route(waypoint=waypoint, level=roadmap.level[vertices], speed=np.where(path.edge >= 0, limits, np.inf))
+
+
+def _end(waypoint: Float, level: Int16) -> int:
+    """Index of the first waypoint f8[k,3] from which on nothing but waits follows."""
+    elsewhere = (waypoint[:, :2] != waypoint[-1, :2]).any(axis=1) | (level != level[-1])
+    return int(np.flatnonzero(np.append(True, elsewhere))[-1])
 
 
 def _straightened(waypoint: Float, kept: Bool) -> Float:

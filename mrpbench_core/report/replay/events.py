@@ -28,12 +28,12 @@ def read_events(recording: Recording, context: RunContext) -> list[list[Any]]:
 
 
 def _arrivals(times: Float, reached: Int, context: RunContext) -> list[list[Any]]:
-    length = np.array([len(route.speed) for route in context.routes])
-    if reached.shape[1:] != length.shape:
+    last_move = np.array([route.last_move for route in context.routes])
+    if reached.shape[1:] != last_move.shape:
         return []
-    done = reached >= length
+    done = reached >= last_move
     when = times[done.argmax(axis=0)]
-    moved = np.flatnonzero(done.any(axis=0) & (length > 0))
+    moved = np.flatnonzero(done.any(axis=0) & (last_move > 0))
     return [[round(float(when[robot]), 3), "arrived", int(robot), ""] for robot in moved]
 
 

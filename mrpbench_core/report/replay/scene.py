@@ -75,6 +75,7 @@ def pack_robots(context: RunContext, packing: Packing, plans: Plans | None = Non
     waypoints = np.concatenate([route.waypoint[:, :2] for route in routes] or [np.empty((0, 2))])
     packing.add_metres("route_x", waypoints[:, 0])
     packing.add_metres("route_y", waypoints[:, 1])
+    packing.add("route_last_move", [route.last_move for route in routes])
     packing.add("route_level", [level for route in routes for level in route.level.tolist()])
     tasks = context.scenario.tasks
     goals = [tasks[task].name if task >= 0 else "" for task in context.assigned]

@@ -32,6 +32,7 @@ export class Run {
     this.routeFirst = this.plans.at(-1); // of the last plan, which begins with all that was driven before
     this.routeX = decoded(arrays.route_x);
     this.routeY = decoded(arrays.route_y);
+    this.lastMoves = arrays.route_last_move.values;
     this.routeLevel = arrays.route_level.values;
     this.now = this.begin;
     this.sample = 0;
@@ -101,10 +102,15 @@ export class Run {
     return Math.max(routes[robot + 1] - routes[robot] - 1, 0);
   }
 
+  /** Number of leading segments up to a robot's last move, by the plan of a sample. */
+  lastMove(robot, sample = this.latest) {
+    return this.lastMoves[this.planOf[sample] * this.count + robot] ?? 0;
+  }
+
   state(robot, sample = this.latest) {
     const mode = this.value("mode", robot, 0, sample);
     if (mode === ABORTED || !this.arrays.reached) return mode;
-    const over = this.value("reached", robot, 0, sample) >= this.segments(robot, sample);
+    const over = this.value("reached", robot, 0, sample) >= this.lastMove(robot, sample);
     return over && mode <= WAITING ? ARRIVED : mode;
   }
 

@@ -29,7 +29,7 @@ RMF_MODE: dict[int, int] = {Mode.WAITING: WAITING, Mode.ABORTED: ADAPTER_ERROR}
 def fleet_states(context: RunContext, release: Release) -> TopicSource:
     """States of all robots, by estimates. RMF has 32-bit floats. Paths are left out: `/robot_0/plan` has them."""
     topic = Topic("/fleet_states", "rmf_fleet_msgs/FleetState", types=rmf_types(release))
-    length = np.array([len(route.speed) for route in context.routes])
+    last_move = np.array([route.last_move for route in context.routes])
     modes = np.array([RMF_MODE.get(mode, MOVING) for mode in range(max(Mode) + 1)])
     throttle, said = Throttle(INTERVAL), 0
 
@@ -40,7 +40,7 @@ def fleet_states(context: RunContext, release: Release) -> TopicSource:
         shown = throttle.due(block["time"])
         numbers = np.arange(said, said + len(shown))
         said += len(shown)
-        mode = np.where(block["reached"][shown] >= length, IDLE, modes[block["mode"][shown]])
+        mode = np.where(block["reached"][shown] >= last_move, IDLE, modes[block["mode"][shown]])
         return block["time"][shown], {
             "place": block["estimate"][shown],
             "mode": mode[..., None],

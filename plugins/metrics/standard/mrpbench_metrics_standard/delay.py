@@ -8,10 +8,9 @@ import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
 from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Route
 from mrpbench_core.model.run import FinishedRun
 from mrpbench_metrics_standard.distribution import mean, percentile
-from mrpbench_metrics_standard.progress import completion_times
+from mrpbench_metrics_standard.progress import arrival_times
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 
@@ -54,13 +53,6 @@ def delays(run: FinishedRun) -> Float:
     """Delays f8[n] in seconds of the last planned move of each robot; NaN if it was never completed."""
     plan, time = run.context.result.plan, run.channel("time")
     assert plan is not None
-    needed = np.array([_last_move(route) for route in run.context.routes], int)
     planned = np.array([path.arrival for path in plan.paths]) * run.context.problem.roadmap.tick
-    late: Float = completion_times(time, run.channel("reached"), needed) - time[0] - planned
+    late: Float = arrival_times(time, run.channel("reached"), run.context.routes) - time[0] - planned
     return late
-
-
-def _last_move(route: Route) -> int:
-    """Number of segments up to the last move; a new plan may send a robot away from its goal again."""
-    moved = (np.diff(route.waypoint[:, :2], axis=0) != 0).any(axis=1) | (np.diff(route.level) != 0)
-    return int(np.flatnonzero(moved)[-1]) + 1 if moved.any() else 0

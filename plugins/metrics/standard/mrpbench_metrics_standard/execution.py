@@ -24,7 +24,14 @@ PROGRESS, CONTACTS = frozenset({"reached", "end"}), frozenset({"contact_time", "
 
 @attrs.frozen(kw_only=True)
 class Execution(Metric):
-    """Measures the execution of a run, by our definitions and by those of the original MRP-Bench (`mrp_bench.*`)."""
+    """Measures the execution of a run, by our definitions and by those of the original MRP-Bench (`mrp_bench.*`).
+
+    A robot completes its path, and arrives, at the first sample at which it has completed the last move of the path;
+    waits after that move do not count. After replanning, the path is that of the last plan, which begins with all that
+    was driven before. A robot that has arrived, and that a new plan lets wait, therefore stays arrived. A robot that a
+    new plan sends away from its goal, to make way, arrives when it is back for the last time, as costs of paths count
+    in multi-agent path finding (Stern et al., SoCS 2019). All metrics use this definition.
+    """
 
     columns: ClassVar[tuple[Column, ...]] = (
         Column("success", "", "higher", "every robot completed its path within the limits", requires=PROGRESS),

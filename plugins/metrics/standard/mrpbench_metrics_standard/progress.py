@@ -9,13 +9,11 @@ from mrpbench_core.model.execution import Route
 
 
 def arrival_times(time: Float, reached: Int32, routes: Sequence[Route]) -> Float:
-    """Time f8[n] of the first sample at which each robot has completed all segments of its path; NaN = never."""
-    return completion_times(time, reached, np.array([len(route.speed) for route in routes], int))
+    """Time f8[n] of the first sample at which each robot has completed the last move of its path; NaN = never.
 
-
-def completion_times(time: Float, reached: Int32, needed: Int) -> Float:
-    """Time f8[n] of the first sample at which each robot has completed `needed` i8[n] segments; NaN = never."""
-    done = reached >= needed
+    Waits after the last move do not count, since every new plan adds some to the paths of robots that have arrived.
+    """
+    done = reached >= np.array([route.last_move for route in routes], int)
     return np.where(done.any(axis=0), time[done.argmax(axis=0)], np.nan)
 
 
@@ -24,18 +22,27 @@ def under_way(time: Float, arrival: Float) -> Bool:
     return ~(time[:, None] >= arrival)  # stays true where the arrival is NaN
 
 
-def progress(truth: Float, reached: Int32, routes: Sequence[Route]) -> Float:
-    """Metres f8[T,n] along each robot's path: the segments completed, and its true position projected on the next."""
-    along = np.empty(reached.shape)
+def moves_among(segments: Int32, routes: Sequence[Route]) -> Int:
+    """Number i8[T,n] of moves among the leading `segments` i4[T,n] of each robot's path."""
+    moves = np.zeros(segments.shape, int)
     for robot, route in enumerate(routes):
-        point = route.waypoint[:, :2]
+        number = np.append(0, np.cumsum(route.is_move))
+        moves[:, robot] = number[np.clip(segments[:, robot], 0, len(route.is_move))]
+    return moves
+
+
+def progress(truth: Float, reached: Int32, routes: Sequence[Route]) -> Float:
+    """Metres f8[T,n] along each robot's path: the moves completed, and its true position projected on the next."""
+    along, moves = np.empty(reached.shape), moves_among(reached, routes)
+    for robot, route in enumerate(routes):
+        point = route.waypoint[np.append(True, route.is_move), :2]
         span = np.diff(point, axis=0, append=point[-1:])  # the last waypoint has no next one
         length = np.hypot(span[:, 0], span[:, 1])
-        segment = np.clip(reached[:, robot], 0, len(point) - 1)
-        offset = truth[:, robot, :2] - point[segment]
-        ahead = (offset * span[segment]).sum(axis=1) / np.where(length > 0, length, 1.0)[segment]
+        done = moves[:, robot]
+        offset = truth[:, robot, :2] - point[done]
+        ahead = (offset * span[done]).sum(axis=1) / np.where(length > 0, length, 1.0)[done]
         begins = np.cumsum(length) - length
-        along[:, robot] = begins[segment] + np.clip(ahead, 0.0, length[segment])
+        along[:, robot] = begins[done] + np.clip(ahead, 0.0, length[done])
     return along
 
 

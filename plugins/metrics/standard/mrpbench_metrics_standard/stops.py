@@ -12,7 +12,7 @@ from mrpbench_core.model.arrays import Bool
 from mrpbench_core.model.run import FinishedRun
 from mrpbench_metrics_standard.motion import steps, turns
 from mrpbench_metrics_standard.periods import periods
-from mrpbench_metrics_standard.progress import arrival_times, under_way
+from mrpbench_metrics_standard.progress import arrival_times, moves_among, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 _POSITIVE = attrs.validators.gt(0)
@@ -41,7 +41,7 @@ class Stops(Metric):
             "standing_released_s",
             "s",
             "lower",
-            "the part of standing_s in which the robot may drive on: at the previous sample, more segments of its path "
+            "the part of standing_s in which the robot may drive on: at the previous sample, more moves of its path "
             "were released than completed",
             requires=frozenset({"released"}),
         ),
@@ -67,7 +67,9 @@ class Stops(Metric):
         each = [math.fsum(own) for own in lasted.T]
         released = None
         if run.has("released"):
-            released = math.fsum(lasted[(run.channel("released") > reached)[:-1]])
+            routes = run.context.routes
+            may_drive = moves_among(run.channel("released"), routes) > moves_among(reached, routes)
+            released = math.fsum(lasted[may_drive[:-1]])
         return {
             "count": int((time[after] - time[first] >= self.least - 1e-9).sum()),
             "standing_s": math.fsum(each),
