@@ -61,6 +61,7 @@ python: install ## run the Python tests, JOBS at a time
 soak: install ## compare thousands of random instances with brute force, and disturb studies at random (an hour)
 	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1
 	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
+	$(BIN)/python tests/builtin/dispatchers/soak_rotations.py 100000 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 2
 

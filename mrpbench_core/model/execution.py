@@ -48,6 +48,9 @@ class Orders:
     """i4[n]: number of leading path segments each robot may complete; never decreases within a revision."""
     requests: tuple[tuple[int, str], ...] = ()
     """(robot, resource) pairs requested or in use, the longest requested first. A pair that is left out is released."""
+    in_step: tuple[tuple[tuple[int, int], ...], ...] = ()
+    """Groups of (robot, segment) that rotate: each robot moves to where the next one of its group starts, so none of
+    them may lead the others along these segments by more than a small distance."""
     replan: str | None = None
     """The reason why a new plan is needed, or None."""
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
 from mrpbench_core.builtin.dispatchers.dependency_graph import REACHED, DependencyGraph
+from mrpbench_core.builtin.dispatchers.rotations import GROUP_MARGIN
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.arrays import Int32, frozen_array
 from mrpbench_core.model.execution import FleetView, Orders
@@ -22,8 +23,8 @@ class Adg(Dispatcher):
     """Releases each move once the moves that precede it in the plan are out of its way."""
 
     group_margin: float = option(
-        0.0,
-        help="distance beyond their radii that two robots of a rotation must keep",
+        GROUP_MARGIN,
+        help="distance beyond their radii that two robots of a rotation must keep if they move exactly in step",
         unit="m",
         validator=attrs.validators.ge(0),
     )
@@ -44,7 +45,8 @@ class Adg(Dispatcher):
 
         Raises:
             DispatchError: the plan has faults or conflicts, or robots wait for one another in a cycle that is not a
-                rotation, or in a rotation that their footprints or a door, lift or mutex do not allow.
+                rotation, or in a rotation that their footprints and `group_margin`, or a door, lift or mutex, do not
+                allow.
         """
         return AdgSession(self, problem, plan)
 
@@ -99,7 +101,10 @@ class AdgSession(DispatcherSession):
         if requested or len(changed):
             self._release()
         requests = self.graph.requests.pairs()
-        return Orders(released=self.released, requests=requests, replan=self.graph.replan_reason(seen[REACHED]))
+        in_step = self.graph.in_step(seen[REACHED])
+        return Orders(
+            released=self.released, requests=requests, in_step=in_step, replan=self.graph.replan_reason(seen[REACHED])
+        )
 
     def _release(self) -> None:
         ahead = (self.seen[REACHED] + 1 + self.options.lookahead).astype(np.int32)

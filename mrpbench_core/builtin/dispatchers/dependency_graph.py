@@ -58,6 +58,8 @@ class DependencyGraph:
         self.limit = _limit(problem, moves).tolist()
         self.cut = self.limit != self.last
         self.lengths = [len(path) for path in plan.paths]
+        self.rotating = [rotation for first, rotation in self.rotations.items() if not self.unmet[first]]
+        """Rotations that are released and not completed."""
         self.frontier = list(self.first)
         """The first move of each robot that is not released."""
         self.released: Int32 = np.zeros(len(problem), np.int32)
@@ -79,9 +81,17 @@ class DependencyGraph:
                         ready.append(group)
                     at += 1
                 self.next[row] = at
+        self.rotating += [self.rotations[group] for group in ready if group in self.rotations]
         for group in ready:
             for move in self.rotations.get(group, (group,)):
                 self._advance(self.robot[move])
+
+    def in_step(self, reached: Int) -> tuple[tuple[tuple[int, int], ...], ...]:
+        """The (robot, segment) pairs of each rotation under way, given the segments `reached` i8[n]."""
+        groups = [tuple((self.robot[move], self.segment[move]) for move in rotation) for rotation in self.rotating]
+        going = [any(reached[robot] <= segment for robot, segment in group) for group in groups]
+        self.rotating = [rotation for rotation, goes in zip(self.rotating, going, strict=True) if goes]
+        return tuple(group for group, goes in zip(groups, going, strict=True) if goes)
 
     def _advance(self, robot: int) -> None:
         move = self.frontier[robot]

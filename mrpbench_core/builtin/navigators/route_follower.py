@@ -89,6 +89,13 @@ class RouteFollower:
         self._refresh(np.array([robot]))
         self._ahead.is_busy[robot] = True  # so that the next `update` looks at it
 
+    def segment_ends(self, robots: Int, segments: Int) -> tuple[Float, Float]:
+        """The places f8[k,2] at which segments i8[k] of robots i8[k] start and end."""
+        tables = self._progress.tables
+        row = tables.first[robots] + segments
+        start, end = (np.column_stack([tables.arrival.x[at], tables.arrival.y[at]]) for at in (row, row + 1))
+        return start, end
+
     def only_turns(self, robot: int) -> bool:
         """Tell whether a robot is at the place to go to next, and has only to turn there."""
         return self._progress.only_turns(robot)

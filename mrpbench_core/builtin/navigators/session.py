@@ -8,6 +8,7 @@ import numpy as np
 from mrpbench_core.api.navigator import NavigatorSession
 from mrpbench_core.builtin.navigators.controller_server import ControllerServer
 from mrpbench_core.builtin.navigators.detours import Detours
+from mrpbench_core.builtin.navigators.in_step import InStep
 from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
 from mrpbench_core.builtin.navigators.recovery_manager import RecoveryManager
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
@@ -28,6 +29,7 @@ class WaypointsSession(NavigatorSession):
     progress_checker: ProgressChecker
     detours: Detours
     recoveries: RecoveryManager
+    in_step: InStep
     xy_goal_tolerance: float
 
     def adopt(self, routes: Sequence[Route]) -> None:
@@ -58,6 +60,7 @@ class WaypointsSession(NavigatorSession):
             self.detours.cancel(robot)
             twist[robot] = 0.0
         events += recoveries.step(now, pose, measured, twist)
+        self.in_step.limit(twist, pose, orders)
         return Motion(
             twist=twist,
             reached=follower.reached,

@@ -93,6 +93,16 @@ def test_a_ring_starts_together_when_all_are_there(make):
     assert session.update(0.0, make.view([0, 1, 0, 0], [0, 1, 0, 0])).released.tolist() == [2, 2, 2, 2]
 
 
+def test_the_robots_of_a_ring_are_told_to_stay_in_step_until_all_have_arrived(make):
+    session = Adg().start(*make.solved(make.grid(2, 2), [[0, 1, 3], [1, 3, 2], [3, 2, 0], [2, 0, 1]]))
+    first = {(0, 0), (1, 0), (2, 0), (3, 0)}
+    assert [set(group) for group in session.update(0.0, make.view([0] * 4)).in_step] == [first]
+    assert [set(group) for group in session.update(0.0, make.view([1, 1, 1, 0], [1] * 4)).in_step] == [first]
+    second = {(robot, 1) for robot, _ in first}
+    assert [set(group) for group in session.update(0.0, make.view([1] * 4, [1] * 4)).in_step] == [second]
+    assert session.update(0.0, make.view([2] * 4, [2] * 4)).in_step == ()
+
+
 def test_what_follows_a_ring_is_as_without_it(make):
     routes = [[0, 1, 2], [1, 4, 4, 5], [4, 3, 3, 3], [3, 0, 0, 1]]
     session = Adg().start(*make.solved(make.grid(2, 3), routes))
@@ -112,10 +122,14 @@ def test_a_ring_too_tight_for_its_robots_is_refused_by_name(make, square):
     problem, plan = square
     assert Adg().start(problem, plan).update(0.0, make.view([0] * 4)).released.tolist() == [1] * 4
     half = np.sqrt(0.5) / 2  # two neighbours are nearest half way, half a diagonal apart
-    Adg().start(attrs.evolve(problem, radius=np.full(4, half)), plan)
+    tight = Adg(group_margin=0.0)
+    tight.start(attrs.evolve(problem, radius=np.full(4, half)), plan)
     said = "robots 0, 1, 2, 3 at vertices 0, 1, 2, 3 .* robots 0 and 1 would come within 0.707 m .* need 0.72"
     with pytest.raises(DispatchError, match=said):
-        Adg().start(attrs.evolve(problem, radius=np.full(4, half + 0.01)), plan)
+        tight.start(attrs.evolve(problem, radius=np.full(4, half + 0.01)), plan)
+    with pytest.raises(DispatchError, match=r"0\.18 m of which are the dispatcher's group_margin"):
+        Adg().start(attrs.evolve(problem, radius=np.full(4, half - 0.08)), plan)
+    Adg().start(attrs.evolve(problem, radius=np.full(4, half - 0.1)), plan)
     Adg(group_margin=0.5).start(problem, plan)
     with pytest.raises(DispatchError, match=r"need 0\.710 m"):
         Adg(group_margin=0.51).start(problem, plan)
