@@ -77,8 +77,8 @@ def observe_own(observed: Observed, context: RunContext) -> ObservedRun:
 
 
 def _own(observed: Observed, context: RunContext, channels: Chunk) -> ObservedRun:
-    length = np.array([len(route.speed) for route in with_latest_routes(context, _loaders(channels)).routes])
-    arrived = (channels["reached"][-1] >= length).all()
+    last_move = np.array([route.last_move for route in with_latest_routes(context, _loaders(channels)).routes])
+    arrived = (channels["reached"][-1] >= last_move).all()
     damaged = not observed.complete and not arrived and (channels["mode"][-1] != Mode.ABORTED).all()
     return ObservedRun(
         context=context,

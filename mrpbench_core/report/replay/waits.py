@@ -102,7 +102,7 @@ class _Explanation:
         self.reason[mode == Mode.RECOVERING] = Reason.RECOVERY
         waiting = mode == Mode.WAITING
         for (_, routes), begin, end in zip(self.plans, self.limits, self.limits[1:], strict=False):
-            waiting[begin:end] &= reached[begin:end] < [len(route.speed) for route in routes]
+            waiting[begin:end] &= reached[begin:end] < [route.last_move for route in routes]
         self.reason[waiting] = np.where(reached < released, Reason.START, Reason.UNKNOWN)[waiting]
         for number, (_, routes) in enumerate(self.plans):
             window = slice(self.limits[number], self.limits[number + 1])
