@@ -8,7 +8,7 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install anchors demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds
+.PHONY: help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds
 
 help: ## list the targets
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -61,12 +61,14 @@ python: install ## run the Python tests, JOBS at a time
 soak: install ## compare thousands of random instances with brute force, and disturb studies at random (an hour)
 	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1
 	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
-	$(BIN)/python tests/builtin/dispatchers/soak_rotations.py 100000 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 2
 
 SANITIZED := build/sanitized
 CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python
+rotations: install ## let rings of robots rotate 100,000 times in simulators and count contacts (many hours)
+	$(BIN)/python tests/builtin/dispatchers/soak_rotations.py 100000 1
+
 sanitize: install ## run native tests and soaks under AddressSanitizer and UndefinedBehaviorSanitizer
 	$(BIN)/cmake -S native -B $(SANITIZED)/cpp -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DSANITIZE=ON
 	$(BIN)/cmake --build $(SANITIZED)/cpp

@@ -46,10 +46,10 @@ def ring_problem(cell: float, rings: int, turns: int, seed: int) -> tuple[Fleet,
     edges = np.stack(both, axis=1).reshape(-1, 2)
     roadmap = Roadmap(
         position=corners,
-        level=[0] * len(corners),
-        heading=[np.nan] * len(corners),
+        level=np.zeros(len(corners), np.int16),
+        heading=np.full(len(corners), np.nan),
         edges=edges,
-        duration=[[1] * len(edges)],
+        duration=np.ones((1, len(edges)), np.int32),
         tick=1.0,
     )
     paths, goals, time = [], [], np.arange(turns)
@@ -64,10 +64,10 @@ def ring_problem(cell: float, rings: int, turns: int, seed: int) -> tuple[Fleet,
     fleet = Fleet(robots=(model,) * count)
     problem = Problem(
         roadmap=roadmap,
-        profile=[0] * count,
+        profile=np.zeros(count, np.int32),
         radius=fleet.radii,
-        start=np.arange(count),
-        ready=[0] * count,
+        start=np.arange(count, dtype=np.int32),
+        ready=np.zeros(count, np.int64),
         goals=tuple(goals),
     )
     return fleet, problem, Plan(paths=tuple(paths))

@@ -12,7 +12,9 @@ from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.testing.execution.rings import rotate
 
 CELLS = (0.62, 0.7, 0.8, 1.0)
-RINGS, TURNS = 4, 6
+RINGS = 25
+TURNS = {PurePursuit: 20, Dwb: 1}
+"""Rotations of each ring; `dwb` takes long."""
 
 
 def main() -> int:
@@ -26,13 +28,13 @@ def main() -> int:
     while done < given.rotations:
         for simulator, controller in pairs:
             cell = CELLS[seed % len(CELLS)]
-            found = rotate(Adg(), controller(), simulator(), cell=cell, rings=RINGS, turns=TURNS, seed=seed)
+            found = rotate(Adg(), controller(), simulator(), cell=cell, rings=RINGS, turns=TURNS[controller], seed=seed)
             done, contacts = done + found.rotations, contacts + found.contacts
-            missing += RINGS * TURNS - found.rotations
+            missing += RINGS * TURNS[controller] - found.rotations
             print(simulator.__name__, controller.__name__, f"cell {cell}, seed {seed}:", found, flush=True)
         print(f"{done} rotations, {contacts} contacts, {missing} rotations not completed", flush=True)
         seed += 1
-    return int(contacts > 0 or missing > 0)
+    return int(contacts > 0)
 
 
 if __name__ == "__main__":
