@@ -2,6 +2,8 @@
 
 /** `Reason` of `waits.py`. */
 export const REASONS = ["", "robot", "resource", "rotation", "replan", "recovery", "schedule", "start", "unknown"];
+const CROWD = 100; // robots above which lines are thin and without arrow heads, which would make pages slow
+const HEAD = 9; // pixels of an arrow head
 const WORDS = {
   replan: "waits for a new plan",
   schedule: "waits for its time in the plan",
@@ -60,18 +62,20 @@ export class Why {
     return run.value("level", culprit, 0) === level ? [run.pose.x[culprit], run.pose.y[culprit]] : null;
   }
 
-  /** A line from each robot that waits (or from the selected one alone) to its culprit, with an arrow head. */
+  /** A line from each robot that waits (or from the selected one alone) to its culprit; with an arrow head unless there are many. */
   draw(context, view, theme, shown) {
     const { run } = this;
     const path = new Path2D();
+    const crowd = run.count > CROWD && shown.selected < 0;
     for (let robot = 0; robot < run.count; robot++) {
       if (shown.selected >= 0 && shown.selected !== robot) continue;
       if (!this.reason(robot) || run.value("level", robot, 0) !== shown.level) continue;
       const place = this.place(robot, shown.level);
-      if (place) arrow(path, view.toScreen(run.pose.x[robot], run.pose.y[robot]), view.toScreen(...place));
+      if (place) arrow(path, view.toScreen(run.pose.x[robot], run.pose.y[robot]), view.toScreen(...place), crowd ? 0 : HEAD);
     }
-    context.lineCap = context.lineJoin = "round";
-    for (const [colour, width] of [[theme.paper, 5], [theme.ink, 1.75]]) {
+    context.lineCap = crowd ? "butt" : "round";
+    context.lineJoin = crowd ? "bevel" : "round";
+    for (const [colour, width] of crowd ? [[theme.ink, 1]] : [[theme.paper, 5], [theme.ink, 1.75]]) {
       context.strokeStyle = colour;
       context.lineWidth = width;
       context.stroke(path);
@@ -79,13 +83,14 @@ export class Why {
   }
 }
 
-function arrow(path, [fromX, fromY], [toX, toY]) {
+function arrow(path, [fromX, fromY], [toX, toY], size) {
   const length = Math.hypot(toX - fromX, toY - fromY);
   if (length < 2) return;
   const [x, y] = [(toX - fromX) / length, (toY - fromY) / length];
-  const head = Math.min(9, length / 2);
   path.moveTo(fromX, fromY);
   path.lineTo(toX, toY);
+  if (!size) return;
+  const head = Math.min(size, length / 2);
   path.moveTo(toX - head * (x + 0.5 * y), toY - head * (y - 0.5 * x));
   path.lineTo(toX, toY);
   path.lineTo(toX - head * (x - 0.5 * y), toY - head * (y + 0.5 * x));
