@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "mrpbench_mapf/instance.hpp"
+#include "mrpbench_mapf/model/instance.hpp"
 
 namespace mrpbench::bindings {
 

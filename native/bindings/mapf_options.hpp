@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "mrpbench_mapf/algorithms.hpp"
+#include "mrpbench_mapf/algorithms/algorithms.hpp"
 
 namespace mrpbench::bindings {
 

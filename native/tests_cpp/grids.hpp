@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "mrpbench_mapf/limits.hpp"
+#include "mrpbench_mapf/model/result.hpp"
 
 namespace mrpbench::mapf {
 

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "grids.hpp"
-#include "mrpbench_mapf/conflict.hpp"
-#include "mrpbench_mapf/random.hpp"
+#include "mrpbench_mapf/common/random.hpp"
+#include "mrpbench_mapf/model/conflict.hpp"
 
 namespace mrpbench::mapf {
 

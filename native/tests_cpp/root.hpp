@@ -3,7 +3,7 @@
 
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/cbs/reasoning.hpp"
+#include "mrpbench_mapf/cbs/reasoning/reasoning.hpp"
 
 namespace mrpbench::mapf {
 
@@ -11,28 +11,28 @@ namespace mrpbench::mapf {
 struct Root {
   explicit Root(Instance given, CbsOptions options = {})
       : instance(std::move(given)),
-        bench(instance, options, limits, statistics),
-        situation(instance.size()),
+        context(instance, options, limits, statistics),
+        state(instance.size()),
         constraints(limits),
         paths(true, limits),
-        reasoning(bench, constraints) {
+        reasoning(context, constraints) {
     for (int robot = 0; robot < instance.size(); ++robot) {
       FoundPath path;
-      CHECK(bench.plan(situation, robot, TimedPath::kAnyGoal, {}, nullptr, path));
-      situation.set_path(robot, paths.keep(path));
+      CHECK(context.plan(state, robot, TimedPath::kAnyGoal, {}, nullptr, path));
+      state.set_path(robot, paths.keep(path));
     }
-    AvoidanceTable present(bench.space, limits);
-    present.add(1, situation.path(1));
+    AvoidanceTable present(context.space, limits);
+    present.add(1, state.path(1));
     present.refresh();
-    find_conflicts(bench.space, present, 0, situation.path(0), constraints, conflicts);
-    for (Conflict& conflict : conflicts) reasoning.examine(situation, conflict);
+    find_conflicts(context.space, present, 0, state.path(0), constraints, conflicts);
+    for (Conflict& conflict : conflicts) reasoning.examine(state, conflict);
   }
 
   Instance instance;
   Limits limits = unlimited();
   Statistics statistics;
-  Workbench bench;
-  Situation situation;
+  SearchContext context;
+  NodeState state;
   Arena<Constraint> constraints;
   PathStore paths;
   Reasoning reasoning;

@@ -2,8 +2,8 @@
 #include <set>
 
 #include "check.hpp"
-#include "mrpbench_mapf/bounded/bounded_cbs.hpp"
-#include "mrpbench_mapf/cbs.hpp"
+#include "mrpbench_mapf/algorithms/bounded_cbs.hpp"
+#include "mrpbench_mapf/algorithms/cbs.hpp"
 #include "plans.hpp"
 
 using namespace mrpbench::mapf;

@@ -1,6 +1,6 @@
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/cbs/dependencies.hpp"
+#include "mrpbench_mapf/cbs/tree/dependencies.hpp"
 #include "root.hpp"
 
 using namespace mrpbench::mapf;
@@ -56,8 +56,8 @@ TEST("a robot at its goal finishes later, or for good") {
   for (const Conflict& conflict : root.conflicts) {
     if (conflict.kind != Conflict::Kind::target) continue;
     target = true;
-    CHECK(conflict.branch[0][0].kind == Constraint::Kind::finish_after);
-    CHECK(conflict.branch[1][0].kind == Constraint::Kind::finish_by);
+    CHECK(conflict.branch[0][0].kind == Constraint::Kind::length_above);
+    CHECK(conflict.branch[1][0].kind == Constraint::Kind::length_at_most);
     CHECK(conflict.branch[0][0].range.first == 2);
     CHECK(conflict.cardinality == Conflict::Cardinality::both);
   }
@@ -70,14 +70,14 @@ TEST("switched off, conflicts are resolved by the standard constraints") {
   for (const Conflict& conflict : root.conflicts) CHECK(conflict.kind == Conflict::Kind::standard);
 }
 
-TEST("pairs of robots say what a node still costs, or that it is hopeless") {
+TEST("pairs of robots say what a node still costs, or that it has no solution") {
   Root root(instance(rooms(4, 1), {robot(1, 6), robot(5, 2)}));
-  Dependencies dependencies(root.bench);
+  Dependencies dependencies(root.context);
   std::vector<const Conflict*> conflicts;
   for (const Conflict& conflict : root.conflicts) conflicts.push_back(&conflict);
-  CHECK(dependencies.evaluate(root.situation, conflicts) == 6);
+  CHECK(dependencies.evaluate(root.state, conflicts) == 6);
   // What one does no longer changes anything if the other must have finished before it can have passed.
-  root.situation.add({0, 6, {7, 7}, Constraint::Kind::finish_by});
-  root.situation.add({1, 2, {7, 7}, Constraint::Kind::finish_by});
-  CHECK(dependencies.evaluate(root.situation, conflicts) == Dependencies::kImpossible);
+  root.state.add({0, 6, {7, 7}, Constraint::Kind::length_at_most});
+  root.state.add({1, 2, {7, 7}, Constraint::Kind::length_at_most});
+  CHECK(dependencies.evaluate(root.state, conflicts) == Dependencies::kImpossible);
 }

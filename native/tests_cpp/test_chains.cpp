@@ -1,7 +1,7 @@
 #include <numeric>
 
 #include "check.hpp"
-#include "mrpbench_mapf/chains.hpp"
+#include "mrpbench_mapf/infeasibility/chains.hpp"
 #include "plans.hpp"
 
 using namespace mrpbench::mapf;
@@ -62,7 +62,7 @@ Instance two_rooms(int corridor, int empty, bool across) {
 
 }  // namespace
 
-TEST("where there is a plan nobody is beyond a chain, and on trees somebody is where there is none") {
+TEST("where there is a plan no robot is beyond a chain, and on trees one is where there is none") {
   Random random(1);
   int solvable = 0, unsolvable = 0, seen = 0;
   for (int k = 0; k < 3'000; ++k) {

@@ -1,6 +1,6 @@
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/cbs/constraint.hpp"
+#include "mrpbench_mapf/cbs/constraints/constraint.hpp"
 
 using namespace mrpbench::mapf;
 

@@ -1,6 +1,6 @@
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/distance_table.hpp"
+#include "mrpbench_mapf/single_agent/distance_table.hpp"
 
 using namespace mrpbench::mapf;
 

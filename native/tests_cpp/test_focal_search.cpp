@@ -6,9 +6,9 @@
 
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/bounded/focal_search.hpp"
-#include "mrpbench_mapf/cbs/conflict.hpp"
-#include "mrpbench_mapf/cbs/space_time_astar.hpp"
+#include "mrpbench_mapf/cbs/constraints/conflict.hpp"
+#include "mrpbench_mapf/cbs/low_level/focal_search.hpp"
+#include "mrpbench_mapf/cbs/low_level/space_time_astar.hpp"
 
 using namespace mrpbench::mapf;
 
@@ -117,8 +117,8 @@ TEST("paths are the cheapest, or within the bound those that meet the fewest oth
       }
     }
     using Kind = Constraint::Kind;
-    if (random() % 5 == 0) table.add({0, goal, {static_cast<Tick>(random() % 7), 0}, Kind::finish_after});
-    if (random() % 5 == 0) table.add({0, goal, {6 + static_cast<Tick>(random() % 4), 0}, Kind::finish_by});
+    if (random() % 5 == 0) table.add({0, goal, {static_cast<Tick>(random() % 7), 0}, Kind::length_above});
+    if (random() % 5 == 0) table.add({0, goal, {6 + static_cast<Tick>(random() % 4), 0}, Kind::length_at_most});
 
     SafeIntervals intervals(space, limits, statistics);
     const std::size_t patience = round % 4 < 2 ? 0 : 1024;

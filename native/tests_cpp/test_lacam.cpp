@@ -1,10 +1,10 @@
 #include <numeric>
 
 #include "check.hpp"
-#include "mrpbench_mapf/cbs.hpp"
-#include "mrpbench_mapf/lacam.hpp"
-#include "mrpbench_mapf/lns.hpp"
-#include "mrpbench_mapf/pibt.hpp"
+#include "mrpbench_mapf/algorithms/cbs.hpp"
+#include "mrpbench_mapf/algorithms/lacam.hpp"
+#include "mrpbench_mapf/algorithms/lns.hpp"
+#include "mrpbench_mapf/algorithms/pibt.hpp"
 #include "plans.hpp"
 
 using namespace mrpbench::mapf;

@@ -1,7 +1,7 @@
 #include "check.hpp"
-#include "mrpbench_mapf/lacam.hpp"
-#include "mrpbench_mapf/lns.hpp"
-#include "mrpbench_mapf/pbs.hpp"
+#include "mrpbench_mapf/algorithms/lacam.hpp"
+#include "mrpbench_mapf/algorithms/lns.hpp"
+#include "mrpbench_mapf/algorithms/pbs.hpp"
 #include "plans.hpp"
 
 using namespace mrpbench::mapf;

@@ -1,6 +1,6 @@
 #include "check.hpp"
-#include "mrpbench_mapf/rearrangement.hpp"
-#include "mrpbench_mapf/solvability.hpp"
+#include "mrpbench_mapf/infeasibility/rearrangement.hpp"
+#include "mrpbench_mapf/infeasibility/solvability.hpp"
 #include "plans.hpp"
 
 using namespace mrpbench::mapf;

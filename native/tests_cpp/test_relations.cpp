@@ -1,6 +1,6 @@
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/relations.hpp"
+#include "mrpbench_mapf/model/relations.hpp"
 
 using namespace mrpbench::mapf;
 

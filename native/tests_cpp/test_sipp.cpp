@@ -1,7 +1,7 @@
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/reservations.hpp"
-#include "mrpbench_mapf/sipp.hpp"
+#include "mrpbench_mapf/single_agent/reservations.hpp"
+#include "mrpbench_mapf/single_agent/sipp.hpp"
 
 using namespace mrpbench::mapf;
 

@@ -1,9 +1,9 @@
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/astar.hpp"
-#include "mrpbench_mapf/cbs.hpp"
-#include "mrpbench_mapf/prioritized.hpp"
-#include "mrpbench_mapf/solvability.hpp"
+#include "mrpbench_mapf/algorithms/astar.hpp"
+#include "mrpbench_mapf/algorithms/cbs.hpp"
+#include "mrpbench_mapf/algorithms/prioritized.hpp"
+#include "mrpbench_mapf/infeasibility/solvability.hpp"
 
 using namespace mrpbench::mapf;
 

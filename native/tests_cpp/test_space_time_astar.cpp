@@ -1,7 +1,7 @@
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/cbs/mdd.hpp"
-#include "mrpbench_mapf/cbs/space_time_astar.hpp"
+#include "mrpbench_mapf/cbs/low_level/mdd.hpp"
+#include "mrpbench_mapf/cbs/low_level/space_time_astar.hpp"
 
 using namespace mrpbench::mapf;
 
@@ -52,18 +52,18 @@ TEST("a goal that is crossed later may not be taken before") {
   Alone it(instance(grid(3, 1), {robot(0, 2)}));
   it.table.add(avoid_vertex(0, 2, 9, 9));
   CHECK(it.cost() == 10);
-  it.table.add({0, 2, {11, 11}, Constraint::Kind::finish_after});
+  it.table.add({0, 2, {11, 11}, Constraint::Kind::length_above});
   CHECK(it.cost() == 12);
-  it.table.add({0, 2, {11, 11}, Constraint::Kind::finish_by});
+  it.table.add({0, 2, {11, 11}, Constraint::Kind::length_at_most});
   CHECK(it.cost() == kForever);
 }
 
-TEST("nobody passes a robot that has finished for good") {
+TEST("no robot passes one that has finished for good") {
   Alone it(instance(grid(3, 1), {robot(0, 2), robot(2, 1)}));
-  it.table.add({1, 1, {1, 1}, Constraint::Kind::finish_by});
+  it.table.add({1, 1, {1, 1}, Constraint::Kind::length_at_most});
   CHECK(it.cost() == kForever);
   it.table.reset(0);
-  it.table.add({1, 1, {2, 2}, Constraint::Kind::finish_by});
+  it.table.add({1, 1, {2, 2}, Constraint::Kind::length_at_most});
   CHECK(it.cost() == 2);
 }
 
@@ -78,7 +78,7 @@ TEST("a goal that is cut off for good is given up in a large room too") {
 
 TEST("edges of many ticks are crossed whole") {
   Alone it(instance(grid(3, 1, 5), {robot(0, 2)}));
-  CHECK(!it.space.textbook());
+  CHECK(!it.space.classical());
   CHECK(it.cost() == 10);
   it.table.add(avoid_vertex(0, 1, 5, 7));
   CHECK(it.cost() == 13);

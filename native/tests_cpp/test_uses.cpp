@@ -2,7 +2,7 @@
 
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/uses.hpp"
+#include "mrpbench_mapf/model/uses.hpp"
 
 using namespace mrpbench::mapf;
 
@@ -40,7 +40,7 @@ TEST("a use lasts from the first element to the setup after the last one") {
   CHECK(same(found[1], 1, 28, kForeverHalf));  // stays at 4 from tick 14
 }
 
-TEST("who comes back within the setup has not stopped using it") {
+TEST("a robot that comes back within the setup has not stopped using it") {
   const Roadmap road = grid(5, 1);
   const auto edge = [&](int tail, int head) { return 5 + edge_between(road, tail, head); };
   const Path path{at_vertex(1, 0, 0), on_edge(edge(1, 0), 0, 1), at_vertex(0, 1, 1), on_edge(edge(0, 1), 1, 2),
@@ -53,12 +53,12 @@ TEST("too many users are found in pairs, as many as there is room for are not") 
   const Instance one = line(3, 1, 0), two = line(3, 2, 0);
   const Path first = along(one.roadmap(), 0), second = along(one.roadmap(), 1), last = along(one.roadmap(), 9);
   const std::vector<std::span<const Occupation>> close{first, second, {}}, apart{first, {}, last};
-  const auto in_passage = [](const std::vector<Crowding>& found) {
-    return std::ranges::count_if(found, [](const Crowding& it) { return it.time < 8; });  // later all are at 4
+  const auto in_passage = [](const std::vector<CapacityConflict>& found) {
+    return std::ranges::count_if(found, [](const CapacityConflict& it) { return it.time < 8; });  // later all are at 4
   };
-  const std::vector<Crowding> found = find_crowding(one, close);
+  const std::vector<CapacityConflict> found = find_capacity_conflicts(one, close);
   CHECK(in_passage(found) == 1);
   CHECK(found[0].one == 0 && found[0].other == 1 && found[0].time == 4);
-  CHECK(in_passage(find_crowding(two, close)) == 0);
-  CHECK(in_passage(find_crowding(one, apart)) == 0);
+  CHECK(in_passage(find_capacity_conflicts(two, close)) == 0);
+  CHECK(in_passage(find_capacity_conflicts(one, apart)) == 0);
 }

@@ -2,7 +2,7 @@
 
 #include "check.hpp"
 #include "grids.hpp"
-#include "mrpbench_mapf/cbs/vertex_cover.hpp"
+#include "mrpbench_mapf/cbs/tree/vertex_cover.hpp"
 
 using namespace mrpbench::mapf;
 

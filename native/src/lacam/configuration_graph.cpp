@@ -14,7 +14,7 @@ ConfigurationGraph::ConfigurationGraph(const Instance& instance, DistanceTables&
       robots_(limits),
       node_arena_(limits),
       steps_(limits),
-      demands_(limits),
+      low_level_nodes_(limits),
       first_order_(first_order(instance, tables)),
       scratch_(first_order_),
       bucket_(1024) {}
@@ -45,13 +45,13 @@ Node& ConfigurationGraph::add(Configuration at, Node* parent) {
                                      .order = robots_.copy({order, size}).data(),
                                      .parent = parent,
                                      .steps = nullptr,
-                                     .first_demand = nullptr,
-                                     .last_demand = nullptr,
+                                     .first_low_level = nullptr,
+                                     .last_low_level = nullptr,
                                      .next = nullptr,
                                      .g = 0,
                                      .h = to_go(at),
                                      .id = static_cast<std::int32_t>(nodes_.size())});
-  demand(node, {nullptr, nullptr, -1, -1, 0});
+  add_low_level_node(node, {nullptr, nullptr, -1, -1, 0});
   Node*& bucket = bucket_[hash(at) & (bucket_.size() - 1)];
   node.next = bucket;
   bucket = &node;
@@ -68,26 +68,26 @@ void ConfigurationGraph::add_step(Node& from, Node& to) {
   from.steps = &steps_.copy(Step{&to, from.steps, step_cost(from.at, to.at)});
 }
 
-void ConfigurationGraph::demand(Node& node, const Demand& demand) {
-  Demand& added = demands_.copy(demand);
-  if (node.first_demand == nullptr) {
-    node.first_demand = &added;
+void ConfigurationGraph::add_low_level_node(Node& node, const LowLevelNode& low_level) {
+  LowLevelNode& added = low_level_nodes_.copy(low_level);
+  if (node.first_low_level == nullptr) {
+    node.first_low_level = &added;
   } else {
-    node.last_demand->next = &added;
+    node.last_low_level->next = &added;
   }
-  node.last_demand = &added;
+  node.last_low_level = &added;
 }
 
-const Demand* ConfigurationGraph::next_demand(Node& node, const Moves& moves) {
-  const Demand* next = node.first_demand;
+const LowLevelNode* ConfigurationGraph::next_low_level_node(Node& node, const Moves& moves) {
+  const LowLevelNode* next = node.first_low_level;
   if (next == nullptr) return nullptr;
-  node.first_demand = node.first_demand->next;
+  node.first_low_level = node.first_low_level->next;
   if (next->depth == instance_.size()) return next;
   const std::int32_t robot = node.order[next->depth];
   for (const std::int32_t vertex : moves.successors(node.at[robot])) {
-    demand(node, {next, nullptr, robot, vertex, next->depth + 1});
+    add_low_level_node(node, {next, nullptr, robot, vertex, next->depth + 1});
   }
-  demand(node, {next, nullptr, robot, node.at[robot], next->depth + 1});
+  add_low_level_node(node, {next, nullptr, robot, node.at[robot], next->depth + 1});
   return next;
 }
 

@@ -5,8 +5,8 @@
 #include <deque>
 
 #include "lacam/configurations.hpp"
-#include "mrpbench_mapf/arena.hpp"
-#include "mrpbench_mapf/objective.hpp"
+#include "mrpbench_mapf/common/arena.hpp"
+#include "mrpbench_mapf/model/objective.hpp"
 
 namespace mrpbench::mapf::lacam {
 
@@ -20,9 +20,9 @@ struct Step {
 };
 
 /// What a successor must do: robot `robot` goes to `vertex`, and what `parent` says. The first one says nothing.
-struct Demand {
-  const Demand* parent;
-  Demand* next;  // of the same configuration, to be tried after this one
+struct LowLevelNode {
+  const LowLevelNode* parent;
+  LowLevelNode* next;  // of the same configuration, to be tried after this one
   std::int32_t robot, vertex, depth;
 };
 
@@ -31,8 +31,8 @@ struct Node {
   const std::int32_t* order;
   Node* parent;
   const Step* steps;
-  Demand *first_demand, *last_demand;  // a queue
-  Node* next;                          // with the same hash
+  LowLevelNode *first_low_level, *last_low_level;  // a queue
+  Node* next;                                      // with the same hash
   Cost g, h;
   std::int32_t id;
 };
@@ -63,8 +63,8 @@ class ConfigurationGraph {
       }
     }
   }
-  /// The next demand on successors of `node`, nullptr if there was every one; those that refine it are queued.
-  const Demand* next_demand(Node& node, const Moves& moves);
+  /// The next low_level on successors of `node`, nullptr if there was every one; those that refine it are queued.
+  const LowLevelNode* next_low_level_node(Node& node, const Moves& moves);
 
   std::vector<Configuration> way_to(const Node& node) const;
   const std::vector<Node*>& nodes() const { return nodes_; }
@@ -74,7 +74,7 @@ class ConfigurationGraph {
   Cost step_cost(Configuration from, Configuration to) const;
   Cost to_go(Configuration at) const;
   void add_step(Node& from, Node& to);
-  void demand(Node& node, const Demand& demand);
+  void add_low_level_node(Node& node, const LowLevelNode& low_level);
   void grow();
 
   const Instance& instance_;
@@ -85,7 +85,7 @@ class ConfigurationGraph {
   Arena<std::int32_t> robots_;
   Arena<Node> node_arena_;
   Arena<Step> steps_;
-  Arena<Demand> demands_;
+  Arena<LowLevelNode> low_level_nodes_;
   std::vector<std::int32_t> first_order_, scratch_;
   std::vector<Node*> nodes_;
   std::vector<Node*> bucket_;

@@ -5,8 +5,8 @@
 namespace mrpbench::mapf::lacam {
 
 ConfigurationStep::ConfigurationStep(const Instance& instance, const Moves& moves, DistanceTables& tables,
-                                     const Guides* guides, bool swap, std::uint64_t seed, Limits& limits)
-    : moves_(moves), robots_(instance.size()), guides_(guides), swap_(swap), random_(seed) {
+                                     const GuidePaths* guides, bool swap, std::uint64_t seed, Limits& limits)
+    : moves_(moves), robots_(instance.size()), guide_paths_(guides), swap_(swap), random_(seed) {
   for (int vertex = 0; vertex < moves.vertex_count(); ++vertex) {
     most_candidates_ = std::max(most_candidates_, static_cast<int>(moves.successors(vertex).size()) + 1);
   }
@@ -66,7 +66,7 @@ bool ConfigurationStep::move(int robot, int depth) {
     if (k == 0 && partner >= 0 && to_[partner] < 0 && next_[here] < 0) settle(partner, here);
     return true;
   }
-  // All that was tried is taken by now; whoever inherited from here has to look elsewhere.
+  // All that was tried is taken by now; the robot that inherited from here has to look elsewhere.
   settle(robot, here);
   return false;
 }
@@ -76,7 +76,7 @@ int ConfigurationStep::rank(int robot, Candidate* candidates) {
   DistanceTable& distance = *distance_[robot];
   std::uint64_t ties = random_();
   int count = 0;
-  const std::int32_t guided = guides_ == nullptr ? -1 : guides_->next(robot, from_[robot]);
+  const std::int32_t guided = guide_paths_ == nullptr ? -1 : guide_paths_->next(robot, from_[robot]);
   const auto add = [&](std::int32_t vertex) {
     const auto tie = static_cast<std::uint32_t>(ties & 15);
     ties = ties >> 4 | ties << 60;

@@ -6,16 +6,16 @@
 #include <cstdint>
 #include <vector>
 
-#include "lacam/guides.hpp"
+#include "lacam/guide_paths.hpp"
 #include "lacam/moves.hpp"
-#include "mrpbench_mapf/distance_table.hpp"
-#include "mrpbench_mapf/random.hpp"
+#include "mrpbench_mapf/common/random.hpp"
+#include "mrpbench_mapf/single_agent/distance_table.hpp"
 
 namespace mrpbench::mapf::lacam {
 
 class ConfigurationStep {
  public:
-  ConfigurationStep(const Instance& instance, const Moves& moves, DistanceTables& tables, const Guides* guides,
+  ConfigurationStep(const Instance& instance, const Moves& moves, DistanceTables& tables, const GuidePaths* guides,
                     bool swap, std::uint64_t seed, Limits& limits);
 
   /// Where all robots go from `from`: robot r to `to[r]` if that is no -1, the others where PIBT sends them, those
@@ -23,7 +23,7 @@ class ConfigurationStep {
   bool operator()(const std::int32_t* from, const std::int32_t* order, std::int32_t* to);
 
   /// From now on all robots go straight to their goals.
-  void drop_guides() { guides_ = nullptr; }
+  void drop_guide_paths() { guide_paths_ = nullptr; }
 
  private:
   static constexpr int kDeepest = 10'000;  // robots in one chain of inheritance, for the stack's sake
@@ -48,7 +48,7 @@ class ConfigurationStep {
 
   const Moves& moves_;
   int robots_;
-  const Guides* guides_;
+  const GuidePaths* guide_paths_;
   bool swap_;
   Random random_;
   std::vector<DistanceTable*> distance_;

@@ -4,7 +4,7 @@
 #include <functional>
 #include <numeric>
 
-#include "mrpbench_mapf/solvability.hpp"
+#include "mrpbench_mapf/infeasibility/solvability.hpp"
 
 namespace mrpbench::mapf::lacam {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "lacam/moves.hpp"
-#include "mrpbench_mapf/distance_table.hpp"
+#include "mrpbench_mapf/single_agent/distance_table.hpp"
 
 namespace mrpbench::mapf::lacam {
 

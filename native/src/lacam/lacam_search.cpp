@@ -4,7 +4,7 @@
 
 namespace mrpbench::mapf::lacam {
 
-LacamSearch::LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables, const Guides* guides,
+LacamSearch::LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables, const GuidePaths* guides,
                          const LacamOptions& options, Limits& limits, Statistics& statistics)
     : moves_(moves),
       limits_(limits),
@@ -32,14 +32,14 @@ bool LacamSearch::advance() {
     goal_ = &node;
     return true;
   }
-  const Demand* demand = is_useful(node) ? graph_.next_demand(node, moves_) : nullptr;
-  if (demand == nullptr) {
+  const LowLevelNode* low_level = is_useful(node) ? graph_.next_low_level_node(node, moves_) : nullptr;
+  if (low_level == nullptr) {
     open_.pop_back();
     return false;
   }
   ++statistics_.expansions;
   std::ranges::fill(to_, -1);
-  for (; demand->parent != nullptr; demand = demand->parent) to_[demand->robot] = demand->vertex;
+  for (; low_level->parent != nullptr; low_level = low_level->parent) to_[low_level->robot] = low_level->vertex;
   if (!step_(node.at, node.order, to_.data())) return false;
   return visit(node);
 }

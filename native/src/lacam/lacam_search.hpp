@@ -5,13 +5,13 @@
 
 #include "lacam/configuration_graph.hpp"
 #include "lacam/configuration_step.hpp"
-#include "mrpbench_mapf/lacam.hpp"
+#include "mrpbench_mapf/lacam/options.hpp"
 
 namespace mrpbench::mapf::lacam {
 
 class LacamSearch {
  public:
-  LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables, const Guides* guides,
+  LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables, const GuidePaths* guides,
               const LacamOptions& options, Limits& limits, Statistics& statistics);
 
   /// Look for the first plan. False: there is none.
@@ -24,7 +24,7 @@ class LacamSearch {
   bool exhausted() const { return open_.empty(); }
   /// Ways that cost as much as this are of no interest.
   void bound(Cost cost) { bound_ = std::min(bound_, cost); }
-  void drop_guides() { step_.drop_guides(); }
+  void drop_guide_paths() { step_.drop_guide_paths(); }
   const ConfigurationGraph& graph() const { return graph_; }
   const Node* goal() const { return goal_; }
 

@@ -1,8 +1,8 @@
 // Where robots can go in one tick, on roadmaps on which every move takes one tick, as grids are.
 #pragma once
 
-#include "mrpbench_mapf/instance.hpp"
-#include "mrpbench_mapf/limits.hpp"
+#include "mrpbench_mapf/common/limits.hpp"
+#include "mrpbench_mapf/model/instance.hpp"
 
 namespace mrpbench::mapf::lacam {
 

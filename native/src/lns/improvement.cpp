@@ -47,7 +47,7 @@ Value Improvement::plan() {
     last = std::max(last, arrival(schedule_.paths()[robot]));
   }
   if (sum == least) return {0, 0};
-  // Whoever arrives later than this makes the group worse, even if the rest of it is not delayed at all.
+  // A robot that arrives later than this makes the group worse, even if the rest of it is not delayed at all.
   Cost left = sum - least;
   const auto latest = [&](int k) {
     if (k > 0) left -= arrival(schedule_.fresh()[k - 1]) - schedule_.least(robots_[k - 1]);

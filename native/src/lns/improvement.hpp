@@ -7,7 +7,7 @@
 
 #include "lns/neighbourhood.hpp"
 #include "lns/roulette.hpp"
-#include "mrpbench_mapf/objective.hpp"
+#include "mrpbench_mapf/model/objective.hpp"
 
 namespace mrpbench::mapf::lns {
 

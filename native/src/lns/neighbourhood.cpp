@@ -36,7 +36,7 @@ const std::vector<int>& Neighbourhood::around_late(int late, int size) {
 }
 
 /// From a random point of the robot's path go on at random, but only where it could still arrive earlier than it does:
-/// whoever is met there keeps it from doing so.
+/// a robot that is met there keeps it from doing so.
 void Neighbourhood::walk(int robot) {
   const Path& path = schedule_.paths()[robot];
   const Tick end = arrival(path);

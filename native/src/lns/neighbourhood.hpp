@@ -4,7 +4,7 @@
 #pragma once
 
 #include "lns/schedule.hpp"
-#include "mrpbench_mapf/random.hpp"
+#include "mrpbench_mapf/common/random.hpp"
 
 namespace mrpbench::mapf::lns {
 

@@ -24,7 +24,7 @@ struct Patience {
 
 class Repair {
  public:
-  static constexpr int kNeighbourhood = 8;  // robots at a time, where nobody says how many
+  static constexpr int kNeighbourhood = 8;  // robots at a time, by default
 
   Repair(Schedule& schedule, int neighbourhood, std::uint64_t seed);
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "mrpbench_mapf/random.hpp"
+#include "mrpbench_mapf/common/random.hpp"
 
 namespace mrpbench::mapf::lns {
 

@@ -48,7 +48,7 @@ void Schedule::reject(const std::vector<int>& robots) {
   }
 }
 
-/// Does the robot bind others before it has a path? Standing at its start at tick 0 alone binds nobody.
+/// Does the robot bind others before it has a path? Standing at its start at tick 0 alone binds none.
 bool Schedule::holds(int robot) const {
   const Beginning& beginning = instance_.beginning(robot);
   return beginning.occupied.size() > 1 || beginning.free_at > 0;

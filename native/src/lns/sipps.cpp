@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "mrpbench_mapf/obstacles.hpp"
+#include "mrpbench_mapf/single_agent/obstacles.hpp"
 
 namespace mrpbench::mapf::lns {
 
@@ -47,7 +47,7 @@ bool Sipps::search(int robot, DistanceTable& distance, Others others, Tick lates
   const Row row = states_of(beginning.vertex);
   for (int state = row.first; state < row.last; ++state) {
     if (states_[state].first > beginning.free_at || states_[state].last < beginning.free_at) continue;
-    reach(-1, state, -1, beginning.free_at, states_[state].company.present);
+    reach(-1, state, -1, beginning.free_at, states_[state].occupancy.present);
   }
   bool found = false;
   while (!open_.empty() && !found) {
@@ -119,7 +119,7 @@ std::span<const Visit> Sipps::visits_at(int vertex) {
 /// When the robot can be at `vertex`: not before it could get there, and not too late to arrive in time.
 Sipps::Window Sipps::window_of(int vertex) {
   const Tick h = (*distance_)(vertex);
-  const bool stays = is_soft() && h == 0 && !instance_.rules().disappear_at_goal;  // meets all who come later
+  const bool stays = is_soft() && h == 0 && !instance_.rules().disappear_at_goal;  // meets all that come later
   return {2 * (alone_ - h), stays ? kForeverHalf : 2 * (latest_ - h)};
 }
 
@@ -154,14 +154,14 @@ void Sipps::add_shared(int vertex, std::vector<State>& states) {
     if (ended < ends_.size()) until = std::min(until, ends_[ended]);
     const std::size_t before = states.size();
     if (until >= window.first) add_state(states, vertex, from, until, {.present = present, .begun = begun});
-    if (states.size() > before) begun = 0;  // else it lies between two ticks: whoever waits on meets them as well
+    if (states.size() > before) begun = 0;  // else it lies between two ticks: a robot that waits on meets them as well
     from = until + 1;
   }
 }
 
-void Sipps::add_state(std::vector<State>& states, int vertex, Half first, Half last, Company company) {
+void Sipps::add_state(std::vector<State>& states, int vertex, Half first, Half last, Occupancy occupancy) {
   const Tick begin = (first + 1) / 2, end = last / 2;
-  if (begin <= end) states.push_back({begin, end, vertex, company, kForever, kForever, 0});
+  if (begin <= end) states.push_back({begin, end, vertex, occupancy, kForever, kForever, 0});
 }
 
 /// Departures at which the robot conflicts with others on `edge`; hard: sorted and united.
@@ -204,7 +204,7 @@ void Sipps::expand(int label) {
   if (!is_soft()) return;
   const int next = from.state + 1;
   if (next < states_of(here.vertex).last) {
-    reach(label, next, -1, states_[next].first, from.conflicts + states_[next].company.begun);
+    reach(label, next, -1, states_[next].first, from.conflicts + states_[next].occupancy.begun);
   }
 }
 
@@ -214,11 +214,11 @@ void Sipps::follow(int label, int edge, int to) {
   const State &here = states_[from.state], &there = states_[to];
   const Tick duration = duration_[edge], last = std::min(here.last, there.last - duration);
   Tick departure = std::max(from.arrival, there.first - duration);
-  int conflicts = from.conflicts + there.company.present;
+  int conflicts = from.conflicts + there.occupancy.present;
   if (traffic_.is_unit()) {
     // Who comes the other way leaves `there` when the robot leaves `here`: at a boundary of both intervals.
     if (departure == here.last && there.first == departure + 1) {
-      if (!is_soft() && here.company.after == there.company.before) return;
+      if (!is_soft() && here.occupancy.after == there.occupancy.before) return;
       if (is_soft()) traffic_.swappers(here.vertex, there.vertex, departure, [&](int) { ++conflicts; });
     }
     return reach(label, to, edge, departure + 1, conflicts);
@@ -253,7 +253,7 @@ void Sipps::reach(int parent, int to, int edge, Tick arrival, int conflicts) {
   push({arrival, conflicts, to, parent, edge, false}, h);
 }
 
-/// The path may end here: hard if nobody comes any more, soft with a conflict for each who does.
+/// The path may end here: hard if no robot comes any more, soft with a conflict for each that does.
 void Sipps::finish(int label) {
   Label end = labels_[label];
   const State& state = states_[end.state];
@@ -261,7 +261,7 @@ void Sipps::finish(int label) {
     if (!is_soft() && state.last != kForever) return;
     const Row row = states_of(state.vertex);
     for (int later = end.state + 1; is_soft() && later < row.last; ++later) {
-      end.conflicts += states_[later].company.begun;
+      end.conflicts += states_[later].occupancy.begun;
     }
   }
   end.final = true;

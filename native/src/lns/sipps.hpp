@@ -5,9 +5,9 @@
 #pragma once
 
 #include "lns/traffic.hpp"
-#include "mrpbench_mapf/distance_table.hpp"
-#include "mrpbench_mapf/lazy_rows.hpp"
-#include "mrpbench_mapf/random.hpp"
+#include "mrpbench_mapf/common/lazy_rows.hpp"
+#include "mrpbench_mapf/common/random.hpp"
+#include "mrpbench_mapf/single_agent/distance_table.hpp"
 
 namespace mrpbench::mapf::lns {
 
@@ -25,17 +25,17 @@ class Sipps {
   std::int64_t expansions() const { return statistics_.low_level_expansions; }
 
  private:
-  /// Who else is at a vertex at some time.
-  struct Company {
+  /// The other robots at a vertex at some time.
+  struct Occupancy {
     std::int32_t present = 0;              // soft: visits
     std::int32_t begun = 0;                // soft: of these, those that were not there in the interval before
     std::int32_t before = -1, after = -1;  // hard: robots that are there just before and just after, -1 = none
   };
-  /// An interval at a vertex in which the same others are there (hard: nobody).
+  /// An interval at a vertex in which the same others are there (hard: none).
   struct State {
     Tick first, last;
     std::int32_t vertex;
-    Company company;
+    Occupancy occupancy;
     Tick closed;             // earliest arrival of a label that was expanded
     Tick arrival;            // of the label generated last
     std::int32_t conflicts;  // of that label
@@ -75,7 +75,7 @@ class Sipps {
   Window window_of(int vertex);
   void add_free(int vertex, std::vector<State>& states);
   void add_shared(int vertex, std::vector<State>& states);
-  static void add_state(std::vector<State>& states, int vertex, Half first, Half last, Company company);
+  static void add_state(std::vector<State>& states, int vertex, Half first, Half last, Occupancy occupancy);
   std::span<const Range> departures_of(int edge);
   Tick earliest_stay();
   void expand(int label);

@@ -1,7 +1,7 @@
-// Who is where and when, by element of the roadmap and sorted by time, for paths that come and go often.
+// Which robots are where and when, by element of the roadmap and sorted by time, for paths that come and go often.
 #pragma once
 
-#include "mrpbench_mapf/conflict.hpp"
+#include "mrpbench_mapf/model/conflict.hpp"
 
 namespace mrpbench::mapf::lns {
 
@@ -39,7 +39,7 @@ class Traffic {
       }
     }
   }
-  /// On unit roadmaps: call `found(robot)` for all who go from `to` to `from` between `tick` and `tick + 1`.
+  /// On unit roadmaps: call `found(robot)` for all robots that go from `to` to `from` between `tick` and `tick + 1`.
   template <class Found>
   void swappers(int from, int to, Tick tick, Found found) const {
     for (const Visit& leaving : visits_[to]) {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mrpbench_mapf/assignment/ranking.hpp"
-#include "mrpbench_mapf/instance.hpp"
+#include "mrpbench_mapf/model/instance.hpp"
 
 namespace mrpbench::mapf {
 

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "mrpbench_mapf/limits.hpp"
-#include "mrpbench_mapf/time.hpp"
+#include "mrpbench_mapf/common/limits.hpp"
+#include "mrpbench_mapf/model/time.hpp"
 
 namespace mrpbench::mapf {
 

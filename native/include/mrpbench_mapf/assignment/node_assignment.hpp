@@ -6,8 +6,8 @@
 //     that it is sent to.
 #pragma once
 
-#include "mrpbench_mapf/arena.hpp"
 #include "mrpbench_mapf/assignment/candidates.hpp"
+#include "mrpbench_mapf/common/arena.hpp"
 
 namespace mrpbench::mapf {
 

@@ -9,8 +9,8 @@
 
 #include <optional>
 
-#include "mrpbench_mapf/arena.hpp"
 #include "mrpbench_mapf/assignment/hungarian.hpp"
+#include "mrpbench_mapf/common/arena.hpp"
 
 namespace mrpbench::mapf {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "mrpbench_mapf/options.hpp"
+#include "mrpbench_mapf/common/options.hpp"
 
 namespace mrpbench::mapf {
 

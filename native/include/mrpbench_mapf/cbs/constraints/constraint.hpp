@@ -1,0 +1,46 @@
+// The constraints by which conflict-based search resolves conflicts.
+#pragma once
+
+#include <array>
+
+#include "mrpbench_mapf/model/conflict.hpp"
+
+namespace mrpbench::mapf {
+
+/// What `robot` must not do, or (`length_at_most`) must do.
+struct Constraint {
+  enum class Kind : std::int32_t {
+    avoid,           // a vertex at the half-ticks `range`, or entering an edge at the ticks `range`
+    length_above,    // a path whose last move ends at the vertex `element` is longer than `range.first` ticks
+    length_at_most,  // the last move ends at the vertex `element` at tick `range.first` at the latest, and no other
+                     // robot is in the way of a robot that stands there from that tick on
+    resource,        // does not use the resource `element` at the half-ticks `range`
+    junction,        // is nowhere on the junction at the vertex `element` at the half-ticks `range`
+  };
+  std::int32_t robot;
+  std::int32_t element;
+  Range range;
+  Kind kind = Kind::avoid;
+
+  bool operator==(const Constraint&) const = default;
+};
+
+/// `robot` must not be at `vertex` at any instant from tick `first` to `last`, nor between them.
+inline Constraint avoid_vertex(int robot, int vertex, Tick first, Tick last) {
+  return {robot, vertex, {2 * first, last >= kForever ? kForeverHalf : 2 * last}};
+}
+
+/// `robot` must be nowhere on the junction at `vertex` at the half-tick `instant`.
+inline Constraint junction_constraint(int robot, int vertex, Half instant) {
+  return {robot, vertex, {instant, instant}, Constraint::Kind::junction};
+}
+
+/// Two constraints, one for each robot, at least one of which every solution keeps: whatever the one forbids conflicts
+/// with whatever the other forbids. Both forbid what the robots now do.
+///
+/// The ranges of departures are those of Andreychuk et al., "Multi-agent pathfinding with continuous time", AIJ 2022,
+/// in integer time; standing is constrained by instants, so that no wait without an end has to be reasoned about.
+std::array<Constraint, 2> split(const PairConflict& conflict, std::span<const Occupation> one,
+                                std::span<const Occupation> other, int vertex_count);
+
+}  // namespace mrpbench::mapf

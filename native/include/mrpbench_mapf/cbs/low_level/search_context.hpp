@@ -1,0 +1,54 @@
+// What all nodes of a constraint tree, and the trees for pairs of robots inside it, work with.
+#pragma once
+
+#include "mrpbench_mapf/assignment/candidates.hpp"
+#include "mrpbench_mapf/cbs/constraints/node_state.hpp"
+#include "mrpbench_mapf/cbs/low_level/mdd_cache.hpp"
+#include "mrpbench_mapf/cbs/low_level/safe_intervals.hpp"
+#include "mrpbench_mapf/cbs/low_level/space_time_astar.hpp"
+#include "mrpbench_mapf/cbs/options.hpp"
+
+namespace mrpbench::mapf {
+
+class SearchContext {
+ public:
+  SearchContext(const Instance& instance, const CbsOptions& options, Limits& limits, Statistics& statistics);
+
+  /// The cheapest path of `robot` to `goal` under what binds it in `state` and `more`. False if there is none.
+  bool plan(const NodeState& state, int robot, int goal, std::span<const Constraint> more, const AvoidanceTable* others,
+            FoundPath& path);
+  /// What its cheapest path to the goal costs, whatever it costs in `state`; kForever if it has none.
+  Tick least_cost(const NodeState& state, int robot);
+  /// All its cheapest paths to the goal; it must have one.
+  std::shared_ptr<const Mdd> mdd(const NodeState& state, int robot);
+  /// Would every one of its cheapest paths break `constraints`?
+  bool costs_more(const NodeState& state, int robot, std::span<const Constraint> constraints);
+  /// Distances to one vertex with the motion profile of `robot`.
+  DistanceTable& distance_to(int robot, int vertex);
+  /// The same to `goal`, or to the nearest of its goals if that is `TimedPath::kAnyGoal`.
+  DistanceTable& distance_to_goal(int robot, int goal);
+
+  const CbsOptions options;
+  Limits& limits;
+  Statistics& statistics;
+  const Space space;
+  DistanceTables distances;
+  SafeIntervals intervals;
+  SpaceTimeAstar astar;
+  ConstraintTable table, scratch;
+
+ private:
+  MddBuilder builder_;
+  MddCache mdds_;
+  std::unordered_map<Key, Tick, KeyHash> least_cost_;  // by robot and what binds it
+  std::size_t counted_ = 0;
+  std::unordered_map<std::int64_t, std::unique_ptr<DistanceTable>> distance_to_;  // by profile and vertex
+};
+
+/// The goals that each robot may take, and the cost of each if the robot is alone.
+Candidates find_candidates(SearchContext& context);
+
+/// A robot because of which quick checks prove that there is no solution; nothing if they prove nothing.
+std::optional<int> prove_infeasible(SearchContext& context);
+
+}  // namespace mrpbench::mapf

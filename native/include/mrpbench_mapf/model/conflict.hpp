@@ -1,0 +1,28 @@
+// Conflicts between two timed paths: one sweep over both, since the occupations of a path follow one another without a
+// gap from tick 0 on.
+#pragma once
+
+#include <span>
+
+#include "mrpbench_mapf/model/relations.hpp"
+
+namespace mrpbench::mapf {
+
+/// Two robots on one lane at the same time: does the first to enter fail to be the first to leave?
+inline bool overtakes(const Occupation& one, const Occupation& other) {
+  return (one.begin < other.begin) != (one.end < other.end) || one.begin == other.begin || one.end == other.end;
+}
+
+/// Two robots in one another's way. `count` conflicts in all, described is the first.
+struct PairConflict {
+  std::int32_t one, other;            // robots
+  std::int32_t one_step, other_step;  // indices into their paths
+  Half time;
+  Relation relation;
+  std::int32_t count;  // 0: none
+};
+
+PairConflict find_conflict(const Instance& instance, const Relations& relations, int one,
+                           std::span<const Occupation> one_path, int other, std::span<const Occupation> other_path);
+
+}  // namespace mrpbench::mapf

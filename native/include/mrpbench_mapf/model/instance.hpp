@@ -1,0 +1,94 @@
+// What a solver is asked: robots on a roadmap, with goals, released prefixes and rules.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mrpbench_mapf/model/roadmap.hpp"
+
+namespace mrpbench::mapf {
+
+/// One segment of a timed path; edge -1 waits.
+struct Segment {
+  std::int32_t edge;
+  Tick enter;
+  Tick leave;
+};
+
+struct Robot {
+  int profile = 0;
+  double radius = 0.0;  // metres
+  int start = 0;
+  Tick ready = 0;                  // stands at its start at least until then
+  std::vector<int> goals;          // reaching any one counts
+  std::vector<Segment> committed;  // the path must begin with these
+};
+
+struct Rules {
+  bool following_forbidden = false;
+  bool disappear_at_goal = false;
+};
+
+/// Pairs of elements closer than some distance, as sparse rows (`mrpbench_core.model.conflicts.Exclusions`).
+/// Empty: robots have no footprint.
+struct Exclusions {
+  std::vector<std::int64_t> first;
+  std::vector<std::int32_t> element;
+  std::vector<double> distance;  // metres
+};
+
+/// Elements that at most `capacity` robots use at a time, each for `setup` ticks longer than it is on them (rule 6).
+struct Resource {
+  int capacity;
+  Tick setup;
+  std::vector<int> elements;
+};
+
+/// What a robot does for certain: its committed segments, then standing where they end until it may move.
+struct Beginning {
+  std::vector<Occupation> occupied;  // the last one is the stay at `vertex`, from arrival to `free_at`
+  int vertex;
+  Tick free_at;  // earliest next departure
+};
+
+class Instance {
+ public:
+  /// Throws std::invalid_argument naming the robot whose data make no sense.
+  Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Exclusions exclusions,
+           std::vector<Resource> resources = {});
+
+  const Roadmap& roadmap() const { return roadmap_; }
+  const std::vector<Robot>& robots() const { return robots_; }
+  const Rules& rules() const { return rules_; }
+  const Exclusions& exclusions() const { return exclusions_; }
+  const std::vector<Resource>& resources() const { return resources_; }
+  /// Which of them a robot on `element` uses.
+  std::span<const std::int32_t> resources_of(int element) const {
+    if (resources_.empty()) return {};
+    return resources_of_[element];
+  }
+  const Beginning& beginning(int robot) const { return beginnings_[robot]; }
+  int size() const { return static_cast<int>(robots_.size()); }
+  /// What it takes in memory, but for what robots have.
+  std::size_t bytes() const;
+  bool footprints() const { return !exclusions_.first.empty(); }
+  /// Two elements closer than this exclude the two robots from one another.
+  double reach(int one, int other) const {
+    return footprints() ? robots_[one].radius + robots_[other].radius - 1e-9 : 0.0;
+  }
+
+ private:
+  Beginning begin(int robot) const;
+  void validate() const;
+  void validate_robot(int robot) const;
+
+  Roadmap roadmap_;
+  std::vector<Robot> robots_;
+  Rules rules_;
+  Exclusions exclusions_;
+  std::vector<Resource> resources_;
+  std::vector<std::vector<std::int32_t>> resources_of_;  // by element; empty if there are none at all
+  std::vector<Beginning> beginnings_;
+};
+
+}  // namespace mrpbench::mapf

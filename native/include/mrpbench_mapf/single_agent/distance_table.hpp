@@ -1,0 +1,72 @@
+// True distances to a set of goals by one backward search that runs only as far as it is asked: the heuristic of
+// Silver, "Cooperative Pathfinding", AIIDE 2005 (reverse resumable A*), here without a heuristic of its own so that one
+// table serves every robot with the same goals and motion profile.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mrpbench_mapf/common/limits.hpp"
+#include "mrpbench_mapf/model/instance.hpp"
+#include "mrpbench_mapf/model/objective.hpp"
+
+namespace mrpbench::mapf {
+
+class DistanceTable {
+ public:
+  DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits);
+
+  /// Ticks from `vertex` to the nearest goal, kForever if there is no way.
+  Tick operator()(int vertex) {
+    while (distance_[vertex] > final_) advance();
+    return distance_[vertex];
+  }
+
+ private:
+  struct Entry {
+    Tick distance;
+    std::int32_t vertex;
+    bool operator>(const Entry& other) const {
+      return distance != other.distance ? distance > other.distance : vertex > other.vertex;
+    }
+  };
+  bool is_uniform() const { return shortest_ == longest_; }
+  void advance();
+  void advance_level();
+  void advance_heap();
+
+  const Roadmap& roadmap_;
+  Limits& limits_;
+  std::span<const Tick> duration_;
+  Tick shortest_ = kForever;  // least and greatest duration of an edge
+  Tick longest_ = 0;
+  std::vector<Tick> distance_;
+  std::vector<std::int32_t> level_, found_;  // uniform: of one distance, from `next_` on, and of the next one
+  std::size_t next_ = 0;
+  std::vector<Entry> heap_;  // not uniform
+  std::size_t counted_ = 0;
+  Tick final_ = 0;  // distances up to this one are final
+};
+
+/// One table per robot, shared between robots with equal goals and profile.
+class DistanceTables {
+ public:
+  DistanceTables(const Instance& instance, Limits& limits);
+  DistanceTable& operator[](int robot) { return *tables_[of_robot_[robot]]; }
+  /// Sum of costs if every robot were alone: a lower bound. All of them must be able to reach a goal.
+  Cost sum_of_costs(const Instance& instance);
+  /// The same for the latest arrival.
+  Cost makespan(const Instance& instance);
+  /// The one of these that `objective` asks for.
+  Cost least(Objective objective, const Instance& instance) {
+    return objective == Objective::flowtime ? sum_of_costs(instance) : makespan(instance);
+  }
+  /// Of one robot.
+  Cost least_cost(const Instance& instance, int robot);
+
+ private:
+  std::vector<std::unique_ptr<DistanceTable>> tables_;
+  std::vector<int> of_robot_;
+};
+
+}  // namespace mrpbench::mapf

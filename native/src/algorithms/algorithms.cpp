@@ -1,0 +1,108 @@
+#include "mrpbench_mapf/algorithms/algorithms.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "mrpbench_mapf/algorithms/astar.hpp"
+#include "mrpbench_mapf/algorithms/bounded_cbs.hpp"
+#include "mrpbench_mapf/algorithms/cbs.hpp"
+#include "mrpbench_mapf/algorithms/lacam.hpp"
+#include "mrpbench_mapf/algorithms/lns.hpp"
+#include "mrpbench_mapf/algorithms/pbs.hpp"
+#include "mrpbench_mapf/algorithms/pibt.hpp"
+#include "mrpbench_mapf/algorithms/prioritized.hpp"
+
+namespace mrpbench::mapf {
+
+namespace {
+
+using Names = std::vector<std::string>;
+using Fixed = std::function<bool(const std::string&)>;
+
+Fixed only(Names names) {
+  return [names](const std::string& name) { return std::ranges::count(names, name) > 0; };
+}
+
+Fixed all_but(Names names) {
+  return [names](const std::string& name) { return std::ranges::count(names, name) == 0; };
+}
+
+/// `preset` holds the defaults under this name; `fixed` tells which options the name decides.
+template <class Options>
+Algorithm make(std::string name, std::string help, Result (*solve)(const Instance&, const Options&, Limits&),
+               Options preset = {}, const Fixed& fixed = only({})) {
+  Algorithm made{std::move(name), std::move(help), {}, {}};
+  const Description<Options> rows = Options::description();
+  for (const auto& row : rows) made.options.push_back({row.info, row.get(preset), fixed(row.info.name)});
+  made.configure = [rows, preset, solve](const OptionValues& values) -> Algorithm::Solver {
+    Options options = preset;
+    for (const auto& [option, value] : values) {
+      const auto row = std::ranges::find_if(rows, [&](const auto& it) { return it.info.name == option; });
+      if (row == rows.end()) throw std::invalid_argument("there is no option '" + option + "'");
+      row->info.check(value);
+      row->set(options, value);
+    }
+    return [options, solve](const Instance& instance, Limits& limits) { return solve(instance, options, limits); };
+  };
+  return made;
+}
+
+/// ECBS as published has no techniques.
+BoundedOptions ecbs() {
+  BoundedOptions options{
+      .selection = Selection::focal, .incumbent_after = std::nullopt, .distance_weight = 1.0, .conflict_weight = 0.0};
+  for (const auto& row : CbsOptions::description()) {
+    if (row.info.type == OptionInfo::Type::boolean) row.set(options.techniques, false);
+  }
+  return options;
+}
+
+/// `heuristic` raises lower bounds, which a focal list hardly ever waits for; the fallback keeps to one assignment.
+BoundedOptions assigning(GoalChoice goals) {
+  return {.selection = Selection::focal,
+          .techniques = {.goals = goals, .heuristic = false},
+          .incumbent_after = std::nullopt};
+}
+
+const Fixed kAssigningBounded =
+    only({"goal_choice", "selection", "heuristic", "flex", "incumbent_after", "distance_weight", "conflict_weight"});
+
+std::vector<Algorithm> make_all() {
+  return {
+      make("astar", "Plans every robot alone: shortest paths that may conflict.", solve_astar),
+      make("cbs", "Finds the least sum of costs by conflict-based search.", solve_cbs, {}, only({"goal_choice"})),
+      make("cbs_ta", "Finds the least sum of costs over all assignments, with one tree per assignment.", solve_cbs,
+           {.goals = GoalChoice::ranked}, only({"goal_choice"})),
+      make("ecbs", "Finds at most w times the least sum of costs by focal search on both levels.", solve_bounded,
+           ecbs(), all_but({"w"})),
+      make("ecbs_ta",
+           "Finds at most w times the least sum of costs over all assignments, with one tree per assignment.",
+           solve_bounded, assigning(GoalChoice::ranked), kAssigningBounded),
+      make("eecbs", "Finds at most w times the least sum of costs by explicit estimation search.", solve_bounded, {},
+           only({"goal_choice", "selection"})),
+      make("ita_cbs", "Finds the least sum of costs over all assignments, with a single tree.", solve_cbs,
+           {.goals = GoalChoice::by_node}, only({"goal_choice", "heuristic"})),
+      make("ita_ecbs", "Finds at most w times the least sum of costs over all assignments, with a single tree.",
+           solve_bounded, assigning(GoalChoice::by_node), kAssigningBounded),
+      make("lacam", "Finds a plan soon by a search over configurations, then improves it.", solve_lacam),
+      make("lns", "Replans groups of robots until there is no conflict, then to improve the plan.", solve_lns),
+      make("pbs", "Plans robots in turn, by a search over priorities.", solve_pbs),
+      make("pibt", "Plans all robots tick by tick, by priority inheritance with backtracking.", solve_pibt),
+      make("prioritized", "Plans robots in turn by safe interval path planning.", solve_prioritized),
+  };
+}
+
+}  // namespace
+
+const std::vector<Algorithm>& algorithms() {
+  static const std::vector<Algorithm> all = make_all();
+  return all;
+}
+
+const Algorithm& algorithm(const std::string& name) {
+  const auto found = std::ranges::find(algorithms(), name, &Algorithm::name);
+  if (found == algorithms().end()) throw std::invalid_argument("there is no algorithm '" + name + "'");
+  return *found;
+}
+
+}  // namespace mrpbench::mapf

@@ -1,0 +1,42 @@
+// Large neighbourhood search (`lns/`) beside a constraint tree: its solution will do as soon as it costs at most w
+// times the lower bound that the tree has proved. Trees are good at lower bounds and local search at solutions; that a
+// bound of one may be met by the other is the idea of incumbents in branch and bound.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "mrpbench_mapf/cbs/bounded_options.hpp"
+#include "mrpbench_mapf/cbs/low_level/search_context.hpp"
+
+namespace mrpbench::mapf {
+
+class AnytimeFallback {
+ public:
+  /// `result` counts the low-level expansions of all searches, and has the lower bound.
+  AnytimeFallback(SearchContext& context, const BoundedOptions& options, Result& result);
+  ~AnytimeFallback();
+
+  /// Call before each expansion of the tree: once it has taken a while, searches half as long as it has. True if there
+  /// is a solution within the bound, which `result` then contains.
+  bool solve();
+
+ private:
+  class Search;
+
+  void begin();
+  void advance(std::int64_t effort);
+  void keep(std::vector<Path> paths);
+
+  SearchContext& context_;
+  const BoundedOptions& options_;
+  Result& result_;
+  std::optional<std::int64_t> root_effort_;  // low-level expansions for the root of the tree
+  bool begun_ = false;
+  std::unique_ptr<Search> search_;  // nothing where local search is not possible
+  std::int64_t effort_ = 0;         // so far
+  Cost cost_ = kForever;            // of `paths_`
+  std::vector<Path> paths_;         // the best solution so far
+};
+
+}  // namespace mrpbench::mapf

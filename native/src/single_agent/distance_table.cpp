@@ -1,0 +1,116 @@
+#include "mrpbench_mapf/single_agent/distance_table.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+namespace mrpbench::mapf {
+
+DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits)
+    : roadmap_(roadmap), limits_(limits), duration_(roadmap.duration(profile)) {
+  limits.charge(static_cast<std::size_t>(roadmap.vertex_count()) * sizeof(Tick));
+  for (const Tick duration : duration_) {
+    if (duration < 0) continue;
+    shortest_ = std::min(shortest_, duration);
+    longest_ = std::max(longest_, duration);
+  }
+  distance_.assign(roadmap.vertex_count(), kForever);
+  for (const int goal : goals) {
+    if (distance_[goal] == 0) continue;
+    distance_[goal] = 0;
+    if (is_uniform()) {
+      level_.push_back(goal);
+    } else {
+      heap_.push_back({0, goal});
+    }
+  }
+}
+
+void DistanceTable::advance() {
+  limits_.check();
+  if (is_uniform()) {
+    advance_level();
+  } else {
+    advance_heap();
+  }
+}
+
+/// Where all edges take equally long, vertices are found in the order of their distances.
+void DistanceTable::advance_level() {
+  if (next_ == level_.size()) {
+    std::swap(level_, found_);
+    found_.clear();
+    next_ = 0;
+    limits_.charge_growth(counted_, (level_.capacity() + found_.capacity()) * sizeof(std::int32_t));
+  }
+  if (level_.empty()) {
+    final_ = kForever;
+    return;
+  }
+  const int vertex = level_[next_++];
+  const Tick distance = distance_[vertex] + shortest_;
+  for (const int edge : roadmap_.in(vertex)) {
+    const int tail = roadmap_.tail(edge);
+    if (distance >= distance_[tail] || duration_[edge] < 0 || distance >= kForever / 2) continue;
+    distance_[tail] = distance;
+    found_.push_back(tail);
+  }
+  final_ = std::min(kForever, distance);
+}
+
+void DistanceTable::advance_heap() {
+  if (heap_.empty()) {
+    final_ = kForever;
+    return;
+  }
+  std::ranges::pop_heap(heap_, std::greater{});
+  const Entry entry = heap_.back();
+  heap_.pop_back();
+  if (entry.distance > distance_[entry.vertex]) return;
+  for (const int edge : roadmap_.in(entry.vertex)) {
+    if (duration_[edge] < 0) continue;
+    const int vertex = roadmap_.tail(edge);
+    const Tick distance = entry.distance + duration_[edge];
+    if (distance >= distance_[vertex] || distance >= kForever / 2) continue;
+    distance_[vertex] = distance;
+    heap_.push_back({distance, vertex});
+    std::ranges::push_heap(heap_, std::greater{});
+  }
+  limits_.charge_growth(counted_, heap_.capacity() * sizeof(Entry));
+  // What was found on the way is at least one edge farther than `entry`, and nothing nearer can still turn up.
+  final_ = std::min(kForever, entry.distance + shortest_);
+}
+
+DistanceTables::DistanceTables(const Instance& instance, Limits& limits) {
+  std::map<std::pair<int, std::vector<int>>, int> known;
+  for (const Robot& robot : instance.robots()) {
+    std::vector<int> goals = robot.goals;
+    std::ranges::sort(goals);
+    const auto [place, is_new] = known.try_emplace({robot.profile, goals}, static_cast<int>(tables_.size()));
+    if (is_new) {
+      limits.check_clock();
+      tables_.push_back(std::make_unique<DistanceTable>(instance.roadmap(), robot.profile, robot.goals, limits));
+    }
+    of_robot_.push_back(place->second);
+  }
+}
+
+Cost DistanceTables::sum_of_costs(const Instance& instance) {
+  Cost sum = 0;
+  for (int robot = 0; robot < instance.size(); ++robot) sum += least_cost(instance, robot);
+  return sum;
+}
+
+Cost DistanceTables::makespan(const Instance& instance) {
+  Cost latest = 0;
+  for (int robot = 0; robot < instance.size(); ++robot) latest = std::max(latest, least_cost(instance, robot));
+  return latest;
+}
+
+Cost DistanceTables::least_cost(const Instance& instance, int robot) {
+  const Beginning& beginning = instance.beginning(robot);
+  const Tick distance = (*this)[robot](beginning.vertex);
+  return distance == 0 ? enter_tick(beginning.occupied.back()) : beginning.free_at + distance;
+}
+
+}  // namespace mrpbench::mapf
