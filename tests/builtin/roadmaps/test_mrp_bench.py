@@ -24,7 +24,7 @@ from mrpbench_core.checking.navigation import unique_edges
 def test_the_original_raster_is_reproduced_exactly(
     shared_data, make_fleet, name, cell_size, vertices, edges, shape, free
 ):
-    world = Rmf(file=shared_data / f"rmf/mrp_bench/{name}.building.yaml").load()
+    world = Rmf(file=shared_data / f"rmf/mrp_bench/{name}.building.yaml", doors="open").load()  # it knows no doors
     roadmap = Lanes(cell_size=cell_size, compatible="mrp_bench").build(world, make_fleet(0.125))
     assert (len(world.vertices), len(unique_edges(world))) == (vertices, edges)
     assert roadmap.grid.shape == shape
