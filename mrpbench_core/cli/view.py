@@ -70,7 +70,15 @@ def _draw(recording: Recording, file: Path) -> None:
     for index, (level, truth) in enumerate(sorted(levels.items())):
         name = context.world.levels[level].name or level
         drawn = file.with_name(f"{file.stem}-{name}{file.suffix}") if index else file
-        draw_world(context.world, file=drawn, fleet=context.fleet, routes=context.routes, truth=truth, level=level)
+        draw_world(
+            context.world,
+            file=drawn,
+            fleet=context.fleet,
+            routes=context.routes,
+            truth=truth,
+            level=level,
+            planned=context.planned,
+        )
         print(f"wrote {drawn}")
 
 

@@ -35,6 +35,11 @@ class RunContext:
     assigned: tuple[int, ...] = ()
     """Task of each robot, -1 = none."""
 
+    @property
+    def planned(self) -> bool:
+        """False for recordings of other fleets, of whose planning nothing is known, not even that it failed."""
+        return self.result.status != PlanStatus.UNKNOWN
+
 
 @attrs.frozen(kw_only=True)
 class FinishedRun:
@@ -57,8 +62,8 @@ class FinishedRun:
 
     @property
     def planned(self) -> bool:
-        """False for recordings of other fleets, of whose planning nothing is known, not even that it failed."""
-        return self.context.result.status != PlanStatus.UNKNOWN
+        """See `RunContext.planned`."""
+        return self.context.planned
 
     def has(self, name: str) -> bool:
         """Tell whether the recording holds a channel; for `plan`, `path` and `end`, whether these are known."""

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 import attrs
+import numpy as np
 
 from mrpbench_core.api.metric import Column
 from mrpbench_core.files.errors import InputError
@@ -118,7 +119,8 @@ def tested(runs: Runs, known: Columns, columns: Sequence[Column]) -> list[Column
     Planning time is compared as PAR2 if possible, which counts the runs that a limit ended.
     """
     penalised = any(column.name == "timing.planning_par2_s" for column in columns)
-    rates = RATES if (runs.values["succeeded"] != runs.values["planned"]).any() else RATES[:1]
+    having = np.isfinite(runs.values["planned"])
+    rates = RATES if (runs.values["succeeded"] != runs.values["planned"])[having].any() else RATES[:1]
     return [
         *(known[name] for name in rates),
         *(column for column in columns if direction(column) and not (penalised and column.name == "timing.planning_s")),

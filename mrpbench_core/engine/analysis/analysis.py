@@ -98,6 +98,7 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
         analysis={
             "bag": analysis.bag.resolve().name,
             "sources": {track.robot: f"{track.source}: {track.topic}" for track in found.tracks},
+            "planned": run.planned,
             "notes": [*found.notes, *found.gaps, *_unknown_end(found)],
         },
     )

@@ -37,8 +37,9 @@ def estimate(runs: Runs, group: RunGroup, units: Int, column: str, only: Int | N
 def common_units(runs: Runs, setting: Setting, column: str) -> Int:
     """Units for which every group has a value; for success, units for which every run of every group has a plan.
 
-    A group that has plans but never the value, for example because it was not executed, does not count. A group that
-    never finds a plan counts, so that no unit is common to all groups.
+    Recordings without plans have every unit in which they count. A group that has plans but never the value, for
+    example because it was not executed, does not count. A group that never finds a plan counts, so that no unit is
+    common to all groups.
     """
     having = []
     for group in setting.groups:
@@ -46,10 +47,11 @@ def common_units(runs: Runs, setting: Setting, column: str) -> Int:
             continue  # the planner was skipped: n/a
         if column in ("succeeded", "planned"):
             numbers, values, _ = group.by_unit(runs, setting.units, "planned")
-            having.append(numbers[values == 1])
+            known = np.isfinite(runs.values["planned"][group.counted]).any()
+            having.append(numbers[values == 1] if known else np.unique(setting.units[group.counted]))
         else:
             numbers, _, _ = group.by_unit(runs, setting.units, column)
-            if len(numbers) or not runs.values["planned"][group.counted].any():
+            if len(numbers) or not (runs.values["planned"][group.counted] == 1).any():
                 having.append(numbers)
     return reduce(np.intersect1d, having) if having else np.empty(0, np.int64)
 

@@ -49,7 +49,7 @@ def _rates(setting: Setting, numbers: Sequence[Numbers]) -> list[tuple[str, str]
             "Share of runs that succeeded, of all runs that count; Wilson 95 %.",
         ),
     ]
-    same = all(entry.overall["succeeded"] == entry.overall["planned"] for entry in numbers)
+    same = all(entry.overall["planned"] in (None, entry.overall["succeeded"]) for entry in numbers)
     return charts[1:] if same else charts
 
 

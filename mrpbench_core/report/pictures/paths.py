@@ -17,10 +17,12 @@ def on_level(route: Route, level: int) -> Float:
     return there
 
 
-def draw_paths(axes: Any, fleet: Fleet | None, routes: Sequence[Float], truth: Float | None) -> None:
+def draw_paths(
+    axes: Any, fleet: Fleet | None, routes: Sequence[Float], truth: Float | None, planned: bool = True
+) -> None:
     """Draw for each robot the planned path dashed, the driven path solid, its start as a circle and its goal as a star.
 
-    Positions on other levels are NaN.
+    Positions on other levels are NaN. Where no plan is known (`planned` is false), routes give start and goal only.
     """
     from matplotlib.patches import Circle
 
@@ -28,19 +30,19 @@ def draw_paths(axes: Any, fleet: Fleet | None, routes: Sequence[Float], truth: F
     width = 1.6 if robots <= 20 else 0.9
     for robot in range(robots):
         colour = COLOURS[robot % len(COLOURS)]
-        planned = routes[robot] if routes else np.empty((0, 2))
+        route = routes[robot] if routes else np.empty((0, 2))
         driven = np.empty((0, 2)) if truth is None else truth[:, robot, :2]
-        if len(planned):
-            axes.plot(*planned.T, "--", color=colour, linewidth=0.7 * width, alpha=0.7, zorder=6, dash_capstyle="round")
+        if len(route) and planned:
+            axes.plot(*route.T, "--", color=colour, linewidth=0.7 * width, alpha=0.7, zorder=6, dash_capstyle="round")
         if len(driven):
             axes.plot(*driven.T, "-", color=colour, linewidth=width, zorder=7, solid_joinstyle="round")
-        start, goal = (planned if len(planned) else driven)[[0, -1]]
+        start, goal = (route if len(route) else driven)[[0, -1]]
         if fleet is not None and np.isfinite(start).all():
             axes.add_patch(Circle(start, fleet.robots[robot].radius, facecolor=colour, alpha=0.25, zorder=7))
         for point, marker, size in ((start, "o", 9), (goal, "*", 15)):
             if np.isfinite(point).all():
                 _mark(axes, point, marker, size, colour, str(robot))
-    _legend(axes, bool(routes), truth is not None)
+    _legend(axes, bool(routes) and planned, truth is not None)
 
 
 def _mark(axes: Any, point: Float, marker: str, size: int, colour: str, text: str) -> None:

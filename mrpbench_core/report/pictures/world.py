@@ -35,6 +35,7 @@ def draw_world(
     routes: Sequence[Route] | None = None,
     truth: Float | None = None,
     level: int = 0,
+    planned: bool = True,
 ) -> None:
     """Draw a level of `world` into a PNG of 1280 pixels width (or height, for a tall world).
 
@@ -46,6 +47,7 @@ def draw_world(
         routes: planned paths, dashed, with the start as a circle and the goal as a star, which show the robot's number.
         truth: driven paths f8[T,n,3] in metres and radians, solid; NaN where unknown.
         level: index of the level; only the parts of routes on it are drawn.
+        planned: whether the routes are plans; otherwise only their starts and goals are drawn.
 
     Raises:
         InputError: matplotlib is missing, or the file cannot be written.
@@ -54,7 +56,7 @@ def draw_world(
     with own_style():
         figure, axes = world_figure(world, roadmap=roadmap, truth=truth, level=level, faint=moving)
         if moving:
-            draw_paths(axes, fleet, [on_level(route, level) for route in routes or ()], truth)
+            draw_paths(axes, fleet, [on_level(route, level) for route in routes or ()], truth, planned)
         try:
             figure.savefig(file, format="png")
         except OSError as error:

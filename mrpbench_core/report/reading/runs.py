@@ -104,8 +104,9 @@ class _Reader:
         self._status: list[str] = []
         self._message: list[str] = []
         self._integers: dict[str, array[int]] = {
-            name: array("q") for name in ("folder", "seed", "repeat", "scenario", "config", "planned", "reassigned")
+            name: array("q") for name in ("folder", "seed", "repeat", "scenario", "config", "reassigned")
         }
+        self._planned = array("d")
         self._limits = array("d")
         self._scenarios: dict[str, int] = {}
         self._configs: dict[str, int] = {}
@@ -123,9 +124,10 @@ class _Reader:
             "repeat": int(record.get("repeat") or 0),
             "scenario": -1 if scenario is None else self._scenarios.setdefault(scenario, len(self._scenarios)),
             "config": self._number(record["config"]),
-            "planned": int(has_plan(record)),
             "reassigned": int(record.get("reassigned") or 0),
         }
+        planned = has_plan(record)
+        self._planned.append(np.nan if planned is None else planned)
         for name, value in facts.items():
             self._integers[name].append(value)
         timing = {f"timing.{key}": value for key, value in (record.get("timing") or {}).items()}
@@ -158,20 +160,20 @@ class _Reader:
 
     def runs(self) -> Runs:
         integers = {name: np.array(column, np.int64) for name, column in self._integers.items()}
-        planned = integers.pop("planned").astype(bool)
+        planned = np.array(self._planned, float)
         values = {key: np.array(column, float) for key, column in self._values.items()}
         for key, column in values.items():
             if key.startswith(_PLANNING):
-                column[~planned] = np.nan
+                column[planned != 1] = np.nan
         if "timing.planning_s" in values:
-            penalised = np.where(planned, values["timing.planning_s"], PENALTY * np.array(self._limits, float))
+            penalised = np.where(planned == 1, values["timing.planning_s"], PENALTY * np.array(self._limits, float))
             if self._wanted is None or PAR2 in self._wanted:
                 values = _after(values, "timing.planning_s", {PAR2: penalised})
             if self._wanted is not None and "timing.planning_s" not in self._wanted:
                 del values["timing.planning_s"]
         outcome = {
             "succeeded": np.array([status == RunStatus.SUCCEEDED for status in self._status], float),
-            "planned": planned.astype(float),
+            "planned": planned,
         }
         return Runs(
             run_id=self._run_id,

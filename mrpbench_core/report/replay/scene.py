@@ -79,7 +79,12 @@ def pack_robots(context: RunContext, packing: Packing, plans: Plans | None = Non
     packing.add("route_level", [level for route in routes for level in route.level.tolist()])
     tasks = context.scenario.tasks
     goals = [tasks[task].name if task >= 0 else "" for task in context.assigned]
-    return {"names": list(context.fleet.names), "goals": goals, "models": [_model(model) for model in models]}
+    return {
+        "names": list(context.fleet.names),
+        "goals": goals,
+        "planned": context.planned,
+        "models": [_model(model) for model in models],
+    }
 
 
 def _model(model: RobotModel) -> dict[str, Any]:

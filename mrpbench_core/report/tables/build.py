@@ -23,6 +23,7 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
     """Build the table of the statuses of each group."""
     axes = axes_of(settings)
     rows: list[tuple[Cell, ...]] = []
+    planned = ("plans found",) if np.isfinite(runs.values["planned"]).any() else ()
     for setting, group, found in _groups(settings, numbers):
         statuses = group.statuses(runs)
         failed = [
@@ -36,7 +37,7 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
                 len(np.unique(setting.units[group.counted])),
                 f"{statuses[RunStatus.SUCCEEDED]}/{len(group.counted)}",
                 _rate(found.overall["succeeded"]) or "n/a",
-                _rate(found.overall["planned"]),
+                *(_rate(found.overall["planned"]) for _ in planned),
                 ", ".join(failed) or None,
                 ", ".join(left_out) or None,
             )
@@ -45,7 +46,7 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
     return Table(
         key="outcome",
         title="How the runs ended" + _reassigned(runs),
-        headings=(*axes, "runs", unit, "succeeded", "success rate", "plans found", "else", "left out"),
+        headings=(*axes, "runs", unit, "succeeded", "success rate", *planned, "else", "left out"),
         rows=tuple(rows),
         keys=len(axes),
         note=(

@@ -53,7 +53,7 @@ export class Paths {
     context.globalAlpha = 1;
   }
 
-  /** Dotted; thin and faint where there are many, which dots would make slow. */
+  /** Only goals where no plan is known. Dotted; thin and faint where there are many, which dots would make slow. */
   #drawPlans(context, view, shown, colours) {
     const { run } = this;
     const crowd = run.count > MANY && shown.selected < 0;
@@ -63,7 +63,7 @@ export class Paths {
     this.#each(shown, (robot) => {
       const [first, end] = [routes[robot], routes[robot + 1]];
       const colour = colours.of(robot);
-      for (let i = first; i < end; i++) {
+      for (let i = first; run.planned && i < end; i++) {
         const onward = i > first && run.routeLevel[i] === shown.level && run.routeLevel[i - 1] === shown.level;
         lines[colour][onward ? "lineTo" : "moveTo"](...view.toScreen(run.routeX[i], run.routeY[i]));
       }

@@ -22,6 +22,7 @@ export class Run {
     this.end = this.time[this.samples - 1];
     this.names = data.robots.names;
     this.goals = data.robots.goals;
+    this.planned = data.robots.planned;
     this.count = this.names.length;
     this.models = data.robots.models;
     this.kind = arrays.kind.values;

@@ -29,6 +29,7 @@ export class Shown extends EventTarget {
       heat: !run.arrays.mode,
     };
     this.offered = LAYERS.filter(({ key }) => !missing[key]);
+    if (!run.planned) this.offered = this.offered.map((it) => (it.key === "plan" ? { ...it, label: "Goals" } : it));
     this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, waits: true, estimate: false, lidar: false, heat: false, gantt: false };
     this.colour = few ? "robot" : "state";
     this.selected = -1;

@@ -265,6 +265,21 @@ def test_poses_inside_walls_are_noted_with_robot_time_and_place(analyze, foreign
     ]
 
 
+def test_nothing_is_called_planned_where_no_plan_is_known(analyze, foreign, capsys, tmp_path, monkeypatch):
+    _, found, _ = analyze(passing(foreign(), seconds=20).close())
+    assert found["analysis"]["planned"] is False
+    assert main(["report", "measured"]) == 0
+    out = capsys.readouterr().out
+    assert "succeeded" in out
+    assert "plans found" not in out
+    drawn = []
+    monkeypatch.setattr("mrpbench_core.report.pictures.world.draw_paths", lambda *given: drawn.append(given[-1]))
+    assert main(["view", f"measured:{found['run_id']}", "--png", "it.png"]) == 0
+    assert drawn == [False]
+    (page,) = tmp_path.glob("measured/replay-*.html")
+    assert '"planned": false' in page.read_text() or '"planned":false' in page.read_text()
+
+
 def test_odometry_of_a_frame_of_its_own_begins_at_the_start(analyze, foreign):
     bag = foreign()
     for t in np.arange(0, 10.05, 0.1):
