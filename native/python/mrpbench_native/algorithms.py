@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from mrpbench_native import mapf
+import mrpbench_native.mapf as mapf
 
 ALGORITHMS: Mapping[str, mapf.Algorithm] = {algorithm.name: algorithm for algorithm in mapf.algorithms()}
 """The algorithms of `solve`. The planners of mrpbench have the same names and options."""

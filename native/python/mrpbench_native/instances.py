@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mrpbench_native import mapf
+import mrpbench_native.mapf as mapf
 
 
 class SolverRoadmap(NamedTuple):

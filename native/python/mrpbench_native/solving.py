@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mrpbench_native import mapf
+import mrpbench_native.mapf as mapf
 from mrpbench_native.algorithms import options_of
 from mrpbench_native.instances import Robots, SolverRoadmap, build_instance
 from mrpbench_native.roadmaps import Arrays, DirectedGraph, Grid
