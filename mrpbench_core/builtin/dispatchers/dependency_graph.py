@@ -32,6 +32,8 @@ class DependencyGraph:
         order = type2_edges(problem, moves, resource_edges(problem, occupations))
         self.requests = ResourceRequests(len(problem), moves, occupations, ahead)
         self.granted: frozenset[tuple[int, str]] = frozenset()
+        self.granted_at = np.zeros((2, len(problem)), np.int64)
+        """Counts i8[2,n] of the view in which the resources were granted."""
         self.rotations = {rotation[0]: rotation for rotation in rotations(problem, moves, order, group_margin)}
         for rotation in self.rotations.values():
             if needed := {name for move in rotation for name in self.requests.needs.get(move, ())}:
@@ -110,7 +112,7 @@ class DependencyGraph:
         """
         if not self.requests:
             return False
-        self.granted = frozenset(granted)
+        self.granted, self.granted_at = frozenset(granted), counts
         for robot in range(len(self.frontier)):
             self._advance(robot)
         ready = [robot for robot, move in enumerate(self.frontier) if self._needs_only_resources(robot, move)]
@@ -122,7 +124,14 @@ class DependencyGraph:
         return move < self.limit[robot] and not self.unmet[self.group[move]]
 
     def _may_use(self, robot: int, move: int) -> bool:
-        return all((robot, name) in self.granted for name in self.requests.needs.get(move, ()))
+        """Tell whether the resources of a move are granted for it, not for the robot's previous occupation of them.
+
+        A door that is open for a robot that passes it must close before the robot returns to where the leaf is.
+        """
+        return all(
+            (robot, name) in self.granted and (before is None or self.requests.has_left(before, *self.granted_at))
+            for name, before in self.requests.needs.get(move, {}).items()
+        )
 
     def commit(self, committed: Int32) -> None:
         """Count the `committed` i4[n] leading segments of each robot as released, whether or not resources are granted.

@@ -12,10 +12,15 @@ class ResourceRequests:
 
     def __init__(self, robots: int, moves: Moves, occupations: Iterable[ResourceOccupation], ahead: int) -> None:
         self._moves, self._ahead = moves, ahead
-        self.needs: dict[int, set[str]] = {}
-        """The resources that must be granted before a move is released."""
+        self.needs: dict[int, dict[str, ResourceOccupation | None]] = {}
+        """The resources that must be granted before a move is released, each with the robot's previous occupation."""
         self._coming: list[list[ResourceOccupation]] = [[] for _ in range(robots)]
+        previous: dict[tuple[int, str], ResourceOccupation] = {}
         for occupation in occupations:
+            key = occupation.robot, occupation.resource
+            before, previous[key] = previous.get(key), occupation
+            if before is not None and before.last == occupation.first:
+                before = None  # the move out of the resource leads back into it
             self._coming[occupation.robot].append(occupation)
             stop = (
                 int(moves.first[occupation.robot + 1])
@@ -23,7 +28,7 @@ class ResourceRequests:
                 else occupation.last + occupation.completed
             )
             for move in range(max(occupation.first, int(moves.first[occupation.robot])), stop):
-                self.needs.setdefault(move, set()).add(occupation.resource)
+                self.needs.setdefault(move, {})[occupation.resource] = before
         for own in self._coming:
             own.sort(key=lambda occupation: occupation.first, reverse=True)  # the next is the last
         self._open: list[ResourceOccupation] = []
@@ -46,13 +51,14 @@ class ResourceRequests:
         for robot, coming in enumerate(self._coming):
             while coming and self._is_due(coming[-1], int(reached[robot]), frontier[robot], robot in may_request):
                 self._open.append(coming.pop())
-        self._open = [occupation for occupation in self._open if not self._has_left(occupation, reached, cleared)]
+        self._open = [occupation for occupation in self._open if not self.has_left(occupation, reached, cleared)]
 
     def pairs(self) -> tuple[tuple[int, str], ...]:
         """The robots and resources requested now; a robot that is about to return to a resource keeps it."""
         return tuple(dict.fromkeys((occupation.robot, occupation.resource) for occupation in self._open))
 
-    def _has_left(self, occupation: ResourceOccupation, reached: Int, cleared: Int) -> bool:
+    def has_left(self, occupation: ResourceOccupation, reached: Int, cleared: Int) -> bool:
+        """Tell whether a robot has ended an occupation."""
         if occupation.last == NEVER:
             return False
         done = reached if occupation.completed else cleared

@@ -41,7 +41,7 @@ class FacilityManager:
         starts = problem.start.tolist()
         self._vertices = [path.vertices(problem.roadmap, start) for path, start in zip(plan.paths, starts, strict=True)]
         self._edges = [path.edge for path in plan.paths]
-        self._shown: dict[tuple[int, str], tuple[Bool, Bool]] = {}
+        self._shown: dict[tuple[int, str], tuple[Bool, Bool, Bool]] = {}
 
     def with_grants(self, view: FleetView, state: State) -> FleetView:
         """The view of a dispatcher, completed by the resources that robots may use now."""
@@ -123,7 +123,7 @@ class FacilityManager:
 
         A robot may hold a lift ahead of its use, while it is still on a level that the lift does not serve.
         """
-        inside, _ = self._uses(robot, name)
+        inside, _, _ = self._uses(robot, name)
         ahead = np.flatnonzero(inside[reached:])
         first = reached + (int(ahead[0]) if len(ahead) else 0)
         levels = self._level[self._vertices[robot][first : first + 2]]
@@ -141,22 +141,25 @@ class FacilityManager:
 
     def _passes(self, robot: int, name: str, reached: int) -> bool:
         """Tell whether the robot's use of a door, the one under way or else the next, leads through the doorway."""
-        inside, passing = self._uses(robot, name)
+        inside, passing, joined = self._uses(robot, name)
         ahead = np.flatnonzero(inside[reached:])
         if not len(ahead):
             return False
-        first = last = reached + int(ahead[0])
-        while first > 0 and inside[first - 1]:
+        first = reached + int(ahead[0])
+        last = first + 1
+        while first > 0 and inside[first - 1] and joined[first]:
             first -= 1
-        while last < len(inside) and inside[last]:
+        while last < len(inside) and inside[last] and joined[last]:
             last += 1
         return bool(passing[first:last].any())
 
-    def _uses(self, robot: int, name: str) -> tuple[Bool, Bool]:
-        """For each segment of a robot's path, whether it is in a door's resource, and whether in its doorway."""
+    def _uses(self, robot: int, name: str) -> tuple[Bool, Bool, Bool]:
+        """For each segment of a robot's path, whether it is in a door's resource, and whether in its doorway; and for
+        each vertex, whether it is in the resource. A use ends at a vertex outside of the resource.
+        """
         if (robot, name) not in self._shown:
             resource, edge, vertex = self._resources[name], self._edges[robot], self._vertices[robot]
             waits = (edge < 0) & np.isin(vertex[1:], resource.vertices)
             inside = np.isin(edge, resource.edges) | waits
-            self._shown[robot, name] = inside, np.isin(edge, resource.passage)
+            self._shown[robot, name] = inside, np.isin(edge, resource.passage), np.isin(vertex, resource.vertices)
         return self._shown[robot, name]

@@ -16,6 +16,7 @@ from mrpbench_core.model.execution import FleetView, Orders, State
 from mrpbench_core.model.facilities import Facilities
 from mrpbench_core.model.plan import Budget, Plan
 from mrpbench_core.model.roadmap import Resource
+from mrpbench_core.model.world import Door, Lane, Level, Vertex, World
 from mrpbench_core.testing.execution.facility_executor import FacilityExecutor
 from mrpbench_core.testing.fixtures.places import PLACES, furnished_building, problem_between
 from mrpbench_core.testing.instances.roadmaps import path_through
@@ -84,6 +85,39 @@ def test_a_door_opens_for_robots_that_pass_through_it_and_not_for_robots_that_dr
         if run.driven[0] > 0:
             assert run.doing["door"] == 1.0, "it may not start before the door is open"
     assert max(openings) == 1.0
+
+
+@pytest.mark.parametrize("names", [("room", "front", "west"), ("west", "front", "room")])
+def test_a_door_closes_or_opens_before_its_robot_drives_on_through_the_sweep_of_its_leaf(names):
+    """The lane from the doorway leaves the sweep, and the next lane crosses it where the open leaf is."""
+    door = Door(
+        name="door",
+        start=(2.28, 2.0),
+        end=(3.72, 2.0),
+        motion="double_hinged",
+        motion_direction=1,
+        motion_degrees=120.0,
+        right_left_ratio=0.5,
+    )
+    places = {"room": (3.4, 3.4), "front": (3.4, 1.2), "west": (1.0, 1.2)}
+    world = World(
+        name="hall",
+        levels=(Level(name="L1", walls=[[0, 2, 2.28, 2], [3.72, 2, 6, 2]], doors=(door,)),),
+        vertices=tuple(Vertex(name=name, x=x, y=y) for name, (x, y) in places.items()),
+        lanes=(Lane(start=0, end=1), Lane(start=1, end=2)),
+    )
+    problem = problem_between(world, [names[0]], [names[-1]])
+    (resource,) = problem.roadmap.resources
+    number = dict(zip(places, problem.roadmap.place.tolist(), strict=True))
+    assert number["front"] not in resource.vertices, "a robot waits there"
+    plan = Plan(paths=(path_through(problem.roadmap, [number[name] for name in names]),))
+    run = FacilityExecutor(world, problem, plan, np.random.default_rng(0))
+    for _ in range(LONGEST):
+        run.step()
+        assert run.gap().min() > 0, "a leaf touches the robot"
+        if run.done:
+            break
+    assert run.done
 
 
 def stand(world, problem, plan, facilities):
