@@ -91,7 +91,7 @@ def test_true_results_have_no_faults(planner, result, optimum):
         (Optimal(), answer(None, 3.0), 2, "lower bound 3,"),
         (Optimal(), answer(None, status=PlanStatus.UNSOLVABLE), 2, "says unsolvable, the optimum is 2"),
         (Optimal(), answer(None, status=PlanStatus.GAVE_UP), None, "gave up"),
-        (Optimal(), answer(None, status=PlanStatus.SOLVED), None, "gives no plan"),
+        (Optimal(), answer(None, status=PlanStatus.SOLVED), None, "returns no plan"),
         (Optimal(), answer(status=PlanStatus.GAVE_UP), None, "a plan with the status gave_up"),
         (Bounded(), answer(ROUND), None, "exceeds 1.5 times"),
         (Bounded(), answer(ROUND, math.nan), None, "proves no lower bound"),
