@@ -10,7 +10,6 @@ import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
 from mrpbench_core.builtin.dispatchers.dependency_graph import REACHED, DependencyGraph
-from mrpbench_core.builtin.dispatchers.rotations import GROUP_MARGIN
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.arrays import Int32, frozen_array
 from mrpbench_core.model.execution import FleetView, Orders
@@ -23,8 +22,9 @@ class Adg(Dispatcher):
     """Releases each move once the moves that precede it in the plan are out of its way."""
 
     group_margin: float = option(
-        GROUP_MARGIN,
-        help="distance beyond their radii that two robots of a rotation must keep if they move exactly in step",
+        0.0,
+        help="distance beyond their radii that two robots of a rotation must keep if they move exactly in step; "
+        "0.18 m excludes contacts with the default tolerances of the navigator waypoints",
         unit="m",
         validator=attrs.validators.ge(0),
     )

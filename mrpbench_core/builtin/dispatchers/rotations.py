@@ -12,7 +12,8 @@ both have driven s, they are hypot(c - s, s) apart, at least c / sqrt(2). Robots
 
 If the first robot leads by L, and both are off by w towards each other, they are hypot(c - w - s, s - L - w) apart, at
 least (c - L - 2 w) / sqrt(2). So (L + 2 w) / sqrt(2) has to be left beyond the radii. The navigator `waypoints` has
-L = 0.05 m (`in_step.py`) and by default w = 0.10 m (`waypoint_tolerance`): 0.177 m.
+L = 0.05 m (`in_step.py`) and by default w = 0.10 m (`waypoint_tolerance`): 0.177 m. With a `group_margin` below that,
+robots that rotate may touch; discs that move exactly in step never do.
 """
 
 from itertools import combinations
@@ -25,9 +26,6 @@ from mrpbench_core.model.arrays import Float, Int
 from mrpbench_core.model.conflicts import TOLERANCE
 from mrpbench_core.model.problem import Problem
 from mrpbench_core.model.type2_edges import Moves, Type2Edges
-
-GROUP_MARGIN = 0.18
-"""metres, see above."""
 
 
 def rotations(problem: Problem, moves: Moves, order: Type2Edges, margin: float) -> list[tuple[int, ...]]:

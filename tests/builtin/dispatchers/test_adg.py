@@ -128,8 +128,8 @@ def test_a_ring_too_tight_for_its_robots_is_refused_by_name(make, square):
     with pytest.raises(DispatchError, match=said):
         tight.start(attrs.evolve(problem, radius=np.full(4, half + 0.01)), plan)
     with pytest.raises(DispatchError, match=r"0\.18 m of which are the dispatcher's group_margin"):
-        Adg().start(attrs.evolve(problem, radius=np.full(4, half - 0.08)), plan)
-    Adg().start(attrs.evolve(problem, radius=np.full(4, half - 0.1)), plan)
+        Adg(group_margin=0.18).start(attrs.evolve(problem, radius=np.full(4, half - 0.08)), plan)
+    Adg(group_margin=0.18).start(attrs.evolve(problem, radius=np.full(4, half - 0.1)), plan)
     Adg(group_margin=0.5).start(problem, plan)
     with pytest.raises(DispatchError, match=r"need 0\.710 m"):
         Adg(group_margin=0.51).start(problem, plan)

@@ -1,4 +1,4 @@
-"""Rotations that robots drive: nobody touches."""
+"""Robots that execute rotations do not touch."""
 
 import attrs
 import pytest
@@ -9,7 +9,7 @@ from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.testing.execution.rings import ring_problem, rotate
 
 CELL = 0.62
-"""metres: about the smallest cells on which `adg` lets a turtlebot3_burger rotate."""
+"""metres: about the smallest cells on which a `group_margin` of 0.18 m lets a turtlebot3_burger rotate."""
 
 
 @attrs.frozen(kw_only=True)
@@ -36,4 +36,4 @@ def test_robots_that_rotate_in_step_keep_their_distance():
 def test_cells_that_are_too_small_to_rotate_on_are_refused_by_name():
     _, problem, plan = ring_problem(0.4, 1, 1, 0)
     with pytest.raises(DispatchError, match=r"robots 0, 1, 2, 3 at vertices 0, 1, 2, 3 rotate.*use larger cells"):
-        Adg().start(problem, plan)
+        Adg(group_margin=0.18).start(problem, plan)
