@@ -16,9 +16,10 @@ from mrpbench_simulators_planar import Planar
 import mrpbench_core
 from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Inputs, Odometry
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.poses import wrapped
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.poses import wrapped
+from mrpbench_core.model.execution.observation import Odometry
+from mrpbench_core.model.execution.state import Inputs
 from mrpbench_core.store.recording import Recording
 
 NOISE = {"lidar": 0.01, "lidar_dropout": 0.02, "odometry": 0.005, "odometry_bias": 0.002}

@@ -14,8 +14,8 @@ from mrpbench_core.engine.stages.judge import judge
 from mrpbench_core.engine.stages.plan import call_planner
 from mrpbench_core.engine.stages.prepare import build_run_instance
 from mrpbench_core.engine.stages.problem_building import build_problem
-from mrpbench_core.model.plan import Budget
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.plan import Budget
+from mrpbench_core.model.planning.problem import Problem
 
 MEMORY = 4 << 30
 

@@ -15,14 +15,14 @@ import numpy as np
 from selenium import webdriver
 
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.run import RunContext
-from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.model.worlds.world import Level, World
 from mrpbench_core.report.replay.page import write_page
 from mrpbench_core.store.recording import Recording, RecordingWriter
 

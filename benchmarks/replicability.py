@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from mrpbench_core import load, run
-from mrpbench_core.model.status import RunStatus
+from mrpbench_core.model.runs.status import RunStatus
 
 CELLS = 45
 

@@ -16,15 +16,15 @@ import numpy as np
 from mrpbench_exporters_rosbag2 import Rosbag2
 
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.fleet import Fleet, Lidar
-from mrpbench_core.model.plan import PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.run import RunContext
-from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.model.worlds.world import Level, World
 
 RATE, SCAN_RATE, BEAMS, SIDE = 20, 5, 360, 50.0
 ROBOT_SECONDS = 2000

@@ -20,12 +20,12 @@ from mrpbench_core.api import Simulator
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.builtin.simulators.lidar import scan
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Inputs
-from mrpbench_core.model.fleet import Fleet, Lidar
-from mrpbench_core.model.geometry import point_segment_distance
-from mrpbench_core.model.solids import segments
-from mrpbench_core.model.world import Level, Obstacle, World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.execution.state import Inputs
+from mrpbench_core.model.worlds.solids import segments
+from mrpbench_core.model.worlds.world import Level, Obstacle, World
 
 PERIOD = 0.05
 WIDTH, HEIGHT = 22.0, 27.0

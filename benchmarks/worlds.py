@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import mrpbench_core
-from mrpbench_core.model.status import RunStatus
+from mrpbench_core.model.runs.status import RunStatus
 
 WORLDS: dict[str, dict[str, Any]] = {
     "office": {},

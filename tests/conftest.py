@@ -8,14 +8,14 @@ from importlib import metadata
 import numpy as np
 import pytest
 
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.fleet import Fleet, Lidar, RobotModel
-from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Raster, Roadmap
-from mrpbench_core.model.run import RunContext
-from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.model.world import Level, Vertex, World
+from mrpbench_core.model.common.fleet import Fleet, Lidar, RobotModel
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Raster, Roadmap
+from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.model.worlds.world import Level, Vertex, World
 from mrpbench_core.plugins import installed
 
 

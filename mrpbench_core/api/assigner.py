@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 import attrs
 
 from mrpbench_core.api.component import Component, option
-from mrpbench_core.model.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
 
 Cost = Literal["euclidean", "manhattan", "roadmap"]
 

@@ -9,10 +9,10 @@ import numpy as np
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.execution import Observation, Observations, ScanBatch
-from mrpbench_core.model.fleet import RobotModel
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.execution.observation import Observation, Observations, ScanBatch
+from mrpbench_core.model.worlds.world import World
 
 
 class ControllerSession(ABC):

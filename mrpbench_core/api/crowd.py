@@ -4,9 +4,9 @@ from abc import ABC, abstractmethod
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import State
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.worlds.world import World
 
 
 class CrowdSession(ABC):

@@ -4,9 +4,9 @@ from abc import ABC, abstractmethod
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.execution import FleetView, Orders
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
 
 
 class DispatcherSession(ABC):

@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext
 
 
 class ExporterSession(ABC):

@@ -5,10 +5,12 @@ from typing import Any
 
 import pluggy
 
-from mrpbench_core.model.execution import FleetObservation, Route, State
-from mrpbench_core.model.plan import PlanResult
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.execution.observation import FleetObservation
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.planning.plan import PlanResult
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.runs.run import RunContext
 
 hookspec = pluggy.HookspecMarker("mrpbench")
 hookimpl = pluggy.HookimplMarker("mrpbench")

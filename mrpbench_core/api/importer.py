@@ -9,8 +9,8 @@ import attrs
 from numpy.typing import NDArray
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.arrays import Float, array
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.common.arrays import Float, array
+from mrpbench_core.model.runs.run import RunContext
 
 SOURCES = ("ground_truth", "tf", "amcl_pose", "odometry", "fleet_states")
 """Sources of poses, the best first."""
@@ -63,7 +63,7 @@ class Observed:
     context: RunContext | None = None
     """Context of the run, if mrpbench made the recording."""
     channels: Mapping[str, NDArray[Any]] = attrs.field(factory=dict)
-    """Channels of `mrpbench_core.model.recording` that the recording contains unchanged, with the times of `tracks`."""
+    """Channels of `model.runs.recording` that the recording contains unchanged, with the times of `tracks`."""
     complete: bool = True
     """False where the end of the recording is missing or damaged."""
     notes: tuple[str, ...] = ()

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Estimate, Odometry, ScanBatch
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
+from mrpbench_core.model.worlds.world import World
 
 
 class LocalizerSession(ABC):

@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 import attrs
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.runs.run import FinishedRun
 
 Value = float | int | bool | None
 """None means that the run does not allow the measurement; `unmeasured` in its record gives the reason."""

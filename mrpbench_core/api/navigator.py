@@ -6,9 +6,12 @@ from typing import ClassVar
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.controller import Controller
-from mrpbench_core.model.execution import FleetObservation, Motion, Orders, Route
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.motion import Motion
+from mrpbench_core.model.execution.observation import FleetObservation
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.worlds.world import World
 
 
 class NavigatorSession(ABC):

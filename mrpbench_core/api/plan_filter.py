@@ -4,7 +4,7 @@ from abc import abstractmethod
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.common.arrays import Bool, Float
 
 
 class PlanFilter(Component):

@@ -5,8 +5,8 @@ from enum import StrEnum
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.plan import Budget, PlanResult
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.planning.plan import Budget, PlanResult
+from mrpbench_core.model.planning.problem import Feature, Problem
 
 
 class Promise(StrEnum):

@@ -4,8 +4,8 @@ from abc import ABC, abstractmethod
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.fleet import RobotModel
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.common.fleet import RobotModel
 
 
 class Surroundings(ABC):

@@ -6,10 +6,11 @@ from types import TracebackType
 from typing import ClassVar, Self
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.arrays import Float, Int16
-from mrpbench_core.model.execution import Inputs, ScanBatch, State
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float, Int16
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.observation import ScanBatch
+from mrpbench_core.model.execution.state import Inputs, State
+from mrpbench_core.model.worlds.world import World
 
 
 class Simulation(ABC):
@@ -62,5 +63,5 @@ class Simulator(Component):
         `period` is the control period in simulated seconds; the simulator subdivides it as it likes. `movers` are the
         radii in metres of discs that are not robots and that `Inputs.movers` moves. Doors are closed at first. A
         simulator that has doors and lifts reports them in `State.facilities`, and moves them by the rules of
-        `mrpbench_core.model.facilities`.
+        `mrpbench_core.model.worlds.facilities`.
         """

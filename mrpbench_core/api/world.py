@@ -4,7 +4,7 @@ from abc import abstractmethod
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.world import World
+from mrpbench_core.model.worlds.world import World
 
 
 class WorldSource(Component):

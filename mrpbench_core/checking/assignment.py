@@ -4,9 +4,9 @@ from collections import defaultdict
 
 import numpy as np
 
-from mrpbench_core.model.assignment import Assignment, AssignmentProblem
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
 
 
 def check_assignment(problem: AssignmentProblem, assignment: Assignment) -> list[str]:

@@ -7,11 +7,11 @@ outside and no side is closer than r to the segment p-q; touching at exactly r i
 import numpy as np
 
 from mrpbench_core.checking.tiles import Tiles
-from mrpbench_core.model.arrays import Bool, Float, Int
-from mrpbench_core.model.geometry import inside, segment_distance
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.solids import wall_boxes
-from mrpbench_core.model.world import Level
+from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.common.geometry import inside, segment_distance
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.solids import wall_boxes
+from mrpbench_core.model.worlds.world import Level
 
 TOLERANCE = 1e-9
 """Metres by which a disc may overlap a polygon because of rounding."""

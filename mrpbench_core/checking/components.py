@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mrpbench_core.model.arrays import Int
+from mrpbench_core.model.common.arrays import Int
 
 
 def components(count: int, edges: ArrayLike) -> Int:

@@ -1,4 +1,4 @@
-"""Finds the conflicts of a plan by comparing intervals directly; `mrpbench_core.model.conflicts` states the rules."""
+"""Finds the conflicts of a plan by comparing intervals directly; the rules are in `model.planning.conflicts`."""
 
 from collections import defaultdict
 from collections.abc import Iterator
@@ -7,17 +7,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Int
-from mrpbench_core.model.conflicts import TOLERANCE
-from mrpbench_core.model.geometry import segment_distance
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.common.arrays import Int
+from mrpbench_core.model.common.geometry import segment_distance
+from mrpbench_core.model.planning.conflicts import TOLERANCE
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Feature, Problem
 
 FOREVER = np.iinfo(np.int64).max
 
 
 class Conflict(NamedTuple):
-    """Two robots that break a rule of `mrpbench_core.model.conflicts`."""
+    """Two robots that break a rule of `mrpbench_core.model.planning.conflicts`."""
 
     kind: str
     """vertex | swap | overtaking | following | footprint | resource."""

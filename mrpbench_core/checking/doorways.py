@@ -5,12 +5,12 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mrpbench_core.checking.clearance import touches
-from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.model.doors import leaf_segments, swept_areas
-from mrpbench_core.model.facilities import Facilities, OperatedDoor
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.solids import wall_boxes
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.doors import leaf_segments, swept_areas
+from mrpbench_core.model.worlds.facilities import Facilities, OperatedDoor
+from mrpbench_core.model.worlds.solids import wall_boxes
+from mrpbench_core.model.worlds.world import World
 
 
 def check_doorways(

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.geometry import point_segment_distance, side
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.geometry import point_segment_distance, side
+from mrpbench_core.model.worlds.world import World
 
 TOLERANCE = 0.05
 """Metres: a vertex closer than this to a lane looks as if it were on the lane."""

@@ -8,10 +8,10 @@ import numpy as np
 
 from mrpbench_core.checking.clearance import solids
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Bool, Float, Int
-from mrpbench_core.model.geometry import inside
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Level
+from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.common.geometry import inside
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Level
 
 LIMIT = 100_000_000
 """Cells."""

@@ -5,8 +5,8 @@ import numpy as np
 
 from mrpbench_core.checking.clearance import has_clearance, solids
 from mrpbench_core.checking.tiles import Tiles
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.world import Level
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.worlds.world import Level
 
 LEAST = 1 / 3
 """Share of the width below which a gap does not look like a passage."""

@@ -4,8 +4,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.checking.conflicts import Conflict, find_conflicts
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Problem
 
 
 @attrs.frozen(kw_only=True)
@@ -26,7 +26,7 @@ class PlanReport:
 def check_plan(problem: Problem, plan: Plan, conflict_limit: int | None = None) -> PlanReport:
     """Check every path and, if none has a fault, every pair of robots.
 
-    All rules of `mrpbench_core.model.conflicts` are checked, resources included; headings of vertices are not.
+    All rules of `mrpbench_core.model.planning.conflicts` are checked, resources included; headings of vertices are not.
 
     Args:
         problem: what was planned.

@@ -4,7 +4,7 @@ import numbers
 from collections.abc import Mapping
 from typing import Any
 
-from mrpbench_core.model.plan import AnytimePoint, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import AnytimePoint, Path, Plan, PlanResult, PlanStatus
 
 RETURNED = tuple(status for status in PlanStatus if status != PlanStatus.UNKNOWN)
 """The statuses that a planner may return."""

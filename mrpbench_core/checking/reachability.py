@@ -4,8 +4,8 @@ import numpy as np
 
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.strong_components import strong_components
-from mrpbench_core.model.arrays import Bool, Int, Int32
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.common.arrays import Bool, Int, Int32
+from mrpbench_core.model.planning.roadmap import Roadmap
 
 
 def reachable(roadmap: Roadmap, profile: int, source: int) -> Bool:

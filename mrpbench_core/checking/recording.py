@@ -1,4 +1,4 @@
-"""Validates a recording; `mrpbench_core.model.recording` says what its channels mean."""
+"""Validates a recording; `mrpbench_core.model.runs.recording` says what its channels mean."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.recording import PERIODIC
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.runs.recording import PERIODIC
 
 WIDTH = {"truth": 3, "truth_twist": 2, "estimate": 3, "odometry": 5, "command": 2}
 """Numbers for each robot and sample; other periodic channels have one."""

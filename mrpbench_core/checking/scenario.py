@@ -5,10 +5,10 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mrpbench_core.checking.reachability import reachable, round_trips
-from mrpbench_core.model.arrays import Bool, Float, Int
-from mrpbench_core.model.conflicts import TOLERANCE
-from mrpbench_core.model.problem import Feature, Problem
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.planning.conflicts import TOLERANCE
+from mrpbench_core.model.planning.problem import Feature, Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
 
 
 def check_scenario(problem: Problem, start_names: Sequence[str] = (), goal_names: Sequence[str] = ()) -> list[str]:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.common.arrays import Float, Int
 
 
 class Tiles:

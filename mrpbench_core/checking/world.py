@@ -9,8 +9,8 @@ from mrpbench_core.checking.clearance import has_clearance, solids
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import called, crossings, duplicates, unique_edges, vertices_on_lanes
 from mrpbench_core.checking.passages import narrow_passages
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.world import World
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

@@ -12,7 +12,7 @@ from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.study.invoke import prepare
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.status import RunStatus
+from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.kinds import group_of
 from mrpbench_core.report.html.page import write_report

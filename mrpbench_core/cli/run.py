@@ -16,7 +16,7 @@ from mrpbench_core.config.study import Study, load_studies
 from mrpbench_core.engine.study.invoke import prepare
 from mrpbench_core.engine.study.study import Request, StudyOutcome, choose, run_study
 from mrpbench_core.files.text import counted
-from mrpbench_core.model.status import RunStatus
+from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.report.reading.axes import word
 from mrpbench_core.store.results import Results
 

@@ -9,7 +9,7 @@ from mrpbench_core.engine.stages.prepare import build_run_instance
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import write_scenario
 from mrpbench_core.files.text import counted
-from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.planning.scenario import Scenario
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -12,9 +12,9 @@ from mrpbench_core.files.text import counted
 if TYPE_CHECKING:
     from mrpbench_core.api.roadmap import RoadmapBuilder
     from mrpbench_core.checking.world import WorldFacts
-    from mrpbench_core.model.occupancy import Occupancy
-    from mrpbench_core.model.roadmap import Roadmap
-    from mrpbench_core.model.world import World
+    from mrpbench_core.model.planning.roadmap import Roadmap
+    from mrpbench_core.model.worlds.occupancy import Occupancy
+    from mrpbench_core.model.worlds.world import World
 
 SHOWN = 20
 """Faults and notes that are printed."""
@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
     from mrpbench_core.checking.world import check_world
     from mrpbench_core.cli.input.world import world_source
     from mrpbench_core.files.robot import load_robot
-    from mrpbench_core.model.fleet import Fleet
+    from mrpbench_core.model.common.fleet import Fleet
 
     fleet = Fleet(robots=(load_robot(arguments.robot),))
     world = world_source(arguments.world, arguments.level).load()
@@ -117,7 +117,7 @@ def _convert(file: Path, world: "World", roadmap: "Roadmap", cell_size: float | 
 def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
     import numpy as np
 
-    from mrpbench_core.model.occupancy import Occupancy
+    from mrpbench_core.model.worlds.occupancy import Occupancy
 
     if roadmap.grid is None:
         raise InputError("this roadmap has no raster to write", hint="use --roadmap lanes or grid")

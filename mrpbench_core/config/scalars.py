@@ -5,7 +5,7 @@ import math
 from typing import Any, get_args
 
 from mrpbench_core.files.suggestions import did_you_mean
-from mrpbench_core.model.units import quantity, sizes, whole_quantity
+from mrpbench_core.model.common.units import quantity, sizes, whole_quantity
 
 
 class Unfit(ValueError):  # noqa: N818 - a value that does not fit its type, on its way to a located error

@@ -17,7 +17,7 @@ from mrpbench_core.config.canonical import json_scalar
 from mrpbench_core.config.settings import FleetEntry, RunConfig
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import robot_names
-from mrpbench_core.model.units import sizes
+from mrpbench_core.model.common.units import sizes
 from mrpbench_core.plugins.registry import Registry
 
 RANGE = {"type": "string", "pattern": r"^-?[0-9]+\.\.-?[0-9]+$"}

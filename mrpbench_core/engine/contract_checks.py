@@ -10,9 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.model.arrays import Int32
-from mrpbench_core.model.execution import Estimate, Mode, Motion, Orders, ScanBatch, State
-from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.common.arrays import Int32
+from mrpbench_core.model.execution.motion import Mode, Motion
+from mrpbench_core.model.execution.observation import Estimate, ScanBatch
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.planning.scenario import Scenario
 
 _LAST_MODE = int(max(Mode))
 

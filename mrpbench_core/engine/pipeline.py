@@ -17,10 +17,10 @@ from mrpbench_core.engine.stages.measure import measure, measure_recording
 from mrpbench_core.engine.stages.plan import STATUS, budget_of, call_planner
 from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance, require_free_doorways
 from mrpbench_core.engine.stages.problem_building import build_problem
-from mrpbench_core.model.plan import PlanResult
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.run import FinishedRun, RunContext
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.planning.plan import PlanResult
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.runs.run import FinishedRun, RunContext
+from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths
 
 

@@ -4,7 +4,7 @@ from typing import Any, Self
 
 import attrs
 
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.runs.status import RunStatus, Stage
 
 
 @attrs.frozen(kw_only=True)

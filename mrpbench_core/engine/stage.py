@@ -7,7 +7,7 @@ import attrs
 
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.observers import Observers
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths
 
 Announce = Callable[[Stage, dict[str, Any]], None]

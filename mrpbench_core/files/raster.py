@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.worlds.occupancy import Occupancy
 
 FREE, OCCUPIED = 254, 0
 """Grey values of Nav2's map_saver."""

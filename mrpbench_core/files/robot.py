@@ -12,7 +12,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.files.urdf import drive_of, mesh_files, read_urdf
 from mrpbench_core.files.yaml import Document, Steps, load
-from mrpbench_core.model.fleet import Lidar, RobotModel, Urdf
+from mrpbench_core.model.common.fleet import Lidar, RobotModel, Urdf
 
 _ROBOTS = Path(str(resources.files("mrpbench_core"))) / "robots"
 _MAY_BE_ZERO = {"min_range"}

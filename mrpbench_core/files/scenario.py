@@ -21,7 +21,7 @@ import yaml
 
 from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.files.yaml import Document, Steps, load
-from mrpbench_core.model.scenario import Scenario, Task
+from mrpbench_core.model.planning.scenario import Scenario, Task
 
 VERSION = 1
 _LEVELS = np.iinfo(np.int16)

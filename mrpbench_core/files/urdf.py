@@ -14,8 +14,8 @@ import numpy as np
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.files.text import position, read_text
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import Urdf
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Urdf
 
 _ALIGNED = 0.999
 """Least cosine of the angle between the axis of a wheel and the y axis of the robot."""

@@ -1,6 +1,6 @@
 """The rules behind the numbers, for readers of tables: printed wherever the numbers are."""
 
-from mrpbench_core.model.status import LEFT_OUT
+from mrpbench_core.model.runs.status import LEFT_OUT
 from mrpbench_core.report.estimation.comparison import SIGNIFICANT
 from mrpbench_core.report.reading.outcome import PENALTY
 from mrpbench_core.report.reading.runs import PAR2

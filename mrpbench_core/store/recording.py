@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext, with_latest_routes
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext, with_latest_routes
 
 FORMAT = 1
 """Raised when a reader of the old format would misread the new one."""

@@ -15,9 +15,9 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mrpbench_core.model.plan import Path
-from mrpbench_core.model.problem import Feature, Problem, features_of
-from mrpbench_core.model.roadmap import Raster, Roadmap
+from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.problem import Feature, Problem, features_of
+from mrpbench_core.model.planning.roadmap import Raster, Roadmap
 
 BLOCKED = "#"
 STEPS = ((0, 1), (0, -1), (1, 0), (-1, 0))

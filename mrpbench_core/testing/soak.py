@@ -10,8 +10,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.planner import Planner
-from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.instances.kinds import Draw
 from mrpbench_core.testing.instances.random_problems import Random
 from mrpbench_core.testing.oracles.judge import answer_faults, changes, contradictions

@@ -11,12 +11,12 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.assignment import AssignmentProblem
-from mrpbench_core.model.fleet import Fleet, Lidar, RobotModel
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Feature, Problem, Rules
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.scenario import Scenario, Task
+from mrpbench_core.model.common.fleet import Fleet, Lidar, RobotModel
+from mrpbench_core.model.planning.assignment import AssignmentProblem
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Feature, Problem, Rules
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.testing.drawing import build, grid, unit_path
 
 

@@ -6,9 +6,9 @@ import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.model.plan import Path
-from mrpbench_core.model.problem import Problem, features_of
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.problem import Problem, features_of
+from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.testing.instances.roadmaps import roadmap, two_way_grid
 
 

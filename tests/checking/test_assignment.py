@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from mrpbench_core.checking.assignment import check_assignment, check_choice
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.assignment import Assignment, AssignmentProblem
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Rules
+from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Rules
 
 COSTS = [[1.0, 2.0, np.inf], [3.0, 1.0, 1.0]]
 

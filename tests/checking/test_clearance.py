@@ -5,8 +5,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.checking.clearance import has_clearance
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Level, Obstacle
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Level, Obstacle
 
 coordinate = st.floats(-3, 3, allow_nan=False).map(lambda value: round(value, 3))
 point = st.tuples(coordinate, coordinate)

@@ -1,4 +1,4 @@
-"""Every rule of `mrpbench_core.model.conflicts`, by hand and against a simulation in half ticks."""
+"""Every rule of `mrpbench_core.model.planning.conflicts`, by hand and against a simulation in half ticks."""
 
 from itertools import combinations
 
@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.checking.conflicts import Conflict, find_conflicts
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Feature, Rules
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Feature, Rules
 
 FORBIDDEN = Rules(following="forbidden")
 FOOTPRINTS = frozenset({Feature.FOOTPRINTS})

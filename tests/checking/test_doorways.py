@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from mrpbench_core.checking.doorways import check_doorways
-from mrpbench_core.model.roadmap import Resource, Roadmap
-from mrpbench_core.model.world import Door, Level, World
+from mrpbench_core.model.planning.roadmap import Resource, Roadmap
+from mrpbench_core.model.worlds.world import Door, Level, World
 
 HINGED = Door(name="ward", start=(0, 0), end=(1, 0), motion="hinged", motion_direction=-1)
 """Its leaf turns up around (0, 0)."""

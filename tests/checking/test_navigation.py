@@ -1,5 +1,5 @@
 from mrpbench_core.checking.navigation import crossings, duplicates, unique_edges, vertices_on_lanes
-from mrpbench_core.model.world import Lane, Level, Vertex, World
+from mrpbench_core.model.worlds.world import Lane, Level, Vertex, World
 
 
 def world_of(points, *pairs) -> World:

@@ -7,8 +7,8 @@ from mrpbench_core.builtin.worlds.shipped import Household
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.occupancy import rasterise
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Area, Level, Obstacle
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Area, Level, Obstacle
 
 place = st.floats(-3, 3)
 

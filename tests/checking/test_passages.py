@@ -3,7 +3,7 @@ import pytest
 
 from mrpbench_core.builtin.worlds.shipped import Household, Office, Warehouse
 from mrpbench_core.checking.passages import narrow_passages
-from mrpbench_core.model.world import Level, Obstacle
+from mrpbench_core.model.worlds.world import Level, Obstacle
 
 
 def walls_with_gap(width, angle=0.0, middle=(4.0, 1.0)):

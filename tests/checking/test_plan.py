@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Rules
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Rules
 
 LANE = [(0, 1, 1), (1, 1, 3), (1, 2, 4)]
 

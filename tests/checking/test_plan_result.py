@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mrpbench_core.checking.plan_result import result_fault
-from mrpbench_core.model.plan import AnytimePoint, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import AnytimePoint, Path, Plan, PlanResult, PlanStatus
 
 EMPTY = Path(edge=[], enter=[], leave=[])
 FLAT = Path(edge=np.zeros((1, 1)), enter=np.zeros((1, 1)), leave=np.ones((1, 1)))

@@ -5,7 +5,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.checking.reachability import reachable, round_trips
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.planning.roadmap import Roadmap
 
 
 def roadmap_of(count, arcs):

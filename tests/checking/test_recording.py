@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mrpbench_core.checking.recording import check_recording
-from mrpbench_core.model.fleet import Fleet, RobotModel
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
 
 ROBOT = RobotModel(name="r", footprint=[[0.1, 0.1], [-0.1, 0.1], [0, -0.1]], max_speed=0.5, max_turn_rate=1)
 FLEET = Fleet(robots=(ROBOT, ROBOT))

@@ -1,4 +1,4 @@
-"""Rule 6 of `mrpbench_core.model.conflicts`, by hand and against a count in half ticks."""
+"""Rule 6 of `mrpbench_core.model.planning.conflicts`, by hand and against a count in half ticks."""
 
 import attrs
 import numpy as np
@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.checking.conflicts import Conflict, find_conflicts
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.roadmap import Resource
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.roadmap import Resource
 
 
 def found(make, roadmap, resource, *routes):

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from mrpbench_core.checking.scenario import check_scenario, check_travel
-from mrpbench_core.model.problem import Feature, Problem, Rules
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.planning.problem import Feature, Problem, Rules
+from mrpbench_core.model.planning.roadmap import Roadmap
 
 
 @pytest.fixture

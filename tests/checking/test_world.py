@@ -3,9 +3,9 @@ import numpy as np
 import pytest
 
 from mrpbench_core.checking.world import check_world, size
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.roadmap import Raster, Roadmap
-from mrpbench_core.model.world import Lane, Level, Obstacle, Vertex, World
+from mrpbench_core.model.planning.roadmap import Raster, Roadmap
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Lane, Level, Obstacle, Vertex, World
 
 
 def roadmap_of(position, edges=(), place=(), grid=None) -> Roadmap:

@@ -13,7 +13,7 @@ import attrs
 from attrs import validators
 from mrpbench_core.api import *
 from mrpbench_core.api import Component
-from mrpbench_core.model.problem import Feature
+from mrpbench_core.model.planning.problem import Feature
 
 def fill(cls):
     "Make a class concrete: configuration never calls the methods."

@@ -20,7 +20,7 @@ from pathlib import Path
 import attrs
 
 from mrpbench_core.api import Planner, option
-from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 
 GAVE_UP = PlanResult(status=PlanStatus.UNSOLVABLE)
 

@@ -5,8 +5,11 @@ import numpy as np
 import pytest
 
 from mrpbench_core.engine.contract_checks import BrokenContractError, ContractChecks, check_drawn
-from mrpbench_core.model.execution import Estimate, Motion, Orders, ScanBatch, State
-from mrpbench_core.model.scenario import Scenario, Task
+from mrpbench_core.model.execution.motion import Motion
+from mrpbench_core.model.execution.observation import Estimate, ScanBatch
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.planning.scenario import Scenario, Task
 
 STATE = State(pose=np.zeros((2, 3)), twist=np.zeros((2, 2)), level=[0, 0], contacts=[[0, 1], [1, -1]])
 SCAN = ScanBatch(stamp=0.0, robot=[1], ranges=[[1.0, np.inf]])

@@ -11,7 +11,7 @@ from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import write_scenario
-from mrpbench_core.model.scenario import Scenario, Task
+from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 

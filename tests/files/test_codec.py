@@ -5,7 +5,7 @@ import json
 import attrs
 
 from mrpbench_core.files.codec import decode, encode
-from mrpbench_core.model.world import Area, Door, Lane, Level, Lift, Obstacle, Vertex, World
+from mrpbench_core.model.worlds.world import Area, Door, Lane, Level, Lift, Obstacle, Vertex, World
 
 
 def test_a_world_with_everything_comes_back_equal():

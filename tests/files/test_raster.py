@@ -4,7 +4,7 @@ import pytest
 from mrpbench_core.builtin.worlds.movingai import MovingAi
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.raster import write_movingai_map, write_ros_map
-from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.worlds.occupancy import Occupancy
 
 RASTER = Occupancy(blocked=[[True, False, False], [False, False, False]], cell_size=0.5, origin=(1, 2))
 

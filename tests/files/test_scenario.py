@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import read_scenario, write_scenario
-from mrpbench_core.model.scenario import Scenario, Task
+from mrpbench_core.model.planning.scenario import Scenario, Task
 
 NUMBER = st.floats(allow_nan=False, allow_infinity=False)
 POSE = st.tuples(NUMBER, NUMBER, NUMBER | st.just(math.nan))

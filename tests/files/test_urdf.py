@@ -6,7 +6,7 @@ import pytest
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot, robot_reads
-from mrpbench_core.model.fleet import RobotModel
+from mrpbench_core.model.common.fleet import RobotModel
 
 ROBOT = """\
 name: cart

@@ -17,7 +17,7 @@ PLANNER = """
 import attrs
 import numpy as np
 from mrpbench_core.api import Planner
-from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from aid import STATUS, later
 
 @attrs.frozen(kw_only=True)

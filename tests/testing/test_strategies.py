@@ -5,7 +5,7 @@ from hypothesis import Phase, find, given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.problem import Feature, features_of
+from mrpbench_core.model.planning.problem import Feature, features_of
 from mrpbench_core.testing import strategies
 
 QUICK = settings(deadline=None, max_examples=40)

@@ -6,7 +6,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.assigner import Assigner
-from mrpbench_core.model.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
 
 
 @attrs.frozen(kw_only=True)

@@ -11,10 +11,10 @@ import numpy as np
 from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
 from mrpbench_core.builtin.dispatchers.dependency_graph import REACHED, DependencyGraph
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.arrays import Int32, frozen_array
-from mrpbench_core.model.execution import FleetView, Orders
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.common.arrays import Int32, frozen_array
+from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
 
 
 @attrs.frozen(kw_only=True)

@@ -9,9 +9,9 @@ import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatcherSession, option
 from mrpbench_core.builtin.dispatchers.facility_use import refuse_facilities
-from mrpbench_core.model.execution import FleetView, Orders
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
 
 
 @attrs.frozen(kw_only=True)

@@ -8,14 +8,14 @@ import numpy as np
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.builtin.dispatchers.resource_requests import ResourceRequests
 from mrpbench_core.builtin.dispatchers.rotations import rotations
-from mrpbench_core.model.arrays import Int, Int32
-from mrpbench_core.model.occupations import occupations_of, resource_edges
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.type2_edges import Moves, Type2Edges, moves_of, type2_edges
+from mrpbench_core.model.common.arrays import Int, Int32
+from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.type2_edges import Moves, Type2Edges, moves_of, type2_edges
 
 REACHED, CLEARED = 0, 1
-"""Rows of the counts of leading segments i8[2,n], see `mrpbench_core.model.execution.FleetView`."""
+"""Rows of the counts of leading segments i8[2,n], see `mrpbench_core.model.execution.orders.FleetView`."""
 
 
 class DependencyGraph:

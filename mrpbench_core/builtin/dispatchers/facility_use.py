@@ -1,10 +1,10 @@
 """Refuses plans that use doors or lifts, for dispatchers that do not request them."""
 
 from mrpbench_core.api.dispatcher import DispatchError
-from mrpbench_core.model.occupations import occupations_of
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.type2_edges import moves_of
+from mrpbench_core.model.planning.occupations import occupations_of
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.type2_edges import moves_of
 
 
 def refuse_facilities(problem: Problem, plan: Plan, dispatcher: str) -> None:

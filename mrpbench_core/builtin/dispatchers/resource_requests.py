@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
-from mrpbench_core.model.arrays import Int
-from mrpbench_core.model.occupations import NEVER, ResourceOccupation
-from mrpbench_core.model.type2_edges import Moves
+from mrpbench_core.model.common.arrays import Int
+from mrpbench_core.model.planning.occupations import NEVER, ResourceOccupation
+from mrpbench_core.model.planning.type2_edges import Moves
 
 
 class ResourceRequests:

@@ -1,6 +1,6 @@
 """Rotations: cycles of moves in which each robot moves to the vertex that the next one leaves.
 
-Rule 1 of `mrpbench_core.model.conflicts` lets robots follow one another closely, so that a cycle of robots may
+Rule 1 of `mrpbench_core.model.planning.conflicts` lets robots follow one another closely, so that a cycle of robots may
 move at once. Each then waits for the next one to clear its vertex, so they have to be released together.
 
 How close they come. Let a robot move from (0, 0) to (c, 0), and the next one of its rotation from (c, 0) to (c, c). If
@@ -22,10 +22,10 @@ import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.checking.strong_components import strong_components
-from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.model.conflicts import TOLERANCE
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.type2_edges import Moves, Type2Edges
+from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.planning.conflicts import TOLERANCE
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.type2_edges import Moves, Type2Edges
 
 
 def rotations(problem: Problem, moves: Moves, order: Type2Edges, margin: float) -> list[tuple[int, ...]]:

@@ -5,11 +5,11 @@ from collections.abc import Sequence
 import attrs
 
 from mrpbench_core.api import Localizer, LocalizerSession
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Estimate, Odometry, ScanBatch
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.poses import composed, relative
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.poses import composed, relative
+from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
+from mrpbench_core.model.worlds.world import World
 
 
 class _Session(LocalizerSession):

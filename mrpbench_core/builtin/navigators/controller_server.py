@@ -4,8 +4,8 @@ import numpy as np
 
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.controller import FleetControllerSession
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.execution import Observations
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.execution.observation import Observations
 
 
 class ControllerServer:

@@ -9,8 +9,9 @@ import numpy as np
 
 from mrpbench_core.api.controller import FleetControllerSession
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.execution import Event, Observations
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.execution.motion import Event
+from mrpbench_core.model.execution.observation import Observations
 
 _REACHED = 0.1
 """metres from a point of a detour at which the robot goes on to the next one."""

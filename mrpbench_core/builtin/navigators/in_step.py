@@ -8,8 +8,8 @@ The robot that is furthest behind is never slowed down, so a group always moves 
 import numpy as np
 
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Orders
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.execution.orders import Orders
 
 LEAD = 0.05
 """metres by which a robot may lead the last of its group."""

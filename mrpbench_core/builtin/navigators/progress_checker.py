@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.common.arrays import Bool, Float
 
 
 class ProgressChecker:

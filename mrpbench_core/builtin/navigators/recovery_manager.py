@@ -9,9 +9,9 @@ import numpy as np
 from mrpbench_core.api.controller import FleetControllerSession
 from mrpbench_core.api.recovery import Recovery, RecoverySession, Surroundings
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.execution import Event
-from mrpbench_core.model.fleet import RobotModel
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.execution.motion import Event
 
 
 @attrs.frozen(kw_only=True)

@@ -4,7 +4,7 @@ import numpy as np
 
 from mrpbench_core.builtin.navigators.route_checks import ClearanceCheck, CornerCheck, Legs, WaypointCheck
 from mrpbench_core.builtin.navigators.route_progress import RouteProgress
-from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.model.common.arrays import Bool, Float, Int
 
 
 class RouteAhead:

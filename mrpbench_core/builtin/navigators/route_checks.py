@@ -8,7 +8,7 @@ from typing import ClassVar, Self
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.model.common.arrays import Bool, Float, Int
 
 SLACK = 1e-6
 """metres, or square metres where squares are compared."""

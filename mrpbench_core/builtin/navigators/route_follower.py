@@ -7,8 +7,8 @@ import numpy as np
 from mrpbench_core.builtin.navigators.route_ahead import RouteAhead
 from mrpbench_core.builtin.navigators.route_progress import RouteProgress
 from mrpbench_core.builtin.navigators.route_tables import ArrivalRules
-from mrpbench_core.model.arrays import Bool, Float, Int, Int16, Int32, frozen_array
-from mrpbench_core.model.execution import Route
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32, frozen_array
+from mrpbench_core.model.execution.route import Route
 
 _SETTLED = 0.02
 """metres before the end of what is released at which a robot that has reached it need not be driven any more."""

@@ -6,8 +6,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.builtin.navigators.route_checks import SLACK, ClearanceCheck, CornerCheck, Legs, WaypointCheck
-from mrpbench_core.model.arrays import Bool, Float, Int
-from mrpbench_core.model.execution import Route
+from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.execution.route import Route
 
 STRAIGHT = 0.3
 """radians: a corner at which the direction changes by less is no bend."""

@@ -12,8 +12,11 @@ from mrpbench_core.builtin.navigators.in_step import InStep
 from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
 from mrpbench_core.builtin.navigators.recovery_manager import RecoveryManager
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
-from mrpbench_core.model.arrays import Bool, Byte, Float, Int
-from mrpbench_core.model.execution import Event, FleetObservation, Mode, Motion, Observations, Orders, Route
+from mrpbench_core.model.common.arrays import Bool, Byte, Float, Int
+from mrpbench_core.model.execution.motion import Event, Mode, Motion
+from mrpbench_core.model.execution.observation import FleetObservation, Observations
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.route import Route
 
 _FOLLOWING, _WAITING, _RECOVERING, _ABORTED = (
     np.uint8(mode) for mode in (Mode.FOLLOWING, Mode.WAITING, Mode.RECOVERING, Mode.ABORTED)

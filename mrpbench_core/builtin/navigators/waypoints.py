@@ -25,9 +25,9 @@ from mrpbench_core.builtin.recoveries.back_up import BackUp
 from mrpbench_core.builtin.recoveries.clear import Clear
 from mrpbench_core.builtin.recoveries.spin import Spin
 from mrpbench_core.builtin.recoveries.wait import Wait
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

@@ -9,7 +9,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.plan_filter import PlanFilter
-from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.common.arrays import Bool, Float
 
 _EQUAL = 1e-6
 """metres."""

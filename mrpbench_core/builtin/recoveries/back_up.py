@@ -8,8 +8,8 @@ from attrs.validators import ge, gt
 
 from mrpbench_core.api import option
 from mrpbench_core.api.recovery import Recovery, RecoverySession, Surroundings
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import RobotModel
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import RobotModel
 
 
 @attrs.frozen(kw_only=True)

@@ -13,11 +13,11 @@ import numpy as np
 
 from mrpbench_core.builtin.roadmaps.open_doors import avoid_open_doors
 from mrpbench_core.builtin.roadmaps.proximity import MARGIN, elements_near, select_edges
-from mrpbench_core.model.arrays import Int
-from mrpbench_core.model.doors import opening_time, swept_areas
-from mrpbench_core.model.facilities import Facilities, OperatedDoor, ride_time
-from mrpbench_core.model.roadmap import Resource, Roadmap
-from mrpbench_core.model.world import Lift, World
+from mrpbench_core.model.common.arrays import Int
+from mrpbench_core.model.planning.roadmap import Resource, Roadmap
+from mrpbench_core.model.worlds.doors import opening_time, swept_areas
+from mrpbench_core.model.worlds.facilities import Facilities, OperatedDoor, ride_time
+from mrpbench_core.model.worlds.world import Lift, World
 
 
 def with_facilities(roadmap: Roadmap, world: World, radius: float) -> Roadmap:

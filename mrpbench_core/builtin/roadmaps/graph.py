@@ -11,10 +11,10 @@ from mrpbench_core.builtin.roadmaps.open_doors import clears_open_doors
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Bool, Float, Int
-from mrpbench_core.model.fleet import Fleet, RobotModel
-from mrpbench_core.model.roadmap import Resource, Roadmap
-from mrpbench_core.model.world import Lane, World
+from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.planning.roadmap import Resource, Roadmap
+from mrpbench_core.model.worlds.world import Lane, World
 
 
 @attrs.frozen(kw_only=True)

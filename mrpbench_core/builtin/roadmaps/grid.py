@@ -16,10 +16,10 @@ from mrpbench_core.builtin.roadmaps.cells import (
 )
 from mrpbench_core.checking.clearance import solids
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import World
 
 DEFAULT_CELL_SIZE = 0.4
 

@@ -21,11 +21,11 @@ from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import called
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Bool, Float, Int
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import World
 
 _ROUNDING = 1e-6
 """metres."""

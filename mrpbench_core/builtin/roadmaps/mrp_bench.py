@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from mrpbench_core.builtin.roadmaps.cells import empty_raster
 from mrpbench_core.checking.navigation import unique_edges
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import World
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import World
 
 _BLOCKED, _ROAD, _VERTEX = 0, 1, 2
 _STEPS = ((0, 1), (1, 0), (0, -1), (-1, 0))  # north, east, south, west

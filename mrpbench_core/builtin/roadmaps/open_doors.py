@@ -11,12 +11,12 @@ import numpy as np
 from mrpbench_core.builtin.roadmaps.proximity import MARGIN, elements_near, select_edges
 from mrpbench_core.checking.clearance import touches
 from mrpbench_core.checking.components import components
-from mrpbench_core.model.arrays import Bool, Float, Int
-from mrpbench_core.model.doors import leaf_segments, swept_areas
-from mrpbench_core.model.facilities import Facilities, OperatedDoor
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.solids import wall_boxes
-from mrpbench_core.model.world import Door, World
+from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.doors import leaf_segments, swept_areas
+from mrpbench_core.model.worlds.facilities import Facilities, OperatedDoor
+from mrpbench_core.model.worlds.solids import wall_boxes
+from mrpbench_core.model.worlds.world import Door, World
 
 
 def clears_open_doors(world: World, level: int, start: Float, end: Float, radius: float) -> Bool:

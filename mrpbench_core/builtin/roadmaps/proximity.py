@@ -4,8 +4,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.checking.clearance import touches
-from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.planning.roadmap import Roadmap
 
 MARGIN = 0.1
 """metres by which a robot may deviate from its position: the tolerance of navigators."""

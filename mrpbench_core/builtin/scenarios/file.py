@@ -7,10 +7,10 @@ import attrs
 from mrpbench_core.api.component import option
 from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.files.scenario import read_scenario
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.scenario import Scenario
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

@@ -14,12 +14,12 @@ from mrpbench_core.api.component import option
 from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import read_text
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

@@ -10,11 +10,11 @@ from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.builtin.scenarios.places import places_of_world
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import did_you_mean
-from mrpbench_core.model.arrays import Int
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.scenario import Scenario
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Int
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

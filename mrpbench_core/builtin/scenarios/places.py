@@ -3,10 +3,10 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int, Int16
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float, Int, Int16
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

@@ -11,12 +11,12 @@ from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.builtin.scenarios.places import Places, places_of_roadmap, places_of_world
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Float, Int, Int16
-from mrpbench_core.model.conflicts import TOLERANCE
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.scenario import Scenario
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float, Int, Int16
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.conflicts import TOLERANCE
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario
+from mrpbench_core.model.worlds.world import World
 
 STARTS, GOALS = 0, 1
 """Keys of the two random streams of a seed."""

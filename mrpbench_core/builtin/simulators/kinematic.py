@@ -14,14 +14,15 @@ from mrpbench_core.api import Simulation, Simulator
 from mrpbench_core.builtin.simulators.contacts import Discs
 from mrpbench_core.builtin.simulators.lidar import scan
 from mrpbench_core.builtin.simulators.nearby import Nearby
-from mrpbench_core.model.arrays import Float, Int16, Int32
-from mrpbench_core.model.execution import Inputs, ScanBatch, State
-from mrpbench_core.model.facilities import Facilities
-from mrpbench_core.model.fleet import Fleet, Lidar
-from mrpbench_core.model.level_layout import LevelLayout
-from mrpbench_core.model.poses import wrapped
-from mrpbench_core.model.scan_schedule import ScanSchedule
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float, Int16, Int32
+from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.common.poses import wrapped
+from mrpbench_core.model.execution.observation import ScanBatch
+from mrpbench_core.model.execution.scan_schedule import ScanSchedule
+from mrpbench_core.model.execution.state import Inputs, State
+from mrpbench_core.model.worlds.facilities import Facilities
+from mrpbench_core.model.worlds.level_layout import LevelLayout
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

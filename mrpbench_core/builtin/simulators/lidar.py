@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import Lidar
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Lidar
 
 _SEAM = 1e-9
 """Share of its length by which a segment is prolonged, so that no beam passes between two that share an end."""

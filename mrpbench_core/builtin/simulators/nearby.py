@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.geometry import point_segment_distance
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.geometry import point_segment_distance
 
 _CELL = 1.0
 """metres."""

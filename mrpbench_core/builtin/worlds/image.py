@@ -8,7 +8,7 @@ import numpy as np
 
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.common.arrays import Bool, Float
 
 
 @attrs.frozen(eq=False)

@@ -11,9 +11,9 @@ from mrpbench_core.api.component import Path, option
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import read_text
-from mrpbench_core.model.arrays import Bool
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.arrays import Bool
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Level, World
 
 PASSABLE = ".GS"
 """Ground and swamp."""

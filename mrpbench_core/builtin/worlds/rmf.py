@@ -19,7 +19,7 @@ from mrpbench_core.builtin.worlds.building.notes import Notes
 from mrpbench_core.builtin.worlds.building.unsupported import note_unsupported, refuse_navigation_graph
 from mrpbench_core.builtin.worlds.building.walls import read_walls
 from mrpbench_core.files import yaml
-from mrpbench_core.model.world import Area, Lane, Level, Lift, Vertex, World
+from mrpbench_core.model.worlds.world import Area, Lane, Level, Lift, Vertex, World
 
 DoorState = Literal["operated", "open"]
 

@@ -16,9 +16,9 @@ from mrpbench_core.builtin.worlds.image import GreyscaleImage, read_image
 from mrpbench_core.builtin.worlds.rotation import rotate
 from mrpbench_core.files import yaml
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Bool
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.arrays import Bool
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Level, World
 
 KEYS = ("image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate", "mode")
 MODES = ("trinary", "scale", "raw")

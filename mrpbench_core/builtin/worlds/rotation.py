@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.worlds.occupancy import Occupancy
 
 TOLERANCE = 1e-6
 """radians."""

@@ -8,7 +8,7 @@ import attrs
 from mrpbench_core.api.component import option
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.builtin.worlds.rmf import DoorState, Rmf, doors_option
-from mrpbench_core.model.world import World
+from mrpbench_core.model.worlds.world import World
 
 FOLDER = Path(__file__).parent / "data"
 CASES = ("corridor", "swap", "roundabout", "alcove", "door")

@@ -10,7 +10,7 @@ from mrpbench_core.config.study import RunPoint
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.engine.study.selection import Selection
 from mrpbench_core.files.text import counted
-from mrpbench_core.model.status import RunStatus
+from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.report.reading.axes import word
 from mrpbench_core.store.results import Results
 

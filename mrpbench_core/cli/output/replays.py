@@ -11,7 +11,7 @@ from mrpbench_core.api.planner import Planner
 from mrpbench_core.config.canonical import json_scalar
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import load as load_yaml
-from mrpbench_core.model.status import RunStatus
+from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.plugins.local import is_local
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.reading.columns import Columns, describe_columns

@@ -9,7 +9,7 @@ from mrpbench_core.cli.output.table import print_table
 from mrpbench_core.config.study import Study
 from mrpbench_core.engine.study.record import code_of
 from mrpbench_core.files.text import counted
-from mrpbench_core.model.status import LEFT_OUT, RunStatus
+from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.groups import RunGroup, group_runs
 from mrpbench_core.report.reading.axes import word
 from mrpbench_core.report.reading.columns import primary_columns, read_columns

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.api.importer import Observed, Signal, Track
 from mrpbench_core.engine.analysis.resampling import resample
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 
 SILENCE = 0.5
 """seconds after which a command no longer holds: the default time-out of ros2_control's diff_drive_controller."""

@@ -7,7 +7,7 @@ import attrs
 from mrpbench_core.api.importer import Track
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
-from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.planning.scenario import Scenario
 
 
 @attrs.frozen(kw_only=True)

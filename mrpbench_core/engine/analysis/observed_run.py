@@ -14,16 +14,17 @@ from mrpbench_core.engine.analysis.matching import match
 from mrpbench_core.engine.analysis.resampling import even_times, resample
 from mrpbench_core.engine.analysis.walls import poses_in_walls
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Float, Int16, Int32
-from mrpbench_core.model.execution import Mode, Route
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.plan import PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.run import RunContext, with_latest_routes
-from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float, Int16, Int32
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.motion import Mode
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext, with_latest_routes
+from mrpbench_core.model.worlds.world import World
 
 FAR = 1.0
 """metres from its start at which a robot is suspected to be another one."""
@@ -63,7 +64,7 @@ class ObservedRun:
     open_ends: tuple[str, ...] = ()
     """Why it is not known how the run ended."""
     alike: tuple[frozenset[str], ...] = ()
-    """See `mrpbench_core.model.run.FinishedRun`."""
+    """See `mrpbench_core.model.runs.run.FinishedRun`."""
 
 
 def observe_own(observed: Observed, context: RunContext) -> ObservedRun:

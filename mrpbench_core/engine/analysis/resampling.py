@@ -4,7 +4,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.importer import Track
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 
 STANDING = 0.25
 """metres. A robot that is this near to its position before a gap stood still: AMCL is silent while a robot moves by

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mrpbench_core.checking.occupancy import bounds, rasterise
-from mrpbench_core.model.arrays import Bool, Float, Int16
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.arrays import Bool, Float, Int16
+from mrpbench_core.model.worlds.world import Level, World
 
 CELL = 0.05
 """metres, of the raster in which poses are looked up."""

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Int, Int32
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.common.arrays import Int, Int32
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Problem
 
 
 def commitments(

@@ -10,12 +10,13 @@ from collections.abc import Mapping
 import attrs
 import numpy as np
 
-from mrpbench_core.model.arrays import Bool, Int32
-from mrpbench_core.model.execution import FleetView, Orders, State
-from mrpbench_core.model.facilities import Facilities
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.world import Lift, World
+from mrpbench_core.model.common.arrays import Bool, Int32
+from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.worlds.facilities import Facilities
+from mrpbench_core.model.worlds.world import Lift, World
 
 
 class ExecutionError(Exception):

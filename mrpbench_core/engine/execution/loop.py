@@ -20,9 +20,13 @@ from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.replanning import Replanner, Revision
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.execution import Event, FleetObservation, FleetView, Inputs, Mode, Motion, Orders, Route, State
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.execution.motion import Event, Mode, Motion
+from mrpbench_core.model.execution.observation import FleetObservation
+from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.execution.state import Inputs, State
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.runs.run import RunContext
 
 WAITING, ABORTED = int(Mode.WAITING), int(Mode.ABORTED)
 

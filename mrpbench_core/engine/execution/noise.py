@@ -10,10 +10,11 @@ import numpy as np
 
 from mrpbench_core.config.settings import Noise
 from mrpbench_core.engine.seeds import stream
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Odometry, ScanBatch, State
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.poses import wrapped
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.poses import wrapped
+from mrpbench_core.model.execution.observation import Odometry, ScanBatch
+from mrpbench_core.model.execution.state import State
 
 _BLOCK = 64
 """Periods that are drawn at once, for speed; the numbers are the same."""

@@ -7,9 +7,13 @@ from typing import Any
 import attrs
 import numpy as np
 
-from mrpbench_core.model.arrays import Int32
-from mrpbench_core.model.execution import Estimate, Event, Motion, Odometry, Orders, Route, ScanBatch, State
-from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.common.arrays import Int32
+from mrpbench_core.model.execution.motion import Event, Motion
+from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.runs.recording import Chunk
 
 SAMPLES = 256
 """Periodic samples per chunk."""
@@ -39,7 +43,7 @@ INTEGERS = dict.fromkeys(("contact", "scan_robot", "event_robot", "route_revisio
 
 @attrs.frozen(kw_only=True)
 class Sample:
-    """The values of the periodic channels in one control period; see `mrpbench_core.model.recording`."""
+    """The values of the periodic channels in one control period; see `mrpbench_core.model.runs.recording`."""
 
     now: float
     """Simulated seconds."""

@@ -9,10 +9,11 @@ import numpy as np
 from mrpbench_core.config.settings import Replanning, RunConfig
 from mrpbench_core.engine.execution.commitments import commitments
 from mrpbench_core.engine.execution.routes import Router
-from mrpbench_core.model.arrays import Float, Int, Int32
-from mrpbench_core.model.execution import FleetView, Route
-from mrpbench_core.model.plan import Plan, PlanResult
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.common.arrays import Float, Int, Int32
+from mrpbench_core.model.execution.orders import FleetView
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.plan import Plan, PlanResult
+from mrpbench_core.model.planning.problem import Feature, Problem
 
 RETRY_S = 1.0
 """Simulated seconds after which a planner that found no new plan is asked again, unless the settings say more."""

@@ -5,12 +5,12 @@ import numpy as np
 
 from mrpbench_core.api.plan_filter import PlanFilter
 from mrpbench_core.engine.contract_checks import check_kept
-from mrpbench_core.model.arrays import Bool, Float, Int16
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Bool, Float, Int16
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen

@@ -6,7 +6,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.engine.record import RunRecord
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths
 
 

@@ -3,7 +3,7 @@
 import time
 
 from mrpbench_core.engine.processes.job import Failure, Job
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.runs.status import RunStatus, Stage
 
 GRACE_S = 1.0
 """Wall seconds that a stage may overrun its own limit before it is killed, plus a tenth of the limit.

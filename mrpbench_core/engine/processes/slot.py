@@ -15,7 +15,7 @@ from mrpbench_core.engine.processes.job import Job, JobOutcome
 from mrpbench_core.engine.processes.limits import LimitMonitor
 from mrpbench_core.engine.processes.machine import oom_kills
 from mrpbench_core.engine.record import RunRecord
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.runs.status import RunStatus, Stage
 
 START_S = 120.0
 """Seconds a child may take to import the core."""

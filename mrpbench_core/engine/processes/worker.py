@@ -26,7 +26,7 @@ from mrpbench_core.engine.processes.lifeline import tie_to_invoker
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.hooks import Hooks, load_hooks
 from mrpbench_core.store.paths import RunPaths
 

@@ -12,10 +12,10 @@ from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.costs import cost_matrix
 from mrpbench_core.engine.stages.prepare import RunInstance, summary
-from mrpbench_core.model.assignment import AssignmentProblem
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.planning.assignment import AssignmentProblem
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.runs.status import RunStatus, Stage
 
 
 def assign(config: RunConfig, instance: RunInstance, announce: Announce, timing: dict[str, Any]) -> tuple[int, ...]:

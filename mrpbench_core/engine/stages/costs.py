@@ -4,10 +4,10 @@ import numpy as np
 
 from mrpbench_core.api.assigner import Cost
 from mrpbench_core.engine.stages.travel import travel_ticks
-from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.scenario import Scenario
+from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario
 
 
 def cost_matrix(kind: Cost, roadmap: Roadmap, fleet: Fleet, scenario: Scenario) -> Float:

@@ -18,11 +18,11 @@ from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.engine.stages.export import Exports
 from mrpbench_core.engine.stages.judge import judge
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
-from mrpbench_core.model.plan import PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.store.recording import RecordingWriter
 
 

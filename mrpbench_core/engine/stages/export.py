@@ -8,8 +8,8 @@ from typing import Any
 from mrpbench_core.api.exporter import Exporter, ExporterSession
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, one_line
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext
 
 
 class Exports:

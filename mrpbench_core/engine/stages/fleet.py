@@ -5,7 +5,7 @@ import attrs
 from mrpbench_core.config.settings import FleetEntry, RunConfig
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.fleet import Fleet, Lidar, RobotModel
+from mrpbench_core.model.common.fleet import Fleet, Lidar, RobotModel
 
 
 def build_fleet(config: RunConfig, size: int) -> Fleet:

@@ -9,7 +9,7 @@ import numpy as np
 
 from mrpbench_core.api.metric import Metric
 from mrpbench_core.files.errors import one_line
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.store.recording import Recording
 
 NUMBER = int | float | np.integer | np.floating | np.bool_

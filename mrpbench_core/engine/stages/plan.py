@@ -13,9 +13,9 @@ from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.status import RunStatus
+from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.runs.status import RunStatus
 
 STATUS = {
     PlanStatus.TIMEOUT: RunStatus.PLAN_TIMEOUT,

@@ -9,11 +9,11 @@ from mrpbench_core.engine.contract_checks import check_drawn
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.fleet import build_fleet
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.scenario import Scenario
-from mrpbench_core.model.status import RunStatus, Stage
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario
+from mrpbench_core.model.runs.status import RunStatus, Stage
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

@@ -9,10 +9,10 @@ from mrpbench_core.engine.stage import RunEnded
 from mrpbench_core.engine.stages.costs import cost_matrix
 from mrpbench_core.engine.stages.prepare import RunInstance, summary
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.problem import Feature, GoalSet, Problem, features_of
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.problem import Feature, GoalSet, Problem, features_of
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.runs.status import RunStatus, Stage
 
 
 def build_problem(instance: RunInstance, assigned: tuple[int, ...] | None, assigner: Assigner) -> Problem:

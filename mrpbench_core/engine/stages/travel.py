@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.planning.roadmap import Roadmap
 
 STATES = 2**24
 """Pairs of target and vertex searched at once: bounds memory to some 300 MB."""

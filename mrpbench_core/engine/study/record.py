@@ -10,7 +10,7 @@ from mrpbench_core.engine.processes.job import Failure, JobOutcome
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.engine.record import RunError, RunRecord, StoredRecord
 from mrpbench_core.engine.study.versions import versions
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.provenance import components_in, origin
 
 

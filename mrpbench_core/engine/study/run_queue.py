@@ -15,7 +15,7 @@ from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.engine.study.record import complete_record
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import Writer
-from mrpbench_core.model.status import RunStatus, Stage
+from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.store.folder import ResultsFolder
 

@@ -8,7 +8,7 @@ import attrs
 
 from mrpbench_core.config.study import RunPoint
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.status import FAILED
+from mrpbench_core.model.runs.status import FAILED
 from mrpbench_core.store.results import Results
 
 Rerun = Literal["failed", "changed", "all"]

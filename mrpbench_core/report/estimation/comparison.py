@@ -7,7 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.metric import Column
-from mrpbench_core.model.arrays import Int
+from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.report.estimation.groups import RunGroup, Setting, differing_factors
 from mrpbench_core.report.reading.columns import direction
 from mrpbench_core.report.reading.runs import Runs

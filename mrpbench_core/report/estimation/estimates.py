@@ -6,7 +6,7 @@ from functools import reduce
 import attrs
 import numpy as np
 
-from mrpbench_core.model.arrays import Int
+from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.report.estimation.groups import RunGroup, Setting
 from mrpbench_core.report.reading.runs import Runs
 from mrpbench_core.report.statistics.estimate import IntervalEstimate

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.report.reading.axes import Axes, factors, name_axes
 from mrpbench_core.report.reading.runs import Runs
 

@@ -5,7 +5,7 @@ from html import escape
 
 import attrs
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.report.html.scales import Scale, spread, tick_text
 from mrpbench_core.report.statistics.estimate import IntervalEstimate
 from mrpbench_core.report.tables.table import Shown

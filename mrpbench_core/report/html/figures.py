@@ -6,7 +6,7 @@ from html import escape
 import numpy as np
 
 from mrpbench_core.api.metric import Column
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.report.estimation.estimates import Numbers
 from mrpbench_core.report.estimation.groups import RunGroup, Setting
 from mrpbench_core.report.html.charts import Curve, intervals, legend, steps

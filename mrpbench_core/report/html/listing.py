@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.status import LEFT_OUT, RunStatus
+from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.reading.columns import heading
 from mrpbench_core.report.report import Report
 

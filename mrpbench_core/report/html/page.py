@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
-from mrpbench_core.model.status import LEFT_OUT, RunStatus
+from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.comparison import SIGNIFICANT, Comparison
 from mrpbench_core.report.html.figures import figures
 from mrpbench_core.report.html.listing import packed_runs, tone

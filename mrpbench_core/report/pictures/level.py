@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.doors import leaf_segments, swept_areas
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.solids import wall_boxes
-from mrpbench_core.model.world import Door, Level, World
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.doors import leaf_segments, swept_areas
+from mrpbench_core.model.worlds.solids import wall_boxes
+from mrpbench_core.model.worlds.world import Door, Level, World
 from mrpbench_core.report.pictures.style import LANE, LIFT, ROAD, WALL
 
 

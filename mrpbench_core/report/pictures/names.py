@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.report.pictures.style import NAME
 
 CROWDED = 100

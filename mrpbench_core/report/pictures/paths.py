@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.route import Route
 from mrpbench_core.report.pictures.style import COLOURS
 
 

@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.doors import swept_areas
-from mrpbench_core.model.solids import segments
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.worlds.doors import swept_areas
+from mrpbench_core.model.worlds.solids import segments
+from mrpbench_core.model.worlds.world import World
 from mrpbench_core.report.pictures.style import DPI, NAME, PIXELS
 
 MARGINS = (84, 20, 60, 44)

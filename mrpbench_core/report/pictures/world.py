@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.world import World
 from mrpbench_core.report.pictures.level import (
     draw_cabins,
     draw_cells,

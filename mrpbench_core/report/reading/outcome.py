@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any
 
-from mrpbench_core.model.status import AFTER_PLANNING, PLANNED
+from mrpbench_core.model.runs.status import AFTER_PLANNING, PLANNED
 
 PENALTY = 2.0
 """Factor of PAR2: a run without a plan counts as this many times the planning limit."""

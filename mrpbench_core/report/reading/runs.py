@@ -8,8 +8,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.files.jsonl import line
-from mrpbench_core.model.arrays import Bool, Float, Int
-from mrpbench_core.model.status import LEFT_OUT, RunStatus
+from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.reading.axes import NO_AXES, Axes, find_axes
 from mrpbench_core.report.reading.outcome import PENALTY, has_plan
 from mrpbench_core.store.results import Results

@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.doors import leaf_segments
-from mrpbench_core.model.facilities import Facilities
-from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.doors import leaf_segments
+from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.report.pictures.style import COLOURS, WALL
 from mrpbench_core.report.pictures.world import world_figure
 from mrpbench_core.report.replay.motion import read_levels

@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Int
-from mrpbench_core.model.occupations import occupations_of, resource_edges
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.type2_edges import Moves, Type2Edges, moves_of, type2_edges
+from mrpbench_core.model.common.arrays import Int
+from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.type2_edges import Moves, Type2Edges, moves_of, type2_edges
 
 
 class Dependency(NamedTuple):

@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from mrpbench_core.model.doors import leaf_segments, swing_angles
-from mrpbench_core.model.facilities import Facilities, OperatedDoor
-from mrpbench_core.model.world import Door, Lift, World
+from mrpbench_core.model.worlds.doors import leaf_segments, swing_angles
+from mrpbench_core.model.worlds.facilities import Facilities, OperatedDoor
+from mrpbench_core.model.worlds.world import Door, Lift, World
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording
 

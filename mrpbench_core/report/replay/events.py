@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.report.replay.facility_events import read_facility_events
 from mrpbench_core.store.recording import Recording
 

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.facilities import LEVEL_TOLERANCE, Facilities
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.worlds.facilities import LEVEL_TOLERANCE, Facilities
+from mrpbench_core.model.worlds.world import World
 from mrpbench_core.store.recording import Recording
 
 

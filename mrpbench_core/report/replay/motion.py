@@ -3,7 +3,7 @@
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Bool, Float
+from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording
 

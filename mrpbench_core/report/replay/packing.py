@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from mrpbench_core.model.arrays import Float, Int32
+from mrpbench_core.model.common.arrays import Float, Int32
 
 LARGEST = 2**30
 """Quantised values stay below this, so that their differences do not overflow 32 bits."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.run import all_routes
+from mrpbench_core.model.runs.run import all_routes
 from mrpbench_core.report.reading.columns import Columns
 from mrpbench_core.report.replay.doors import pack_facilities
 from mrpbench_core.report.replay.events import read_contacts, read_events

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int, Int32
+from mrpbench_core.model.common.arrays import Float, Int, Int32
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording
 

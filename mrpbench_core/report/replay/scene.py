@@ -4,17 +4,17 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.fleet import RobotModel
-from mrpbench_core.model.roadmap import Resource, Roadmap
-from mrpbench_core.model.run import RunContext
-from mrpbench_core.model.solids import wall_boxes
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.roadmap import Resource, Roadmap
+from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.model.worlds.solids import wall_boxes
+from mrpbench_core.model.worlds.world import Level, World
 from mrpbench_core.report.replay.packing import Packing
 
 Plans = list[tuple[float, tuple[Route, ...]]]
-"""Routes with the simulated second from which they are valid; see `mrpbench_core.model.run.all_routes`."""
+"""Routes with the simulated second from which they are valid; see `mrpbench_core.model.runs.run.all_routes`."""
 MOST_WAYPOINTS = 1_000_000
 """Number of waypoints above which only the last plan is shown."""
 

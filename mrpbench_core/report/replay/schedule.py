@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.report.replay.packing import Packing
 
 QUANTUM = 0.01

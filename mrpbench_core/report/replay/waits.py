@@ -8,9 +8,10 @@ from typing import Any
 import attrs
 import numpy as np
 
-from mrpbench_core.model.arrays import Bool, Float, Int, Int32
-from mrpbench_core.model.execution import Mode, Route
-from mrpbench_core.model.run import RunContext, all_routes
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
+from mrpbench_core.model.execution.motion import Mode
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.runs.run import RunContext, all_routes
 from mrpbench_core.report.replay.dependencies import Dependencies, first_samples
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording

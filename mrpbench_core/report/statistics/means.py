@@ -5,7 +5,7 @@ B. Efron, "Better bootstrap confidence intervals", JASA 82, 1987.
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
 
 RESAMPLES = 1999

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
 from mrpbench_core.report.statistics.means import AT_ONCE, SEED, mean
 

@@ -8,7 +8,7 @@ proportions in complex sample surveys", Journal of Survey Statistics and Methodo
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
 
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mrpbench_core.api.metric import Column
-from mrpbench_core.model.status import LEFT_OUT, RunStatus
+from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.comparison import SIGNIFICANT, Comparison
 from mrpbench_core.report.estimation.estimates import Numbers
 from mrpbench_core.report.estimation.groups import RunGroup, Setting

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Int
+from mrpbench_core.model.common.arrays import Int
 
 
 def spans(numbers: Int) -> str:

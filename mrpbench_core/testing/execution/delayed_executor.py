@@ -5,10 +5,11 @@ from itertools import combinations
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Bool, Float, Int32
-from mrpbench_core.model.execution import FleetView, Mode
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.common.arrays import Bool, Float, Int32
+from mrpbench_core.model.execution.motion import Mode
+from mrpbench_core.model.execution.orders import FleetView
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Feature, Problem
 
 CLEARED_AT = 0.4
 """Share of a move after which a robot has cleared the vertex that it comes from."""

@@ -5,10 +5,10 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError, DispatcherSession
-from mrpbench_core.model.arrays import Int32
-from mrpbench_core.model.execution import Orders
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.common.arrays import Int32
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.resource_manager import ResourceManager
 from mrpbench_core.testing.faults import Fault, require

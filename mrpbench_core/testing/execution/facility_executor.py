@@ -4,12 +4,14 @@ import numpy as np
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import FleetView, Mode, Orders, State
-from mrpbench_core.model.geometry import point_segment_distance
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.execution.motion import Mode
+from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.worlds.world import World
 
 PERIOD = 0.1
 """Control period, seconds."""

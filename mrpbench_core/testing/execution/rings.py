@@ -9,12 +9,14 @@ from mrpbench_core.api import Controller, Dispatcher, Simulator
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.engine.execution.routes import Router
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Estimate, FleetObservation, FleetView, Inputs, Odometry
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.observation import Estimate, FleetObservation, Odometry
+from mrpbench_core.model.execution.orders import FleetView
+from mrpbench_core.model.execution.state import Inputs
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.world import Level, World
 
 PERIOD = 0.05
 """Control period, seconds."""

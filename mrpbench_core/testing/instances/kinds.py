@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.instances.random_problems import (
     Random,
     random_corridor_problem,

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import attrs
 import numpy as np
 
-from mrpbench_core.model.problem import Feature, Problem, Rules
-from mrpbench_core.model.roadmap import Resource
+from mrpbench_core.model.planning.problem import Feature, Problem, Rules
+from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.testing.drawing import grid, problem, unit_path
 
 CROSSING = """

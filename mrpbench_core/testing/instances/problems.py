@@ -6,8 +6,8 @@ from typing import Any
 
 from numpy.typing import ArrayLike
 
-from mrpbench_core.model.problem import Feature, Problem, Rules
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.planning.problem import Feature, Problem, Rules
+from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.testing.drawing import build
 from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap
 

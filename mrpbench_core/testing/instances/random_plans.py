@@ -6,10 +6,10 @@ import attrs
 import numpy as np
 
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.arrays import Int32
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Feature, Problem, Rules
-from mrpbench_core.model.roadmap import Resource, Roadmap
+from mrpbench_core.model.common.arrays import Int32
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Feature, Problem, Rules
+from mrpbench_core.model.planning.roadmap import Resource, Roadmap
 from mrpbench_core.testing.drawing import build
 from mrpbench_core.testing.instances.random_problems import Random
 from mrpbench_core.testing.instances.roadmaps import timed_path, two_way, two_way_grid

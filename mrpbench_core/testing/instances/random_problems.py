@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.testing.instances.problems import problem_on
 from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap
 

@@ -6,8 +6,8 @@ from itertools import accumulate, pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mrpbench_core.model.plan import Path
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.roadmap import Roadmap
 
 STEPS = ((0, 1), (1, 0), (0, -1), (-1, 0))
 

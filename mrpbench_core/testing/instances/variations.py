@@ -3,9 +3,9 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Feature, Problem, features_of
-from mrpbench_core.model.roadmap import Resource
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Feature, Problem, features_of
+from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.testing.instances.roadmaps import timed_path
 
 Random = np.random.Generator

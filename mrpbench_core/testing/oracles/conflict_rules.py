@@ -1,11 +1,11 @@
-"""The rules of `mrpbench_core.model.conflicts`, for robots at one tick or between two; part of `optimum`."""
+"""The rules of `mrpbench_core.model.planning.conflicts`, for robots at one tick or between two; part of `optimum`."""
 
 import itertools
 from collections.abc import Sequence
 
-from mrpbench_core.model.conflicts import TOLERANCE
-from mrpbench_core.model.geometry import segment_distance
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.common.geometry import segment_distance
+from mrpbench_core.model.planning.conflicts import TOLERANCE
+from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.testing.oracles.robot_steps import ON, RobotState, RobotStep
 
 Uses = tuple[tuple[int, ...], ...]

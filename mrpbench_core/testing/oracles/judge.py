@@ -5,8 +5,8 @@ from collections.abc import Sequence
 
 from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.engine.stages.judge import judge
-from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.faults import require
 from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 

@@ -1,7 +1,7 @@
 """The least cost by brute force: A* over the joint states of all robots, one tick at a time.
 
 Slow and plain on purpose, for a handful of robots on a dozen vertices: it shares no code with planners or validators,
-only the rules that `mrpbench_core.model.conflicts` states. Two robots are checked at each tick and between each two.
+only the rules of `model.planning.conflicts`. Two robots are checked at each tick and between each two.
 From some tick on, what can follow depends on the joint state alone, so that the search can see all states and a problem
 without a plan is known to have none. The state includes how long each robot still uses each resource.
 
@@ -13,7 +13,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterable, Iterator
 
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.testing.oracles.conflict_rules import ConflictRules, Uses
 from mrpbench_core.testing.oracles.robot_steps import DONE, RobotState, RobotStep, RobotSteps
 

@@ -5,8 +5,8 @@ import time
 
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.checking.plan_result import result_fault
-from mrpbench_core.model.plan import Budget, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.faults import require
 
 AMPLE_S = 10.0

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.problem import Problem
 
 AT, ARRIVED, ON, DONE = range(4)
 """Phases: at a vertex; just arrived at a vertex where the robot may end; on an edge; ended."""

@@ -7,9 +7,9 @@ import numpy as np
 
 from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.assignment import Assignment, AssignmentProblem
-from mrpbench_core.model.scenario import Task
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.suites.component import ComponentConformance
 

@@ -7,8 +7,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.controller import Controller, ControllerSession
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Observation, Observations
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.execution.observation import Observation, Observations
 from mrpbench_core.testing.faults import require
 from mrpbench_core.testing.fixtures.room import PERIOD, ROBOT, driven, room
 from mrpbench_core.testing.suites.component import ComponentConformance

@@ -3,8 +3,8 @@
 import numpy as np
 
 from mrpbench_core.api.crowd import Crowd
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import State
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.execution.state import State
 from mrpbench_core.testing.faults import require
 from mrpbench_core.testing.fixtures.room import PERIOD, room
 from mrpbench_core.testing.suites.component import ComponentConformance

@@ -8,9 +8,9 @@ import numpy as np
 
 from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Resource
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.testing.drawing import problem
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import drain

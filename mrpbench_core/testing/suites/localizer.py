@@ -4,8 +4,9 @@ import numpy as np
 
 from mrpbench_core.api.localizer import Localizer
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Estimate, Inputs, Odometry
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.execution.observation import Estimate, Odometry
+from mrpbench_core.model.execution.state import Inputs
 from mrpbench_core.testing.faults import Skip, require
 from mrpbench_core.testing.fixtures.room import PERIOD, fleet, room
 from mrpbench_core.testing.suites.component import ComponentConformance

@@ -4,8 +4,8 @@ import math
 from collections.abc import Mapping
 
 from mrpbench_core.api.metric import Column, Metric, Value
-from mrpbench_core.model.plan import PlanResult, PlanStatus
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.testing.faults import Skip, require
 from mrpbench_core.testing.fixtures.finished_run import channels, context, finished, permuted
 from mrpbench_core.testing.suites.component import ComponentConformance

@@ -9,20 +9,14 @@ import numpy as np
 from mrpbench_core.api.controller import Controller, ControllerSession
 from mrpbench_core.api.navigator import Navigator
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
-from mrpbench_core.model.arrays import Int32
-from mrpbench_core.model.execution import (
-    Estimate,
-    FleetObservation,
-    Inputs,
-    Motion,
-    Observation,
-    Odometry,
-    Orders,
-    Route,
-    State,
-)
-from mrpbench_core.model.fleet import RobotModel
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Int32
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.execution.motion import Motion
+from mrpbench_core.model.execution.observation import Estimate, FleetObservation, Observation, Odometry
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.execution.state import Inputs, State
+from mrpbench_core.model.worlds.world import World
 from mrpbench_core.testing.faults import require
 from mrpbench_core.testing.fixtures.room import PERIOD, fleet, room, route
 from mrpbench_core.testing.suites.component import ComponentConformance

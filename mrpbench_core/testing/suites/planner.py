@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.checking.assignment import check_choice
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.plan import PlanResult, PlanStatus
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.testing.drawing import build, grid
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.instances.named import choices, solvable, unsolvable

@@ -5,8 +5,8 @@ import numpy as np
 from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.reachability import round_trips
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.world import World
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.world import World
 from mrpbench_core.testing.faults import require
 from mrpbench_core.testing.fixtures.office import office
 from mrpbench_core.testing.fixtures.room import ROBOT, fleet

@@ -4,9 +4,9 @@ import numpy as np
 
 from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.scenario import Scenario
-from mrpbench_core.model.world import World
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario
+from mrpbench_core.model.worlds.world import World
 from mrpbench_core.testing.faults import Skip, require
 from mrpbench_core.testing.fixtures.office import office, office_roadmap
 from mrpbench_core.testing.fixtures.room import fleet

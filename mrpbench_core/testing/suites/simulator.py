@@ -7,10 +7,11 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.simulator import Simulation, Simulator
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.doors import opening_time
-from mrpbench_core.model.execution import Inputs, ScanBatch, State
-from mrpbench_core.model.geometry import point_segment_distance
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.execution.observation import ScanBatch
+from mrpbench_core.model.execution.state import Inputs, State
+from mrpbench_core.model.worlds.doors import opening_time
 from mrpbench_core.testing.faults import Skip, require
 from mrpbench_core.testing.fixtures.building import CABIN, DOOR, RISE, building
 from mrpbench_core.testing.fixtures.room import HALF_WALL, PERIOD, ROBOT, WIDTH, fleet, room

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mrpbench_core.api.world import WorldSource
-from mrpbench_core.model.world import World
+from mrpbench_core.model.worlds.world import World
 from mrpbench_core.testing.faults import require
 from mrpbench_core.testing.suites.component import ComponentConformance
 

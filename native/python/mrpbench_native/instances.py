@@ -10,7 +10,7 @@ import mrpbench_native.mapf as mapf
 
 
 class SolverRoadmap(NamedTuple):
-    """A graph; `edges` and `duration` as in `mrpbench_core.model.roadmap.Roadmap`."""
+    """A graph; `edges` and `duration` as in `mrpbench_core.model.planning.roadmap.Roadmap`."""
 
     position: NDArray[np.float64]
     """f8[V,2] metres."""

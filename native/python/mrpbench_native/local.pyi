@@ -43,7 +43,7 @@ class Fleet:
         tolerance: float,
         score: Callable[[int, NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]] | None = None,
     ) -> NDArray[np.float64]:
-        """Commands f8[k,2], NaN where none is admissible; see `mrpbench_core.model.execution.Observations`.
+        """Commands f8[k,2], NaN where none is admissible; see `mrpbench_core.model.execution.observation.Observations`.
 
         `score` gets a robot, twists f8[m,2] and poses f8[m,p,3], and returns f8[m], which is added to their totals.
         """

@@ -5,7 +5,7 @@ import pytest
 
 from mrpbench_core.builtin.assigners.identity import Identity
 from mrpbench_core.checking.assignment import check_assignment
-from mrpbench_core.model.assignment import AssignmentProblem
+from mrpbench_core.model.planning.assignment import AssignmentProblem
 
 
 @pytest.mark.parametrize(

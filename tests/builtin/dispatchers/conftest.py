@@ -6,10 +6,10 @@ import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.model.execution import FleetView
-from mrpbench_core.model.plan import Plan
-from mrpbench_core.model.problem import Problem, features_of
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.execution.orders import FleetView
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem, features_of
+from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.testing.instances.roadmaps import path_through, two_way, two_way_grid
 
 

@@ -8,9 +8,9 @@ from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
 from mrpbench_core.builtin.dispatchers.timed import Timed
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Feature, Rules
-from mrpbench_core.model.roadmap import Resource
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Feature, Rules
+from mrpbench_core.model.planning.roadmap import Resource
 
 FOOTPRINTS = frozenset({Feature.FOOTPRINTS})
 

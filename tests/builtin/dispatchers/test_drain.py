@@ -14,8 +14,8 @@ from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.engine.execution.commitments import commitments
-from mrpbench_core.model.plan import Budget, Plan
-from mrpbench_core.model.problem import Feature, Rules, features_of
+from mrpbench_core.model.planning.plan import Budget, Plan
+from mrpbench_core.model.planning.problem import Feature, Rules, features_of
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import drain
 from mrpbench_core.testing.instances.random_plans import random_lanes, random_plan, random_starts, wander

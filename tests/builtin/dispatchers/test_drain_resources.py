@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.plan import Budget, Path
-from mrpbench_core.model.problem import Rules, features_of
+from mrpbench_core.model.planning.plan import Budget, Path
+from mrpbench_core.model.planning.problem import Rules, features_of
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import drain
 from mrpbench_core.testing.execution.resource_manager import ResourceManager

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.builtin.dispatchers.timed import Timed
-from mrpbench_core.model.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Path, Plan
 
 
 def test_each_segment_is_released_when_the_plan_enters_it(make):

@@ -2,9 +2,9 @@ import numpy as np
 
 from mrpbench_core.builtin.localizers.ground_truth import GroundTruth
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Odometry
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.observation import Odometry
+from mrpbench_core.model.worlds.world import World
 
 
 def test_the_estimate_is_the_truth_and_not_the_odometry():

@@ -4,10 +4,11 @@ import pytest
 from mrpbench_core.builtin.localizers.odometry import DeadReckoning
 from mrpbench_core.config.settings import Noise
 from mrpbench_core.engine.execution.noise import Disturbances
-from mrpbench_core.model.execution import Odometry, State
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.poses import composed, wrapped
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.poses import composed, wrapped
+from mrpbench_core.model.execution.observation import Odometry
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.worlds.world import Level, World
 from mrpbench_core.testing import LocalizerConformance
 from mrpbench_core.testing.fixtures.room import PERIOD, ROBOT, driven
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
-from mrpbench_core.model.execution import Route
+from mrpbench_core.model.execution.route import Route
 
 RULES = Waypoints().arrival_rules
 CLEARANCE = 0.25

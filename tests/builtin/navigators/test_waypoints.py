@@ -6,9 +6,12 @@ from mrpbench_core.api import Controller, ControllerSession
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Estimate, FleetObservation, Mode, Odometry, Orders, Route, ScanBatch
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.motion import Mode
+from mrpbench_core.model.execution.observation import Estimate, FleetObservation, Odometry, ScanBatch
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.worlds.world import World
 
 ROUTES = [Route(waypoint=[[0, y, np.nan], [1, y, np.nan]], level=np.zeros(2), speed=np.array([np.inf])) for y in (0, 5)]
 

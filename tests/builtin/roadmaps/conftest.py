@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from mrpbench_core.model.fleet import Fleet, RobotModel
-from mrpbench_core.model.world import Lane, Level, Vertex, World
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.worlds.world import Lane, Level, Vertex, World
 
 
 @pytest.fixture(scope="session")

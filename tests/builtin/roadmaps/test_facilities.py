@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
-from mrpbench_core.model.doors import leaf_segments, opening_time
-from mrpbench_core.model.facilities import Facilities, ride_time
-from mrpbench_core.model.geometry import segment_distance
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.world import Door, Lane, Level, Vertex, World
+from mrpbench_core.model.common.geometry import segment_distance
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.worlds.doors import leaf_segments, opening_time
+from mrpbench_core.model.worlds.facilities import Facilities, ride_time
+from mrpbench_core.model.worlds.world import Door, Lane, Level, Vertex, World
 from mrpbench_core.testing.fixtures.building import CABIN, building
 
 RADIUS = 0.12

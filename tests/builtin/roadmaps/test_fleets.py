@@ -9,7 +9,7 @@ from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.scenarios.random import Random
 from mrpbench_core.checking.reachability import reachable
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.world import Lane, Level, Vertex, World
+from mrpbench_core.model.worlds.world import Lane, Level, Vertex, World
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.components import components
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.world import Lane, Level, Vertex, World
+from mrpbench_core.model.worlds.world import Lane, Level, Vertex, World
 
 
 def world_of(points, lanes, walls=()) -> World:

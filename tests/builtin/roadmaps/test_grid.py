@@ -9,9 +9,9 @@ from mrpbench_core.builtin.worlds.movingai import MovingAi
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.components import components
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet, RobotModel
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Level, Vertex, World
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Level, Vertex, World
 
 DISC = np.array([[1, 0], [0, 1], [-1, 0], [0, -1]])
 

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from mrpbench_core.builtin.roadmaps.junctions import cut_at_junctions
 from mrpbench_core.checking.components import components
-from mrpbench_core.model.geometry import point_segment_distance, segment_distance
+from mrpbench_core.model.common.geometry import point_segment_distance, segment_distance
 
 TOLERANCE = 0.001
 lattice = st.tuples(st.integers(0, 12), st.integers(0, 12))

@@ -11,8 +11,8 @@ from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet, RobotModel
-from mrpbench_core.model.world import Lane, Level, Vertex, World
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.worlds.world import Lane, Level, Vertex, World
 
 FLEET = Fleet(robots=(RobotModel(name="", footprint=[[0.12, 0], [0, 0.12], [-0.12, 0]], max_speed=1, max_turn_rate=1),))
 MAPS = ["mrp_bench/office", "mrp_bench/office_crowdsim", "mrp_bench/warehouse", "mrp_bench/airport_terminal"]

@@ -11,7 +11,7 @@ from mrpbench_core.builtin.scenarios.random import Random
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.world import Lane, Level, Vertex
+from mrpbench_core.model.worlds.world import Lane, Level, Vertex
 
 
 @pytest.fixture

@@ -5,9 +5,9 @@ import pytest
 
 from mrpbench_core.builtin.scenarios.movingai import MovingAiScenario
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Level, World
 
 BLOCKED = np.zeros((2, 3), bool)
 BLOCKED[0, 0] = True  # lowest row, first column

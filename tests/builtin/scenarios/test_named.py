@@ -4,8 +4,8 @@ import pytest
 
 from mrpbench_core.builtin.scenarios.named import Named
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import Vertex, World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.world import Vertex, World
 
 WORLD = World(
     name="office",

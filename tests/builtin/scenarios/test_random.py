@@ -7,10 +7,10 @@ import pytest
 from mrpbench_core.builtin.scenarios.random import Random
 from mrpbench_core.checking.scenario import check_scenario
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet, RobotModel
-from mrpbench_core.model.problem import Feature, Problem
-from mrpbench_core.model.roadmap import Raster, Roadmap
-from mrpbench_core.model.world import Vertex, World
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.planning.problem import Feature, Problem
+from mrpbench_core.model.planning.roadmap import Raster, Roadmap
+from mrpbench_core.model.worlds.world import Vertex, World
 
 WORLD = World(name="plain", levels=())
 

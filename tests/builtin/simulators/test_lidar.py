@@ -4,8 +4,8 @@ from hypothesis import strategies as st
 
 from mrpbench_core.builtin.simulators.lidar import scan
 from mrpbench_core.builtin.simulators.nearby import Nearby
-from mrpbench_core.model.fleet import Lidar
-from mrpbench_core.model.solids import wall_boxes
+from mrpbench_core.model.common.fleet import Lidar
+from mrpbench_core.model.worlds.solids import wall_boxes
 
 NOTHING = np.empty((0, 4))
 NO_DISCS = np.empty((0, 2)), np.empty(0)

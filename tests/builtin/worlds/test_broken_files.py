@@ -16,7 +16,7 @@ from mrpbench_core.builtin.worlds.movingai import MovingAi
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.builtin.worlds.ros_map import RosMap
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.world import World
+from mrpbench_core.model.worlds.world import World
 
 COUNT = int(os.environ.get("FILES", "100"))
 STRANGE = (

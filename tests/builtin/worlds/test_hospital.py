@@ -10,8 +10,8 @@ from mrpbench_core.checking.world import check_world
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.doors import leaf_segments
-from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.doors import leaf_segments
 from mrpbench_core.store.paths import RunPaths
 
 BURGER = Fleet(robots=(load_robot("turtlebot3_burger"),))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.geometry import segment_distance
+from mrpbench_core.model.common.geometry import segment_distance
 
 BUILDING = """\
 name: hut

@@ -9,8 +9,8 @@ from mrpbench_core.builtin.worlds.ros_map import RosMap
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.raster import write_ros_map
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.occupancy import Occupancy
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.occupancy import Occupancy
 
 Image = pytest.importorskip("PIL.Image")
 

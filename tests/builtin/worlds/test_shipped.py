@@ -9,7 +9,7 @@ from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.world import check_world, size
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.common.fleet import Fleet
 
 BURGERS = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
 

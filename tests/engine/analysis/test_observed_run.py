@@ -10,9 +10,9 @@ from mrpbench_core.api.importer import Observed, Track
 from mrpbench_core.engine.analysis.observed_run import Sampling, observe
 from mrpbench_core.engine.analysis.resampling import even_times, resample
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet, RobotModel
-from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.model.worlds.world import Level, World
 
 NAN = float("nan")
 DISC = RobotModel(name="disc", footprint=[[0.1, 0], [0, 0.1], [-0.1, 0]], max_speed=1, max_turn_rate=1)

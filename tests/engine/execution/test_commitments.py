@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from mrpbench_core.engine.execution.commitments import commitments
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
 
 LINE = Roadmap(
     position=[(0, 0), (1, 0), (2, 0)],

@@ -12,11 +12,12 @@ from hypothesis import strategies as st
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.builtin.worlds.shipped import Hospital
 from mrpbench_core.engine.execution.facility_manager import ExecutionError, FacilityManager
-from mrpbench_core.model.execution import FleetView, Orders, State
-from mrpbench_core.model.facilities import Facilities
-from mrpbench_core.model.plan import Budget, Plan
-from mrpbench_core.model.roadmap import Resource
-from mrpbench_core.model.world import Door, Lane, Level, Vertex, World
+from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.planning.plan import Budget, Plan
+from mrpbench_core.model.planning.roadmap import Resource
+from mrpbench_core.model.worlds.facilities import Facilities
+from mrpbench_core.model.worlds.world import Door, Lane, Level, Vertex, World
 from mrpbench_core.testing.execution.facility_executor import FacilityExecutor
 from mrpbench_core.testing.fixtures.places import PLACES, furnished_building, problem_between
 from mrpbench_core.testing.instances.roadmaps import path_through

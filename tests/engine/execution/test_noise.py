@@ -7,8 +7,9 @@ import pytest
 from mrpbench_core.config.settings import Noise
 from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import ScanBatch, State
-from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.observation import ScanBatch
+from mrpbench_core.model.execution.state import State
 
 START = np.array([[0.0, 0.0, 0.0], [1.0, 1.0, np.pi / 2]])
 PERIOD = 0.05

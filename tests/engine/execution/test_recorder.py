@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 from mrpbench_core.engine.execution.recorder import SAMPLES, SCANS, Recorder, Sample
-from mrpbench_core.model.execution import Estimate, Event, Motion, Odometry, Orders, ScanBatch, State
+from mrpbench_core.model.execution.motion import Event, Motion
+from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.state import State
 
 
 def feed(recorder, steps, period=0.05):

@@ -8,8 +8,8 @@ from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.replanning import RETRY_S, Replanner
 from mrpbench_core.engine.execution.routes import Router
 from mrpbench_core.engine.pipeline import execute
-from mrpbench_core.model.execution import FleetView
-from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.execution.orders import FleetView
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 
@@ -45,7 +45,7 @@ class FirstHeld(Controller):
 ONCE = """
 import attrs
 
-from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_planners_mapf.prioritized import Prioritized
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from mrpbench_core.engine.processes.job import Job
 from mrpbench_core.engine.processes.slot import Slot
 from mrpbench_core.engine.record import RunRecord
-from mrpbench_core.model.status import Stage
+from mrpbench_core.model.runs.status import Stage
 from mrpbench_core.store.paths import RunPaths
 
 FACTS = {"simulated_s": 3.0, "limit_s": 60.0, "arrived": 1, "robots": 2}

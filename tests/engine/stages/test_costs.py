@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from mrpbench_core.engine.stages.costs import cost_matrix
 from mrpbench_core.engine.stages.travel import travel_ticks
-from mrpbench_core.model.fleet import Fleet, RobotModel
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.scenario import Scenario, Task
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario, Task
 
 SQUARE = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]
 SLOW = RobotModel(name="slow", footprint=SQUARE, max_speed=0.5, max_turn_rate=1.0)

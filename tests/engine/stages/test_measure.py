@@ -5,8 +5,8 @@ import numpy as np
 
 from mrpbench_core.api import Column, Metric
 from mrpbench_core.engine.stages.measure import measure
-from mrpbench_core.model.plan import PlanResult, PlanStatus
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.model.runs.run import FinishedRun
 
 
 @attrs.frozen(kw_only=True)

@@ -8,7 +8,7 @@ from mrpbench_core.store.invocation import write_document
 PACKAGED = """
 import attrs
 from mrpbench_core.api import Planner
-from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 
 @attrs.frozen(kw_only=True)
 class GivesUp(Planner):

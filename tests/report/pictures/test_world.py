@@ -7,10 +7,10 @@ import pytest
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
 from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Door, Lane, Level, Obstacle, Vertex, World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Door, Lane, Level, Obstacle, Vertex, World
 from mrpbench_core.report.pictures.style import PIXELS
 from mrpbench_core.report.pictures.world import draw_world
 

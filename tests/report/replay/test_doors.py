@@ -8,9 +8,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mrpbench_core.model.doors import leaf_segments
-from mrpbench_core.model.facilities import Facilities
-from mrpbench_core.model.world import Door, Level, World
+from mrpbench_core.model.worlds.doors import leaf_segments
+from mrpbench_core.model.worlds.facilities import Facilities
+from mrpbench_core.model.worlds.world import Door, Level, World
 from mrpbench_core.report.replay.doors import pack_facilities
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.testing.fixtures.building import building

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Area, Door, Lane, Level, Obstacle, World
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Area, Door, Lane, Level, Obstacle, World
 from mrpbench_core.report.pictures.style import COLOURS
 from mrpbench_core.report.reading.columns import describe_columns
 from mrpbench_core.report.replay.page import write_page

@@ -4,9 +4,9 @@ import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.model.plan import Path, Plan
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.report.replay.dependencies import Dependencies
 from mrpbench_core.report.replay.waits import Reason, explain_waits
 

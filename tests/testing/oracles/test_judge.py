@@ -8,8 +8,8 @@ import attrs
 import pytest
 
 from mrpbench_core.api.planner import Planner, Promise
-from mrpbench_core.model.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Feature
+from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing.faults import Fault
 from mrpbench_core.testing.instances.problems import problem_on
 from mrpbench_core.testing.instances.roadmaps import grid_of

@@ -5,7 +5,7 @@ import math
 import pytest
 from hypothesis import given, settings
 
-from mrpbench_core.model.problem import Feature
+from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing.drawing import grid, problem
 from mrpbench_core.testing.instances.named import BAY, CROSSING, solvable, unsolvable
 from mrpbench_core.testing.oracles.optimum import least_sum_of_costs

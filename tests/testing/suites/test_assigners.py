@@ -7,7 +7,7 @@ from mrpbench_core.api import (
     Assigner,
     AssignmentError,
 )
-from mrpbench_core.model.assignment import Assignment
+from mrpbench_core.model.planning.assignment import Assignment
 from mrpbench_core.testing import failed_checks, suite_for
 from mrpbench_core.testing.variant import variant
 

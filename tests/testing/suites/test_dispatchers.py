@@ -7,7 +7,7 @@ from mrpbench_core.api import (
     DispatcherSession,
 )
 from mrpbench_core.builtin.dispatchers.adg import Adg
-from mrpbench_core.model.execution import Orders
+from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.testing import DispatcherConformance, failed_checks, suite_for
 from mrpbench_core.testing.variant import variant
 

@@ -8,8 +8,8 @@ from mrpbench_core.api import (
     Planner,
     Promise,
 )
-from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Feature
+from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing import failed_checks, suite_for
 from mrpbench_core.testing.drawing import problem
 from mrpbench_core.testing.faults import Fault

@@ -11,7 +11,7 @@ from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
 from mrpbench_core.builtin.worlds.building.parameters import Kind, read_parameters
 from mrpbench_core.builtin.worlds.building.wgs84 import projection
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 
 KNOWN = ("reference_image", "cartesian_meters", "wgs84")
 BLANK = 0.05

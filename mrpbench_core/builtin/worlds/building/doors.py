@@ -5,8 +5,8 @@ from typing import Any
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
 from mrpbench_core.builtin.worlds.building.parameters import Kind, read_parameters
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.world import Door
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.worlds.world import Door
 
 DOOR: dict[str, Kind] = {
     "name": str,

@@ -2,8 +2,8 @@
 
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.world import Area
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.worlds.world import Area
 
 
 def read_areas(level: Node, key: str, positions: Float, notes: Notes) -> tuple[Area, ...]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.files import yaml
-from mrpbench_core.model.arrays import Float, array
+from mrpbench_core.model.common.arrays import Float, array
 
 SHIPPED = Path(__file__).parents[1] / "data" / "footprints.yaml"
 SIDES = 12

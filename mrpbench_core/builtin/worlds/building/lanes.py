@@ -12,9 +12,9 @@ import numpy as np
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
 from mrpbench_core.builtin.worlds.building.parameters import Kind, read_parameters
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.geometry import segment_distance
-from mrpbench_core.model.world import Door, Lane, Lift, Vertex
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.geometry import segment_distance
+from mrpbench_core.model.worlds.world import Door, Lane, Lift, Vertex
 
 GRAPHS = range(9)
 """The graph indices that RMF exports. The editor has a tenth, which RMF does not export."""

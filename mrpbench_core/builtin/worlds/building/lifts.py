@@ -9,7 +9,7 @@ from mrpbench_core.builtin.worlds.building.coordinates import Frame
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
 from mrpbench_core.files.text import counted
-from mrpbench_core.model.world import Door, Lift
+from mrpbench_core.model.worlds.world import Door, Lift
 
 TOUCHING = 1e-6
 """metres: cabins that overlap by less than this only touch."""

@@ -11,8 +11,8 @@ from mrpbench_core.builtin.worlds.building.footprints import Footprint, Footprin
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
 from mrpbench_core.checking.clearance import has_clearance
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.world import Level, Obstacle
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.worlds.world import Level, Obstacle
 
 OUT_OF_REACH = 0.5
 """metres: models whose base is higher than this are in no robot's way."""

@@ -3,7 +3,7 @@
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
 from mrpbench_core.builtin.worlds.building.parameters import Kind, read_parameters
-from mrpbench_core.model.arrays import Float, frozen_array
+from mrpbench_core.model.common.arrays import Float, frozen_array
 
 WALL: dict[str, Kind] = {
     "alpha": float,

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from mrpbench_core.builtin.worlds.building.node import Node
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 
 
 def projection(system: Node, target: str) -> Callable[[Float], Float]:

@@ -7,8 +7,8 @@ from mrpbench_core.api.component import option
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.builtin.worlds.generated.raster import CELL_SIZE, chances, free_raster, raster_world
 from mrpbench_core.checking.components import components
-from mrpbench_core.model.arrays import Bool
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Bool
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

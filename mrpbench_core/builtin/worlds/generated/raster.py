@@ -3,9 +3,9 @@
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Level, World
 
 CELL_SIZE = 0.4
 """metres; wide enough for one small robot."""

@@ -5,7 +5,7 @@ import attrs
 from mrpbench_core.api.component import option
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.builtin.worlds.generated.raster import CELL_SIZE, chances, free_raster, raster_world
-from mrpbench_core.model.world import World
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

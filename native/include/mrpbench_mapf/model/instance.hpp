@@ -29,7 +29,7 @@ struct Rules {
   bool disappear_at_goal = false;
 };
 
-/// Pairs of elements closer than some distance, as sparse rows (`mrpbench_core.model.conflicts.Exclusions`).
+/// Pairs of elements closer than some distance, as sparse rows (`mrpbench_core.model.planning.conflicts.Exclusions`).
 /// Empty: robots have no footprint.
 struct Exclusions {
   std::vector<std::int64_t> first;

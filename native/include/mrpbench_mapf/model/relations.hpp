@@ -1,4 +1,4 @@
-// Which elements of the roadmap exclude one another, by the rules of `mrpbench_core.model.conflicts`:
+// Which elements of the roadmap exclude one another, by the rules of `mrpbench_core.model.planning.conflicts`:
 //   1 vertex, 2 swap, 4 following (optional), 5 footprint (optional): not at the same time;
 //   3 overtaking: on one lane at the same time only in the order of entry.
 // Definitions: Stern et al., "Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks", SoCS 2019; footprints as

@@ -1,5 +1,5 @@
 // How robots use the resources of a roadmap: doors, lifts and mutexes, each while a robot is on one of its elements and
-// for the setup afterwards (rule 6 of `mrpbench_core.model.conflicts`).
+// for the setup afterwards (rule 6 of `mrpbench_core.model.planning.conflicts`).
 #pragma once
 
 #include <span>

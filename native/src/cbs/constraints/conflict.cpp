@@ -144,7 +144,7 @@ class Occupations {
 /// the same instant of that time. To forbid it at an instant is to forbid all its elements from the setup before the
 /// instant until the instant.
 ///   Complete: a plan that breaks both constraints has both robots use the resource at that instant, against rule 6 of
-///   `mrpbench_core.model.conflicts`.
+///   `mrpbench_core.model.planning.conflicts`.
 ///   Progress: both present paths use it at that instant, so each branch forbids the path of its robot.
 /// A resource with room for several robots would need as many branches as the robots that conflict.
 void find_in_resources(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,

@@ -4,7 +4,7 @@ import attrs
 
 from mrpbench_assigners_ortools.pairing import Pair, Pairing, groups, largest_magnitude
 from mrpbench_core.api import AssignmentError
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 
 
 @attrs.frozen(kw_only=True)

@@ -8,8 +8,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Assigner, AssignmentError, option
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
 
 Pair = tuple[int, int]
 """Robot and task."""

@@ -7,7 +7,7 @@ from mrpbench_assigners_scipy import Hungarian
 
 from mrpbench_core.api import AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
-from mrpbench_core.model.assignment import AssignmentProblem
+from mrpbench_core.model.planning.assignment import AssignmentProblem
 from mrpbench_core.testing.strategies import assignment_problems
 from mrpbench_core.testing.suites.assigner import assignments
 

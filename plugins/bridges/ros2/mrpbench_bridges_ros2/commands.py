@@ -8,9 +8,9 @@ import attrs
 
 from mrpbench_bridges_ros2.link import Link
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession
-from mrpbench_core.model.execution import Observation
-from mrpbench_core.model.fleet import RobotModel
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.execution.observation import Observation
+from mrpbench_core.model.worlds.world import World
 
 
 class Commands:

@@ -8,8 +8,9 @@ from mrpbench_bridges_ros2.pace import Pace
 from mrpbench_bridges_ros2.publisher import Publisher
 from mrpbench_core.api import hookimpl
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.execution import FleetObservation, Route
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.execution.observation import FleetObservation
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.runs.run import RunContext
 
 VARIABLE = "MRPBENCH_ROS2"
 

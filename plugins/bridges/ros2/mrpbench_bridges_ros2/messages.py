@@ -12,9 +12,9 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header
 
 from mrpbench_core.checking.occupancy import rasterise
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import Lidar
-from mrpbench_core.model.world import Level
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Lidar
+from mrpbench_core.model.worlds.world import Level
 
 Time: Any = type(Header().stamp)
 SECOND = 1_000_000_000

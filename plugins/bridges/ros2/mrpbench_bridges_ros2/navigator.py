@@ -15,10 +15,13 @@ from mrpbench_bridges_ros2.pace import Pace
 from mrpbench_bridges_ros2.publisher import Publisher
 from mrpbench_core.api import Controller, Navigator, NavigatorSession, option
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.execution import FleetObservation, Motion, Orders, Route
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.geometry import facing
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.geometry import facing
+from mrpbench_core.model.execution.motion import Motion
+from mrpbench_core.model.execution.observation import FleetObservation
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.worlds.world import World
 
 
 def _waypoints() -> Any:

@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 
 from mrpbench_bridges_ros2.link import Link
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import FleetObservation, Route
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.geometry import facing
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.geometry import facing
+from mrpbench_core.model.execution.observation import FleetObservation
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.worlds.world import World
 
 LOG = logging.getLogger("mrpbench.ros2")
 CELL_SIZE = 0.05

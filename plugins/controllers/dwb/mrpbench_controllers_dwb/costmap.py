@@ -9,8 +9,8 @@ from attrs.validators import deep_iterable, ge, gt, in_
 
 from mrpbench_core.api.nav2 import parameter, settle
 from mrpbench_core.files.nav2 import Nav2Block
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import RobotModel
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import RobotModel
 
 Layer = Literal["obstacle_layer", "voxel_layer", "static_layer", "inflation_layer"]
 Polygon = tuple[tuple[float, float], ...]

@@ -6,9 +6,9 @@ from typing import ClassVar
 import attrs
 
 from mrpbench_core.api import Component, option
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import RobotModel
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True, eq=False)

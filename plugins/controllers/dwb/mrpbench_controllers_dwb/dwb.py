@@ -20,8 +20,8 @@ from mrpbench_core.api import Controller, ControllerSession, FleetControllerSess
 from mrpbench_core.api.nav2 import parameter, settle
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import Nav2Block, nav2_block
-from mrpbench_core.model.fleet import RobotModel
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.worlds.world import World
 
 Generator = Literal["dwb_plugins::StandardTrajectoryGenerator", "dwb_plugins::LimitedAccelGenerator"]
 

@@ -8,8 +8,8 @@ from attrs.validators import ge
 from mrpbench_controllers_dwb.critic import Critic, CriticSession
 from mrpbench_core.api import option
 from mrpbench_core.files.nav2 import Nav2Block
-from mrpbench_core.model.fleet import RobotModel
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.worlds.world import World
 
 Aggregation = Literal["last", "sum", "product"]
 _AGGREGATION: Any = option("last", help="combination of the scores of poses into the score of the trajectory")

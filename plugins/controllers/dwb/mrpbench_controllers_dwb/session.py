@@ -13,11 +13,11 @@ from mrpbench_controllers_dwb.settings import RobotSettings
 from mrpbench_core.api import FleetControllerSession
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.execution import Observations
-from mrpbench_core.model.fleet import RobotModel
-from mrpbench_core.model.solids import segments
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.execution.observation import Observations
+from mrpbench_core.model.worlds.solids import segments
+from mrpbench_core.model.worlds.world import World
 
 
 class DwbSession(FleetControllerSession):

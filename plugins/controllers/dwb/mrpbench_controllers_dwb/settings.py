@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from mrpbench_controllers_dwb.critic import Critic
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 
 
 class RobotSettings(NamedTuple):

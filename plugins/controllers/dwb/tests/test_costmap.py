@@ -12,8 +12,8 @@ from mrpbench_controllers_dwb import Dwb, LocalCostmap
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Observation, Observations, ScanBatch
-from mrpbench_core.model.world import Level, Obstacle, World
+from mrpbench_core.model.execution.observation import Observation, Observations, ScanBatch
+from mrpbench_core.model.worlds.world import Level, Obstacle, World
 
 BURGER = load_robot("turtlebot3_burger")
 NOWHERE = World(name="w", levels=())

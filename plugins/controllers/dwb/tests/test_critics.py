@@ -20,8 +20,8 @@ from mrpbench_controllers_dwb import (
 )
 
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Observation, Observations, ScanBatch
-from mrpbench_core.model.world import World
+from mrpbench_core.model.execution.observation import Observation, Observations, ScanBatch
+from mrpbench_core.model.worlds.world import World
 
 BURGER = load_robot("turtlebot3_burger")
 NOWHERE = World(name="w", levels=())

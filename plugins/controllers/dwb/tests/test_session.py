@@ -7,9 +7,9 @@ from mrpbench_controllers_dwb import BaseObstacle, Critic, CriticSession, Dwb, G
 
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Observations, ScanBatch
-from mrpbench_core.model.fleet import Lidar, RobotModel
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import Lidar, RobotModel
+from mrpbench_core.model.execution.observation import Observations, ScanBatch
+from mrpbench_core.model.worlds.world import World
 from mrpbench_core.testing.fixtures.room import PERIOD, driven
 
 BURGER = load_robot("turtlebot3_burger")

@@ -14,10 +14,10 @@ from attrs.validators import ge, gt, optional
 
 from mrpbench_controllers_pure_pursuit.geometry import carrots, limited, path_lengths, stopping_speed, wrapped
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.execution import Observations
-from mrpbench_core.model.fleet import RobotModel
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.execution.observation import Observations
+from mrpbench_core.model.worlds.world import World
 
 _AT_END = 0.02
 """metres before the end at which a robot turns to the final yaw."""

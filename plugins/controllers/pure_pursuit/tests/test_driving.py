@@ -9,10 +9,13 @@ from mrpbench_controllers_pure_pursuit import PurePursuit
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Estimate, FleetObservation, Inputs, Odometry, Orders, Route
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.geometry import point_segment_distance
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.execution.observation import Estimate, FleetObservation, Odometry
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.execution.state import Inputs
+from mrpbench_core.model.worlds.world import Level, World
 
 PERIOD = 0.05
 EMPTY = World(name="empty", levels=(Level(name="L1"),))

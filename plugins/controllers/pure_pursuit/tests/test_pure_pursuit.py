@@ -6,8 +6,8 @@ import pytest
 from mrpbench_controllers_pure_pursuit import PurePursuit
 
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Observation
-from mrpbench_core.model.world import World
+from mrpbench_core.model.execution.observation import Observation
+from mrpbench_core.model.worlds.world import World
 
 BURGER = load_robot("turtlebot3_burger")
 WORLD = World(name="w", levels=())

@@ -30,7 +30,7 @@ from pathlib import Path
 import attrs
 
 from mrpbench_core.api import Planner, option
-from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 
 
 @attrs.frozen(kw_only=True)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_exporters_rosbag2.messages import Topic, message
 from mrpbench_exporters_rosbag2.source import Rows, TopicSource
 from mrpbench_exporters_rosbag2.template import Template, hole

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.recording import PERIODIC, Chunk
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.runs.recording import PERIODIC, Chunk
 
 AXES = {
     "time": (*PERIODIC, "facility"),

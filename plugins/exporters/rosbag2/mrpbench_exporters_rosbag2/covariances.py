@@ -6,9 +6,9 @@ Recordings have no covariances of localizers. These are those of a localizer tha
 import attrs
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.poses import wrapped
-from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.poses import wrapped
+from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_exporters_rosbag2.frames import parent
 
 PLANAR, FORWARD = (0, 1, 5), (0, 5)

@@ -4,9 +4,9 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from mrpbench_core.model.facilities import LEVEL_TOLERANCE, Facilities
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.world import Lift, World
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.worlds.facilities import LEVEL_TOLERANCE, Facilities
+from mrpbench_core.model.worlds.world import Lift, World
 from mrpbench_exporters_rosbag2.messages import Topic, message, nanoseconds, serialize, time
 from mrpbench_exporters_rosbag2.rmf import (
     CLOSED,

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_exporters_rosbag2.messages import Topic, header, message, nanoseconds, serialize
 
 EVENTS = Topic("/events", "diagnostic_msgs/DiagnosticArray")

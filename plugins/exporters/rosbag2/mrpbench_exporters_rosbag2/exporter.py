@@ -10,9 +10,9 @@ import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.exporter import Exporter, ExporterSession
-from mrpbench_core.model.facilities import Facilities
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_exporters_rosbag2 import motion
 from mrpbench_exporters_rosbag2.advance import advance
 from mrpbench_exporters_rosbag2.bag import Bag, Storage, Version

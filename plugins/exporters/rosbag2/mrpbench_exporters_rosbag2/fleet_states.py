@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrpbench_core.model.arrays import Int, Int16
-from mrpbench_core.model.execution import Mode
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.common.arrays import Int, Int16
+from mrpbench_core.model.execution.motion import Mode
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2.messages import Topic, time
 from mrpbench_exporters_rosbag2.rmf import ADAPTER_ERROR, IDLE, MOVING, WAITING, Release, rmf_message, rmf_types
 from mrpbench_exporters_rosbag2.source import Rows, Throttle, TopicSource

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.worlds.world import World
 from mrpbench_exporters_rosbag2.messages import Topic, header, message, quaternion, spatial, vector
 from mrpbench_exporters_rosbag2.source import POSE, Rows, TopicSource
 from mrpbench_exporters_rosbag2.template import STAMP, Template

@@ -4,7 +4,7 @@ import colorsys
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_exporters_rosbag2.messages import header, message, point, pose, vector
 from mrpbench_exporters_rosbag2.source import POSE
 from mrpbench_exporters_rosbag2.template import STAMP

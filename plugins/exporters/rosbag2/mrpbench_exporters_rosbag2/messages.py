@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from rosbags.typesys import Stores, get_typestore
 from rosbags.typesys.store import Typestore
 
-from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.common.arrays import Float, Int
 
 TYPES = get_typestore(Stores.ROS2_HUMBLE)
 SECOND = 1_000_000_000

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int, Int16
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.geometry import facing
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.common.arrays import Float, Int, Int16
+from mrpbench_core.model.common.geometry import facing
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2.marker import ARROW, colour_of, marker
 from mrpbench_exporters_rosbag2.messages import SECOND, Topic, header, message, pose, serialize, spatial
 

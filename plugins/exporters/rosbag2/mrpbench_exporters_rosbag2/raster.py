@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import World
 
 MARGIN = 0.5
 """metres around the outermost wall."""

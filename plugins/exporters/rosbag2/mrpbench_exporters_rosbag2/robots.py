@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mrpbench_core.model.fleet import RobotModel
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2.frames import floor
 from mrpbench_exporters_rosbag2.marker import CYLINDER, DARK, LINE_STRIP, TEXT, colour_of, marker
 from mrpbench_exporters_rosbag2.messages import Topic, message, spatial

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2.blocks import AXES
 from mrpbench_exporters_rosbag2.messages import Topic, nanoseconds
 from mrpbench_exporters_rosbag2.plans import path

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mrpbench_core.model.fleet import Lidar
-from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.common.fleet import Lidar
+from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_exporters_rosbag2.messages import Topic, header, message
 from mrpbench_exporters_rosbag2.source import Rows, TopicSource
 from mrpbench_exporters_rosbag2.template import STAMP, Template, hole

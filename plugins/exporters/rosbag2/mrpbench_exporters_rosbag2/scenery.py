@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.world import World
+from mrpbench_core.model.worlds.world import World
 from mrpbench_exporters_rosbag2.marker import DARK, LINE_LIST, TEXT, marker
 from mrpbench_exporters_rosbag2.messages import Topic, header, message, pose, serialize, spatial, time
 from mrpbench_exporters_rosbag2.raster import rasterise

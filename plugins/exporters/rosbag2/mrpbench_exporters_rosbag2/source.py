@@ -7,8 +7,8 @@ from typing import Any, Protocol
 import attrs
 from numpy.typing import NDArray
 
-from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.model.recording import Chunk
+from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_exporters_rosbag2.messages import Topic, nanoseconds
 from mrpbench_exporters_rosbag2.template import Template, hole
 

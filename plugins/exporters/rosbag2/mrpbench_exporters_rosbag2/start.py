@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2.frames import transform
 from mrpbench_exporters_rosbag2.messages import Topic, message, serialize
 from mrpbench_exporters_rosbag2.plans import goal, goal_markers, plan

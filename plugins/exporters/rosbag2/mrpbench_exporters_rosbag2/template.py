@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from rosbags.typesys.store import Typestore
 
-from mrpbench_core.model.arrays import Int
+from mrpbench_core.model.common.arrays import Int
 from mrpbench_exporters_rosbag2.messages import SECOND, TYPES, serialize
 
 STAMP = 1_234_567_890_987_654_321

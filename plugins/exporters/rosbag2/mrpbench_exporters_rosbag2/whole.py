@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.files.codec import decode, encode
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2.messages import Topic, message, serialize
 
 FORMAT = 1

@@ -8,15 +8,15 @@ import pytest
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.fleet import Fleet, Lidar, RobotModel
-from mrpbench_core.model.plan import Path as TimedPath
-from mrpbench_core.model.plan import Plan, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.run import RunContext
-from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.model.world import Lane, Level, Obstacle, Vertex, World
+from mrpbench_core.model.common.fleet import Fleet, Lidar, RobotModel
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.plan import Path as TimedPath
+from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.model.worlds.world import Lane, Level, Obstacle, Vertex, World
 
 SECONDS = 4
 PERIODIC_RATE, SCAN_RATE = 20, 5

@@ -8,7 +8,7 @@ import pytest
 from mrpbench_core import load, run
 from mrpbench_core.cli.main import main
 from mrpbench_core.files.scenario import write_scenario
-from mrpbench_core.model.scenario import Scenario, Task
+from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.store.recording import Recording
 
 NAN = float("nan")

@@ -8,7 +8,7 @@ import pytest
 from mcap.reader import make_reader
 from mrpbench_exporters_rosbag2 import Rosbag2
 
-from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.common.fleet import Fleet
 
 ROBOTS = ("robot_0", "robot_1")
 LATCHED = ("/run", "/run_data", "/map", "/navigation_graph", "/tf_static", "/goals")

@@ -6,8 +6,8 @@ import pytest
 from mcap.reader import make_reader
 from mrpbench_exporters_rosbag2 import Rosbag2
 
-from mrpbench_core.model.execution import Mode
-from mrpbench_core.model.world import Level
+from mrpbench_core.model.execution.motion import Mode
+from mrpbench_core.model.worlds.world import Level
 
 FIELDS = {  # of Location and RobotMode, in the documentation of rmf_fleet_msgs 1.4, 3.0 and 4.0
     "galactic": (["t", "x", "y", "yaw", "level_name", "index"], ["mode", "mode_request_id"]),

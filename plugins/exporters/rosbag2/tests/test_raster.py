@@ -5,8 +5,8 @@ from hypothesis import strategies as st
 from mrpbench_exporters_rosbag2 import raster
 from mrpbench_exporters_rosbag2.raster import block, rasterise, wall_outline
 
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.world import Level, Obstacle, Vertex, World
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import Level, Obstacle, Vertex, World
 
 
 def world(**level):

@@ -8,8 +8,8 @@ from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 
 from mrpbench_core.engine.analysis.observed_run import Sampling, observe
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.scenario import Scenario, Task
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.scenario import Scenario, Task
 
 EXACT = ("truth", "truth_twist", "estimate", "odometry", "command", "scan_time", "scan_robot", "scan_ranges")
 

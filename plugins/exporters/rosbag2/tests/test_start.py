@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from mrpbench_exporters_rosbag2 import Rosbag2
 
-from mrpbench_core.model.geometry import facing
-from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.common.geometry import facing
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 
 NAN = math.nan
 

@@ -7,7 +7,7 @@ from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 from rosbags.highlevel import AnyReader
 
-from mrpbench_core.model.world import Door, Level, Lift
+from mrpbench_core.model.worlds.world import Door, Level, Lift
 
 PLANAR = np.ix_((0, 1, 5), (0, 1, 5))
 

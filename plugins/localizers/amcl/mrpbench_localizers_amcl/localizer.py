@@ -9,9 +9,9 @@ from mrpbench_core.api import Localizer, LocalizerSession, option
 from mrpbench_core.api.nav2 import parameter, settle
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import nav2_block
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.world import World
 from mrpbench_localizers_amcl.session import AmclSession
 
 _MEANINGLESS = (

@@ -8,11 +8,11 @@ from mrpbench_native import amcl
 
 from mrpbench_core.api import LocalizerSession
 from mrpbench_core.checking.occupancy import rasterise
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.execution import Estimate, Odometry, ScanBatch
-from mrpbench_core.model.fleet import Fleet, Lidar
-from mrpbench_core.model.solids import segments
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
+from mrpbench_core.model.worlds.solids import segments
+from mrpbench_core.model.worlds.world import World
 
 _OURS = ("laser_max_range", "laser_min_range", "laser_model_type", "robot_model_type")
 """Parameters that are not passed to the native part."""

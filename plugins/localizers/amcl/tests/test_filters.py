@@ -8,10 +8,11 @@ from mrpbench_simulators_planar import Planar
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Inputs, Odometry
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.poses import composed, relative, wrapped
-from mrpbench_core.model.world import Level, Obstacle, World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.poses import composed, relative, wrapped
+from mrpbench_core.model.execution.observation import Odometry
+from mrpbench_core.model.execution.state import Inputs
+from mrpbench_core.model.worlds.world import Level, Obstacle, World
 
 PERIOD = 0.05
 BURGER = load_robot("turtlebot3_burger")

@@ -7,9 +7,9 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.run import FinishedRun
-from mrpbench_core.model.solids import segments
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.runs.run import FinishedRun
+from mrpbench_core.model.worlds.solids import segments
 from mrpbench_metrics_standard.distribution import percentile
 from mrpbench_metrics_standard.progress import arrival_times, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
@@ -24,7 +24,7 @@ class Clearance(Metric):
     """Measures the gaps of robots that have not arrived, as circumscribed discs; a gap is below 0 where discs overlap.
 
     A disc is never smaller than its robot, so true gaps are at least as large. Walls, obstacles and blocked cells are
-    solid, as `mrpbench_core.model.solids` defines them; doors count as open. Each sample has the same weight.
+    solid, as `mrpbench_core.model.worlds.solids` defines them; doors count as open. Each sample has the same weight.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (

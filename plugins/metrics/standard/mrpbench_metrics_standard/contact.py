@@ -7,7 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 PAUSE = 1.0

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int32
+from mrpbench_core.model.common.arrays import Float, Int32
 
 
 def episodes(time: Float, contact: Int32, pause: float) -> tuple[int, int]:

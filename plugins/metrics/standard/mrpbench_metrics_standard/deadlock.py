@@ -8,7 +8,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.periods import periods
 from mrpbench_metrics_standard.progress import arrival_times, blocked_intervals, progress, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 
 
 def mean(values: Float) -> float | None:

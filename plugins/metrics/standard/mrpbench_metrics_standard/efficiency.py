@@ -8,8 +8,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.distribution import mean
 from mrpbench_metrics_standard.motion import steps
 from mrpbench_metrics_standard.progress import arrival_times

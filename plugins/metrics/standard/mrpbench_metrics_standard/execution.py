@@ -11,8 +11,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.contacts import episodes
 from mrpbench_metrics_standard.original import COLUMNS, measure_as_original
 from mrpbench_metrics_standard.progress import arrival_times, blocked_times, progress

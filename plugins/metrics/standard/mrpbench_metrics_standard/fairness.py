@@ -12,8 +12,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.delay import delays
 from mrpbench_metrics_standard.samples import measurable, nulls
 

@@ -10,7 +10,7 @@ import math
 import numpy as np
 
 from mrpbench_core.api import Column, Value
-from mrpbench_core.model.arrays import Bool, Float, Int
+from mrpbench_core.model.common.arrays import Bool, Float, Int
 
 RATE = 2.0
 """Hz of messages."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Bool, Int
+from mrpbench_core.model.common.arrays import Bool, Int
 
 
 def periods(holds: Bool) -> tuple[Int, Int, Int]:

@@ -9,9 +9,9 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
-from mrpbench_core.model.plan import Plan, PlanStatus
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.planning.plan import Plan, PlanStatus
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.original import SOURCE
 
 STERN = "Stern et al., Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks, SoCS 2019"

@@ -4,8 +4,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Bool, Float, Int, Int32
-from mrpbench_core.model.execution import Route
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
+from mrpbench_core.model.execution.route import Route
 
 
 def arrival_times(time: Float, reached: Int32, routes: Sequence[Route]) -> Float:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int16
+from mrpbench_core.model.common.arrays import Float, Int16
 
 
 def closest(position: Float, level: Int16, radii: Float) -> tuple[float | None, float | None]:

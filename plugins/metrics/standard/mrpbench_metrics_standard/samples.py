@@ -3,7 +3,7 @@
 import numpy as np
 
 from mrpbench_core.api import Metric, Value
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.runs.run import FinishedRun
 
 
 def measurable(metric: Metric, run: FinishedRun) -> bool:

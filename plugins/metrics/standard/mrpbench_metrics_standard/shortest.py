@@ -7,8 +7,8 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
-from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.planning.problem import Problem
 
 TOGETHER = 2**23
 """Pairs of source and vertex searched at once: bounds memory to some 64 MB."""

@@ -8,8 +8,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
-from mrpbench_core.model.arrays import Bool
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.common.arrays import Bool
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.motion import steps, turns
 from mrpbench_metrics_standard.periods import periods
 from mrpbench_metrics_standard.progress import arrival_times, moves_among, under_way

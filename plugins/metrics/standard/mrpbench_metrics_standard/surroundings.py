@@ -3,8 +3,8 @@
 import numpy as np
 from scipy.spatial import cKDTree
 
-from mrpbench_core.model.arrays import Bool, Float, Int, Int16
-from mrpbench_core.model.geometry import point_segment_distance
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16
+from mrpbench_core.model.common.geometry import point_segment_distance
 
 APART = 1e6
 """metres between levels in the search for neighbours: farther than any two places on one level."""

@@ -7,7 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.distribution import mean, percentile
 from mrpbench_metrics_standard.progress import arrival_times
 from mrpbench_metrics_standard.samples import measurable, nulls

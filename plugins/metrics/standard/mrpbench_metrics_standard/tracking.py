@@ -7,9 +7,9 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
-from mrpbench_core.model.arrays import Float, Int
-from mrpbench_core.model.geometry import point_segment_distance
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.distribution import mean, percentile
 from mrpbench_metrics_standard.progress import arrival_times, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls

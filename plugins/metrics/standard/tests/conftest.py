@@ -4,14 +4,14 @@ import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.model.execution import Route
-from mrpbench_core.model.fleet import Fleet, RobotModel
-from mrpbench_core.model.plan import Plan, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Roadmap
-from mrpbench_core.model.run import FinishedRun, RunContext
-from mrpbench_core.model.scenario import Scenario, Task
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.model.runs.run import FinishedRun, RunContext
+from mrpbench_core.model.worlds.world import World
 
 LINE = Roadmap(
     position=[[0, 0], [3, 0], [6, 0], [0, 4]],

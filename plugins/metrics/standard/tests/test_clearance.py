@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from mrpbench_metrics_standard import Clearance
 from mrpbench_metrics_standard.surroundings import robot_gaps, solid_distances
 
-from mrpbench_core.model.geometry import point_segment_distance
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.worlds.world import Level, World
 
 WAY = [(0, 0), (9, 0)]
 WALL = Level(name="L", walls=[[-20, 2, 20, 2]], wall_thickness=0.2)

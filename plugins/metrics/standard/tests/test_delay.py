@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mrpbench_metrics_standard import Delay, Fairness
 from mrpbench_metrics_standard.fairness import jain
 
-from mrpbench_core.model.plan import Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
 
 # One tick is 0.5 s: planned arrivals 2.5 s, 1.5 s (then a wait at the goal), 0 s.
 PLAN = Plan(

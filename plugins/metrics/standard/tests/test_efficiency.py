@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 from mrpbench_metrics_standard import Efficiency
 from mrpbench_metrics_standard.shortest import shortest_lengths
 
-from mrpbench_core.model.plan import Plan, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Roadmap
+from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
 
 
 def asked(run, starts, goals):

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_metrics_standard import Execution
 
-from mrpbench_core.model.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 
 WINDOW = Execution(blocked_window=2.0, blocked_distance=0.5)
 

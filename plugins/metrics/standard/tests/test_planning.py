@@ -5,7 +5,7 @@ import math
 import pytest
 from mrpbench_metrics_standard import Planning
 
-from mrpbench_core.model.plan import Path, PlanStatus
+from mrpbench_core.model.planning.plan import Path, PlanStatus
 
 TO_THE_END = Path(edge=[0, -1, 1], enter=[0, 2, 3], leave=[2, 3, 5])  # 0 -> 1, wait, 1 -> 2
 AND_BACK = Path(edge=[4, -1], enter=[0, 3], leave=[3, 20])  # 0 -> 3, then waits at its goal

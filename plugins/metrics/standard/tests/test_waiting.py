@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 from mrpbench_metrics_standard import Waiting
 
-from mrpbench_core.model.roadmap import Resource
-from mrpbench_core.model.run import FinishedRun
+from mrpbench_core.model.planning.roadmap import Resource
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.testing.fixtures.building import CABIN, building
 
 DOOR, LIFT, MUTEX = 0, 1, 2

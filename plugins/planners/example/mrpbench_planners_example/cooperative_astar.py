@@ -15,8 +15,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Planner, Promise, option
-from mrpbench_core.model.plan import Budget, Path, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.plan import Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
 
 Graph = list[dict[int, int]]
 """For each vertex, its neighbours and the edges that lead to them."""

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Int
-from mrpbench_core.model.problem import Problem
-from mrpbench_core.model.roadmap import Raster, Roadmap
+from mrpbench_core.model.common.arrays import Int
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Raster, Roadmap
 
 
 def why_not(problem: Problem) -> str | None:

@@ -12,9 +12,9 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Planner, Promise, option
-from mrpbench_core.model.plan import Budget, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.plan import Path as TimedPath
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.planning.plan import Budget, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import Path as TimedPath
+from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_planners_external.movingai import vertex_at, why_not, write_map, write_scen
 from mrpbench_planners_external.outputs import READERS, Cells, UnreadableError
 from mrpbench_planners_external.process import run

@@ -12,9 +12,9 @@ import pytest
 from mrpbench_planners_external import External
 
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.plan import Budget, PlanStatus
-from mrpbench_core.model.problem import Problem, features_of
-from mrpbench_core.model.roadmap import Raster, Roadmap
+from mrpbench_core.model.planning.plan import Budget, PlanStatus
+from mrpbench_core.model.planning.problem import Problem, features_of
+from mrpbench_core.model.planning.roadmap import Raster, Roadmap
 
 AMPLE = Budget(wall_s=30.0, memory_bytes=1 << 30, seed=7)
 BLOCKED = {(1, 1), (2, 1)}  # row from the top, column

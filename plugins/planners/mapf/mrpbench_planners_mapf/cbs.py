@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Promise
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_planners_mapf.conflict_based import OPTIMAL, ConflictBased
 from mrpbench_planners_mapf.recipe import native_planner
 

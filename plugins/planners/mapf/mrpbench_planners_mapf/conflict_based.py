@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from mrpbench_core.api.planner import Promise
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_planners_mapf.recipe import SUPPORTED, NativePlanner
 
 OPTIMAL = frozenset({Promise.CONFLICT_FREE, Promise.OPTIMAL, Promise.COMPLETE, Promise.DETERMINISTIC})

@@ -16,9 +16,9 @@ from mrpbench_native.instances import (
     build_instance,
 )
 
-from mrpbench_core.model.conflicts import exclusions
-from mrpbench_core.model.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.planning.conflicts import exclusions
+from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Feature, Problem
 
 
 def solve(problem: Problem, budget: Budget, algorithm: str, options: Mapping[str, object]) -> PlanResult:

@@ -3,7 +3,7 @@
 from typing import ClassVar
 
 from mrpbench_core.api.planner import Promise
-from mrpbench_core.model.problem import Feature
+from mrpbench_core.model.planning.problem import Feature
 from mrpbench_planners_mapf.recipe import SUPPORTED, NativePlanner, native_planner
 
 

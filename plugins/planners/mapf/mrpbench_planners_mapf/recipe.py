@@ -8,8 +8,8 @@ from mrpbench_native import describe, mapf
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Planner
-from mrpbench_core.model.plan import Budget, PlanResult
-from mrpbench_core.model.problem import Feature, Problem
+from mrpbench_core.model.planning.plan import Budget, PlanResult
+from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_planners_mapf.native import solve
 
 P = TypeVar("P", bound="NativePlanner")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_planners_mapf.recipe import NativePlanner
 
 

@@ -11,7 +11,7 @@ from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
 
 from mrpbench_core.api.planner import Planner
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.instances.kinds import KINDS, Draw
 from mrpbench_core.testing.instances.random_problems import Random
 from mrpbench_core.testing.instances.variations import with_candidates

@@ -24,7 +24,7 @@ from mrpbench_planners_mapf.lacam import Lacam
 from mrpbench_planners_mapf.lns import Lns
 
 from mrpbench_core.api.planner import Planner
-from mrpbench_core.model.plan import Budget
+from mrpbench_core.model.planning.plan import Budget
 from mrpbench_core.testing.instances.problems import movingai
 from mrpbench_core.testing.oracles.judge import answer_faults
 

@@ -17,8 +17,8 @@ from mrpbench_planners_mapf.prioritized import Prioritized
 from mrpbench_planners_mapf.recipe import NativePlanner
 
 from mrpbench_core.api.planner import Planner
-from mrpbench_core.model.plan import PlanResult, PlanStatus
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.instances.kinds import KINDS
 from mrpbench_core.testing.instances.random_problems import Random
 from mrpbench_core.testing.oracles.optimum import earliest_arrival, least_makespan, least_sum_of_costs

@@ -10,7 +10,7 @@ from mrpbench_planners_mapf.lns import Lns
 from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.pibt import Pibt
 
-from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.model.planning.plan import Budget, PlanStatus
 from mrpbench_core.testing.instances.problems import movingai, problem_on
 from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
 from mrpbench_core.testing.instances.roadmaps import grid_of

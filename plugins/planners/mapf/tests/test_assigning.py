@@ -8,7 +8,7 @@ from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
 
-from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.model.planning.plan import Budget, PlanStatus
 from mrpbench_core.testing.instances.problems import endless_swap, problem_on
 from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
 from mrpbench_core.testing.instances.roadmaps import grid_of

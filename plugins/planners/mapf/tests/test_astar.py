@@ -6,7 +6,7 @@ from mrpbench_planners_mapf.astar import Astar
 
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.checking.plan import path_fault
-from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.model.planning.plan import Budget, PlanStatus
 from mrpbench_core.testing.instances.problems import problem_on
 from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_rules
 from mrpbench_core.testing.instances.roadmaps import grid_of

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.cbs_ta import ItaCbs
 
-from mrpbench_core.model.plan import PlanStatus
-from mrpbench_core.model.problem import Rules
+from mrpbench_core.model.planning.plan import PlanStatus
+from mrpbench_core.model.planning.problem import Rules
 from mrpbench_core.testing.instances.problems import movingai, problem_on
 from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
 from mrpbench_core.testing.instances.roadmaps import grid_of

@@ -15,7 +15,7 @@ from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.pibt import Pibt
 from mrpbench_planners_mapf.prioritized import Prioritized
 
-from mrpbench_core.model.plan import Budget, PlanStatus
+from mrpbench_core.model.planning.plan import Budget, PlanStatus
 from mrpbench_core.testing.instances.problems import endless_swap, movingai, problem_on
 from mrpbench_core.testing.instances.random_problems import random_grid_problem
 from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap

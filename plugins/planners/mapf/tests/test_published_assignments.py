@@ -11,8 +11,8 @@ import yaml
 from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
 
-from mrpbench_core.model.plan import Budget, PlanStatus
-from mrpbench_core.model.problem import Problem
+from mrpbench_core.model.planning.plan import Budget, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.instances.problems import problem_on
 from mrpbench_core.testing.instances.roadmaps import grid_of
 from mrpbench_core.testing.oracles.judge import AMPLE, ask

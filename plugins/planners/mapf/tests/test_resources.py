@@ -12,8 +12,8 @@ from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
 from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.prioritized import Prioritized
 
-from mrpbench_core.model.plan import PlanStatus
-from mrpbench_core.model.roadmap import Resource
+from mrpbench_core.model.planning.plan import PlanStatus
+from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.testing.instances.problems import problem_on
 from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
 from mrpbench_core.testing.instances.roadmaps import grid_of

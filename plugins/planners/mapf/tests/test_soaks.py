@@ -7,7 +7,7 @@ import attrs
 import pytest
 from mrpbench_planners_mapf.cbs import Cbs
 
-from mrpbench_core.model.plan import PlanStatus
+from mrpbench_core.model.planning.plan import PlanStatus
 from mrpbench_core.testing.soak import run
 
 PLANNING, ASSIGNING = (

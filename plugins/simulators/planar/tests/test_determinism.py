@@ -6,9 +6,9 @@ SCRIPT = """
 import hashlib, numpy as np
 from mrpbench_simulators_planar import Planar
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Inputs
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.execution.state import Inputs
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.world import Level, World
 room = World(name="room", levels=(Level(name="L1", walls=[[0, 0, 2, 0], [2, 0, 2, 2], [2, 2, 0, 2], [0, 2, 0, 0]]),))
 starts = np.array([[x, y, x + y] for x in (0.4, 1.0, 1.6) for y in (0.4, 1.0, 1.6)])
 random, digest, contacts = np.random.default_rng(7), hashlib.sha256(), 0

@@ -10,8 +10,8 @@ from mrpbench_simulators_planar import Planar
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.builtin.simulators.lidar import scan
-from mrpbench_core.model.fleet import Lidar
-from mrpbench_core.model.solids import segments, wall_boxes
+from mrpbench_core.model.common.fleet import Lidar
+from mrpbench_core.model.worlds.solids import segments, wall_boxes
 from mrpbench_core.testing.fixtures.drive import BURGER, EMPTY, FURNISHED, RASTER, STARTS, WAFFLE, drive
 
 

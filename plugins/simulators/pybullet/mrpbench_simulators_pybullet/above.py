@@ -12,11 +12,11 @@ import attrs
 import numpy as np
 
 from mrpbench_core.checking.occupancy import bounds
-from mrpbench_core.model.arrays import Bool, Float
-from mrpbench_core.model.geometry import inside
-from mrpbench_core.model.occupancy import Occupancy
-from mrpbench_core.model.solids import wall_boxes
-from mrpbench_core.model.world import Level
+from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.common.geometry import inside
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.solids import wall_boxes
+from mrpbench_core.model.worlds.world import Level
 from mrpbench_simulators_pybullet.bullet import SEEN, Bullet, Group, quiet
 
 ABOVE = 1.0

@@ -9,9 +9,9 @@ import math
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.poses import wrapped
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.poses import wrapped
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 from mrpbench_simulators_pybullet.robot import body_shape
 

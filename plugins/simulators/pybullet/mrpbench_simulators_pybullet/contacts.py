@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_simulators_pybullet.bullet import Bullet
 
 ContactPairs = set[tuple[int, int]]

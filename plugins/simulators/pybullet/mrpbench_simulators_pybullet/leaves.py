@@ -5,10 +5,10 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.doors import leaf_segments
-from mrpbench_core.model.facilities import Facilities, OperatedDoor
-from mrpbench_core.model.level_layout import LevelLayout
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.worlds.doors import leaf_segments
+from mrpbench_core.model.worlds.facilities import Facilities, OperatedDoor
+from mrpbench_core.model.worlds.level_layout import LevelLayout
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 
 

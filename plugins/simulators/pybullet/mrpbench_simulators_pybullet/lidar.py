@@ -9,9 +9,9 @@ from collections.abc import Sequence
 import numpy as np
 from mrpbench_native.sim import Caster
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import Fleet, Lidar
-from mrpbench_core.model.solids import polygon_outline
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.worlds.solids import polygon_outline
 from mrpbench_simulators_pybullet.bullet import SEEN, Bullet, Group
 from mrpbench_simulators_pybullet.walls import build_mesh
 

@@ -8,7 +8,7 @@ the axle.
 
 import math
 
-from mrpbench_core.model.fleet import RobotModel
+from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 from mrpbench_simulators_pybullet.wheeled_body import WheeledBody
 

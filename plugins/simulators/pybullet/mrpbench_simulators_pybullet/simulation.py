@@ -8,13 +8,14 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Simulation
-from mrpbench_core.model.arrays import Float, Int16
-from mrpbench_core.model.execution import Inputs, ScanBatch, State
-from mrpbench_core.model.facilities import Facilities
-from mrpbench_core.model.fleet import Fleet, Lidar
-from mrpbench_core.model.level_layout import LevelLayout
-from mrpbench_core.model.scan_schedule import ScanSchedule
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float, Int16
+from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.execution.observation import ScanBatch
+from mrpbench_core.model.execution.scan_schedule import ScanSchedule
+from mrpbench_core.model.execution.state import Inputs, State
+from mrpbench_core.model.worlds.facilities import Facilities
+from mrpbench_core.model.worlds.level_layout import LevelLayout
+from mrpbench_core.model.worlds.world import World
 from mrpbench_simulators_pybullet.bodies import Bodies
 from mrpbench_simulators_pybullet.bullet import Bullet, Group, quiet
 from mrpbench_simulators_pybullet.contacts import ContactPairs, Contacts

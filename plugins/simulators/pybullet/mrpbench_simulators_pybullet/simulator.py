@@ -7,9 +7,9 @@ import attrs
 from attrs.validators import ge, gt, optional
 
 from mrpbench_core.api import Simulation, Simulator, option
-from mrpbench_core.model.arrays import Float, Int16
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import World
+from mrpbench_core.model.common.arrays import Float, Int16
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)

@@ -15,7 +15,7 @@ import numpy as np
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.urdf import DifferentialDrive, drive_of, mesh_files, read_urdf
-from mrpbench_core.model.fleet import RobotModel, Urdf
+from mrpbench_core.model.common.fleet import RobotModel, Urdf
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 from mrpbench_simulators_pybullet.wheeled_body import Transform, WheeledBody
 

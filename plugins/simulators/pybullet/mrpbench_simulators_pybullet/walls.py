@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 
 _HEIGHT = 2.5

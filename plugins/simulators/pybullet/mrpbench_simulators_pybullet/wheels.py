@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float
-from mrpbench_core.model.fleet import Fleet, RobotModel
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 from mrpbench_simulators_pybullet.robot import build_robot, motor_torque
 from mrpbench_simulators_pybullet.urdf import load_described

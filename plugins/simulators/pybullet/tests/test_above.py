@@ -13,8 +13,8 @@ from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.builtin.worlds.shipped import Bottlenecks, Household, Office, Warehouse
 from mrpbench_core.checking.clearance import solids
 from mrpbench_core.checking.occupancy import bounds, rasterise
-from mrpbench_core.model.geometry import point_segment_distance
-from mrpbench_core.model.world import Level, Obstacle
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.worlds.world import Level, Obstacle
 
 pytest.importorskip("pybullet", reason="PyBullet has no wheel for this Python")
 

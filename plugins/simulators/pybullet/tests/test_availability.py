@@ -9,8 +9,8 @@ from mrpbench_simulators_pybullet import PyBullet
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.world import Level, World
 
 WORLD = World(name="empty", levels=(Level(name="L1"),))
 

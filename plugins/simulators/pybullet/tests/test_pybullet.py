@@ -11,9 +11,9 @@ from mrpbench_simulators_pybullet import PyBullet, walls
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Inputs
-from mrpbench_core.model.fleet import Fleet, Lidar
-from mrpbench_core.model.world import Door, Level, World
+from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.execution.state import Inputs
+from mrpbench_core.model.worlds.world import Door, Level, World
 from mrpbench_core.testing.fixtures.drive import BURGER, EMPTY, FURNISHED, RASTER, drive
 from mrpbench_core.testing.fixtures.room import PERIOD
 
@@ -235,9 +235,9 @@ SCRIPT = """
 import hashlib, numpy as np
 from mrpbench_simulators_pybullet import PyBullet
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Inputs
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.execution.state import Inputs
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.world import Level, World
 room = World(name="room", levels=(Level(name="L1", walls=[[0, 0, 2, 0], [2, 0, 2, 2], [2, 2, 0, 2], [0, 2, 0, 0]]),))
 starts = np.array([[x, y, x + y] for x in (0.4, 1.0, 1.6) for y in (0.4, 1.0, 1.6)])
 random, digest = np.random.default_rng(7), hashlib.sha256()

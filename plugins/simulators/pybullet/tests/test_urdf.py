@@ -10,9 +10,9 @@ from mrpbench_simulators_pybullet import PyBullet
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.execution import Inputs
-from mrpbench_core.model.fleet import Fleet
-from mrpbench_core.model.world import Level, World
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.state import Inputs
+from mrpbench_core.model.worlds.world import Level, World
 from mrpbench_core.testing.fixtures.drive import EMPTY
 from mrpbench_core.testing.fixtures.drive import drive as drive_simulator
 from mrpbench_core.testing.fixtures.room import PERIOD

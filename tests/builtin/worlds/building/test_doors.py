@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 
-from mrpbench_core.model.doors import leaf_segments
+from mrpbench_core.model.worlds.doors import leaf_segments
 
 DOOR = """\
 coordinate_system: cartesian_meters

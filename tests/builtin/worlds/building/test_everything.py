@@ -10,7 +10,7 @@ from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.world import check_world
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.fleet import Fleet, RobotModel
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
 
 FILE = Path(__file__).parent / "everything.building.yaml"
 TEXT = FILE.read_text()

@@ -17,7 +17,7 @@ from mrpbench_core.builtin.worlds.generated.warehouse import GeneratedWarehouse
 from mrpbench_core.checking.components import components
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.model.fleet import Fleet
+from mrpbench_core.model.common.fleet import Fleet
 
 small = st.integers(1, 6)
 share = st.floats(0, 1)

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrpbench_core.model.recording import Chunk
-from mrpbench_core.model.run import RunContext
+from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2 import advance, routes, whole
 from mrpbench_exporters_rosbag2.doors_and_lifts import NUMBERS
 from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS

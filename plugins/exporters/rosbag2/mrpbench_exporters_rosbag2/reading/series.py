@@ -7,7 +7,7 @@ from typing import Any
 import attrs
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_exporters_rosbag2.messages import SECOND
 
 BACK, AHEAD = SECOND, 3600 * SECOND

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.api.importer import Signal
-from mrpbench_core.model.arrays import Int
+from mrpbench_core.model.common.arrays import Int
 from mrpbench_exporters_rosbag2.messages import SECOND
 from mrpbench_exporters_rosbag2.reading.collected import Take, nanoseconds
 from mrpbench_exporters_rosbag2.reading.names import robot_in

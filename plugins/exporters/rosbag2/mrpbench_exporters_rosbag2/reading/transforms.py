@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mrpbench_core.model.arrays import Float, Int
+from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_exporters_rosbag2.reading.series import Ordered
 
 Edges = Mapping[str, tuple[str, Ordered]]

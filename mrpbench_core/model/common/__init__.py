@@ -1,0 +1,1 @@
+"""Arrays, units, geometry and robots: what all other data is made of."""

@@ -1,0 +1,41 @@
+"""What a dispatcher sees, and what it decides."""
+
+import attrs
+
+from mrpbench_core.model.common.arrays import Byte, Float, Int16, Int32, array
+
+
+@attrs.frozen(kw_only=True)
+class FleetView:
+    """The state of the fleet as a dispatcher sees it: estimates, never ground truth."""
+
+    revision: int
+    """Number of calls of `adopt`, which tells the plan that the indices below refer to."""
+    reached: Int32 = array("i4")
+    """i4[n]: number of leading path segments each robot has completed."""
+    cleared: Int32 = array("i4")
+    """i4[n]: number of leading path segments whose *start vertex* the robot's footprint has left, so that another robot
+    fits there."""
+    pose: Float = array("f8", 3)
+    """f8[n,3] estimated x, y, yaw."""
+    level: Int16 = array("i2")
+    mode: Byte = array("u1")
+    """u1[n] of `Mode`."""
+    granted: tuple[tuple[int, str], ...] = ()
+    """(robot, resource) pairs that robots may use now: the robot holds the resource, the door is open, or the lift has
+    arrived and its doors are open."""
+
+
+@attrs.frozen(kw_only=True)
+class Orders:
+    """The segments that a dispatcher releases, and its requests."""
+
+    released: Int32 = array("i4")
+    """i4[n]: number of leading path segments each robot may complete; never decreases within a revision."""
+    requests: tuple[tuple[int, str], ...] = ()
+    """(robot, resource) pairs requested or in use, the longest requested first. A pair that is left out is released."""
+    in_step: tuple[tuple[tuple[int, int], ...], ...] = ()
+    """Groups of (robot, segment) that rotate: each robot moves to where the next one of its group starts, so none of
+    them may lead the others along these segments by more than a small distance."""
+    replan: str | None = None
+    """The reason why a new plan is needed, or None."""

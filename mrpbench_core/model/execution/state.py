@@ -1,0 +1,36 @@
+"""What a simulator is given, and the true state that it returns."""
+
+from collections.abc import Mapping
+
+import attrs
+
+from mrpbench_core.model.common.arrays import Float, Int16, Int32, array
+
+
+@attrs.frozen(kw_only=True)
+class Inputs:
+    """The inputs of the simulator for one control period."""
+
+    twist: Float = array("f8", 2)
+    """f8[n,2] commanded m/s, rad/s."""
+    movers: Float | None = None
+    """f8[m,4]: x, y, vx, vy of things that are not robots, or None."""
+    facilities: Mapping[str, float] = attrs.field(factory=dict)
+    """Name of a door -> commanded opening 0..1; of a lift -> height in metres that its cabin is to go to; what is not
+    named stays as it is. See `mrpbench_core.model.worlds.facilities`."""
+
+
+@attrs.frozen(kw_only=True)
+class State:
+    """The true state after one control period."""
+
+    pose: Float = array("f8", 3)
+    """f8[n,3] x, y, yaw in `map`."""
+    twist: Float = array("f8", 2)
+    """f8[n,2] true m/s forward, rad/s."""
+    level: Int16 = array("i2")
+    contacts: Int32 = array("i4", 2)
+    """i4[k,2]: robot and what it touched during the period (a robot of higher index, or -1 = wall or obstacle)."""
+    facilities: Mapping[str, float] = attrs.field(factory=dict)
+    """Name of each door -> opening 0..1; of each lift -> height of its cabin in metres. Empty if the simulator has
+    neither."""

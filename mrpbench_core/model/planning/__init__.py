@@ -1,0 +1,1 @@
+"""Roadmaps, scenarios, problems, plans, and the only definition of a conflict."""

@@ -1,0 +1,78 @@
+"""The only definition of a conflict, which planners, validators and dispatchers share.
+
+Time is in ticks. A robot stands at a vertex during the *closed* interval [arrive, depart] and is on an edge during the
+*open* interval (enter, leave). Two robots conflict when
+
+1. *vertex*: they stand at one vertex at the same tick;
+2. *swap*: they are on an edge and its reverse at the same time;
+3. *overtaking*: they are on one directed edge at the same time and the first to enter is not the first to leave;
+4. *following* (only with `rules.following: forbidden`): one is on an edge into a vertex while another is on an edge out
+   of it, or both are on one directed edge;
+5. *footprint* (only with the feature `footprints`): they occupy, at the same time, two elements (vertices, or edges as
+   straight segments, also ones that share an end) that are closer than the sum of their radii;
+6. *resource*: they are among more robots than its `capacity` that use a resource of the roadmap at one time. A robot
+   uses it while it is on one of its elements and for `setup_ticks` ticks afterwards.
+
+With unit durations, rules 1 and 2 are the vertex and edge conflicts of Stern et al., "Multi-Agent Pathfinding:
+Definitions, Variants, and Benchmarks", SoCS 2019; rule 5 is the multi-agent path finding with large agents of Li et
+al., AAAI 2019, on discs and straight lanes.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Float, Int, Int32
+from mrpbench_core.model.common.geometry import segment_distance
+from mrpbench_core.model.planning.roadmap import Roadmap
+
+TOLERANCE = 1e-9
+"""metres: elements exactly two radii apart do not exclude one another."""
+
+
+class Exclusions(NamedTuple):
+    """The elements of a roadmap that are closer than a distance, as sparse rows sorted by element.
+
+    Element v < V is a vertex, element V + e is edge e. Row x lists the *other* elements near x (and x itself).
+    """
+
+    first: Int
+    """i8[V+E+1]: row x is `element[first[x]:first[x + 1]]`."""
+    element: Int32
+    """i4[...]."""
+    distance: Float
+    """f8[...] metres."""
+
+
+def exclusions(roadmap: Roadmap, distance: float) -> Exclusions:
+    """Find all pairs of elements of one level closer than `distance` metres (rule 5), each in both orders."""
+    vertices = np.arange(len(roadmap.position))
+    start = np.concatenate([vertices, roadmap.edges[:, 0]]).astype(np.int64)
+    end = np.concatenate([vertices, roadmap.edges[:, 1]]).astype(np.int64)
+    left, right = _near_boxes(roadmap.position[start], roadmap.position[end], distance)
+    low, high = roadmap.level[start], roadmap.level[end]
+    shared = (low[left] == low[right]) | (high[left] == high[right])
+    shared |= (low[left] == high[right]) | (high[left] == low[right])
+    left, right = left[shared], right[shared]
+    a, b, c, d = (roadmap.position[ends] for ends in (start[left], end[left], start[right], end[right]))
+    gap = segment_distance(a, b, c, d)
+    near = gap < distance - TOLERANCE
+    left, right, gap = left[near], right[near], gap[near]
+    order = np.lexsort((right, left))
+    first = np.searchsorted(left[order], np.arange(len(start) + 1))
+    return Exclusions(first, right[order].astype(np.int32), gap[order])
+
+
+def _near_boxes(start: Float, end: Float, distance: float) -> tuple[Int, Int]:
+    """Ordered pairs of segments whose bounding boxes, grown by `distance`, meet; found by a sweep along x."""
+    low, high = np.minimum(start, end) - distance / 2, np.maximum(start, end) + distance / 2
+    order = np.argsort(low[:, 0], kind="stable")
+    until = np.searchsorted(low[order, 0], high[order, 0], side="right")
+    counts = until - np.arange(len(order))
+    left = np.repeat(np.arange(len(order)), counts)
+    right = left + np.arange(len(left)) - np.repeat(np.cumsum(counts) - counts, counts)
+    left, right = order[left], order[right]
+    meet = (low[left, 1] <= high[right, 1]) & (low[right, 1] <= high[left, 1])
+    left, right = left[meet], right[meet]
+    other = left != right
+    return np.concatenate([left, right[other]]), np.concatenate([right, left[other]])

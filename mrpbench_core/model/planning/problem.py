@@ -1,0 +1,97 @@
+"""The problem of a planner: robots on a roadmap, with goals and rules."""
+
+from enum import StrEnum
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Float, Int, Int32, array
+from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.roadmap import Roadmap
+
+GoalSet = tuple[int, ...]
+"""Roadmap vertices; a robot reaches the set by reaching any of them."""
+
+
+class Feature(StrEnum):
+    """A property that problems may have and planners may support."""
+
+    EDGE_DURATIONS = "edge_durations"
+    """The duration of some edge is not one tick."""
+    FOOTPRINTS = "footprints"
+    """Robots are discs of `Problem.radius`: elements of the roadmap closer than two radii exclude one another."""
+    RESOURCES = "resources"
+    PROFILES = "profiles"
+    """More than one motion profile."""
+    HEADINGS = "headings"
+    GOAL_SETS = "goal_sets"
+    GOAL_SEQUENCES = "goal_sequences"
+    COMMITMENTS = "commitments"
+    HORIZON = "horizon"
+    FOLLOWING_FORBIDDEN = "following_forbidden"
+
+
+@attrs.frozen(kw_only=True)
+class Rules:
+    """Conventions of the field that differ between publications."""
+
+    following: str = "allowed"
+    """allowed | forbidden: may a robot enter a vertex in the tick in which another leaves it?"""
+    at_goal: str = "stay"
+    """stay | disappear."""
+
+
+@attrs.frozen(kw_only=True)
+class Problem:
+    """Everything a planner sees. See `mrpbench_core.model.planning.conflicts` for what counts as a conflict."""
+
+    roadmap: Roadmap
+    profile: Int32 = array("i4")
+    """i4[n]: row of `Roadmap.duration` for each robot."""
+    radius: Float = array("f8")
+    """f8[n] metres."""
+    start: Int32 = array("i4")
+    """i4[n] roadmap vertices."""
+    ready: Int = array("i8")
+    """i8[n] ticks: a robot stays at its start at least until then."""
+    goals: tuple[tuple[GoalSet, ...], ...]
+    """goals[robot] = the goal sets to visit in order; the robot ends at the last. Empty: it may end anywhere."""
+    commitments: tuple[Path, ...] = ()
+    """Released prefixes, one per robot (possibly empty), with which a new plan must begin; () = none."""
+    rules: Rules = Rules()
+    horizon: int | None = None
+    """Ticks after which conflicts need not be resolved; None = all."""
+    features: frozenset[Feature] = frozenset()
+
+    def __len__(self) -> int:
+        return len(self.start)
+
+    def duration(self, robot: int) -> Int32:
+        """Return the duration i4[E] of each edge for `robot`, in ticks, -1 = forbidden."""
+        row: Int32 = self.roadmap.duration[self.profile[robot]]
+        return row
+
+
+def features_of(problem: Problem) -> frozenset[Feature]:
+    """Return the features that a planner needs to solve `problem`; the caller adds footprints."""
+    found = set()
+    used = problem.roadmap.duration
+    if ((used != 1) & (used != -1)).any():
+        found.add(Feature.EDGE_DURATIONS)
+    if len(np.unique(problem.profile)) > 1 and not (used == used[:1]).all():
+        found.add(Feature.PROFILES)
+    if problem.roadmap.resources:
+        found.add(Feature.RESOURCES)
+    if not np.isnan(problem.roadmap.heading).all():
+        found.add(Feature.HEADINGS)
+    if any(len(goal) != 1 for sequence in problem.goals for goal in sequence):
+        found.add(Feature.GOAL_SETS)
+    if any(len(sequence) != 1 for sequence in problem.goals):
+        found.add(Feature.GOAL_SEQUENCES)
+    if any(len(path) for path in problem.commitments) or problem.ready.any():
+        found.add(Feature.COMMITMENTS)
+    if problem.horizon is not None:
+        found.add(Feature.HORIZON)
+    if problem.rules.following == "forbidden":
+        found.add(Feature.FOLLOWING_FORBIDDEN)
+    return frozenset(found)

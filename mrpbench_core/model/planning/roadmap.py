@@ -1,0 +1,89 @@
+"""The discrete graph that planners search."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Float, Int16, Int32, array
+
+
+@attrs.frozen(kw_only=True)
+class Resource:
+    """A door, lift or mutex that at most `capacity` robots use at a time (rule 6 of `model.planning.conflicts`).
+
+    A robot uses it while it is at one of its vertices or on one of its edges. A dispatcher requests it before the robot
+    enters the first of them; see `Orders.requests`.
+    """
+
+    name: str
+    """Unique on a roadmap. A door or lift has its name in `mrpbench_core.model.worlds.facilities.Facilities`."""
+    kind: str
+    """door | lift | mutex."""
+    capacity: int = 1
+    vertices: tuple[int, ...] = ()
+    edges: tuple[int, ...] = ()
+    setup_ticks: int = 0
+    """Ticks for which it stays in use after a robot has left it, until it is ready for the next one."""
+    passage: tuple[int, ...] = ()
+    """The edges that lead through a doorway. On its other edges, which the leaves sweep, the door must be closed."""
+
+
+@attrs.frozen(kw_only=True)
+class Raster:
+    """The raster whose cells are the vertices of a roadmap."""
+
+    shape: tuple[int, int]
+    """rows, columns."""
+    cell_size: float
+    origin: tuple[float, float]
+    """x, y of the lower left corner of cell (0, 0), metres."""
+    cell: Int32 = array("i4", 2)
+    """i4[V,2]: row (0 = lowest y) and column of each vertex."""
+
+
+@attrs.frozen(kw_only=True)
+class Roadmap:
+    """Vertices and directed edges with integer durations. Built once per world and fleet."""
+
+    position: Float = array("f8", 2)
+    """f8[V,2] metres, frame `map`."""
+    level: Int16 = array("i2")
+    """i2[V]: index into `World.levels`."""
+    heading: Float = array("f8")
+    """f8[V] radians: the yaw a vertex prescribes, NaN = any."""
+    edges: Int32 = array("i4", 2)
+    """i4[E,2]: from, to. A two-way lane is two edges."""
+    duration: Int32 = array("i4")
+    """i4[P,E] ticks per motion profile; -1 = this profile may not use the edge."""
+    tick: float
+    """seconds per tick."""
+    resources: tuple[Resource, ...] = ()
+    grid: Raster | None = None
+    place: Int32 = array("i4", factory=list)
+    """i4[len(World.vertices)]: the roadmap vertex that stands for each world vertex, -1 = none."""
+    notes: tuple[str, ...] = ()
+    """Omissions of the builder, such as edges that hit a wall and blocked places, and their reasons, as sentences."""
+
+    def nearest(self, x: float, y: float, level: int = 0) -> tuple[int, float]:
+        """Return the vertex nearest to a point on a level and its distance in metres; -1 and inf if there is none."""
+        squared = ((self.position - (x, y)) ** 2).sum(axis=1)
+        squared = np.where(self.level == level, squared, np.inf)
+        best = int(squared.argmin()) if len(squared) else -1
+        if best < 0 or not np.isfinite(squared[best]):
+            return -1, float("inf")
+        return best, float(np.sqrt(squared[best]))
+
+    def locate(self, points: Float, levels: Int16) -> Int32:
+        """Return the vertex i4[n] that represents each of `points` f8[n,2] on `levels` i2[n]; -1 means none.
+
+        On a raster it is the vertex of the cell that contains the point, otherwise the nearest vertex within 1 m.
+        """
+        if self.grid is None:
+            found = [self.nearest(x, y, level) for (x, y), level in zip(points, levels, strict=True)]
+            return np.array([vertex if distance <= 1.0 else -1 for vertex, distance in found], "i4")
+        rows, columns = self.grid.shape
+        table = np.full(rows * columns, -1, "i4")
+        table[self.grid.cell[:, 0] * columns + self.grid.cell[:, 1]] = np.arange(len(self.grid.cell))
+        cell = np.floor((np.atleast_2d(points) - self.grid.origin) / self.grid.cell_size).astype(int)
+        inside = (cell >= 0).all(1) & (cell[:, 0] < columns) & (cell[:, 1] < rows)
+        inside &= np.isin(levels, self.level)  # a raster has one level
+        return np.where(inside, table[np.where(inside, cell[:, 1] * columns + cell[:, 0], 0)], -1).astype("i4")

@@ -1,0 +1,140 @@
+"""Type-2 edges: the orders between moves of different robots that a conflict-free plan implies.
+
+The term is that of Hönig et al., "Persistent and Robust Execution of MAPF Schedules in Warehouses", RA-L 2019. The
+edges follow from the rules of `model.planning.conflicts`. Robots that keep these orders do not meet, at any speed:
+
+- rule 1: at each vertex, the next robot moves in only after the one before has *cleared* it. That keeps rules 2 and 3
+  too: to swap or to overtake, two robots must use one of the edge's ends in the wrong order;
+- rule 4: at each vertex, the next robot moves in only after the one before has also *completed* its move out;
+- rule 5: a move starts only after the last move on each element near it is *completed*. Moves are enough: a
+  robot that stands at a vertex came there, or will leave it, by a move that touches it;
+- rule 6: see `mrpbench_core.model.planning.occupations`.
+
+Only edges from immediate predecessors are kept; the others follow from the edges of the predecessors.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Bool, Int
+from mrpbench_core.model.planning.conflicts import exclusions
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Feature, Problem
+
+
+class Moves(NamedTuple):
+    """Every segment of a plan that is no wait, robot after robot, each in the order of its path; all i8[m]."""
+
+    first: Int
+    """i8[n+1]: robot i's moves are `first[i]:first[i + 1]`."""
+    robot: Int
+    segment: Int
+    """Index in the robot's path."""
+    edge: Int
+    tail: Int
+    head: Int
+    enter: Int
+    leave: Int
+
+
+class Type2Edges(NamedTuple):
+    """Move `after[i]` waits for move `before[i]` of another robot; all [k]."""
+
+    before: Int
+    after: Int
+    completed: Bool
+    """True: until `before` has ended. False: until its robot has cleared the vertex that `before` starts at."""
+
+
+def moves_of(problem: Problem, plan: Plan) -> Moves:
+    """List the moves of a plan whose paths have no faults."""
+    sizes = [len(path) for path in plan.paths]
+    nothing = np.empty(0, np.int64)
+    edge, enter, leave = (
+        np.concatenate([nothing, *(getattr(path, name) for path in plan.paths)]) for name in ("edge", "enter", "leave")
+    )
+    robot = np.repeat(np.arange(len(sizes)), sizes)
+    segment = np.arange(len(edge)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    is_move = edge >= 0
+    robot, segment, edge = robot[is_move], segment[is_move], edge[is_move]
+    first = np.searchsorted(robot, np.arange(len(sizes) + 1))
+    ends = problem.roadmap.edges[edge].astype(np.int64).reshape(-1, 2)
+    return Moves(first, robot, segment, edge, ends[:, 0], ends[:, 1], enter[is_move], leave[is_move])
+
+
+def type2_edges(problem: Problem, moves: Moves, resources: Type2Edges) -> Type2Edges:
+    """The edges that a conflict-free plan with these `moves` implies, including `resources`, those of rule 6."""
+    found = [_at_vertices(problem, moves), resources]
+    if Feature.FOOTPRINTS in problem.features:
+        found += _between_footprints(problem, moves)
+    return _without_implied(moves, Type2Edges(*(np.concatenate(parts) for parts in zip(*found, strict=True))))
+
+
+def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
+    """Rules 1 to 4: each robot moves into a vertex after the one that stood there before moved out."""
+    robots = np.arange(len(problem))
+    starts, count = moves.first[:-1], np.diff(moves.first)
+    index = np.arange(len(moves.robot))
+    is_last = np.append(moves.robot[1:] != moves.robot[:-1], True)[: len(index)]
+    vertex = np.concatenate([problem.start, moves.head])
+    robot = np.concatenate([robots, moves.robot])
+    begin = np.concatenate([np.zeros(len(robots), np.int64), moves.leave])
+    arrival = np.concatenate([np.full(len(robots), -1), index])
+    departure = np.concatenate([np.where(count > 0, starts, -1), np.where(is_last, -1, index + 1)])
+    order = np.lexsort((begin, vertex))
+    if problem.horizon is not None:  # beyond it nothing is released, and robots may overlap
+        order = order[begin[order] <= problem.horizon]
+    earlier, later = order[:-1], order[1:]
+    pairs = (vertex[earlier] == vertex[later]) & (robot[earlier] != robot[later])
+    earlier, later = earlier[pairs], later[pairs]
+    gone = departure[earlier] < 0  # only with `at_goal: disappear`: it is gone when its last move has ended
+    before, after = np.where(gone, arrival[earlier], departure[earlier]), arrival[later]
+    some = before >= 0
+    before, after, gone = before[some], after[some], gone[some]
+    passed = gone.copy()  # where it is enough that the move is completed
+    if Feature.FOOTPRINTS in problem.features:
+        passed |= moves.leave[before] <= moves.enter[after]
+    completed = passed | (problem.rules.following == "forbidden")
+    kinds = np.repeat([False, True], [int((~passed).sum()), int(completed.sum())])
+    return Type2Edges(
+        np.concatenate([before[~passed], before[completed]]), np.concatenate([after[~passed], after[completed]]), kinds
+    )
+
+
+def _between_footprints(problem: Problem, moves: Moves) -> list[Type2Edges]:
+    """Rule 5: for each move and each edge near its own, the last move there before it; one size of robot at a time."""
+    found = []
+    vertices = len(problem.roadmap.position)
+    ticks = int(moves.leave.max(initial=0)) + 1
+    radius = problem.radius[moves.robot]
+    for mine in np.unique(radius):
+        after = np.flatnonzero(radius == mine)
+        for theirs in np.unique(radius):
+            before = np.flatnonzero(radius == theirs)
+            key = moves.edge[before] * ticks + moves.enter[before]
+            before, key = before[np.argsort(key)], np.sort(key)
+            near = exclusions(problem.roadmap, float(mine + theirs))
+            begin, end = near.first[vertices + moves.edge[after]], near.first[vertices + moves.edge[after] + 1]
+            size = end - begin
+            row = np.repeat(after, size)
+            element = near.element[np.arange(len(row)) + np.repeat(begin - np.cumsum(size) + size, size)]
+            row, edge = row[element >= vertices], element[element >= vertices].astype(np.int64) - vertices
+            last = np.searchsorted(key, edge * ticks + moves.enter[row]) - 1
+            some = last >= 0
+            row, edge, last = row[some], edge[some], before[last[some]]
+            other = (moves.edge[last] == edge) & (moves.robot[last] != moves.robot[row])
+            found.append(Type2Edges(last[other], row[other], np.ones(int(other.sum()), bool)))
+    return found
+
+
+def _without_implied(moves: Moves, all_of: Type2Edges) -> Type2Edges:
+    """Leave out the edges that those of a robot's earlier moves imply."""
+    before, after, completed = all_of
+    order = np.lexsort((-before, after, completed, moves.robot[before], moves.robot[after]))
+    before, after, completed = before[order], after[order], completed[order]
+    pair = np.stack([moves.robot[after], moves.robot[before], completed])
+    group = np.cumsum(np.append(0, (pair[:, 1:] != pair[:, :-1]).any(axis=0)))[: len(before)]
+    rank = group * (len(moves.robot) + 1) + before
+    newest = np.append(True, rank[1:] > np.maximum.accumulate(rank)[:-1])[: len(before)]
+    return Type2Edges(before[newest], after[newest], completed[newest])

@@ -1,0 +1,1 @@
+"""Finished runs: statuses, recordings and their context."""

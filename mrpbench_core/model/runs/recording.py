@@ -1,0 +1,46 @@
+"""The channels of a recording, which say what happened during a run.
+
+| channel | per sample | meaning |
+|---|---|---|
+| `time` | f8 | simulated seconds of the periodic channels below |
+| `truth` | f8[n,3] | true x, y, yaw in `map` |
+| `truth_twist` | f8[n,2] | true m/s, rad/s |
+| `estimate` | f8[n,3] | localizer's x, y, yaw in `map` |
+| `odometry` | f8[n,5] | x, y, yaw in the odometry frame, m/s, rad/s |
+| `command` | f8[n,2] | commanded m/s, rad/s |
+| `level` | i2[n] | index into `World.levels` |
+| `released`, `reached`, `cleared` | i4[n] | path segments |
+| `mode` | u1[n] | `Mode` |
+| `waits_for` | i4[n] | index into `Roadmap.resources` of what each robot has asked for and may not use yet, -1 = none |
+| `facility` | f8[F] | what doors and lifts do, in the order of `Facilities.names`; only where there are some |
+| `contact_time`, `contact` | f8; i4[2] | one row per pair and control period in contact: robot and other (-1 = wall) |
+| `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
+| `route_time`, `route_revision`, `route_robot` | f8; i4; i4 | one row per waypoint of each plan after the first |
+| `route_waypoint`, `route_level`, `route_speed` | f8[3]; i2; f8 | see `mrpbench_core.model.runs.run.latest_routes` |
+| `event_time`, `event_kind`, `event_robot`, `event_detail` | f8; U; i4; U | see `Event` |
+
+Periodic channels are sampled every `1 / recording.rate` seconds, and at the start and the end of the execution.
+"""
+
+from collections.abc import Mapping
+from typing import Any
+
+from numpy.typing import NDArray
+
+Chunk = Mapping[str, NDArray[Any]]
+"""Consecutive rows of some channels, by channel name."""
+
+PERIODIC = (
+    "truth",
+    "truth_twist",
+    "estimate",
+    "odometry",
+    "command",
+    "level",
+    "released",
+    "reached",
+    "cleared",
+    "mode",
+    "waits_for",
+)
+"""Channels that share the time axis `time`."""

@@ -1,0 +1,1 @@
+"""Worlds: walls, doors, lifts and floors."""
