@@ -66,7 +66,7 @@ soak: install ## compare thousands of random instances with brute force, and dis
 
 SANITIZED := build/sanitized
 CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python
-rotations: install ## let rings of robots rotate 100,000 times in simulators and count contacts (many hours)
+rotations: install ## let rings of robots rotate 100,000 times in simulators and count contacts (two hours)
 	$(BIN)/python tests/builtin/dispatchers/soak_rotations.py 100000 1
 
 sanitize: install ## run native tests and soaks under AddressSanitizer and UndefinedBehaviorSanitizer

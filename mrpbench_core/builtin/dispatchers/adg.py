@@ -22,9 +22,9 @@ class Adg(Dispatcher):
     """Releases each move once the moves that precede it in the plan are out of its way."""
 
     group_margin: float = option(
-        0.0,
-        help="distance beyond their radii that two robots of a rotation must keep if they move exactly in step; "
-        "0.18 m excludes contacts with the default tolerances of the navigator waypoints",
+        0.03,
+        help="distance beyond their radii that two robots of a rotation must keep if they move exactly in step; the "
+        "navigator waypoints needs 0.0283 m, other navigators may need more",
         unit="m",
         validator=attrs.validators.ge(0),
     )

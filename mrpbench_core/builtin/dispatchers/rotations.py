@@ -6,14 +6,13 @@ move at once. Each then waits for the next one to clear its vertex, so they have
 How close they come. Let a robot move from (0, 0) to (c, 0), and the next one of its rotation from (c, 0) to (c, c). If
 both have driven s, they are hypot(c - s, s) apart, at least c / sqrt(2). Robots do not drive exactly in step:
 
-- They have to turn first, each by another angle, so that one of them could arrive before the next one has started.
-  `Orders.in_step` asks the navigator to prevent this: no robot leads the last one of its group by more than L.
-- Each robot may be off its segment sideways by w, the tolerance with which it has reached the start of the segment.
+- `Orders.in_step` asks the navigator that no robot leads the last one of its group by more than a distance L.
+- Each robot may be off its segment sideways by w.
 
 If the first robot leads by L, and both are off by w towards each other, they are hypot(c - w - s, s - L - w) apart, at
-least (c - L - 2 w) / sqrt(2). So (L + 2 w) / sqrt(2) has to be left beyond the radii. The navigator `waypoints` has
-L = 0.05 m (`in_step.py`) and by default w = 0.10 m (`waypoint_tolerance`): 0.177 m. With a `group_margin` below that,
-robots that rotate may touch; discs that move exactly in step never do.
+least (c - L - 2 w) / sqrt(2). So (L + 2 w) / sqrt(2) has to be left beyond the radii. The navigator `waypoints` keeps
+L = 0.02 m and w = 0.01 m (its `rotations.py`): 0.0283 m. At a bend by another angle a, the same reasoning gives
+L cos(a / 2) + 2 w sin(a / 2), which is never more than that.
 """
 
 from itertools import combinations
@@ -81,8 +80,8 @@ def _check_distances(problem: Problem, moves: Moves, group: tuple[int, ...], mar
             raise DispatchError(
                 f"{_robots_and_vertices(moves, group)} rotate, and robots {moves.robot[one]} and "
                 f"{moves.robot[other]} would come within {gap:.3f} m of one another and need {needed:.3f} m, "
-                f"{margin:g} m of which are the dispatcher's group_margin: use larger cells, lanes farther apart, "
-                "or a smaller group_margin with a smaller waypoint_tolerance of the navigator"
+                f"{margin:g} m of which are the dispatcher's group_margin: use larger cells, lanes farther apart "
+                "or smaller robots"
             )
 
 

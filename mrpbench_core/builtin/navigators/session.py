@@ -8,9 +8,9 @@ import numpy as np
 from mrpbench_core.api.navigator import NavigatorSession
 from mrpbench_core.builtin.navigators.controller_server import ControllerServer
 from mrpbench_core.builtin.navigators.detours import Detours
-from mrpbench_core.builtin.navigators.in_step import InStep
 from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
 from mrpbench_core.builtin.navigators.recovery_manager import RecoveryManager
+from mrpbench_core.builtin.navigators.rotations import Rotations
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.model.common.arrays import Bool, Byte, Float, Int
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
@@ -32,7 +32,7 @@ class WaypointsSession(NavigatorSession):
     progress_checker: ProgressChecker
     detours: Detours
     recoveries: RecoveryManager
-    in_step: InStep
+    rotations: Rotations
     xy_goal_tolerance: float
 
     def adopt(self, routes: Sequence[Route]) -> None:
@@ -46,12 +46,18 @@ class WaypointsSession(NavigatorSession):
         pose, measured = observation.estimate.pose, observation.odometry.twist
         follower, recoveries = self.follower, self.recoveries
         follower.update(pose, measured[:, 0], orders.released, observation.level)
+        self.rotations.update(now, orders.in_step)
+        rotating = self.rotations.rotating
+        for robot in rotating.nonzero()[0].tolist():
+            self.detours.cancel(robot)
         self.detours.shorten(pose)
         foot = follower.foot(pose)
         under_way = follower.under_way(pose) & ~recoveries.aborted
-        following = follower.driven(pose, foot) & ~recoveries.aborted & ~recoveries.recovering
+        able = ~recoveries.aborted & ~recoveries.recovering
+        following = follower.driven(pose, foot) & able & ~rotating
         twist, events = self._drive(now, observation, foot, following.nonzero()[0])
-        stuck = self.progress_checker.check(now, pose, under_way & ~recoveries.recovering)
+        stuck = self.progress_checker.check(now, pose, under_way & ~recoveries.recovering & ~rotating)
+        stuck |= self.rotations.command(now, pose, able, twist)
         failed = self.controllers.have_failed(now, following)
         for robot in (stuck | failed).nonzero()[0].tolist():
             if stuck[robot]:
@@ -63,7 +69,6 @@ class WaypointsSession(NavigatorSession):
             self.detours.cancel(robot)
             twist[robot] = 0.0
         events += recoveries.step(now, pose, measured, twist)
-        self.in_step.limit(twist, pose, orders)
         return Motion(
             twist=twist,
             reached=follower.reached,

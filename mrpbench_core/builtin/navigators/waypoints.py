@@ -8,16 +8,15 @@ from collections.abc import Sequence
 from typing import Literal
 
 import attrs
-import numpy as np
 from attrs.validators import ge, gt
 
 from mrpbench_core.api import Controller, Navigator, NavigatorSession, option
 from mrpbench_core.api.recovery import Recovery
 from mrpbench_core.builtin.navigators.controller_server import ControllerServer
 from mrpbench_core.builtin.navigators.detours import DetourOptions, Detours
-from mrpbench_core.builtin.navigators.in_step import InStep
 from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
 from mrpbench_core.builtin.navigators.recovery_manager import RecoveryManager, RecoveryOptions
+from mrpbench_core.builtin.navigators.rotations import Rotations
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.builtin.navigators.route_tables import ArrivalRules
 from mrpbench_core.builtin.navigators.session import WaypointsSession
@@ -100,7 +99,7 @@ class Waypoints(Navigator):
             progress_checker=ProgressChecker(len(fleet), self.required_movement_radius, self.movement_time_allowance),
             detours=Detours(follower, controllers, detours),
             recoveries=RecoveryManager(fleet.robots, recoveries, controllers, follower),
-            in_step=InStep(follower, np.array([robot.acceleration for robot in fleet.robots]), period),
+            rotations=Rotations(follower, fleet.robots, period, self.movement_time_allowance),
             xy_goal_tolerance=self.xy_goal_tolerance,
         )
 

@@ -1,4 +1,4 @@
-"""Rings of four robots on 2 x 2 cells that rotate again and again, driven by a navigator in a simulator."""
+"""Rings of robots around 2 x k cells that rotate again and again, driven by a navigator in a simulator."""
 
 from itertools import combinations
 
@@ -9,6 +9,7 @@ from mrpbench_core.api import Controller, Dispatcher, Simulator
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.engine.execution.routes import Router
 from mrpbench_core.files.robot import load_robot
+from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.observation import Estimate, FleetObservation, Odometry
 from mrpbench_core.model.execution.orders import FleetView
@@ -20,31 +21,37 @@ from mrpbench_core.model.worlds.world import Level, World
 
 PERIOD = 0.05
 """Control period, seconds."""
-AROUND = np.array([(0, 0), (1, 0), (1, 1), (0, 1)])
 APART = 10
 """Cells between the corners of two rings."""
 
 
+def around(columns: int) -> Int:
+    """The cells i8[2 k,2] of two rows and k columns, counter-clockwise."""
+    lower = np.column_stack([np.arange(columns), np.zeros(columns, int)])
+    return np.concatenate([lower, lower[::-1] + (0, 1)])
+
+
 @attrs.frozen(kw_only=True)
 class RingsResult:
-    """What happened to rings of four robots."""
+    """What happened to rings of robots."""
 
     rotations: int
-    """Rotations that all four robots completed, summed over rings."""
+    """Rotations that all robots of a ring completed, summed over rings."""
     contacts: int
     """Control periods and pairs of robots that touched."""
     gap: float
     """Smallest distance in metres between the discs of two robots of a ring."""
 
 
-def ring_problem(cell: float, rings: int, turns: int, seed: int) -> tuple[Fleet, Problem, Plan]:
+def ring_problem(cell: float, rings: int, turns: int, seed: int, columns: int = 2) -> tuple[Fleet, Problem, Plan]:
     """Fleet, problem and plan of rings that rotate `turns` times on cells of a side in metres, in drawn directions."""
+    size = 2 * columns
     random = np.random.default_rng(seed)
     model = load_robot("turtlebot3_burger")
-    base = 4 * np.arange(rings)[:, None]
-    corners = np.concatenate([AROUND + (APART * ring, 0) for ring in range(rings)]) * cell
-    step = np.arange(4)
-    both = [np.stack([base + step, base + (step + way) % 4], axis=-1) for way in (1, 3)]
+    base = size * np.arange(rings)[:, None]
+    corners = np.concatenate([around(columns) + (APART * ring, 0) for ring in range(rings)]) * cell
+    step = np.arange(size)
+    both = [np.stack([base + step, base + (step + way) % size], axis=-1) for way in (1, -1)]
     edges = np.stack(both, axis=1).reshape(-1, 2)
     roadmap = Roadmap(
         position=corners,
@@ -57,12 +64,12 @@ def ring_problem(cell: float, rings: int, turns: int, seed: int) -> tuple[Fleet,
     paths, goals, time = [], [], np.arange(turns)
     for ring in range(rings):
         ways = random.integers(0, 2, turns)
-        at = np.cumsum([0, *np.where(ways, 3, 1)]) % 4
-        for robot_at in range(4):
-            vertex = (at + robot_at) % 4
-            paths.append(Path(edge=8 * ring + 4 * ways + vertex[:-1], enter=time, leave=time + 1))
-            goals.append((((4 * ring + int(vertex[-1])),),))
-    count = 4 * rings
+        at = np.cumsum([0, *np.where(ways, -1, 1)]) % size
+        for robot_at in range(size):
+            vertex = (at + robot_at) % size
+            paths.append(Path(edge=2 * size * ring + size * ways + vertex[:-1], enter=time, leave=time + 1))
+            goals.append((((size * ring + int(vertex[-1])),),))
+    count = size * rings
     fleet = Fleet(robots=(model,) * count)
     problem = Problem(
         roadmap=roadmap,
@@ -84,11 +91,12 @@ def rotate(
     rings: int = 4,
     turns: int = 5,
     seed: int = 0,
+    columns: int = 2,
     navigator: Waypoints | None = None,
     limit: float = 60.0,
 ) -> RingsResult:
     """Execute a plan of `ring_problem`, from drawn yaws, for at most `limit` simulated seconds a turn."""
-    fleet, problem, plan = ring_problem(cell, rings, turns, seed)
+    fleet, problem, plan = ring_problem(cell, rings, turns, seed, columns)
     count = len(fleet)
     world = World(name="empty", levels=(Level(name="L1"),))
     yaw = np.random.default_rng(seed + 1).uniform(-np.pi, np.pi, count)
@@ -98,8 +106,9 @@ def rotate(
     driver = (navigator or Waypoints()).start(fleet, world, routes, controller, PERIOD, seed)
     reached = cleared = np.zeros(count, "i4")
     contacts, gap = 0, np.inf
-    ring = np.arange(count).reshape(rings, 4)
-    one, other = (ring[:, list(index)].ravel() for index in zip(*combinations(range(4), 2), strict=True))
+    size = 2 * columns
+    ring = np.arange(count).reshape(rings, size)
+    one, other = (ring[:, list(index)].ravel() for index in zip(*combinations(range(size), 2), strict=True))
     with simulator.open(world, fleet, pose, seed, PERIOD) as simulation:
         state, mode = simulation.state, np.zeros(count, "u1")
         for step in range(int(limit * turns / PERIOD)):
@@ -122,4 +131,4 @@ def rotate(
             contacts += len(state.contacts)
             apart = np.hypot(*(state.pose[one, :2] - state.pose[other, :2]).T)
             gap = min(gap, float((apart - fleet.radii[one] - fleet.radii[other]).min()))
-    return RingsResult(rotations=int(reached.reshape(-1, 4).min(axis=1).sum()), contacts=contacts, gap=gap)
+    return RingsResult(rotations=int(reached.reshape(rings, size).min(axis=1).sum()), contacts=contacts, gap=gap)

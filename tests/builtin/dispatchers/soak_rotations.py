@@ -1,40 +1,80 @@
-"""Rotates rings of robots many times in simulators and counts contacts: `soak_rotations.py ROTATIONS SEED`."""
+"""Rotates rings of robots many times in all simulators and counts contacts: `soak_rotations.py ROTATIONS SEED`."""
 
 import argparse
 import sys
+from collections import defaultdict
+from functools import partial
 
+import attrs
 from mrpbench_controllers_dwb import Dwb
 from mrpbench_controllers_pure_pursuit import PurePursuit
 from mrpbench_simulators_planar import Planar
+from mrpbench_simulators_pybullet import PyBullet
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.testing.execution.rings import rotate
 
-CELLS = (0.62, 0.7, 0.8, 1.0)
-RINGS = 25
-TURNS = {PurePursuit: 20, Dwb: 1}
-"""Rotations of each ring; `dwb` takes long."""
+SIMULATORS = {"kinematic": Kinematic, "planar": Planar, "pybullet": partial(PyBullet, model="wheels")}
+CONTROLLERS = {"pure_pursuit": PurePursuit, "dwb": Dwb}
+CELLS = (0.4, 0.45, 0.62, 1.0)
+"""metres; a `turtlebot3_burger` may rotate on the first only because its navigator keeps a few centimetres."""
+COLUMNS = (2, 2, 3)
+"""Rings go around two rows of so many cells."""
+RINGS, TURNS = 10, 25
+
+
+@attrs.define
+class Total:
+    """Sums over all rings of a simulator and a controller."""
+
+    rotations: int = 0
+    missing: int = 0
+    contacts: int = 0
+    gaps: dict[float, float] = attrs.field(factory=dict)
+    """Smallest distance in metres between two robots, for each size of cells."""
 
 
 def main() -> int:
-    """Run every pair of simulator and controller until there are enough rotations; return 0 if nobody touched."""
+    """Run every pair of simulator and controller until there are enough rotations.
+
+    Returns 0 if no robots touched and all rotations were completed.
+    """
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("rotations", type=int)
     parser.add_argument("seed", type=int)
     given = parser.parse_args()
-    pairs = [(simulator, controller) for simulator in (Kinematic, Planar) for controller in (PurePursuit, Dwb)]
-    done, contacts, missing, seed = 0, 0, 0, given.seed
-    while done < given.rotations:
-        for simulator, controller in pairs:
-            cell = CELLS[seed % len(CELLS)]
-            found = rotate(Adg(), controller(), simulator(), cell=cell, rings=RINGS, turns=TURNS[controller], seed=seed)
-            done, contacts = done + found.rotations, contacts + found.contacts
-            missing += RINGS * TURNS[controller] - found.rotations
-            print(simulator.__name__, controller.__name__, f"cell {cell}, seed {seed}:", found, flush=True)
-        print(f"{done} rotations, {contacts} contacts, {missing} rotations not completed", flush=True)
+    totals: dict[tuple[str, str], Total] = defaultdict(Total)
+    seed = given.seed
+    while sum(total.rotations for total in totals.values()) < given.rotations:
+        cell, columns = CELLS[seed % len(CELLS)], COLUMNS[seed % len(COLUMNS)]
+        for simulator in SIMULATORS:
+            for controller in CONTROLLERS:
+                total = totals[simulator, controller]
+                found = rotate(
+                    Adg(),
+                    CONTROLLERS[controller](),
+                    SIMULATORS[simulator](),
+                    cell=cell,
+                    rings=RINGS,
+                    turns=TURNS,
+                    columns=columns,
+                    seed=seed,
+                )
+                total.rotations += found.rotations
+                total.missing += RINGS * TURNS - found.rotations
+                total.contacts += found.contacts
+                total.gaps[cell] = min(total.gaps.get(cell, found.gap), found.gap)
         seed += 1
-    return int(contacts > 0)
+        print(f"after seed {seed - 1}:", flush=True)
+        for (simulator, controller), total in totals.items():
+            gaps = ", ".join(f"{gap:.4f} m on {side} m" for side, gap in sorted(total.gaps.items()))
+            print(
+                f"  {simulator:9} {controller:12} {total.rotations} rotations, {total.missing} not completed, "
+                f"{total.contacts} contacts; smallest gaps {gaps}",
+                flush=True,
+            )
+    return int(any(total.contacts or total.missing for total in totals.values()))
 
 
 if __name__ == "__main__":
