@@ -67,10 +67,13 @@ class Detours:
         self._detours.clear()
         self._to_beside.clear()
 
-    def shorten(self, pose: Float) -> None:
-        """Drop what robots have passed; at the end of a detour they follow their route again."""
+    def shorten(self, pose: Float, rotating: Bool) -> None:
+        """Drop what robots have passed, and all of robots that are `rotating` bool[n].
+
+        At the end of a detour robots follow their route again.
+        """
         for robot, detour in list(self._detours.items()):
-            if self._follower.only_turns(robot):
+            if rotating[robot] or self._follower.only_turns(robot):
                 self.cancel(robot)
                 continue
             left = detour

@@ -14,7 +14,6 @@ The robot that is furthest behind is never slowed down, so a group always moves 
 
 from collections.abc import Sequence
 
-import attrs
 import numpy as np
 
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
@@ -32,22 +31,12 @@ _TURN_RATE = 1.0
 """rad/s at most, as Nav2's `spin`."""
 _ASIDE = 0.1
 """radians off its way at which a robot that drives stops, and turns back first."""
+_ADVANCE = 0.1
+"""Share of a segment that counts as progress of a group."""
 _STEERING = (20.0, 3.0)
 """Gains of the steering: rad/s for each metre to the side and m/s of speed, and rad/s for each radian."""
 
 Group = tuple[tuple[int, int], ...]
-
-
-@attrs.define
-class _Progress:
-    """How far a group is."""
-
-    ready: Bool
-    """bool[k]: robots that stand at their vertex and face their way, or have driven off."""
-    furthest: float = 0.0
-    """Share of its segment that the last robot has driven."""
-    since: float = 0.0
-    """Simulated second of the latest progress."""
 
 
 class Rotations:
@@ -66,21 +55,48 @@ class Rotations:
         self._turn_brake = np.array([robot.turn_acceleration for robot in robots])
         self._speed = np.array([robot.max_speed for robot in robots])
         self._turn_rate = np.minimum([robot.max_turn_rate for robot in robots], _TURN_RATE)
-        self._groups: dict[Group, _Progress] = {}
+        self._in_step: tuple[Group, ...] = ()
+        self._robots: Int = np.zeros(0, np.int64)
+        """i8[k]: robots of the groups, one group after another; `_segments` i8[k] are theirs."""
+        self._segments = self._robots
+        self._first = self._robots
+        """i8[g]: where each group begins in `_robots`; `_group` i8[k] is the group of each row."""
+        self._group = self._robots
+        self._ready: Bool = np.zeros(0, bool)
+        """bool[k]: robots that stand at their vertex and face their way, or have done so and driven off."""
+        self._progress: Float = np.zeros(0)
+        """f8[g]: greatest progress of each group: robots that are ready, and the share that the last one has driven."""
+        self._since: Float = np.zeros(0)
+        """f8[g]: simulated second of that progress."""
         self.rotating: Bool = np.zeros(len(robots), bool)
         """bool[n]: robots that are commanded here and not by their controllers."""
 
     def update(self, now: float, in_step: tuple[Group, ...]) -> None:
         """Take note of the groups of `Orders.in_step`."""
-        self._groups = {
-            group: self._groups.get(group) or _Progress(np.zeros(len(group), bool), since=now) for group in in_step
-        }
+        if in_step != self._in_step:
+            self._take(now, in_step)
         self.rotating[:] = False
-        for group in self._groups:
-            robots, segments = np.array(group).T
-            here = self._follower.reached[robots] == segments
-            here &= [not self._follower.only_turns(robot) for robot in robots.tolist()]
-            self.rotating[robots[here]] = True
+        if in_step:
+            here = self._follower.reached[self._robots] == self._segments
+            self.rotating[self._robots[here]] = True
+            self.rotating[self._follower.only_turn()] = False
+
+    def _take(self, now: float, in_step: tuple[Group, ...]) -> None:
+        ready = {
+            (group, place): bool(self._ready[first + place])
+            for group, first in zip(self._in_step, self._first.tolist(), strict=True)
+            for place in range(len(group))
+        }
+        known = {group: (self._progress[index], self._since[index]) for index, group in enumerate(self._in_step)}
+        sizes = np.array([len(group) for group in in_step], np.int64)
+        pairs = np.array([pair for group in in_step for pair in group], np.int64).reshape(-1, 2)
+        self._in_step = in_step
+        self._robots, self._segments = pairs.T
+        self._first, self._group = np.cumsum(sizes) - sizes, np.repeat(np.arange(len(in_step)), sizes)
+        self._ready = np.array(
+            [ready.get((group, place), False) for group in in_step for place in range(len(group))], bool
+        )
+        self._progress, self._since = np.array([known.get(group, (0.0, now)) for group in in_step]).reshape(-1, 2).T
 
     def command(self, now: float, pose: Float, able: Bool, twist: Float) -> Bool:
         """Write the commands of rotating robots into `twist` f8[n,2].
@@ -95,77 +111,79 @@ class Rotations:
             bool[n]: rotating robots whose group has made no progress for too long; its time begins anew.
         """
         stuck = np.zeros(len(pose), bool)
-        for group, progress in self._groups.items():
-            robots, segments = np.array(group).T
-            mine = self.rotating[robots] & able[robots]
-            before = int(progress.ready.sum())
-            share = self._command_group(robots, segments, pose, mine, progress, twist)
-            if int(progress.ready.sum()) > before or share > progress.furthest + 0.1:
-                progress.furthest, progress.since = max(share, progress.furthest), now
-            elif now - progress.since > self._allowance:
-                stuck[robots[mine]] = True
-                progress.since = now
-        return stuck
-
-    def _command_group(
-        self, robots: Int, segments: Int, pose: Float, mine: Bool, progress: _Progress, twist: Float
-    ) -> float:
-        """Command the robots `mine` bool[k] of one group; returns the least share of a segment driven."""
-        start, end = self._follower.segment_ends(robots, segments)
+        if not self._in_step:
+            return stuck
+        robots, follower = self._robots, self._follower
+        mine = self.rotating[robots] & able[robots]
+        start, end = follower.segment_ends(robots, self._segments)
         length = np.hypot(*(end - start).T)
         along = (end - start) / length[:, None]
         offset = pose[robots, :2] - start
         ahead = (offset * along).sum(axis=1)
         aside = along[:, 0] * offset[:, 1] - along[:, 1] * offset[:, 0]
         error = wrapped(pose[robots, 2] - np.arctan2(along[:, 1], along[:, 0]))
+        driving = np.logical_and.reduceat(self._ready, self._first)[self._group]
         settled = np.hypot(ahead, aside) <= OFFSET
-        driving = bool(progress.ready.all())
-        if not driving:
-            progress.ready |= mine & settled & (np.abs(error) <= FACING)
-        share = np.where(self._follower.reached[robots] > segments, 1.0, ahead / length)
-        lead = (share - share.min()) * length
-        for index in mine.nonzero()[0].tolist():
-            robot = int(robots[index])
-            if driving:
-                v = min(self._stopping(robot, LEAD - lead[index]), self._stopping(robot, length[index] - ahead[index]))
-                command = self._along(robot, v, float(aside[index]), float(error[index]))
-            elif progress.ready[index]:
-                command = 0.0, 0.0
-            elif settled[index]:
-                command = 0.0, self._turning(robot, -float(error[index]))
-            else:
-                command = self._towards(robot, start[index], pose[robot])
-            twist[robot] = command
-        return float(share.min())
+        self._ready |= mine & settled & (np.abs(error) <= FACING)
+        share = np.where(follower.reached[robots] > self._segments, 1.0, ahead / length)
+        last = np.minimum.reduceat(share, self._first)
+        lead = (share - last[self._group]) * length
+        command = np.zeros((len(robots), 2))
+        for rows, commands in (
+            (driving, self._along(np.minimum(LEAD - lead, length - ahead), aside, error)),
+            (~driving & ~self._ready & settled, self._on_the_spot(-error)),
+            (~driving & ~self._ready & ~settled, self._towards(start, pose[robots])),
+        ):
+            command[rows] = commands[rows]
+        twist[robots[mine]] = command[mine]
+        progress = np.add.reduceat(self._ready, self._first) + last
+        advanced = progress > self._progress + _ADVANCE
+        self._progress[advanced] = progress[advanced]
+        late = ~advanced & (now - self._since > self._allowance)
+        self._since[advanced | late] = now
+        stuck[robots[mine & late[self._group]]] = True
+        return stuck
 
-    def _towards(self, robot: int, place: Float, pose: Float) -> tuple[float, float]:
-        """Turn to a place nearby, ahead or behind, and drive there."""
-        dx, dy = place - pose[:2]
-        error = float(wrapped(np.arctan2(dy, dx) - pose[2]))
-        back = abs(error) > np.pi / 2
-        error = float(wrapped(error + np.pi)) if back else error
-        if abs(error) > _ASIDE:
-            return 0.0, self._turning(robot, error)
-        v = self._stopping(robot, float(np.hypot(dx, dy)))
-        return -v if back else v, self._turning(robot, error)
+    def _towards(self, place: Float, pose: Float) -> Float:
+        """Commands f8[k,2] to turn to a place nearby, ahead or behind, and drive there."""
+        dx, dy = (place - pose[:, :2]).T
+        error = wrapped(np.arctan2(dy, dx) - pose[:, 2])
+        back = np.abs(error) > np.pi / 2
+        error = np.where(back, wrapped(error + np.pi), error)
+        command = self._on_the_spot(error)
+        speed = np.where(back, -1.0, 1.0) * self._stopping(np.hypot(dx, dy))
+        command[:, 0] = np.where(np.abs(error) > _ASIDE, 0.0, speed)
+        return command
 
-    def _along(self, robot: int, v: float, aside: float, error: float) -> tuple[float, float]:
-        """Drive along the segment, `aside` metres to the left of it and `error` radians off it."""
-        if abs(error) > _ASIDE:
-            return 0.0, self._turning(robot, -error)
-        rate = -_STEERING[0] * v * aside - _STEERING[1] * error
-        return v, float(np.clip(rate, -self._turn_rate[robot], self._turn_rate[robot]))
+    def _along(self, distance: Float, aside: Float, error: Float) -> Float:
+        """Commands f8[k,2] to drive along segments and to be able to stop within a distance.
 
-    def _stopping(self, robot: int, distance: float) -> float:
-        """The speed from which a robot still stops within a distance, metres."""
-        speed = _stopping_speed(distance, self._brake[robot], self._period)
-        return min(speed, float(self._speed[robot]), float(self._follower.speed[robot]))
+        Args:
+            distance: f8[k] metres.
+            aside: f8[k] metres to the left of the segment.
+            error: f8[k] radians off it.
+        """
+        command = self._on_the_spot(-error)
+        speed, limit = self._stopping(distance), self._turn_rate[self._robots]
+        steering = (-_STEERING[0] * speed * aside - _STEERING[1] * error).clip(-limit, limit)
+        straight = np.abs(error) <= _ASIDE
+        command[straight] = np.column_stack([speed, steering])[straight]
+        return command
 
-    def _turning(self, robot: int, angle: float) -> float:
-        """The turn rate from which a robot still stops within an angle, radians."""
-        rate = _stopping_speed(abs(angle), self._turn_brake[robot], self._period)
-        return float(np.copysign(min(rate, self._turn_rate[robot]), angle))
+    def _on_the_spot(self, angle: Float) -> Float:
+        """Commands f8[k,2] to turn by angles, at rates from which the robots still stop there."""
+        rate = _stopping_speed(np.abs(angle), self._turn_brake[self._robots], self._period)
+        return np.column_stack(
+            [np.zeros(len(angle)), np.copysign(np.minimum(rate, self._turn_rate[self._robots]), angle)]
+        )
+
+    def _stopping(self, distance: Float) -> Float:
+        """The speeds f8[k] from which robots still stop within a distance, metres."""
+        speed = _stopping_speed(distance, self._brake[self._robots], self._period)
+        allowed: Float = np.minimum(self._speed[self._robots], self._follower.speed[self._robots])
+        return np.minimum(speed, allowed, out=speed)
 
 
-def _stopping_speed(distance: float, brake: float, period: float) -> float:
-    return float(brake * (np.sqrt(period**2 + 2 * max(distance, 0.0) / brake) - period))
+def _stopping_speed(distance: Float, brake: Float, period: float) -> Float:
+    speed: Float = brake * (np.sqrt(period**2 + 2 * np.maximum(distance, 0.0) / brake) - period)
+    return speed

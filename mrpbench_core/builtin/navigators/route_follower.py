@@ -100,6 +100,10 @@ class RouteFollower:
         """Tell whether a robot is at the place to go to next, and has only to turn there."""
         return self._progress.only_turns(robot)
 
+    def only_turn(self) -> Bool:
+        """Tell bool[n] which robots are at the place to go to next, and have only to turn there."""
+        return self._progress.only_turn()
+
     def cleared_vertex(self, robot: int, x: float, y: float) -> tuple[tuple[float, float] | None, float]:
         """The vertex that a robot cleared last, and the distance that it must keep from there when it is at x, y."""
         return self._progress.cleared_vertex(robot, x, y)

@@ -124,6 +124,11 @@ class RouteProgress:
         """Tell whether a robot is at the place to go to next, and has only to turn there."""
         return bool(self.at_goal[robot] and self.reached[robot] < self.released[robot])
 
+    def only_turn(self) -> Bool:
+        """Tell bool[n] which robots are at the place to go to next, and have only to turn there."""
+        turn: Bool = self.at_goal & (self.reached < self.released)
+        return turn
+
     def _state(self, robots: Int) -> Int:
         state: Int = np.array([table[robots] for table in (self.reached, self.released, self.halting, self.at_goal)])
         return state

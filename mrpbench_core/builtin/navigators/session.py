@@ -48,9 +48,7 @@ class WaypointsSession(NavigatorSession):
         follower.update(pose, measured[:, 0], orders.released, observation.level)
         self.rotations.update(now, orders.in_step)
         rotating = self.rotations.rotating
-        for robot in rotating.nonzero()[0].tolist():
-            self.detours.cancel(robot)
-        self.detours.shorten(pose)
+        self.detours.shorten(pose, rotating)
         foot = follower.foot(pose)
         under_way = follower.under_way(pose) & ~recoveries.aborted
         able = ~recoveries.aborted & ~recoveries.recovering

@@ -109,6 +109,7 @@ def rotate(
     size = 2 * columns
     ring = np.arange(count).reshape(rings, size)
     one, other = (ring[:, list(index)].ravel() for index in zip(*combinations(range(size), 2), strict=True))
+    reach = fleet.radii[one] + fleet.radii[other]
     with simulator.open(world, fleet, pose, seed, PERIOD) as simulation:
         state, mode = simulation.state, np.zeros(count, "u1")
         for step in range(int(limit * turns / PERIOD)):
@@ -130,5 +131,5 @@ def rotate(
             state = simulation.step(Inputs(twist=motion.twist))
             contacts += len(state.contacts)
             apart = np.hypot(*(state.pose[one, :2] - state.pose[other, :2]).T)
-            gap = min(gap, float((apart - fleet.radii[one] - fleet.radii[other]).min()))
+            gap = min(gap, float((apart - reach).min()))
     return RingsResult(rotations=int(reached.reshape(rings, size).min(axis=1).sum()), contacts=contacts, gap=gap)

@@ -15,13 +15,19 @@ from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.testing.execution.rings import rotate
 
-SIMULATORS = {"kinematic": Kinematic, "planar": Planar, "pybullet": partial(PyBullet, model="wheels")}
+SIMULATORS = {
+    "kinematic": (Kinematic, 20),
+    "planar": (Planar, 120),
+    "pybullet": (partial(PyBullet, model="wheels"), 4),
+}
+"""Each with the number of rings that rotate at once."""
 CONTROLLERS = {"pure_pursuit": PurePursuit, "dwb": Dwb}
 CELLS = (0.4, 0.45, 0.62, 1.0)
 """metres; a `turtlebot3_burger` may rotate on the first only because its navigator keeps a few centimetres."""
 COLUMNS = (2, 2, 3)
 """Rings go around two rows of so many cells."""
-RINGS, TURNS = 10, 25
+TURNS = 25
+"""Rotations of each ring."""
 
 
 @attrs.define
@@ -48,21 +54,21 @@ def main() -> int:
     seed = given.seed
     while sum(total.rotations for total in totals.values()) < given.rotations:
         cell, columns = CELLS[seed % len(CELLS)], COLUMNS[seed % len(COLUMNS)]
-        for simulator in SIMULATORS:
+        for simulator, (simulate, rings) in SIMULATORS.items():
             for controller in CONTROLLERS:
                 total = totals[simulator, controller]
                 found = rotate(
                     Adg(),
                     CONTROLLERS[controller](),
-                    SIMULATORS[simulator](),
+                    simulate(),
                     cell=cell,
-                    rings=RINGS,
+                    rings=rings,
                     turns=TURNS,
                     columns=columns,
                     seed=seed,
                 )
                 total.rotations += found.rotations
-                total.missing += RINGS * TURNS - found.rotations
+                total.missing += rings * TURNS - found.rotations
                 total.contacts += found.contacts
                 total.gaps[cell] = min(total.gaps.get(cell, found.gap), found.gap)
         seed += 1
