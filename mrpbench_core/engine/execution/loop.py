@@ -198,7 +198,7 @@ class ExecutionLoop:
                 self._checks.adopt(_segments(new.plan))
                 self._facility_manager.adopt(new.problem, new.plan)
                 self._inputs.recorder.events((Event(stamp=now, kind="replan", detail=new.reason),))
-                self._inputs.recorder.routes(now, self._revision, new.routes)
+                self._inputs.recorder.routes(now, self._revision, new.routes, new.plan)
                 return True
         self._inputs.replanner.failed(now)
         self._inputs.recorder.events((Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}"),))

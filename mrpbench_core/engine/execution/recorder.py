@@ -13,6 +13,7 @@ from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBa
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.runs.recording import Chunk
 
 SAMPLES = 256
@@ -29,6 +30,8 @@ IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
     "route_waypoint": ("f8", (3,)),
     "route_level": ("i2", ()),
     "route_speed": ("f8", ()),
+    "route_edge": ("i4", ()),
+    "route_leave": ("i8", ()),
     "event_time": ("f8", ()),
     "event_kind": ("U1", ()),
     "event_robot": ("i4", ()),
@@ -37,7 +40,7 @@ IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
 """Channels that may stay empty, which is not the same as missing."""
 
 
-INTEGERS = dict.fromkeys(("contact", "scan_robot", "event_robot", "route_revision", "route_robot"), "i4")
+INTEGERS = dict.fromkeys(("contact", "scan_robot", "event_robot", "route_revision", "route_robot", "route_edge"), "i4")
 """Channels whose rows come as Python's integers."""
 
 
@@ -123,15 +126,17 @@ class Recorder:
             self._rows["event_robot"].append(event.robot)
             self._rows["event_detail"].append(event.detail)
 
-    def routes(self, now: float, revision: int, routes: Sequence[Route]) -> None:
-        """Record the routes of a new plan: one row per waypoint, with the speed limit of the way to it."""
-        for robot, route in enumerate(routes):
+    def routes(self, now: float, revision: int, routes: Sequence[Route], plan: Plan) -> None:
+        """Record a new plan and its routes: one row per waypoint, with the segment that leads there and its limit."""
+        for robot, (route, path) in enumerate(zip(routes, plan.paths, strict=True)):
             self._rows["route_time"] += [now] * len(route.waypoint)
             self._rows["route_revision"] += [revision] * len(route.waypoint)
             self._rows["route_robot"] += [robot] * len(route.waypoint)
             self._rows["route_waypoint"] += [*route.waypoint]
             self._rows["route_level"] += [*route.level]
             self._rows["route_speed"] += [np.inf, *route.speed]
+            self._rows["route_edge"] += [-1, *path.edge]
+            self._rows["route_leave"] += [*path.enter[:1], *path.leave] or [0]
 
     def flush(self) -> None:
         """Hand on what has been collected."""

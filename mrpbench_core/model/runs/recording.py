@@ -17,6 +17,7 @@
 | `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
 | `route_time`, `route_revision`, `route_robot` | f8; i4; i4 | one row per waypoint of each plan after the first |
 | `route_waypoint`, `route_level`, `route_speed` | f8[3]; i2; f8 | see `mrpbench_core.model.runs.run.latest_routes` |
+| `route_edge`, `route_leave` | i4; i8 | of the segment to the waypoint: edge, -1 = wait; tick at which it ends |
 | `event_time`, `event_kind`, `event_robot`, `event_detail` | f8; U; i4; U | see `Event` |
 
 Periodic channels are sampled every `1 / recording.rate` seconds, and at the start and the end of the execution.

@@ -69,7 +69,6 @@ class Level:
     """f8[W,4]: centre lines x1, y1, x2, y2 in metres."""
     wall_thickness: float = 0.1
     """Walls are boxes around their centre line, extended by half the thickness at both ends."""
-    wall_height: float = 2.5
     doors: tuple[Door, ...] = ()
     obstacles: tuple[Obstacle, ...] = ()
     occupancy: Occupancy | None = None

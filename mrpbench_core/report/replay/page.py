@@ -4,21 +4,20 @@ import base64
 import html
 import json
 from collections.abc import Mapping
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.runs.run import all_routes
 from mrpbench_core.report.reading.columns import Columns
 from mrpbench_core.report.replay.doors import pack_facilities
 from mrpbench_core.report.replay.events import read_contacts, read_events
 from mrpbench_core.report.replay.facts import facts_of
 from mrpbench_core.report.replay.motion import pack_motion
 from mrpbench_core.report.replay.packing import Packing
+from mrpbench_core.report.replay.plans import read_plans, shown_plans
 from mrpbench_core.report.replay.scans import pack_scans
 from mrpbench_core.report.replay.scene import pack_resources, pack_robots, pack_world
 from mrpbench_core.report.replay.schedule import pack_schedule
+from mrpbench_core.report.replay.template import FOLDER, write_template
 from mrpbench_core.report.replay.waits import pack_waits
 from mrpbench_core.store.recording import Recording
 
@@ -46,30 +45,28 @@ def write_page(
     context = recording.context()
     motion, scans = Packing(), Packing()
     pack_motion(recording, motion)
-    pack_schedule(recording.first_context(), motion)
-    pack_waits(recording, record.get("config") or {}, motion)
+    plans = read_plans(recording)
+    shown = shown_plans(plans)
+    pack_schedule(shown, context.problem.roadmap.tick, motion)
+    pack_waits(recording, plans, record.get("config") or {}, motion)
     thinned = pack_scans(recording, scans)
     data = {
         "facts": facts_of(record, columns or {}, planner),
         "world": pack_world(context.world, motion)
         | pack_facilities(recording, context.world, motion)
         | {"resources": pack_resources(context.problem.roadmap)},
-        "robots": pack_robots(context, motion, all_routes(recording.first_context().routes, recording.channels)),
+        "robots": pack_robots(context, motion, shown),
         "events": read_events(recording, context),
         "contacts": read_contacts(recording),
         "scans": thinned,
     }
     title = f"{context.world.name}: {record['run_id'][:12]}"
-    try:
-        file.write_text(_fill(title, data, {"motion": motion, "scans": scans}), encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"cannot be written: {error.strerror or error}", file=file) from None
+    write_template("index.html", title, _parts(data, {"motion": motion, "scans": scans}), file)
 
 
-def _fill(title: str, data: Mapping[str, Any], packings: Mapping[str, Packing]) -> str:
-    """Fill the marks of the template; an import map of `data:` addresses connects the modules."""
-    folder = resources.files(__package__) / "page"
-    modules = {entry.name: entry.read_text(encoding="utf-8") for entry in folder.iterdir() if entry.name.endswith("js")}
+def _parts(data: Mapping[str, Any], packings: Mapping[str, Packing]) -> dict[str, str]:
+    """Return what fills the marks of the template; an import map of `data:` addresses connects the modules."""
+    modules = {entry.name: entry.read_text(encoding="utf-8") for entry in FOLDER.iterdir() if entry.name.endswith("js")}
     imports = {f"replay/{name}": _address(name, modules[name]) for name in sorted(modules)}
     blobs = [
         f'<script type="application/octet-stream" id="{name}" data-layout="{html.escape(json.dumps(packing.layout))}">'
@@ -77,16 +74,11 @@ def _fill(title: str, data: Mapping[str, Any], packings: Mapping[str, Packing]) 
         for name, packing in packings.items()
         if packing.layout
     ]
-    parts = {
-        "title": html.escape(title),
-        "style": (folder / "style.css").read_text(encoding="utf-8"),
+    return {
+        "style": (FOLDER / "style.css").read_text(encoding="utf-8"),
         "imports": _json({"imports": imports}),
         "data": f'<script type="application/json" id="run">{_json(data)}</script>\n' + "\n".join(blobs),
     }
-    text = (folder / "index.html").read_text(encoding="utf-8")
-    for name, part in parts.items():
-        text = text.replace(f"<!--{name}-->", part, 1)
-    return text
 
 
 def _address(name: str, code: str) -> str:

@@ -2,10 +2,9 @@
 
 import html
 from collections.abc import Sequence
-from importlib import resources
 from pathlib import Path
 
-from mrpbench_core.files.errors import InputError
+from mrpbench_core.report.replay.template import write_template
 
 
 def write_pair(replays: Sequence[Path], titles: Sequence[str], file: Path) -> None:
@@ -23,10 +22,4 @@ def write_pair(replays: Sequence[Path], titles: Sequence[str], file: Path) -> No
         f'<iframe title="{html.escape(title)}" srcdoc="{html.escape(page.read_text(encoding="utf-8"))}"></iframe>'
         for page, title in zip(replays, titles, strict=True)
     ]
-    text = (resources.files(__package__) / "page" / "pair.html").read_text(encoding="utf-8")
-    text = text.replace("<!--title-->", html.escape(" and ".join(titles)), 1)
-    text = text.replace("<!--frames-->", "\n".join(frames), 1)
-    try:
-        file.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"cannot be written: {error.strerror or error}", file=file) from None
+    write_template("pair.html", " and ".join(titles), {"frames": "\n".join(frames)}, file)

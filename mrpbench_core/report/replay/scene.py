@@ -1,22 +1,18 @@
 """Packs world, robots and routes for the page."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import RobotModel
-from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.roadmap import Resource, Roadmap
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.worlds.solids import wall_boxes
 from mrpbench_core.model.worlds.world import Level, World
 from mrpbench_core.report.replay.packing import Packing
-
-Plans = list[tuple[float, tuple[Route, ...]]]
-"""Routes with the simulated second from which they are valid; see `mrpbench_core.model.runs.run.all_routes`."""
-MOST_WAYPOINTS = 1_000_000
-"""Number of waypoints above which only the last plan is shown."""
+from mrpbench_core.report.replay.plans import RecordedPlan
 
 
 def pack_world(world: World, packing: Packing) -> dict[str, Any]:
@@ -61,16 +57,13 @@ def _level(level: Level, number: int, packing: Packing) -> dict[str, Any]:
     return found
 
 
-def pack_robots(context: RunContext, packing: Packing, plans: Plans | None = None) -> dict[str, Any]:
-    """Return robot models as JSON; pack the model of each robot and its routes by plan (by default the last only)."""
+def pack_robots(context: RunContext, packing: Packing, plans: Sequence[RecordedPlan]) -> dict[str, Any]:
+    """Return robot models as JSON; pack the model of each robot and its routes by plan."""
     models, kind = context.fleet.profiles
     packing.add("kind", kind)
-    plans = plans or [(0.0, context.routes)]
-    if sum(len(route.waypoint) for _, routes in plans for route in routes) > MOST_WAYPOINTS:
-        plans = [(0.0, context.routes)]
-    routes = [route for _, plan in plans for route in plan]  # none where nothing was planned
+    routes = [route for plan in plans for route in plan.routes]  # none where nothing was planned
     lengths = [len(route.waypoint) for route in routes] or [0] * len(context.fleet)
-    packing.add_metres("plan_time", [time for time, _ in plans])
+    packing.add_metres("plan_time", [plan.time for plan in plans])
     packing.add("route_first", np.cumsum([0, *lengths]))
     waypoints = np.concatenate([route.waypoint[:, :2] for route in routes] or [np.empty((0, 2))])
     packing.add_metres("route_x", waypoints[:, 0])

@@ -1,7 +1,7 @@
 """Finds out from a recording why robots wait, and for what."""
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from enum import IntEnum
 from typing import Any
 
@@ -9,11 +9,16 @@ import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
+from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.execution.route import Route
-from mrpbench_core.model.runs.run import RunContext, all_routes
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.report.replay.blocked import nearest, standing
 from mrpbench_core.report.replay.dependencies import Dependencies, first_samples
+from mrpbench_core.report.replay.motion import read_poses
 from mrpbench_core.report.replay.packing import Packing
+from mrpbench_core.report.replay.plans import RecordedPlan
 from mrpbench_core.store.recording import Recording
 
 NEEDED = frozenset({"mode", "reached", "cleared", "released"})
@@ -38,6 +43,8 @@ class Reason(IntEnum):
     """The robot starts late."""
     UNKNOWN = 8
     """The dispatcher has not released the next segment, and the recording does not tell why."""
+    BLOCKED = 9
+    """The robot stands although its way is released; `culprit` is the nearest robot if one is near."""
 
 
 @attrs.frozen(kw_only=True)
@@ -50,33 +57,49 @@ class Waits:
     """i4[T,n]: robot or resource, -1 = none."""
 
 
-def pack_waits(recording: Recording, config: Mapping[str, Any], packing: Packing) -> None:
-    """Pack `reason` and `culprit` if the recording allows to find them."""
-    waits = explain_waits(recording, config)
+def pack_waits(
+    recording: Recording, plans: Sequence[RecordedPlan], config: Mapping[str, Any], packing: Packing
+) -> None:
+    """Pack `reason` and `culprit` if the recording allows to find them; see `explain_waits`."""
+    waits = explain_waits(recording, plans, config)
     if waits is not None:
         packing.add("reason", waits.reason.T)
         packing.add("culprit", waits.culprit.T)
 
 
-def explain_waits(recording: Recording, config: Mapping[str, Any]) -> Waits | None:
+def explain_waits(recording: Recording, plans: Sequence[RecordedPlan], config: Mapping[str, Any]) -> Waits | None:
     """Return why each robot waits at each sample; None if progress or modes were not recorded.
 
-    A dependency of the first plan that is not met is the reason. The times of later plans are not recorded: there,
+    The reason is a dependency of the plan in force that is not met. Where nothing is known of that plan but its routes,
     the reason is the robot that holds the next waypoint.
 
     Args:
         recording: of an execution.
+        plans: of this execution, see `read_plans`.
         config: the configuration of the run, for the latency of replanning.
     """
     if not recording.channels.keys() >= NEEDED:
         return None
-    plans = all_routes(recording.first_context().routes, recording.channels)
     channels = {name: recording.channel(name) for name in (*sorted(NEEDED), "time")}
-    if any(len(routes) != channels["mode"].shape[1] for _, routes in plans):
+    if any(len(plan.routes) != channels["mode"].shape[1] for plan in plans):
         return None
     if "waits_for" in recording.channels:
         channels["waits_for"] = recording.channel("waits_for")
-    return _Explanation(recording.first_context(), channels, plans).waits(_pending(recording, channels["time"], config))
+    pending = _pending(recording, channels["time"], config)
+    context = recording.first_context()
+    waits = _Explanation(context.problem, channels, plans).waits(pending)
+    return _with_blocked(waits, recording, context.fleet)
+
+
+def _with_blocked(waits: Waits, recording: Recording, fleet: Fleet) -> Waits:
+    """Add the robots that stand although their way is released."""
+    time, pose = read_poses(recording)
+    mode, reached, released = (recording.channel(name) for name in ("mode", "reached", "released"))
+    blocked = (mode == Mode.FOLLOWING) & (reached < released) & standing(time, pose)
+    level = recording.channel("level") if "level" in recording.channels else np.zeros_like(reached)
+    radius = np.array([robot.radius for robot in fleet.robots])
+    near = nearest(blocked, pose, level, radius)
+    return Waits(reason=np.where(blocked, Reason.BLOCKED, waits.reason), culprit=np.where(blocked, near, waits.culprit))
 
 
 def _pending(recording: Recording, time: Float, config: Mapping[str, Any]) -> Bool:
@@ -91,10 +114,11 @@ def _pending(recording: Recording, time: Float, config: Mapping[str, Any]) -> Bo
 
 
 class _Explanation:
-    def __init__(self, context: RunContext, channels: Mapping[str, Any], plans: list[tuple[float, Any]]) -> None:
-        self.context, self.channels, self.plans = context, channels, plans
+    def __init__(self, problem: Problem, channels: Mapping[str, Any], plans: Sequence[RecordedPlan]) -> None:
+        self.problem, self.channels = problem, channels
         self.time: Float = channels["time"]
-        self.limits = [*np.searchsorted(self.time, [start for start, _ in plans]).tolist(), len(self.time)]
+        limits = [*np.searchsorted(self.time, [plan.time for plan in plans]).tolist(), len(self.time)]
+        self.windows = [(plan, slice(begin, end)) for plan, begin, end in zip(plans, limits, limits[1:], strict=False)]
         self.reason = np.zeros(channels["mode"].shape, np.uint8)
         self.culprit: Int32 = np.full(self.reason.shape, -1, np.int32)
 
@@ -102,14 +126,13 @@ class _Explanation:
         mode, reached, released = (self.channels[name] for name in ("mode", "reached", "released"))
         self.reason[mode == Mode.RECOVERING] = Reason.RECOVERY
         waiting = mode == Mode.WAITING
-        for (_, routes), begin, end in zip(self.plans, self.limits, self.limits[1:], strict=False):
-            waiting[begin:end] &= reached[begin:end] < [route.last_move for route in routes]
+        for plan, window in self.windows:
+            waiting[window] &= reached[window] < [route.last_move for route in plan.routes]
         self.reason[waiting] = np.where(reached < released, Reason.START, Reason.UNKNOWN)[waiting]
-        for number, (_, routes) in enumerate(self.plans):
-            window = slice(self.limits[number], self.limits[number + 1])
-            self._by_holders(routes, window)
-            if not number:
-                self._by_dependencies(window)
+        for plan, window in self.windows:
+            self._by_holders(plan.routes, window)
+            if plan.plan is not None:
+                self._by_dependencies(plan.plan, window)
         self.reason[(self.reason == Reason.UNKNOWN) & pending[:, None]] = Reason.REPLAN
         if "waits_for" in self.channels:
             asked = waiting & (self.channels["waits_for"] >= 0)
@@ -145,19 +168,18 @@ class _Explanation:
                     holds = (released[samples, other] >= index) & (cleared[samples, other] <= index)
                     self._blame(samples[holds], robot, Reason.ROBOT, other)
 
-    def _by_dependencies(self, window: slice) -> None:
-        """Name the first dependency of the first plan that is not met, or the plan's time if that is what counts."""
-        plan = self.context.result.plan
-        if plan is None:
+    def _by_dependencies(self, plan: Plan, window: slice) -> None:
+        """Name the first dependency of a plan that is not met, or the plan's time if that is what counts."""
+        if not np.isin(self.reason[window], (Reason.ROBOT, Reason.UNKNOWN)).any():
             return
         holders = self.culprit[window].copy()
         self.culprit[window] = -1
         held = self.reason[window] == Reason.ROBOT
-        if self._released_by_clock(window):
+        if self._released_by_clock(plan, window):
             self.reason[window][held | (self.reason[window] == Reason.UNKNOWN)] = Reason.SCHEDULE
             return
         self.reason[window][held] = Reason.UNKNOWN
-        graph = Dependencies(self.context.problem, plan)
+        graph = Dependencies(self.problem, plan)
         for robot, count, samples in self._open(window):
             move = graph.next_move(robot, count)
             if move is None:
@@ -170,10 +192,8 @@ class _Explanation:
         self.reason[window][unknown] = Reason.ROBOT
         self.culprit[window][unknown] = holders[unknown]
 
-    def _released_by_clock(self, window: slice) -> bool:
-        plan = self.context.result.plan
-        assert plan is not None
-        tick = self.context.problem.roadmap.tick
+    def _released_by_clock(self, plan: Plan, window: slice) -> bool:
+        tick = self.problem.roadmap.tick
         time, released = self.time[window] + 1e-9, self.channels["released"][window]
         due = [np.searchsorted(path.enter * tick, time, side="right") for path in plan.paths]
         return bool((released == np.stack(due, axis=1)).all()) if due else False

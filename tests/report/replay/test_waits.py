@@ -8,6 +8,7 @@ from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.report.replay.dependencies import Dependencies
+from mrpbench_core.report.replay.plans import read_plans
 from mrpbench_core.report.replay.waits import Reason, explain_waits
 
 SAMPLES = 6
@@ -19,8 +20,11 @@ def rows():
     """Robot 0 stands behind robot 1 until that has cleared its start, at sample 3."""
     one, none = np.ones(SAMPLES, "i4"), np.zeros(SAMPLES, "i4")
     passed = (np.arange(SAMPLES) >= 3).astype("i4")
+    truth = np.zeros((SAMPLES, 2, 3))
+    truth[..., 0] = (0, 1) + np.arange(SAMPLES)[:, None] / 10
     return {
         "time": np.arange(SAMPLES) / 10,
+        "truth": truth,
         "released": np.stack([2 * (np.arange(SAMPLES) >= 4).astype("i4"), one], axis=1),
         "reached": np.stack([none, none], axis=1),
         "cleared": np.stack([none, passed], axis=1),
@@ -29,7 +33,7 @@ def rows():
 
 
 def explained(recording, config=None):
-    waits = explain_waits(recording, config or {})
+    waits = explain_waits(recording, read_plans(recording), config or {})
     assert waits is not None
     return [
         [(Reason(reason), culprit) for reason, culprit in zip(*row, strict=True)]
@@ -60,6 +64,22 @@ def test_a_robot_with_released_segments_that_waits_starts_late(store, rows):
     assert explained(store(rows | {"released": released}))[0][:4] == [(Reason.START, -1)] * 4
 
 
+def test_a_robot_that_stands_on_released_segments_is_blocked_by_the_robot_before_it(store, rows):
+    truth = rows["truth"].copy()
+    truth[:, 0] = (0.9, 0, 0)
+    reasons = explained(store(rows | {"truth": truth}))[0]
+    assert reasons[4:] == [(Reason.BLOCKED, 1)] * 2
+    truth[:, 0, 0] = -3
+    assert explained(store(rows | {"truth": truth}))[0][4:] == [(Reason.BLOCKED, -1)] * 2
+
+
+def test_a_robot_that_turns_on_the_spot_is_not_blocked(store, rows):
+    truth = rows["truth"].copy()
+    truth[:, 0] = 0
+    truth[:, 0, 2] = np.arange(SAMPLES) / 5
+    assert explained(store(rows | {"truth": truth}))[0][4:] == [(Reason.NONE, -1)] * 2
+
+
 def test_a_dispatcher_that_releases_by_the_clock_waits_for_its_time(store, rows, run_context):
     late = Plan(paths=(Path(edge=[-1, 0], enter=[4, 4], leave=[4, 5]), Path(edge=[2], enter=[0], leave=[1])))
     roadmap = attrs.evolve(run_context.problem.roadmap, tick=0.1)
@@ -83,8 +103,10 @@ def test_a_pending_plan_is_the_reason_where_nothing_else_is(store, rows):
     assert [reason for reason, _ in reasons[1:4]] == [Reason.REPLAN] * 3
 
 
-def test_after_a_replan_the_holder_of_the_next_waypoint_is_named(store, rows):
-    new = {
+@pytest.fixture
+def replanned():
+    """A new plan from the start with the paths of the first one, as recordings of routes alone hold it."""
+    return {
         "route_time": np.full(5, 0.0),
         "route_revision": np.ones(5, "i4"),
         "route_robot": np.array([0, 0, 0, 1, 1], "i4"),
@@ -92,12 +114,22 @@ def test_after_a_replan_the_holder_of_the_next_waypoint_is_named(store, rows):
         "route_level": np.zeros(5, "i2"),
         "route_speed": np.ones(5),
     }
-    reasons = explained(store(rows | new))[0]
+
+
+def test_without_the_times_of_a_new_plan_the_holder_of_the_next_waypoint_is_named(store, rows, replanned):
+    reasons = explained(store(rows | replanned))[0]
     assert reasons[:4] == [(Reason.ROBOT, 1)] * 3 + [(Reason.UNKNOWN, -1)]
 
 
+def test_a_dependency_of_a_new_plan_is_the_reason(store, rows, replanned):
+    times = {"route_edge": np.array([-1, -1, 0, -1, 2], "i4"), "route_leave": np.array([0, 1, 2, 0, 1])}
+    reasons = explained(store(rows | replanned | times))[0]
+    assert reasons[:4] == [(Reason.ROBOT, 1)] * 4
+
+
 def test_without_progress_nothing_is_said(store, chunk):
-    assert explain_waits(store({name: chunk[name] for name in ("time", "truth")}), {}) is None
+    recording = store({name: chunk[name] for name in ("time", "truth")})
+    assert explain_waits(recording, read_plans(recording), {}) is None
 
 
 def test_robots_that_move_in_a_cycle_form_a_rotation(square):

@@ -10,7 +10,7 @@ export function layerControls(shown) {
     input.type = "checkbox";
     input.id = `layer-${key}`;
     input.addEventListener("change", () => shown.setLayer(key, input.checked));
-    const chip = make("label", "chip", input, make("span", "", label));
+    const chip = make("label", "chip", input, make("i", key), make("span", "", label));
     chip.title = `${label} on or off (${letter.toUpperCase()})`;
     box.append(chip);
     return [key, input];

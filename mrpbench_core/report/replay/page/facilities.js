@@ -42,7 +42,7 @@ export class Facilities {
     for (const [number, door] of this.doors.entries()) {
       if (!door.levels.includes(shown.level)) continue;
       const opening = this.opening(number, shown.level);
-      context.strokeStyle = opening > 0 ? theme.accent : theme.door;
+      context.strokeStyle = theme.door;
       context.beginPath();
       for (const leaf of door.leaves) {
         const [from, to] = ends(leaf, opening);
@@ -68,7 +68,7 @@ export class Facilities {
       const off = this.height(number) - stops.find(([stop]) => stop === level)[1];
       const moving = Math.abs(off) > AT;
       const text = `${moving ? "↕ " : ""}${this.run.world.levels[level].name || level}`;
-      context.fillStyle = level === shown.level && !moving ? theme.accent : theme.muted;
+      context.fillStyle = level === shown.level && !moving ? theme.ink : theme.muted;
       const [px, py] = view.toScreen(x, y);
       context.strokeText(text, px, py + 16);
       context.fillText(text, px, py + 16);

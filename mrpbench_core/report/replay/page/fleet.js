@@ -46,8 +46,11 @@ export class FleetPanel {
     const segments = run.segments(robot);
     const share = segments ? run.value("reached", robot, 0) / segments : 1;
     setText(name, run.names[robot]);
-    setText(state, STATES[run.state(robot)]);
-    setText(speed, `${run.speed(robot).toFixed(2)} m/s`);
+    const level = run.world.levels.length > 1 ? `${run.levelName(run.value("level", robot, 0))} · ` : "";
+    const why = run.why.text(robot);
+    setText(state, `${level}${why || STATES[run.state(robot)]}`);
+    state.title = why;
+    setText(speed, why ? "" : `${run.speed(robot).toFixed(2)} m/s`);
     const colours = this.colours();
     swatch.style.background = colours.palette[colours.of(robot)];
     swatch.dataset.rim = colours.rim(robot);

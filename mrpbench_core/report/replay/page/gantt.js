@@ -1,4 +1,4 @@
-// A Gantt chart: a row per robot, the first plan above, the execution below. A press goes to that time.
+// A Gantt chart: a row per robot, the plan in force above, the execution below. A press goes to that time.
 
 import { clockText, timeStep } from "replay/clock.js";
 import { decoded, lastAtMost } from "replay/data.js";
@@ -20,8 +20,11 @@ export class Gantt {
     this.canvas = this.box.querySelector("canvas");
     this.still = document.createElement("canvas");
     this.planned = run.arrays.plan_end ? decoded(run.arrays.plan_end) : [];
-    this.end = Math.max(run.end, ...Array.from({ length: this.planned.length ? run.count : 0 }, (_, robot) => this.#planEnd(robot)));
-    this.box.querySelector(".sizer").style.height = `${run.count * ROW + AXIS}px`;
+    this.end = this.planned.reduce((latest, time) => Math.max(latest, time), run.end);
+    const height = `${run.count * ROW + AXIS}px`;
+    this.box.style.setProperty("--all", height);
+    this.box.querySelector(".sizer").style.height = height;
+    this.plan = 0; // number of the plan that is drawn
     this.stale = true;
     this.box.addEventListener("scroll", () => (this.stale = true));
     this.canvas.addEventListener("click", ({ offsetX, offsetY }) => {
@@ -39,11 +42,6 @@ export class Gantt {
   show(on) {
     this.box.hidden = !on;
     this.stale = true;
-  }
-
-  #planEnd(robot) {
-    const last = this.run.arrays.plan_first.values[robot + 1] - 1;
-    return last < this.run.arrays.plan_first.values[robot] ? 0 : this.planned[last];
   }
 
   #x(time) {
@@ -70,7 +68,7 @@ export class Gantt {
     const text = `${run.names[robot]} ${clockText(time)}`;
     if (time > run.end) return text;
     const sample = Math.max(lastAtMost(run.time, time), 0);
-    return `${text}: ${run.why.text(robot, sample) || STATES[run.state(robot, sample)]}`;
+    return `${text}: ${run.doing(robot, sample)}`;
   }
 
   /** Bring a robot's row into sight. */
@@ -83,6 +81,7 @@ export class Gantt {
 
   draw(theme, selected) {
     if (!this.shown) return;
+    if (this.plan !== this.run.planNow) [this.plan, this.stale] = [this.run.planNow, true];
     const context = fitCanvas(this.canvas);
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (this.stale) {
@@ -123,9 +122,10 @@ export class Gantt {
   #drawPlan(context, theme, robot, top) {
     if (!this.planned.length) return;
     const { plan_first, plan_waits } = this.run.arrays;
+    const row = this.plan * this.run.count + robot;
     let from = this.#x(this.run.begin);
     context.globalAlpha = 0.55;
-    for (let i = plan_first.values[robot]; i < plan_first.values[robot + 1]; i++) {
+    for (let i = plan_first.values[row]; i < plan_first.values[row + 1]; i++) {
       const to = this.#x(this.planned[i]);
       context.fillStyle = theme.state[plan_waits.values[i] ? WAITING : FOLLOWING];
       context.fillRect(from, top, to - from, BAR);
@@ -167,6 +167,22 @@ export class Gantt {
       context.fillRect(Math.round(x), AXIS, 1, height);
       context.globalAlpha = 1;
     }
+    this.#drawNewPlans(context, theme, height);
+  }
+
+  /** A dashed line where a new plan takes effect. */
+  #drawNewPlans(context, theme, height) {
+    context.strokeStyle = theme.ink;
+    context.lineWidth = 1;
+    context.setLineDash([3, 3]);
+    context.beginPath();
+    for (const time of this.run.planTime.subarray(1)) {
+      const x = Math.round(this.#x(time)) + 0.5;
+      context.moveTo(x, AXIS);
+      context.lineTo(x, height);
+    }
+    context.stroke();
+    context.setLineDash([]);
   }
 }
 

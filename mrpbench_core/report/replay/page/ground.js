@@ -1,6 +1,7 @@
 // What does not move: grid, walls, obstacles, lifts, lanes, names. Drawn again only when the view changes.
 
 import { decoded } from "replay/data.js";
+import { isNarrow } from "replay/surface.js";
 
 const FONT = "11px system-ui, sans-serif";
 const MOST_NAMES = 400;
@@ -235,8 +236,9 @@ function drawGrid(context, view, theme) {
 }
 
 function drawScale(context, view, theme) {
+  if (isNarrow()) return;
   const length = roundLength(view, 60);
-  const right = view.width - 64;
+  const right = view.width - 132; // left of the buttons
   const left = right - length * view.scale;
   const y = view.height - 20;
   context.strokeStyle = context.fillStyle = theme.muted;

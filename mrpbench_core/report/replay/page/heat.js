@@ -68,6 +68,7 @@ export class Heat {
 
   /** What its darkest colour means. */
   get text() {
+    if (!this.most) return "heat: no robot waits";
     return `heat: up to ${this.most.toPrecision(3)} robot-seconds of waiting per ${this.cell.toPrecision(2)} m cell`;
   }
 }

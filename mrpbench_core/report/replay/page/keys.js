@@ -22,6 +22,15 @@ const HELP = [
   ["click a robot", "follow it"],
 ];
 
+const MEANING = [
+  ["dotted line, ring", "the plan in force, and the goal"],
+  ["thin line", "the way driven so far"],
+  ["wide band", "reserved: released by the dispatcher and not reached yet"],
+  ["arrow", "from a robot that waits to the robot, door or lift that it waits for"],
+  ["rim", "tells robots of one colour apart"],
+  ["pale bar", "in the Gantt chart: the plan in force, above the execution; a dashed line is a new plan"],
+];
+
 export function listenToKeys(actions) {
   let pointing = false; // the control in focus was pressed with a pointer, so it does not need the keys
   const release = () => {
@@ -50,13 +59,13 @@ export function listenToKeys(actions) {
 
 export function helpDialog() {
   const dialog = document.getElementById("keys");
-  const list = make("dl");
-  for (const [keys, text] of HELP) list.append(make("dt", "", make("kbd", "", keys)), make("dd", "", text));
+  const list = (rows) => make("dl", "", ...rows.flatMap(([name, text]) => [make("dt", "", make("kbd", "", name)), make("dd", "", text)]));
   const close = make("button", "", "Close");
   close.type = "button";
   close.addEventListener("click", () => dialog.close());
-  const least = "Robots are drawn in their true size, but never so small that they cannot be seen. Reserved: what the dispatcher has released and the robot has not reached yet.";
-  dialog.append(make("h2", "", "Keyboard and mouse"), list, make("p", "note", least), close);
+  const least = "Robots are drawn in their true size, but never so small that they cannot be seen.";
+  const marks = make("section", "", make("h2", "", "Marks"), list(MEANING), make("p", "note", least), close);
+  dialog.append(make("div", "", marks, make("section", "", make("h2", "", "Keyboard and mouse"), list(HELP))));
   dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
   return dialog;
 }

@@ -14,15 +14,13 @@ export function legend(run) {
     swatch.style.background = `var(--state-${STATES[state].replace(" ", "-")})`;
     box.append(make("span", "", swatch, STATES[state]));
   }
-  const note = document.getElementById("heat-note");
-  const kinds = [...run.events.map(([, kind]) => kind), ...(run.contacts.length ? ["contact"] : [])];
-  const marks = MARKS.filter((mark) => kinds.some((kind) => markOf(kind) === mark));
-  const drawn = marks.map((mark) => {
-    const canvas = Object.assign(make("canvas"), { width: 2 * SIZE, height: 2 * SIZE });
-    box.append(make("span", "", canvas, mark.name));
-    return [canvas.getContext("2d"), mark.kinds[0] ?? ""];
+  const kinds = new Set([...run.events.map(([, kind]) => kind), ...(run.contacts.length ? ["contact"] : [])]);
+  const marks = MARKS.filter((mark) => [...kinds].some((kind) => markOf(kind) === mark));
+  const drawn = marks.flatMap((mark) => {
+    const canvases = mark.kinds.map(() => Object.assign(make("canvas"), { width: 2 * SIZE, height: 2 * SIZE }));
+    box.append(make("span", "", ...canvases, mark.text));
+    return mark.kinds.map((kind, index) => [canvases[index].getContext("2d"), kind]);
   });
-  box.append(note);
   return (theme) => {
     for (const [context, kind] of drawn) {
       context.setTransform(2, 0, 0, 2, 0, 0);

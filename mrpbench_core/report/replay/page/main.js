@@ -18,7 +18,7 @@ import { listenToPointers } from "replay/pointer.js";
 import { Robots } from "replay/robots.js";
 import { Run, STATES } from "replay/run.js";
 import { Shown } from "replay/shown.js";
-import { fitCanvas } from "replay/surface.js";
+import { fitCanvas, isNarrow } from "replay/surface.js";
 import { applyTheme, readTheme } from "replay/theme.js";
 import { Timeline } from "replay/timeline.js";
 import { View } from "replay/view.js";
@@ -92,9 +92,16 @@ function retheme() {
 }
 
 function resize() {
-  const stage = get("stage");
-  view.inset = { left: 0, right: 0, top: get("layers").offsetHeight + 14, bottom: get("legend").offsetHeight + 14 };
-  get("levels").style.top = `${get("layers").offsetHeight + 20}px`;
+  const [stage, levels, above] = [get("stage"), get("levels"), get("layers").offsetHeight + 14];
+  const wide = !isNarrow();
+  view.inset = {
+    left: 0,
+    right: wide && levels.offsetWidth ? levels.offsetWidth + 20 : 0,
+    top: above + (wide ? 0 : levels.offsetHeight),
+    bottom: get("zoom").offsetHeight + 14,
+  };
+  levels.style.top = `${above + 6}px`;
+  levels.classList.toggle("row", !wide);
   view.resize(stage.clientWidth, stage.clientHeight);
   retheme();
 }

@@ -126,7 +126,7 @@ export class Robots {
     const robot = shown.selected;
     if (this.run.value("level", robot, 0) !== shown.level) return;
     const radius = Math.max(this.run.model(robot).radius * view.scale, this.least) + 6;
-    context.strokeStyle = theme.accent;
+    context.strokeStyle = theme.ink;
     context.lineWidth = 2.5;
     ring(context, this.px[robot], this.py[robot], radius);
     letter(context, theme, "center");

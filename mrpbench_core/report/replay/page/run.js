@@ -6,7 +6,7 @@ import { Why } from "replay/why.js";
 /** What a robot may be doing: `Mode` of the recording, then what follows from its progress. */
 export const STATES = ["following", "waiting", "recovering", "off path", "aborted", "arrived"];
 const WAITING = 1;
-const ABORTED = 4;
+export const ABORTED = 4;
 const ARRIVED = 5;
 
 export class Run {
@@ -92,9 +92,14 @@ export class Run {
     return this.value("known", robot, 1) === 1;
   }
 
-  /** First waypoints of every robot's route by the plan that holds now, and where the last one ends. */
+  /** Number of the plan in force now. */
+  get planNow() {
+    return Math.max(lastAtMost(this.planTime, this.now), 0);
+  }
+
+  /** First waypoints of every robot's route by the plan in force now, and where the last one ends. */
   get routeNow() {
-    return this.plans[Math.max(lastAtMost(this.planTime, this.now), 0)];
+    return this.plans[this.planNow];
   }
 
   /** Number of path segments of a robot, by the plan of a sample. */
@@ -115,9 +120,9 @@ export class Run {
     return over && mode <= WAITING ? ARRIVED : mode;
   }
 
-  /** What a robot is doing, in words: why it stands, else its state. */
-  doing(robot) {
-    return this.why.text(robot) || STATES[this.state(robot)];
+  /** What a robot is doing now (or at a sample), in words: why it stands, else its state. */
+  doing(robot, sample = this.latest) {
+    return this.why.text(robot, sample) || STATES[this.state(robot, sample)];
   }
 
   /** Metres per second between the samples around now, of the robot's origin. */

@@ -1,5 +1,8 @@
 // A canvas as sharp as the screen, measured in CSS pixels.
 
+/** Whether the page has the layout for narrow screens; the style sheet has the same limit. */
+export const isNarrow = () => window.matchMedia("(max-width: 760px)").matches;
+
 export function fitCanvas(canvas) {
   const ratio = window.devicePixelRatio || 1;
   const { clientWidth, clientHeight } = canvas;

@@ -2,13 +2,12 @@
 
 import { clockText, timeStep } from "replay/clock.js";
 import { lastAtMost } from "replay/data.js";
-import { drawMark, markOf, MARKS } from "replay/marks.js";
+import { drawMark, markOf, MARKS, ROW } from "replay/marks.js";
 import { STATES } from "replay/run.js";
 import { fitCanvas } from "replay/surface.js";
 
 const ORDER = [5, 0, 1, 2, 3, 4]; // from the bottom of the stack
 const TICKS = 16; // pixels for the labels of the axis
-const ABOVE = 12; // pixels for events
 const EDGE = 6; // pixels left and right, so that the ends can be seen
 
 export class Timeline {
@@ -16,7 +15,10 @@ export class Timeline {
     this.run = run;
     this.canvas = canvas;
     this.still = document.createElement("canvas");
-    this.counts = null;
+    const kinds = [...run.events.map(([, kind]) => kind), ...(run.contacts.length ? ["contact"] : [])];
+    this.rows = [...new Set(kinds.map((kind) => markOf(kind).row))].sort(); // those that have marks
+    this.above = ROW * Math.max(this.rows.length, 1);
+    canvas.parentElement.style.setProperty("--above", `${this.above}px`);
   }
 
   /** Pixel of a time. */
@@ -38,7 +40,7 @@ export class Timeline {
     const context = fitCanvas(this.canvas);
     const { clientWidth: width, clientHeight: height } = this.canvas;
     context.clearRect(0, 0, width, height);
-    const top = ABOVE;
+    const top = this.above;
     const bottom = height - TICKS;
     this.#drawStates(context, theme, top, bottom);
     this.#drawAxis(context, theme, width, bottom);
@@ -86,11 +88,12 @@ export class Timeline {
   #drawMarks(context, theme) {
     const { run } = this;
     const order = (kind) => MARKS.indexOf(markOf(kind));
+    const top = (kind) => ROW * this.rows.indexOf(markOf(kind).row);
     const events = run.events.toSorted((left, right) => order(left[1]) - order(right[1]));
-    for (const [time, kind] of events) drawMark(context, theme, kind, this.x(time));
+    for (const [time, kind] of events) drawMark(context, theme, kind, this.x(time), top(kind));
     for (const [first, last] of run.contacts) {
-      drawMark(context, theme, "contact", this.x(first));
-      context.fillRect(this.x(first), 4, this.x(last) - this.x(first), 4);
+      drawMark(context, theme, "contact", this.x(first), top("contact"));
+      context.fillRect(this.x(first), top("contact") + 4, this.x(last) - this.x(first), 4);
     }
   }
 
@@ -102,7 +105,7 @@ export class Timeline {
     const x = this.x(this.run.now);
     context.fillStyle = theme.paper;
     context.globalAlpha = 0.45;
-    context.fillRect(x, ABOVE, this.x(this.run.end) - x, height - TICKS - ABOVE);
+    context.fillRect(x, this.above, this.x(this.run.end) - x, height - TICKS - this.above);
     context.globalAlpha = 1;
     context.fillStyle = theme.ink;
     context.fillRect(x - 1, 2, 2, height - TICKS - 1);

@@ -1,7 +1,9 @@
 // Why robots stand: the reason in words, and a line to the culprit.
 
+import { ABORTED } from "replay/run.js";
+
 /** `Reason` of `waits.py`. */
-export const REASONS = ["", "robot", "resource", "rotation", "replan", "recovery", "schedule", "start", "unknown"];
+export const REASONS = ["", "robot", "resource", "rotation", "replan", "recovery", "schedule", "start", "unknown", "blocked"];
 const CROWD = 100; // robots above which lines are thin and without arrow heads, which would make pages slow
 const HEAD = 9; // pixels of an arrow head
 const WORDS = {
@@ -28,10 +30,12 @@ export class Why {
   /** The reason in words, "" if the robot does not stand. */
   text(robot, sample = this.run.latest) {
     const { run } = this;
+    if (run.state(robot, sample) === ABORTED) return `gave up${this.#failure(robot, run.time[sample])}`;
     const reason = this.reason(robot, sample);
     const culprit = this.#culprit(robot, sample);
     if (reason === "robot") return `waits for ${run.names[culprit]}${this.#elsewhere(robot, culprit, sample)} to pass`;
     if (reason === "rotation") return `waits for ${run.names[culprit]}, which moves together with it`;
+    if (reason === "blocked") return culprit < 0 ? "stands, though its way is free" : `is blocked near ${run.names[culprit]}`;
     if (reason === "recovery") return this.#recovery(robot, run.time[sample]);
     if (reason !== "resource") return WORDS[reason] ?? "";
     const { kind, name } = run.world.resources[culprit];
@@ -45,8 +49,19 @@ export class Why {
   }
 
   #recovery(robot, time) {
-    const last = this.run.events.findLast(([at, kind, who]) => at <= time && who === robot && kind === "recovery");
-    return last ? `recovers: ${last[3].replaceAll("_", " ")}` : "recovers";
+    const last = this.#latest(robot, time, ["recovery"]);
+    return last ? `recovers (${words(last[3])})${this.#failure(robot, time)}` : "recovers";
+  }
+
+  /** What went wrong for a robot last, after a colon. */
+  #failure(robot, time) {
+    const last = this.#latest(robot, time, ["no_progress", "no_command"]);
+    return last ? `: ${words(last[3] || last[1])}` : "";
+  }
+
+  /** The last event of a robot of some kinds, undefined if there is none. */
+  #latest(robot, time, kinds) {
+    return this.run.events.findLast(([at, kind, who]) => at <= time && who === robot && kinds.includes(kind));
   }
 
   /** Where the culprit is on a level now: [x, y], or null. */
@@ -82,6 +97,8 @@ export class Why {
     }
   }
 }
+
+const words = (name) => name.replaceAll("_", " ");
 
 function arrow(path, [fromX, fromY], [toX, toY], size) {
   const length = Math.hypot(toX - fromX, toY - fromY);

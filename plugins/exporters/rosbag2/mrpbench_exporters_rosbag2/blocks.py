@@ -18,7 +18,15 @@ AXES = {
     "scan_time": ("scan_robot", "scan_ranges"),
     "contact_time": ("contact",),
     "event_time": ("event_kind", "event_robot", "event_detail"),
-    "route_time": ("route_revision", "route_robot", "route_waypoint", "route_level", "route_speed"),
+    "route_time": (
+        "route_revision",
+        "route_robot",
+        "route_waypoint",
+        "route_level",
+        "route_speed",
+        "route_edge",
+        "route_leave",
+    ),
 }
 """Channels by the time axis they share."""
 

@@ -21,7 +21,7 @@ def routes(block: Chunk, context: RunContext, start: int) -> Iterator[tuple[int,
     if "route_time" not in block:
         return
     for revision in np.unique(block["route_revision"]):
-        rows = {name: block[name][block["route_revision"] == revision] for name in CHANNELS}
+        rows = {name: block[name][block["route_revision"] == revision] for name in CHANNELS if name in block}
         stamp = int(nanoseconds(rows["route_time"][0])) + start
         yield stamp, TOPIC, packed(rows)
         for robot, name in enumerate(context.fleet.names):

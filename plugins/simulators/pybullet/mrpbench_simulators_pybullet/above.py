@@ -18,6 +18,7 @@ from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.solids import wall_boxes
 from mrpbench_core.model.worlds.world import Level
 from mrpbench_simulators_pybullet.bullet import SEEN, Bullet, Group, quiet
+from mrpbench_simulators_pybullet.walls import HEIGHT
 
 ABOVE = 1.0
 """metres above the highest roof at which rays begin."""
@@ -66,10 +67,10 @@ def occupancy_from_above(
 def roofs(level: Level) -> Float:
     """Triangles f8[k,3,3] that cover everything solid from above, each at its height in metres."""
     boxes = wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4)[:, :, :2]
-    covers = [(box, level.wall_height) for box in boxes]
+    covers = [(box, HEIGHT) for box in boxes]
     covers += [(obstacle.polygon, obstacle.height) for obstacle in level.obstacles]
     if level.occupancy is not None:
-        covers += [(run, level.wall_height) for run in _runs(level.occupancy)]
+        covers += [(run, HEIGHT) for run in _runs(level.occupancy)]
     parts = [np.empty((0, 3, 3))]
     for polygon, height in covers:
         flat = triangulate(np.asarray(polygon))

@@ -5,8 +5,8 @@ import numpy as np
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 
-_HEIGHT = 2.5
-"""metres: higher than any lidar."""
+HEIGHT = 2.5
+"""metres: the height to which RMF's generator of Gazebo worlds builds walls, which is above every lidar."""
 _SEGMENTS = 10_000
 """Per mesh; Bullet's shared memory holds about three times as many."""
 
@@ -26,7 +26,7 @@ def build_mesh(bullet: Bullet, segments: Float) -> int:
     corners = np.zeros((len(segments), 4, 3))  # start and end on the floor, then end and start on top
     corners[:, [0, 3], :2] = segments[:, None, :2]
     corners[:, [1, 2], :2] = segments[:, None, 2:]
-    corners[:, 2:, 2] = _HEIGHT
+    corners[:, 2:, 2] = HEIGHT
     triangles = np.arange(len(segments))[:, None] * 4 + (0, 1, 2, 0, 2, 3)
     shape: int = bullet.createCollisionShape(
         bullet.module.GEOM_MESH,

@@ -71,7 +71,7 @@ class Own:
         found |= {name: table[..., column].astype(KINDS[name]) for column, name in enumerate(advance.CHANNELS)}
         pairs = [[numbers.get(name, -1) for name in pair] for pair in self._rows["contact"]]
         new: list[Chunk] = self._rows["routes"]
-        found |= {name: np.concatenate([rows[name] for rows in new]) for name in routes.CHANNELS if new}
+        found |= {name: np.concatenate([rows[name] for rows in new]) for name in (new[0] if new else ())}
         return {
             **found,
             **self._sampled(),
@@ -167,7 +167,7 @@ class Own:
 
     def _routes(self, _logged: int, message: Any) -> None:
         with np.load(BytesIO(message.data.tobytes()), allow_pickle=False) as file:
-            self._rows["routes"].append({name: file[name] for name in routes.CHANNELS})
+            self._rows["routes"].append({name: file[name] for name in routes.CHANNELS if name in file})
 
 
 def _planar(transform: Any) -> NDArray[Any]:
