@@ -1,17 +1,20 @@
 """Measure the frames per second of replays in headless Chromium, which draws by software.
 
-Prints one line per number of robots: frames per second while playing, and the size of the page. Robots walk at random
-on a grid of lanes 1 m apart and wait now and then. The page draws what it shows at first and the layers of `--layers`.
-The goal is 40 frames per second with 100 robots and 15 with 1,000, on a machine that does nothing else.
+Prints one line per number of robots: frames per second while playing, CPU time of the browser per frame, and the size
+of the page; medians of `--attempts`. Robots walk at random on a grid of lanes 1 m apart and wait now and then. The page
+draws what it shows at first and the layers of `--layers`. The goal is 40 frames per second with 100 robots and 15 with
+1,000, on a machine that does nothing else; on a busy machine compare CPU times.
 """
 
 import argparse
 import shutil
+import statistics
 import tempfile
 import time
 from pathlib import Path as File
 
 import numpy as np
+import psutil
 from selenium import webdriver
 
 from mrpbench_core.files.robot import load_robot
@@ -37,7 +40,7 @@ const begin = performance.now();
 const count = (now) => {
   frames++;
   if (now - begin < 1000 * seconds) requestAnimationFrame(count);
-  else done((1000 * frames) / (now - begin));
+  else done([frames, (now - begin) / 1000]);
 };
 requestAnimationFrame(count);"""
 
@@ -109,13 +112,14 @@ def write_run(robots: int, file: File) -> None:
     writer.close()
 
 
-def frames_per_second(page: File, seconds: float, layers: list[str]) -> float:
-    """Play a page and count its frames."""
+def play(page: File, seconds: float, layers: list[str]) -> tuple[float, float]:
+    """Play a page; return frames per second, and the CPU time of the browser per frame in milliseconds."""
     options = webdriver.ChromeOptions()
     for flag in FLAGS:
         options.add_argument(flag)
     options.binary_location = shutil.which("chromium") or ""
-    browser = webdriver.Chrome(options=options, service=webdriver.ChromeService(shutil.which("chromedriver")))
+    service = webdriver.ChromeService(shutil.which("chromedriver"))
+    browser = webdriver.Chrome(options=options, service=service)
     try:
         screen = {"width": 1280, "height": 800, "deviceScaleFactor": 1, "mobile": False}
         browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
@@ -125,9 +129,17 @@ def frames_per_second(page: File, seconds: float, layers: list[str]) -> float:
         for layer in layers:
             browser.execute_script("replay.shown.setLayer(arguments[0], true)", layer)
         browser.set_script_timeout(10 * seconds + 30)
-        return float(browser.execute_async_script(COUNT, seconds))
+        before = _cpu_time(service.process.pid)
+        frames, taken = browser.execute_async_script(COUNT, seconds)
+        return frames / taken, 1000 * (_cpu_time(service.process.pid) - before) / frames
     finally:
         browser.quit()
+
+
+def _cpu_time(driver: int) -> float:
+    """Seconds that all processes of the browser have computed."""
+    times = [process.cpu_times() for process in psutil.Process(driver).children(recursive=True)]
+    return sum(time.user + time.system for time in times)
 
 
 def main() -> None:
@@ -135,7 +147,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--robots", type=int, nargs="+", default=[10, 100, 1000])
     parser.add_argument("--seconds", type=float, default=5.0, help="seconds of playing (default: %(default)s)")
-    parser.add_argument("--layers", nargs="*", default=[], help="layers that are drawn besides those shown at first")
+    parser.add_argument("--attempts", type=int, default=3, help="times that each page is played (default: %(default)s)")
+    parser.add_argument("--layers", nargs="*", default=[], help="layers that are drawn in addition to the usual ones")
     parser.add_argument("--keep", type=File, help="folder that keeps the pages")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as temporary:
@@ -147,8 +160,13 @@ def main() -> None:
             recording = Recording(run)
             write_page(recording, {"run_id": "0" * 16, "status": "succeeded"}, page, planner="random walks")
             recording.close()
-            rate = frames_per_second(page, arguments.seconds, arguments.layers)
-            print(f"{robots:5d} robots: {rate:5.1f} frames/s, {page.stat().st_size / 2**20:.1f} MiB", flush=True)
+            played = [play(page, arguments.seconds, arguments.layers) for _ in range(arguments.attempts)]
+            rate, cost = (statistics.median(values) for values in zip(*played, strict=True))
+            size = page.stat().st_size / 2**20
+            print(
+                f"{robots:5d} robots: {rate:5.1f} frames/s, {cost:5.1f} ms CPU time per frame, {size:.1f} MiB",
+                flush=True,
+            )
 
 
 if __name__ == "__main__":

@@ -17,9 +17,9 @@ def pack_schedule(plans: Sequence[RecordedPlan], tick: float, packing: Packing) 
     """Pack the segments of each robot by plan: `plan_end` seconds, and `plan_waits` (1 = wait, 0 = move).
 
     The segments of a robot are `plan_first[row]` to before `plan_first[row + 1]`, where the row is the number of the
-    plan times the number of robots, plus the robot. Segments follow one another from second 0; consecutive segments of one
-    kind are packed as one, and waits after the last move are left out. A plan of which only the routes are known has no
-    segments; nothing is packed if that holds for all plans.
+    plan times the number of robots, plus the robot. Segments follow one another from second 0. Consecutive segments
+    of one kind are packed as one, and waits after the last move are left out. A plan of which only the routes are
+    known has no segments; nothing is packed if that holds for all plans.
 
     Args:
         plans: of one execution.
