@@ -10,7 +10,7 @@ from mrpbench_core.report.replay.plans import RecordedPlan
 
 QUANTUM = 0.01
 """Resolution in seconds."""
-NO_PATH = Path(edge=[], enter=[], leave=[])
+NO_PATH = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
 
 
 def pack_schedule(plans: Sequence[RecordedPlan], tick: float, packing: Packing) -> None:

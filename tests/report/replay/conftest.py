@@ -48,6 +48,25 @@ def chunk():
 
 
 @pytest.fixture
+def new_plan():
+    """Return a function that gives the rows of a new plan that takes effect at `time`, with the paths of the first."""
+
+    def rows(time):
+        return {
+            "route_time": np.full(5, float(time)),
+            "route_revision": np.ones(5, "i4"),
+            "route_robot": np.array([0, 0, 0, 1, 1], "i4"),
+            "route_waypoint": np.array([[0.5, 0.5, 0], [0.5, 0.5, 0], [1.5, 0.5, 0], [1.5, 0.5, 0], [2.5, 0.5, 0]]),
+            "route_level": np.zeros(5, "i2"),
+            "route_speed": np.ones(5),
+            "route_edge": np.array([-1, -1, 0, -1, 2], "i4"),
+            "route_leave": np.array([0, 1, 2, 0, 1]),
+        }
+
+    return rows
+
+
+@pytest.fixture
 def record():
     return {
         "run_id": "0123456789abcdef",
@@ -157,3 +176,30 @@ def ask(browser):
         return browser.execute_script(f"return {expression}")
 
     return value
+
+
+@pytest.fixture
+def press(browser):
+    """Return a function that sends keys to the element in focus."""
+    return lambda keys: browser.switch_to.active_element.send_keys(keys)
+
+
+@pytest.fixture
+def pixels(ask):
+    """Return a function that counts the painted pixels of a canvas."""
+
+    def count(canvas="actors"):
+        return ask(PAINTED.replace("CANVAS", canvas))
+
+    return count
+
+
+PAINTED = """(() => {
+  const canvas = document.getElementById("CANVAS");
+  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+  copy.drawImage(canvas, 0, 0);
+  const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
+  let count = 0;
+  for (let i = 3; i < data.length; i += 4) count += data[i] > 0;
+  return count;
+})()"""

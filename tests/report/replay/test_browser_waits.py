@@ -17,6 +17,12 @@ def waiting(chunk):
     return chunk | {"mode": mode, "released": released, "reached": reached, "cleared": cleared}
 
 
+def test_the_list_says_why_robots_wait(show, waiting, ask):
+    show(waiting)
+    states = "[...document.querySelectorAll('.robot .state')].map((state) => state.innerText)"
+    assert ask(states) == ["waits for robot_1 to pass", "following"]
+
+
 def test_the_panel_says_why_a_robot_waits(show, waiting, ask):
     browser = show(waiting)
     browser.execute_script("replay.clock.seek(1); replay.shown.select(0)")
@@ -25,20 +31,9 @@ def test_the_panel_says_why_a_robot_waits(show, waiting, ask):
     assert "waits for" not in ask("document.getElementById('card').innerText")
 
 
-def test_a_line_leads_to_the_culprit_unless_the_layer_is_off(show, waiting, ask):
+def test_a_line_leads_to_the_culprit_unless_the_layer_is_off(show, waiting, pixels):
     browser = show(waiting)
     browser.execute_script("replay.clock.seek(1); replay.shown.set({ layers: { waits: true } })")
-    with_line = ask(INK)
+    with_line = pixels()
     browser.execute_script("replay.shown.set({ layers: { waits: false } })")
-    assert with_line > ask(INK) + 50
-
-
-INK = """(() => {
-  const canvas = document.getElementById("actors");
-  const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
-  copy.drawImage(canvas, 0, 0);
-  const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
-  let count = 0;
-  for (let i = 3; i < data.length; i += 4) count += data[i] > 0;
-  return count;
-})()"""
+    assert with_line > pixels() + 50

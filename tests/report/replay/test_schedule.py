@@ -1,6 +1,7 @@
 import attrs
 import numpy as np
 
+from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.report.replay.plans import RecordedPlan, read_plans
 from mrpbench_core.report.replay.schedule import pack_schedule
@@ -21,17 +22,9 @@ def test_segments_of_one_kind_become_one(run_context, unpack):
     assert found["plan_waits"].tolist() == [1, 0, 0]
 
 
-def test_every_plan_has_its_times(store, chunk, unpack):
-    new = {
-        "route_time": np.full(5, 1.0),
-        "route_revision": np.ones(5, "i4"),
-        "route_robot": np.array([0, 0, 0, 1, 1], "i4"),
-        "route_waypoint": np.array([[0.5, 0.5, 0], [0.5, 0.5, 0], [1.5, 0.5, 0], [1.5, 0.5, 0], [2.5, 0.5, 0]]),
-        "route_level": np.zeros(5, "i2"),
-        "route_speed": np.ones(5),
-        "route_edge": np.array([-1, -1, 0, -1, 2], "i4"),
-        "route_leave": np.array([0, 2, 4, 0, 1]),
-    }
+def test_every_plan_has_its_times(store, chunk, unpack, new_plan):
+    new = new_plan(1)
+    new["route_leave"] = np.array([0, 2, 4, 0, 1])
     found = packed(unpack, read_plans(store(chunk | new)), 1.0)
     assert found["plan_first"].tolist() == [0, 2, 3, 5, 6]
     assert found["plan_end"].tolist() == [1, 2, 1, 2, 4, 1]
@@ -42,3 +35,9 @@ def test_a_plan_known_by_its_routes_alone_has_no_times(run_context, unpack):
     found = packed(unpack, [first, attrs.evolve(first, time=1.0, plan=None)], 1.0)
     assert found["plan_first"].tolist() == [0, 2, 3, 3, 3]
     assert packed(unpack, [attrs.evolve(first, plan=None)], 1.0) == {}
+
+
+def test_waits_after_the_last_move_are_left_out(run_context, unpack):
+    path = Path(edge=[0, -1, -1], enter=[0, 1, 2], leave=[1, 2, 5])
+    plan = RecordedPlan(time=0.0, routes=run_context.routes[:1], plan=Plan(paths=(path,)))
+    assert packed(unpack, [plan], 1.0)["plan_end"].tolist() == [1]

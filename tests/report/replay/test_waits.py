@@ -103,27 +103,14 @@ def test_a_pending_plan_is_the_reason_where_nothing_else_is(store, rows):
     assert [reason for reason, _ in reasons[1:4]] == [Reason.REPLAN] * 3
 
 
-@pytest.fixture
-def replanned():
-    """A new plan from the start with the paths of the first one, as recordings of routes alone hold it."""
-    return {
-        "route_time": np.full(5, 0.0),
-        "route_revision": np.ones(5, "i4"),
-        "route_robot": np.array([0, 0, 0, 1, 1], "i4"),
-        "route_waypoint": np.array([[0.5, 0.5, 0], [0.5, 0.5, 0], [1.5, 0.5, 0], [1.5, 0.5, 0], [2.5, 0.5, 0]]),
-        "route_level": np.zeros(5, "i2"),
-        "route_speed": np.ones(5),
-    }
-
-
-def test_without_the_times_of_a_new_plan_the_holder_of_the_next_waypoint_is_named(store, rows, replanned):
-    reasons = explained(store(rows | replanned))[0]
+def test_without_the_times_of_a_new_plan_the_holder_of_the_next_waypoint_is_named(store, rows, new_plan):
+    routes = {name: values for name, values in new_plan(0).items() if name not in ("route_edge", "route_leave")}
+    reasons = explained(store(rows | routes))[0]
     assert reasons[:4] == [(Reason.ROBOT, 1)] * 3 + [(Reason.UNKNOWN, -1)]
 
 
-def test_a_dependency_of_a_new_plan_is_the_reason(store, rows, replanned):
-    times = {"route_edge": np.array([-1, -1, 0, -1, 2], "i4"), "route_leave": np.array([0, 1, 2, 0, 1])}
-    reasons = explained(store(rows | replanned | times))[0]
+def test_a_dependency_of_a_new_plan_is_the_reason(store, rows, new_plan):
+    reasons = explained(store(rows | new_plan(0)))[0]
     assert reasons[:4] == [(Reason.ROBOT, 1)] * 4
 
 

@@ -194,6 +194,7 @@ get("scrub").addEventListener("input", () => clock.seek(Number(get("scrub").valu
 /** Stop at the next sample in a direction. */
 function step(by) {
   clock.toggle(false);
+  run.seek(clock.now); // the last step may not be drawn yet
   const at = run.sample + (by > 0 || run.fraction === 0 ? by : 0) + (by > 0 && run.fraction >= 1 ? 1 : 0);
   clock.seek(run.time[Math.min(Math.max(at, 0), run.samples - 1)]);
 }
@@ -300,5 +301,5 @@ resize();
 requestAnimationFrame(frame);
 
 /** For the console and for tests. */
-window.replay = { run, clock, shown, view, robots, lidar, facilities, heat };
+window.replay = { run, clock, shown, view, robots, lidar, facilities, heat, gantt };
 document.body.classList.add("ready");

@@ -45,11 +45,13 @@ export class Paths {
       radius = Math.max(radius, run.model(robot).radius);
     }
     context.lineWidth = Math.max(2 * radius * view.scale, 4);
+    if (run.count > MANY) [context.lineJoin, context.lineCap] = ["bevel", "butt"]; // round ones are slow
     context.globalAlpha = 0.25;
     for (const index of used) {
       context.strokeStyle = colours.palette[index];
       context.stroke(bands[index]);
     }
+    context.lineJoin = context.lineCap = "round";
     context.globalAlpha = 1;
   }
 

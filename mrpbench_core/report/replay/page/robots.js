@@ -5,6 +5,8 @@ import { RIMS } from "replay/colours.js";
 const LEAST = { few: 6, many: 3 }; // pixels of radius: smaller robots are drawn this large, so that they can be seen
 const NUMBERED = 9; // pixels of radius from which every robot gets its number
 const FEW = 60; // robots that always get their numbers
+const EDGE = 0.6; // pixels by which bodies are larger than the footprint, instead of outlines, which are slow
+const POINTER = [[2.2, 0], [0, 0.3], [0, -0.3]]; // heading of a robot too small for an arrow head, in radii
 const FLASH = 1; // seconds that a contact goes on to be shown
 
 export class Robots {
@@ -58,22 +60,16 @@ export class Robots {
       const scale = this.#zoomed(robot, view);
       const colour = colours.of(robot);
       used.add(colour);
-      outline(bodies[colour], footprint, this.px[robot], this.py[robot], run.pose.yaw[robot], scale);
+      outline(bodies[colour], footprint, this.px[robot], this.py[robot], run.pose.yaw[robot], scale + EDGE / radius);
       if (colours.rim(robot)) outline(rims[colours.rim(robot)], footprint, this.px[robot], this.py[robot], run.pose.yaw[robot], scale + 1.5 / radius);
       if (radius * scale >= 5) nose(noses, footprint, this.px[robot], this.py[robot], run.pose.yaw[robot], scale);
-      else {
-        const [cos, sin] = [Math.cos(run.pose.yaw[robot]), Math.sin(run.pose.yaw[robot])];
-        bodies[colour].moveTo(this.px[robot], this.py[robot]);
-        bodies[colour].lineTo(this.px[robot] + 2.2 * radius * scale * cos, this.py[robot] - 2.2 * radius * scale * sin);
-      }
+      else outline(bodies[colour], POINTER, this.px[robot], this.py[robot], run.pose.yaw[robot], radius * scale);
     }
-    context.lineWidth = 1.25;
-    context.lineJoin = "round";
     for (const colour of used) {
-      context.fillStyle = context.strokeStyle = colours.palette[colour];
+      context.fillStyle = colours.palette[colour];
       context.fill(bodies[colour]);
-      context.stroke(bodies[colour]);
     }
+    context.lineJoin = "round";
     context.fillStyle = theme.nose;
     context.fill(noses);
     rims.forEach((rim, index) => {
