@@ -3,12 +3,12 @@
     python benchmarks/movingai.py --data ../shared/data/movingai --solver cbs --maps empty-8-8 --agents 8 16 24
     python benchmarks/movingai.py --data ../shared/data/movingai --anchors ../shared/data/anchors.csv \
         --solver "eecbs w=1.2" --against EECBS-w1.2 EECBS-sipp-w1.2
-    python benchmarks/movingai.py --data … --maps empty-8-8 --solver "eecbs w=1.2" --beside 'external binary=./eecbs
+    python benchmarks/movingai.py --data … --maps empty-8-8 --solver "eecbs w=1.2" --baseline 'external binary=./eecbs
         arguments="-m {map} -a {scen} --outputPaths {paths} -k {agents} -t {seconds} --suboptimality 1.2"'
 
 A solver is an algorithm of `mrpbench_native` or any planner that is installed, with its options; for anytime solvers
 there is `anytime.py`. With `--against`, the instances are those that these solvers were measured on, and the best of
-them counts; with `--beside`, another solver runs in their place, each instance right after ours. A time is the median
+them counts; with `--baseline`, that solver runs in their place, each instance right after ours. A time is the median
 of `--repeat` runs in CPU seconds of one thread, distance tables included: on an idle machine that is the wall time,
 on a busy one it is still the solver's own. A solver that needs more than `--time-limit` has not solved the
 instance. Less than 5 ms counts as 5 ms. Ratios are geometric means over the instances that both
@@ -208,7 +208,7 @@ def main() -> None:
     parser.add_argument("--scens", type=int, default=5, help="scenario files random-1 to random-N")
     parser.add_argument("--anchors", type=Path, help="table of what others reach")
     parser.add_argument("--against", nargs="*", default=[], help="solvers in that table")
-    parser.add_argument("--beside", metavar="SOLVER", help="another solver, to be run as well")
+    parser.add_argument("--baseline", metavar="SOLVER", help="a solver that also runs, and with which ours is compared")
     parser.add_argument("--time-limit", type=float, default=10.0, help="CPU seconds")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--write", type=Path, help="file for one CSV row an instance")
@@ -224,13 +224,13 @@ def compare(arguments: argparse.Namespace) -> None:
     others = measured(arguments.anchors, arguments.against) if arguments.anchors else {}
     found: dict[MapfInstance, Outcome] = {}
     rows = []
-    contest = [(arguments.solver, found)] + ([(arguments.beside, others)] if arguments.beside else [])
+    contest = [(arguments.solver, found)] + ([(arguments.baseline, others)] if arguments.baseline else [])
     for instance in instances(arguments, others):
         for solver, outcomes in contest:
             if ran := run(arguments.data, instance, solver, arguments.time_limit, arguments.repeat):
                 outcomes[instance], solution = ran
                 rows.append([*instance, solver, solution.status, *outcomes[instance], solution.lower_bound])
-    if arguments.solver == "cbs" and not arguments.beside:
+    if arguments.solver == "cbs" and not arguments.baseline:
         for instance, (_, cost) in found.items():
             if cost < others.get(instance, UNKNOWN).cost:
                 print(f"{instance}: cost {cost} is less than theirs, {others[instance].cost}, which was to be optimal")

@@ -185,6 +185,14 @@ def press(browser):
 
 
 @pytest.fixture
+def texts(ask):
+    """Return a function that returns the texts of the visible elements of a selector, once two frames are drawn."""
+    return lambda selector: ask(
+        f"[...document.querySelectorAll({selector!r})].filter((it) => it.checkVisibility()).map((it) => it.innerText)"
+    )
+
+
+@pytest.fixture
 def pixels(ask):
     """Return a function that counts the painted pixels of a canvas."""
 

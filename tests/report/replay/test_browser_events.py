@@ -15,10 +15,10 @@ def test_contacts_are_shown_while_they_last(show, chunk, ask):
     assert counts == [0, 1, 0]
 
 
-def test_events_lead_to_their_moment(show, chunk, ask, press):
+def test_events_lead_to_their_moment(show, chunk, ask, press, texts):
     browser = show(chunk)
     browser.find_element(By.ID, "tab-events").click()
-    rows = [row.text.split("\n") for row in browser.find_elements(By.CSS_SELECTOR, ".event") if row.is_displayed()]
+    rows = [row.split("\n") for row in texts(".event")]
     assert rows[0] == ["0:01.0", "contact: robot_1", "robot_0"]
     assert rows[1] == ["0:01.5", "spin: </script><b>", "robot_0"]
     press(".")

@@ -63,7 +63,7 @@ def test_layers_and_colours_change_what_is_drawn(show, wait, chunk, ask, press, 
     assert ask("replay.shown.colour") == "state"
 
 
-def test_doors_open_cabins_ride_and_levels_count_their_robots(show, chunk, run_context, ask, pixels):
+def test_doors_open_cabins_ride_and_levels_count_their_robots(show, chunk, run_context, ask, pixels, texts):
     two = building()
     world = attrs.evolve(run_context.world, levels=two.levels, lifts=two.lifts)
     facility = np.zeros((len(chunk["time"]), 3))  # the door, the lift's door, the cabin
@@ -85,7 +85,7 @@ def test_doors_open_cabins_ride_and_levels_count_their_robots(show, chunk, run_c
                 round(ask("replay.facilities.opening(0, 0)"), 2),
                 [ask(f"replay.facilities.opening(1, {number})") for number in (0, 1)],
                 ask("replay.facilities.level(0)"),
-                [button.text for button in browser.find_elements(By.CSS_SELECTOR, "#levels button")],
+                texts("#levels button"),
             ]
         )
     assert seen == [

@@ -17,10 +17,9 @@ def waiting(chunk):
     return chunk | {"mode": mode, "released": released, "reached": reached, "cleared": cleared}
 
 
-def test_the_list_says_why_robots_wait(show, waiting, ask):
+def test_the_list_says_why_robots_wait(show, waiting, texts):
     show(waiting)
-    states = "[...document.querySelectorAll('.robot .state')].map((state) => state.innerText)"
-    assert ask(states) == ["waits for robot_1 to pass", "following"]
+    assert texts(".robot .state") == ["waits for robot_1 to pass", "following"]
 
 
 def test_the_panel_says_why_a_robot_waits(show, waiting, ask):
