@@ -1,4 +1,5 @@
 #include <numeric>
+#include <set>
 
 #include "check.hpp"
 #include "mrpbench_mapf/algorithms/cbs.hpp"
@@ -19,6 +20,59 @@ Result lacam(const Instance& it, LacamOptions options = {}) {
 Result pibt(const Instance& it, PibtOptions options = {}) {
   Limits limits = unlimited();
   return solve_pibt(it, options, limits);
+}
+
+/// The same, but edges take up to four ticks, and one that a robot is on excludes what it shares an end with.
+Instance with_footprints(Random& random, const Instance& unit) {
+  const Roadmap& road = unit.roadmap();
+  std::vector<int> tail, head;
+  std::vector<Tick> duration;
+  for (int edge = 0; edge < road.edge_count(); ++edge) {
+    tail.push_back(road.tail(edge));
+    head.push_back(road.head(edge));
+    duration.push_back(1 + random.below(4));
+  }
+  const auto ends = [&](int element) {
+    if (element < road.vertex_count()) return std::pair(element, element);
+    return std::pair(tail[element - road.vertex_count()], head[element - road.vertex_count()]);
+  };
+  Exclusions exclusions{{0}, {}, {}};
+  for (int one = 0; one < road.element_count(); ++one) {
+    for (int other = 0; other < road.element_count(); ++other) {
+      const auto [a, b] = ends(one);
+      const auto [c, d] = ends(other);
+      if (a != c && a != d && b != c && b != d) continue;
+      exclusions.element.push_back(other);
+      exclusions.distance.push_back(0.0);
+    }
+    exclusions.first.push_back(static_cast<std::int64_t>(exclusions.element.size()));
+  }
+  std::vector<Robot> robots = unit.robots();
+  for (Robot& it : robots) it.radius = 0.3;
+  return Instance(Roadmap(road.vertex_count(), tail, head, duration), robots, {}, exclusions);
+}
+
+/// By moves of one robot at a time to a free vertex, as footprints of edges that share an end allow no others.
+bool can_be_rearranged(const Instance& it) {
+  std::vector<int> start, goal;
+  for (const Robot& robot : it.robots()) {
+    start.push_back(robot.start);
+    goal.push_back(robot.goals.front());
+  }
+  std::set<std::vector<int>> seen{start};
+  std::vector<std::vector<int>> queue{start};
+  for (std::size_t next = 0; next < queue.size(); ++next) {
+    const std::vector<int> at = queue[next];
+    if (at == goal) return true;
+    for (std::size_t robot = 0; robot < at.size(); ++robot) {
+      for (const int edge : it.roadmap().out(at[robot])) {
+        std::vector<int> to = at;
+        to[robot] = it.roadmap().head(edge);
+        if (std::ranges::count(at, to[robot]) == 0 && seen.insert(to).second) queue.push_back(to);
+      }
+    }
+  }
+  return false;
 }
 
 }  // namespace
@@ -181,9 +235,30 @@ TEST("limits hold, and a plan that was found is kept") {
   CHECK(solve_lacam(it, {}, tiny).status == Status::out_of_memory);
 }
 
-TEST("what is no roadmap of unit moves is refused") {
-  const Instance slow = instance(grid(3, 1, 2), {robot(0, 2)});
+TEST("moves of several ticks are planned exactly where robots with footprints can be rearranged") {
+  Random random(9);
+  int solved = 0, unsolvable = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Instance unit = random_instance(random, 3, 3, 2 + random.below(2));
+    const Instance slow = with_footprints(random, unit);
+    const Result result = lacam(slow, {.iterations = 20});
+    CHECK(faults(slow, result) == 0 || result.status != Status::solved);
+    CHECK(result.status == Status::solved || result.status == Status::unsolvable);
+    CHECK((result.status == Status::solved) == can_be_rearranged(slow));
+    solved += result.status == Status::solved;
+    unsolvable += result.status == Status::unsolvable;
+    const Result other = pibt(slow, {.seed = 3});
+    if (other.status == Status::solved) CHECK(faults(slow, other) == 0);
+  }
+  CHECK(solved > 50 && unsolvable > 10);
+}
+
+TEST("robots with a choice of goals, or that disappear there, are refused") {
+  Robot choosy = robot(0, 2);
+  choosy.goals = {1, 2};
   Limits limits = unlimited();
-  CHECK(check::throws<std::invalid_argument>([&] { solve_lacam(slow, {}, limits); }));
-  CHECK(check::throws<std::invalid_argument>([&] { solve_pibt(slow, {}, limits); }));
+  const Instance choice = instance(grid(3, 1), {choosy});
+  const Instance vanishing = instance(grid(3, 1), {robot(0, 2)}, {.disappear_at_goal = true});
+  CHECK(check::throws<std::invalid_argument>([&] { solve_lacam(choice, {}, limits); }));
+  CHECK(check::throws<std::invalid_argument>([&] { solve_pibt(vanishing, {}, limits); }));
 }

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.instances.random_problems import (
     Random,
+    random_building_problem,
     random_corridor_problem,
     random_full_problem,
     random_graph_problem,
@@ -42,4 +43,5 @@ KINDS: dict[str, Draw] = {
     "graph, resources": lambda random: with_resources(
         random, random_graph_problem(random, int(random.integers(2, 4)), **random_rules(random))
     ),
+    "building": lambda random: random_building_problem(random, int(random.integers(2, 5))),
 }

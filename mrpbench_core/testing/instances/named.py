@@ -72,10 +72,11 @@ def goal_sequences() -> Problem:
 
 
 def resources() -> Problem:
-    """The middle of the crossing is a mutex."""
+    """The middle of the crossing and the edges to it are a mutex."""
     drawn = problem(CROSSING)
     middle = drawn.roadmap.nearest(1.5, 1.5)[0]
-    mutex = Resource(name="middle", kind="mutex", vertices=(middle,))
+    into = np.flatnonzero(drawn.roadmap.edges[:, 1] == middle)
+    mutex = Resource(name="middle", kind="mutex", vertices=(middle,), edges=tuple(into.tolist()))
     return problem(CROSSING, roadmap=attrs.evolve(drawn.roadmap, resources=(mutex,)))
 
 

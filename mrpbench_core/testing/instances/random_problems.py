@@ -1,14 +1,16 @@
 """Problems drawn at random with NumPy, so that a seed and a number name each of them in a soak."""
 
 import itertools
+import math
 from typing import Any
 
+import attrs
 import numpy as np
 
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.roadmap import Resource, Roadmap
 from mrpbench_core.testing.instances.problems import problem_on
-from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap
+from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap, two_way
 
 Random = np.random.Generator
 
@@ -84,6 +86,55 @@ def random_corridor_problem(random: Random, robots: int, longest: int = 1, **fie
     road = roadmap(position, edges, random.integers(1, longest + 1, len(edges)))
     starts, goals = (random.choice(vertices, robots, replace=False) for _ in range(2))
     return problem_on(road, starts, goals.tolist(), **fields)
+
+
+def random_building_problem(random: Random, robots: int, capacity: int = 1, junctions: int | None = None) -> Problem:
+    """Robots with footprints on a ring of single-file lanes with two to four rooms, most of them behind doors.
+
+    The ring has six to ten `junctions` 3 m apart, two of which a shorter way may join. A doorway, with the
+    vertex behind it if there is room for several, holds `capacity` robots. Robots start and end in the rooms or on the
+    ring, as many as fit.
+    """
+    ring = junctions or int(random.integers(6, 11))
+    angle = np.arange(ring) * 2 * np.pi / ring
+    outwards = np.column_stack([np.cos(angle), np.sin(angle)])
+    position = list(outwards * ring * 3 / (2 * np.pi))
+    pairs = [(v, (v + 1) % ring) for v in range(ring)]
+    if random.random() < 0.5:
+        pairs += [(0, ring), (ring, ring // 2)]
+        position.append(np.zeros(2))
+    stands = list(range(1, ring))
+    doors: list[tuple[int, int]] = []  # their first and last vertices
+    for junction in random.choice(ring, int(random.integers(2, 5)), replace=False).tolist():
+        out, doorway = outwards[junction], len(position)
+        side = np.array([-out[1], out[0]])
+        position += [position[junction] + 2 * out, position[junction] + 4 * out]
+        pairs += [(junction, doorway), (doorway, doorway + 1)]
+        for turn in np.linspace(-1.2, 1.2, int(random.integers(2, 5))):
+            pairs.append((doorway + 1, len(position)))
+            stands.append(len(position))
+            position.append(position[doorway + 1] + 2 * (np.cos(turn) * out + np.sin(turn) * side))
+        if random.random() < 0.7:
+            doors.append((doorway, doorway + (capacity > 1)))
+    places = np.array(position)
+    length = [float(np.linalg.norm(places[a] - places[b])) for a, b in pairs]
+    road = two_way(places, pairs, [math.ceil(2 * metres) for metres in length])
+    resources = []
+    for number, (first, last) in enumerate(doors):
+        inside = np.isin(road.edges, range(first, last + 1)).any(axis=1)
+        door = Resource(
+            name=f"door {number}",
+            kind="door",
+            capacity=capacity,
+            vertices=tuple(range(first, last + 1)),
+            edges=tuple(np.flatnonzero(inside).tolist()),
+            setup_ticks=int(random.integers(0, 6)),
+        )
+        resources.append(door)
+    road = attrs.evolve(road, resources=tuple(resources))
+    count = min(robots, len(stands))
+    starts, goals = (random.choice(stands, count, replace=False) for _ in range(2))
+    return problem_on(road, starts, goals.tolist(), radius=0.3)
 
 
 def random_rules(random: Random) -> dict[str, Any]:

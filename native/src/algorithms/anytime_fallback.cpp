@@ -1,17 +1,16 @@
 #include "algorithms/anytime_fallback.hpp"
 
+#include "lacam/lacam_search.hpp"
 #include "lns/improvement.hpp"
 #include "lns/repair.hpp"
-#include "mrpbench_mapf/algorithms/prioritized.hpp"
 
 namespace mrpbench::mapf {
 
 namespace {
-constexpr int kRestarts = 100;           // of planning in turn
 constexpr std::int64_t kOverhead = 100;  // what a step takes besides, in expansions
 }  // namespace
 
-/// Repairs until there is a plan without conflicts, then improves it.
+/// Repairs until there is a plan without conflicts, or LaCAM has found one; then improves it.
 class AnytimeFallback::Search {
  public:
   Search(const Instance& instance, DistanceTables& distances, Limits& limits, Statistics& statistics)
@@ -19,7 +18,11 @@ class AnytimeFallback::Search {
         schedule_(instance, distances, relations_, 0, limits, statistics),
         repair_(schedule_, lns::Repair::kNeighbourhood, 0),
         improvement_(schedule_, Objective::flowtime, std::nullopt, 0),
-        is_done_(!repair_.begin()) {}
+        is_done_(!repair_.begin()) {
+    if (!lacam::is_suitable(instance)) return;
+    space_.emplace(instance, limits);
+    if (!space_->is_unit()) lacam_.emplace(instance, *space_, distances, nullptr, LacamOptions{}, limits, of_lacam_);
+  }
 
   const std::vector<Path>& paths() const { return schedule_.paths(); }
   /// There is nothing more to look for.
@@ -27,14 +30,17 @@ class AnytimeFallback::Search {
 
   /// Take a step; true if there is a better plan now.
   bool advance() {
-    if (repair_.is_done()) {
+    if (found_ || repair_.is_done()) {
       const bool better = !found_ || improvement_.advance();
       found_ = true;
       is_done_ = improvement_.is_done();
       return better;
     }
     repair_.advance();
-    return false;
+    if (!lacam_ || lacam_->exhausted() || !lacam_->advance()) return false;
+    schedule_.replace(space_->paths_of(lacam_->way()));
+    found_ = true;
+    return true;
   }
 
  private:
@@ -42,6 +48,9 @@ class AnytimeFallback::Search {
   lns::Schedule schedule_;
   lns::Repair repair_;
   lns::Improvement improvement_;
+  std::optional<lacam::ConfigurationSpace> space_;
+  std::optional<lacam::LacamSearch> lacam_;  // where repairing alone may take long: moves of several ticks, resources
+  Statistics of_lacam_;
   bool found_ = false;  // a plan without conflicts
   bool is_done_;
 };
@@ -69,21 +78,14 @@ void AnytimeFallback::begin() {
   Statistics& statistics = result_.statistics;
   const std::int64_t before = statistics.low_level_expansions;
   const Instance& instance = context_.space.instance();
-  if (instance.resources().empty()) {
-    search_ = std::make_unique<Search>(instance, context_.distances, context_.limits, statistics);
-  } else {
-    Result first = solve_prioritized(instance, {.restarts = kRestarts}, context_.limits);
-    statistics.low_level_expansions += first.statistics.low_level_expansions;
-    statistics.low_level_generated += first.statistics.low_level_generated;
-    if (first.status == Status::solved) keep(std::move(first.paths));
-  }
+  search_ = std::make_unique<Search>(instance, context_.distances, context_.limits, statistics);
   effort_ = statistics.low_level_expansions - before;
 }
 
 /// Search on until this has taken `effort` in all.
 void AnytimeFallback::advance(std::int64_t effort) {
   bool better = false;
-  while (search_ != nullptr && !search_->is_done() && effort_ < effort) {
+  while (!search_->is_done() && effort_ < effort) {
     const std::int64_t before = result_.statistics.low_level_expansions;
     better |= search_->advance();
     effort_ += result_.statistics.low_level_expansions - before + kOverhead;

@@ -33,10 +33,10 @@ class AnytimeFallback {
   Result& result_;
   std::optional<std::int64_t> root_effort_;  // low-level expansions for the root of the tree
   bool begun_ = false;
-  std::unique_ptr<Search> search_;  // nothing where local search is not possible
-  std::int64_t effort_ = 0;         // so far
-  Cost cost_ = kForever;            // of `paths_`
-  std::vector<Path> paths_;         // the best solution so far
+  std::unique_ptr<Search> search_;
+  std::int64_t effort_ = 0;  // so far
+  Cost cost_ = kForever;     // of `paths_`
+  std::vector<Path> paths_;  // the best solution so far
 };
 
 }  // namespace mrpbench::mapf

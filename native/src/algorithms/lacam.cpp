@@ -15,24 +15,24 @@ using namespace lns;
 
 class Lacam {
  public:
-  Lacam(const Instance& instance, const Moves& moves, DistanceTables& tables, const LacamOptions& options,
+  Lacam(const Instance& instance, ConfigurationSpace& space, DistanceTables& tables, const LacamOptions& options,
         Limits& limits, Result& result)
       : instance_(instance),
-        moves_(moves),
+        space_(space),
         tables_(tables),
         options_(options),
         limits_(limits),
         result_(result),
-        search_(instance, moves, tables, nullptr, options, limits, result.statistics) {}
+        search_(instance, space, tables, nullptr, options, limits, result.statistics) {}
 
   void solve() {
     if (!search_.find_first()) {
-      result_.status = Status::unsolvable;
+      result_.status = space_.misses_no_plan() ? Status::unsolvable : Status::gave_up;
       return;
     }
     least_ = tables_.least(options_.objective, instance_);
     result_.status = Status::solved;
-    keep(paths_of(moves_, search_.way(), instance_.size()));
+    keep(space_.paths_of(search_.way()));
     if (options_.iterations != 0 && best_.first > least_) improve();
   }
 
@@ -51,17 +51,19 @@ class Lacam {
   void improve() {
     const Relations relations(instance_, limits_);
     Schedule schedule(instance_, tables_, relations, options_.seed, limits_, result_.statistics);
-    const bool in_turn = options_.prioritized && best_.first < kRoom * least_ && plan_in_turn(schedule);
+    const bool has_room = !space_.is_unit() || best_.first < kRoom * least_;
+    const bool in_turn = options_.prioritized && has_room && plan_in_turn(schedule);
     // What is good for the sum need not be for the last robot.
     const bool enough = in_turn && options_.objective == Objective::flowtime;
     if (options_.guides && !enough) {
-      if (best_.first < kCrowded * least_) {
+      if (space_.is_unit() && best_.first < kCrowded * least_) {
         follow_guide_paths(schedule);
       } else {
         draw_others();
       }
     }
-    if (best_.first == least_ || !(options_.star || options_.neighbourhoods)) return;
+    const bool star = options_.star && space_.is_unit();  // elsewhere steps say nothing about costs
+    if (best_.first == least_ || !(star || options_.neighbourhoods)) return;
     schedule.replace(result_.paths);
     Improvement improvement(schedule, options_.objective, {}, options_.seed);
     for (std::int64_t k = 0; !options_.iterations || k < *options_.iterations; ++k) {
@@ -69,8 +71,8 @@ class Lacam {
         improvement.copy_changed(result_.paths);
         note();
       }
-      if (options_.star && !search_.exhausted() && search_.advance()) {
-        std::vector<Path> paths = paths_of(moves_, search_.way(), instance_.size());
+      if (star && !search_.exhausted() && search_.advance()) {
+        std::vector<Path> paths = space_.paths_of(search_.way());
         if (value(options_.objective, paths) < best_) {
           schedule.replace(paths);
           keep(std::move(paths));
@@ -84,7 +86,8 @@ class Lacam {
   /// A second plan, one robot after another: where there is room, much cheaper and soon found. False if there is not.
   bool plan_in_turn(Schedule& schedule) {
     Repair repair(schedule, Repair::kNeighbourhood, options_.seed);
-    if (!repair.run(Patience::brief(instance_.size()), result_.statistics.expansions)) return false;
+    const Patience patience = space_.is_unit() ? Patience::brief(instance_.size()) : Patience{.effort = kEffort};
+    if (!repair.run(patience, result_.statistics.expansions)) return false;
     if (value(options_.objective, schedule.paths()) < best_) keep(schedule.paths());
     return true;
   }
@@ -96,10 +99,10 @@ class Lacam {
     const std::int64_t most = 2 * result_.statistics.expansions;
     for (int k = 0; k < kOthers; ++k) {
       ++options.seed;
-      LacamSearch search(instance_, moves_, tables_, nullptr, options, limits_, result_.statistics);
+      LacamSearch search(instance_, space_, tables_, nullptr, options, limits_, result_.statistics);
       for (std::int64_t step = 0; step < most && !search.found(); ++step) search.advance();
       if (!search.found()) continue;
-      std::vector<Path> paths = paths_of(moves_, search.way(), instance_.size());
+      std::vector<Path> paths = space_.paths_of(search.way());
       if (value(options_.objective, paths) < best_) keep(std::move(paths));
     }
   }
@@ -108,13 +111,13 @@ class Lacam {
   void follow_guide_paths(Schedule& schedule) {
     spread(schedule);
     const GuidePaths guides(schedule.paths());
-    LacamSearch search(instance_, moves_, tables_, &guides, options_, limits_, result_.statistics);
+    LacamSearch search(instance_, space_, tables_, &guides, options_, limits_, result_.statistics);
     // GuidePaths know nothing of changing places: robots that insist on them for too long block one another.
     for (Tick left = guides.longest(); !search.found(); --left) {
       if (left == 0) search.drop_guide_paths();
       search.advance();
     }
-    std::vector<Path> paths = paths_of(moves_, search.way(), instance_.size());
+    std::vector<Path> paths = space_.paths_of(search.way());
     if (value(options_.objective, paths) < best_) keep(std::move(paths));
   }
 
@@ -126,7 +129,7 @@ class Lacam {
                                                             *search_.goal(), instance_.size(), best_.first, limits_);
       least_ = best_.first;
       if (!way.empty()) {
-        std::vector<Path> paths = paths_of(moves_, way, instance_.size());
+        std::vector<Path> paths = space_.paths_of(way);
         least_ = value(options_.objective, paths).first;
         keep(std::move(paths));
       }
@@ -139,10 +142,11 @@ class Lacam {
 
   // Where a plan costs so many times what robots alone do, the crowd and not their ways is what delays them.
   static constexpr Cost kCrowded = 4;
-  static constexpr int kOthers = 40;  // plans to draw there
-  static constexpr Cost kRoom = 2;    // and up to so many times, robots can be planned in turn
+  static constexpr int kOthers = 40;     // plans to draw there
+  static constexpr Cost kRoom = 2;       // and up to so many times, robots can be planned in turn
+  static constexpr double kEffort = 10;  // for that, times that of the first paths, where moves take several ticks
   const Instance& instance_;
-  const Moves& moves_;
+  ConfigurationSpace& space_;
   DistanceTables& tables_;
   const LacamOptions& options_;
   Limits& limits_;
@@ -155,12 +159,12 @@ class Lacam {
 }  // namespace
 
 Result solve_lacam(const Instance& instance, const LacamOptions& options, Limits& limits) {
-  require_plain(instance, "lacam");
+  require_suitable(instance, "lacam");
   return solve_within(instance, limits, [&](Result& result) {
     DistanceTables tables(instance, limits);
-    if (prove_unsolvable(instance, tables, limits, result)) return;
-    const Moves moves(instance, limits);
-    Lacam(instance, moves, tables, options, limits, result).solve();
+    ConfigurationSpace space(instance, limits);
+    if (space.prove_unsolvable(tables, limits, result)) return;
+    Lacam(instance, space, tables, options, limits, result).solve();
   });
 }
 

@@ -45,9 +45,18 @@ class Lns {
 
   /// Put a plan without conflicts into `schedule` and the result, or set the status.
   bool begin(Schedule& schedule) {
-    const bool unit = options_.initial != Initial::repair && lacam::is_plain(instance_);
-    if (unit && !begin_by_lacam()) return false;
-    if (!unit || (options_.initial == Initial::either && !is_crowded())) repair(schedule, unit);
+    const bool by_lacam = options_.initial != Initial::repair && lacam::is_suitable(instance_);
+    if (by_lacam) {
+      lacam::ConfigurationSpace space(instance_, limits_);
+      if (space.is_unit()) {
+        if (!begin_by_lacam(space)) return false;
+        if (options_.initial == Initial::either && !is_crowded()) repair(schedule, Patience::brief(instance_.size()));
+      } else if (!repair(schedule, space.start() ? Patience{.effort = kEffort} : Patience{}) && space.start()) {
+        begin_by_lacam(space);
+      }
+    } else {
+      repair(schedule, {});
+    }
     if (result_.status != Status::solved) return false;
     schedule.replace(result_.paths);
     return true;
@@ -58,33 +67,34 @@ class Lns {
     return static_cast<double>(value(Objective::flowtime, result_.paths).first) > kCrowded * result_.lower_bound;
   }
 
-  bool begin_by_lacam() {
-    const lacam::Moves moves(instance_, limits_);
+  bool begin_by_lacam(lacam::ConfigurationSpace& space) {
     LacamOptions options;
     options.seed = options_.seed;
     Statistics of_search;
-    lacam::LacamSearch search(instance_, moves, tables_, nullptr, options, limits_, of_search);
-    if (!search.find_first()) {
+    lacam::LacamSearch search(instance_, space, tables_, nullptr, options, limits_, of_search);
+    const bool found = search.find_first();
+    if (found) {
+      result_.status = Status::solved;
+      keep(space.paths_of(search.way()));
+    } else if (space.misses_no_plan()) {
       result_.status = Status::unsolvable;
-      return false;
     }
-    result_.status = Status::solved;
-    keep(lacam::paths_of(moves, search.way(), instance_.size()));
-    return true;
+    return found;
   }
 
-  /// Take the repaired plan if it is cheaper than the one there is; with one, only try for a while.
-  void repair(Schedule& schedule, bool unit) {
+  /// Take the repaired plan if it is cheaper than the one there is. False if patience ran out before there was one.
+  bool repair(Schedule& schedule, Patience patience) {
     Repair repair(schedule, options_.neighbourhood.value_or(Repair::kNeighbourhood), options_.seed);
-    Patience patience = unit ? Patience::brief(instance_.size()) : Patience{};
     if (options_.iterations) patience.iterations = *options_.iterations;
-    if (!repair.run(patience, result_.statistics.expansions)) return;  // stays `gave_up`, or the plan there is
+    if (!repair.run(patience, result_.statistics.expansions)) return false;
     const bool better = value(options_.objective, schedule.paths()) < value(options_.objective, result_.paths);
     if (result_.status != Status::solved || better) keep(schedule.paths());
     result_.status = Status::solved;
+    return true;
   }
 
-  static constexpr double kCrowded = 2;  // times the cost of robots alone
+  static constexpr double kCrowded = 2;   // times the cost of robots alone
+  static constexpr double kEffort = 100;  // of repairing, times that of the first paths
   const Instance& instance_;
   const LnsOptions& options_;
   Limits& limits_;

@@ -84,7 +84,7 @@ const LowLevelNode* ConfigurationGraph::next_low_level_node(Node& node, const Mo
   node.first_low_level = node.first_low_level->next;
   if (next->depth == instance_.size()) return next;
   const std::int32_t robot = node.order[next->depth];
-  for (const std::int32_t vertex : moves.successors(node.at[robot])) {
+  for (const std::int32_t vertex : moves.successors(robot, node.at[robot])) {
     add_low_level_node(node, {next, nullptr, robot, vertex, next->depth + 1});
   }
   add_low_level_node(node, {next, nullptr, robot, node.at[robot], next->depth + 1});

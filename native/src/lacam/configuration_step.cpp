@@ -6,19 +6,18 @@ namespace mrpbench::mapf::lacam {
 
 ConfigurationStep::ConfigurationStep(const Instance& instance, const Moves& moves, DistanceTables& tables,
                                      const GuidePaths* guides, bool swap, std::uint64_t seed, Limits& limits)
-    : moves_(moves), robots_(instance.size()), guide_paths_(guides), swap_(swap), random_(seed) {
-  for (int vertex = 0; vertex < moves.vertex_count(); ++vertex) {
-    most_candidates_ = std::max(most_candidates_, static_cast<int>(moves.successors(vertex).size()) + 1);
-  }
+    : moves_(moves),
+      robots_(instance.size()),
+      guide_paths_(guides),
+      random_(seed),
+      most_candidates_(moves.most_successors() + 1) {
+  if (swap) swap_.emplace(instance, moves, tables);
   limits.charge(static_cast<std::size_t>(robots_) * most_candidates_ * sizeof(Candidate) +
                 static_cast<std::size_t>(moves.vertex_count()) * 2 * sizeof(std::int32_t));
   candidates_.resize(static_cast<std::size_t>(robots_) * most_candidates_);
   now_.assign(moves.vertex_count(), -1);
   next_.assign(moves.vertex_count(), -1);
-  for (int robot = 0; robot < robots_; ++robot) {
-    distance_.push_back(&tables[robot]);
-    goal_.push_back(instance.robots()[robot].goals.front());
-  }
+  for (int robot = 0; robot < robots_; ++robot) distance_.push_back(&tables[robot]);
 }
 
 bool ConfigurationStep::operator()(const std::int32_t* from, const std::int32_t* order, std::int32_t* to) {
@@ -54,7 +53,7 @@ bool ConfigurationStep::move(int robot, int depth) {
   Candidate* candidates = &candidates_[static_cast<std::size_t>(robot) * most_candidates_];
   const int count = rank(robot, candidates);
   const std::int32_t here = from_[robot];
-  const int partner = swap_ ? swap_partner(robot, candidates[0].vertex) : -1;
+  const int partner = swap_ ? swap_->partner(robot, here, candidates[0].vertex, now_, to_) : -1;
   if (partner >= 0) std::reverse(candidates, candidates + count);
   for (int k = 0; k < count; ++k) {
     const std::int32_t vertex = candidates[k].vertex;
@@ -87,65 +86,9 @@ int ConfigurationStep::rank(int robot, Candidate* candidates) {
     for (; place > 0 && candidates[place - 1].key > candidate.key; --place) candidates[place] = candidates[place - 1];
     candidates[place] = candidate;
   };
-  for (const std::int32_t vertex : moves_.successors(from_[robot])) add(vertex);
+  for (const std::int32_t vertex : moves_.successors(robot, from_[robot])) add(vertex);
   add(from_[robot]);
   return count;
-}
-
-/// The robot with which `robot` should change places, or -1; it then backs away first and pulls the other along.
-int ConfigurationStep::swap_partner(int robot, int wanted) {
-  const std::int32_t here = from_[robot];
-  if (wanted == here) return -1;
-  const std::int32_t ahead = now_[wanted];
-  if (ahead >= 0 && to_[ahead] < 0 && must_swap(robot, ahead, here, wanted) && can_swap(wanted, here)) return ahead;
-  // Someone behind may have to pass through here while this robot goes on into a dead end.
-  for (const std::int32_t vertex : moves_.successors(here)) {
-    const std::int32_t behind = now_[vertex];
-    if (behind < 0 || vertex == wanted) continue;
-    if (must_swap(behind, robot, here, wanted) && can_swap(wanted, here)) return behind;
-  }
-  return -1;
-}
-
-/// The way on from `here` when coming from `before`, past dead ends in which a robot is parked; or that there are none
-/// or several.
-std::int32_t ConfigurationStep::only_way(int before, int here) const {
-  std::int32_t way = kNone;
-  for (const std::int32_t vertex : moves_.successors(here)) {
-    if (vertex == before) continue;
-    const std::int32_t there = now_[vertex];
-    if (there >= 0 && goal_[there] == vertex && moves_.successors(vertex).size() == 1) continue;
-    if (way != kNone) return kSeveral;
-    way = vertex;
-  }
-  return way;
-}
-
-/// Would the pusher only ever push the puller before it, along a passage without a place to let it by, until either is
-/// on the wrong side of the other?
-bool ConfigurationStep::must_swap(int pusher, int puller, int pusher_at, int puller_at) {
-  DistanceTable& to_go = *distance_[pusher];
-  while (to_go(puller_at) < to_go(pusher_at)) {
-    const std::int32_t way = only_way(pusher_at, puller_at);
-    if (way == kSeveral) return false;
-    if (way == kNone) break;
-    pusher_at = puller_at;
-    puller_at = way;
-  }
-  DistanceTable& other = *distance_[puller];
-  return other(pusher_at) < other(puller_at) && (to_go(pusher_at) == 0 || to_go(puller_at) < to_go(pusher_at));
-}
-
-/// Backing away from `pusher_at`, does `puller_at` come to a place where one robot can step aside?
-bool ConfigurationStep::can_swap(int pusher_at, int puller_at) const {
-  const int begin = pusher_at;
-  for (int steps = 0; puller_at != begin && steps < moves_.vertex_count(); ++steps) {
-    const std::int32_t way = only_way(pusher_at, puller_at);
-    if (way < 0) return way == kSeveral;
-    pusher_at = puller_at;
-    puller_at = way;
-  }
-  return false;
 }
 
 }  // namespace mrpbench::mapf::lacam

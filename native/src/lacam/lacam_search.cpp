@@ -4,18 +4,18 @@
 
 namespace mrpbench::mapf::lacam {
 
-LacamSearch::LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables, const GuidePaths* guides,
-                         const LacamOptions& options, Limits& limits, Statistics& statistics)
-    : moves_(moves),
+LacamSearch::LacamSearch(const Instance& instance, ConfigurationSpace& space, DistanceTables& tables,
+                         const GuidePaths* guides, const LacamOptions& options, Limits& limits, Statistics& statistics)
+    : moves_(space.moves()),
       limits_(limits),
       statistics_(statistics),
-      step_(instance, moves, tables, guides, options.swap, options.seed, limits),
+      step_(space.generator(tables, guides, options.swap, options.seed, limits)),
       graph_(instance, tables, options.objective, limits),
       goals_(goals_of(instance)),
       to_(instance.size()) {
-  std::vector<std::int32_t> start;
-  for (const Robot& robot : instance.robots()) start.push_back(robot.start);
-  open_.push_back(&graph_.add(start.data(), nullptr));
+  const auto start = space.start();
+  if (!start) return;
+  open_.push_back(&graph_.add(start->data(), nullptr));
   ++statistics_.generated;
 }
 
@@ -40,7 +40,7 @@ bool LacamSearch::advance() {
   ++statistics_.expansions;
   std::ranges::fill(to_, -1);
   for (; low_level->parent != nullptr; low_level = low_level->parent) to_[low_level->robot] = low_level->vertex;
-  if (!step_(node.at, node.order, to_.data())) return false;
+  if (!(*step_)(node.at, node.order, to_.data())) return false;
   return visit(node);
 }
 

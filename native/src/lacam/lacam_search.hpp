@@ -4,14 +4,14 @@
 #include <optional>
 
 #include "lacam/configuration_graph.hpp"
-#include "lacam/configuration_step.hpp"
+#include "lacam/configuration_space.hpp"
 #include "mrpbench_mapf/lacam/options.hpp"
 
 namespace mrpbench::mapf::lacam {
 
 class LacamSearch {
  public:
-  LacamSearch(const Instance& instance, const Moves& moves, DistanceTables& tables, const GuidePaths* guides,
+  LacamSearch(const Instance& instance, ConfigurationSpace& space, DistanceTables& tables, const GuidePaths* guides,
               const LacamOptions& options, Limits& limits, Statistics& statistics);
 
   /// Look for the first plan. False: there is none.
@@ -24,7 +24,7 @@ class LacamSearch {
   bool exhausted() const { return open_.empty(); }
   /// Ways that cost as much as this are of no interest.
   void bound(Cost cost) { bound_ = std::min(bound_, cost); }
-  void drop_guide_paths() { step_.drop_guide_paths(); }
+  void drop_guide_paths() { step_->drop_guide_paths(); }
   const ConfigurationGraph& graph() const { return graph_; }
   const Node* goal() const { return goal_; }
 
@@ -35,7 +35,7 @@ class LacamSearch {
   const Moves& moves_;
   Limits& limits_;
   Statistics& statistics_;
-  ConfigurationStep step_;
+  std::unique_ptr<ConfigurationGenerator> step_;
   ConfigurationGraph graph_;
   std::vector<std::int32_t> goals_, to_;
   std::vector<Node*> open_;  // the last one is next

@@ -1,4 +1,4 @@
-// Where robots can go in one tick, on roadmaps on which every move takes one tick, as grids are.
+// Where each robot can go from a vertex.
 #pragma once
 
 #include "mrpbench_mapf/common/limits.hpp"
@@ -8,24 +8,27 @@ namespace mrpbench::mapf::lacam {
 
 class Moves {
  public:
-  /// Those of the instance's robots, which must be `plain`.
   Moves(const Instance& instance, Limits& limits);
 
-  int vertex_count() const { return static_cast<int>(first_.size()) - 1; }
-  std::span<const std::int32_t> successors(int vertex) const {
-    return {head_.data() + first_[vertex], head_.data() + first_[vertex + 1]};
+  int vertex_count() const { return vertex_count_; }
+  /// The most successors that any vertex has for any robot.
+  int most_successors() const;
+  std::span<const std::int32_t> successors(int robot, int vertex) const {
+    const Rows& rows = rows_[rows_of_[robot]];
+    return {rows.head.data() + rows.first[vertex], rows.head.data() + rows.first[vertex + 1]};
   }
-  /// The edge from `tail` to one of its successors.
-  int edge(int tail, int head) const;
+  /// The edge that a robot takes from `tail` to one of its successors: the fastest.
+  int edge(int robot, int tail, int head) const;
 
  private:
-  std::vector<std::int32_t> first_, head_, edge_;
-};
+  struct Rows {
+    std::vector<std::int32_t> first, head, edge;
+  };
+  void gather(const Roadmap& roadmap, int profile, Limits& limits);
 
-/// Is all there is to know that robots go where these moves lead? Unit durations, one motion profile, one goal each
-/// where robots stay, no footprints, no commitments, all ready at tick 0, following allowed.
-bool is_plain(const Instance& instance);
-/// Throws std::invalid_argument naming the `solver` that can do nothing with an instance that is not.
-void require_plain(const Instance& instance, const char* solver);
+  int vertex_count_;
+  std::vector<Rows> rows_;             // of each motion profile in use
+  std::vector<std::int32_t> rows_of_;  // by robot
+};
 
 }  // namespace mrpbench::mapf::lacam

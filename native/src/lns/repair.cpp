@@ -11,6 +11,10 @@ Tick whenever(int) {
   return kLatestTime;
 }
 
+bool is_roomy(const Resource& resource) {
+  return resource.capacity > 1;
+}
+
 }  // namespace
 
 Repair::Repair(Schedule& schedule, int neighbourhood, std::uint64_t seed)
@@ -18,6 +22,7 @@ Repair::Repair(Schedule& schedule, int neighbourhood, std::uint64_t seed)
       neighbourhood_(schedule, schedule.tables(), seed + 1),
       size_(neighbourhood),
       random_(seed),
+      has_roomy_resources_(std::ranges::any_of(schedule.instance().resources(), is_roomy)),
       partners_(schedule.instance().size()),
       seen_(schedule.instance().size()) {}
 
@@ -45,14 +50,21 @@ bool Repair::begin(int most_in_the_way) {
     const Tick latest = std::min(kLatestTime, schedule_.least(robot) + detour);
     if (!plan_first(robot, latest, in_the_way, most_in_the_way)) return false;
   }
-  std::vector<int> partners;
-  for (const int robot : order) {
-    conflicts_of(robot, schedule_.paths()[robot], partners);
-    partners_[robot] = partners;
-    pairs_ += static_cast<int>(partners.size());
+  count_conflicts({});
+  return true;
+}
+
+/// Between all robots; the paths of `robots` are the fresh ones.
+void Repair::count_conflicts(const std::vector<int>& robots) {
+  pairs_ = 0;
+  for (int robot = 0; robot < schedule_.instance().size(); ++robot) {
+    const auto place = std::ranges::find(robots, robot);
+    const bool is_fresh = place != robots.end();
+    const Path& path = is_fresh ? schedule_.fresh()[place - robots.begin()] : schedule_.paths()[robot];
+    conflicts_of(robot, path, partners_[robot]);
+    pairs_ += static_cast<int>(partners_[robot].size());
   }
   pairs_ /= 2;
-  return true;
 }
 
 /// Between the robots that have a path, or else across as few of them as possible.
@@ -104,6 +116,12 @@ void Repair::advance() {
   robots_ = choose(heuristic);
   random_.shuffle(robots_);
   const int before = pairs_;
+  if (has_roomy_resources_) {
+    replan_and_count();
+    roulette_.reward(heuristic,
+                     std::max(0.0, static_cast<double>(before - pairs_) / static_cast<double>(robots_.size())));
+    return;
+  }
   std::vector<std::vector<int>> old;
   for (const int robot : robots_) {
     old.push_back(partners_[robot]);
@@ -134,6 +152,19 @@ void Repair::advance() {
       link(robots_[k], {other});
     }
   }
+}
+
+/// Plan the group anew where whether two robots conflict in a resource also depends on others that use it.
+void Repair::replan_and_count() {
+  const int before = pairs_;
+  const bool found = schedule_.plan(robots_, Others::soft, whenever);
+  if (found) count_conflicts(robots_);
+  if (found && pairs_ <= before) {
+    schedule_.accept(robots_);
+    return;
+  }
+  schedule_.reject(robots_);
+  count_conflicts({});
 }
 
 const std::vector<int>& Repair::choose(int heuristic) {

@@ -43,6 +43,8 @@ class Repair {
  private:
   bool plan_first(int robot, Tick latest, int& in_the_way, int most_in_the_way);
   int conflicts_of(int robot, const Path& path, std::vector<int>& partners);
+  void count_conflicts(const std::vector<int>& robots);
+  void replan_and_count();
   void link(int robot, const std::vector<int>& partners);
   void unlink(int robot);
   const std::vector<int>& choose(int heuristic);
@@ -52,6 +54,7 @@ class Repair {
   int size_;
   Random random_;
   Roulette<3> roulette_;
+  bool has_roomy_resources_;
   int pairs_ = 0;
   std::vector<std::vector<int>> partners_;  // by robot: those it is in conflict with
   std::vector<int> robots_;

@@ -102,16 +102,20 @@ Sipps::Row Sipps::states_of(int vertex) {
   });
 }
 
-/// The visits that exclude the robot from `vertex`, by their beginnings.
+/// The visits that exclude the robot from `vertex`, and times at which resources are full, by their beginnings.
 std::span<const Visit> Sipps::visits_at(int vertex) {
   const std::span<const Near> row = traffic_.relations().row(vertex);
-  if (row.size() == 1) return traffic_.at(vertex);
+  const std::span<const std::int32_t> resources = instance_.resources_of(vertex);
+  if (row.size() == 1 && resources.empty()) return traffic_.at(vertex);
   visits_.clear();
   for (const Near& near : row) {
     for (const Visit& visit : traffic_.at(near.element)) {
       if (near.distance < instance_.reach(robot_, visit.robot)) visits_.push_back(visit);
     }
   }
+  ranges_.clear();
+  for (const std::int32_t resource : resources) traffic_.users().full(robot_, resource, ranges_);
+  for (const Range& full : ranges_) visits_.push_back({full.first, full.last, -1});
   std::ranges::sort(visits_, {}, &Visit::begin);
   return visits_;
 }
@@ -180,6 +184,9 @@ std::span<const Range> Sipps::departures_of(int edge) {
         }
         if (range.first <= range.last) ranges_.push_back(range);
       }
+    }
+    for (const std::int32_t resource : instance_.resources_of(roadmap_.vertex_count() + edge)) {
+      traffic_.users().full_departures(robot_, resource, duration, ranges_);
     }
     if (!is_soft()) unite(ranges_);
     departures.insert(departures.end(), ranges_.begin(), ranges_.end());

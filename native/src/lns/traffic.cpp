@@ -8,7 +8,7 @@ namespace {
 
 /// What else is forbidden on lanes follows, where all moves take one tick.
 bool has_unit_moves(const Instance& instance) {
-  if (instance.footprints() || instance.rules().following_forbidden) return false;
+  if (instance.footprints() || !instance.resources().empty() || instance.rules().following_forbidden) return false;
   const auto committed = [](const Robot& robot) { return !robot.committed.empty(); };  // perhaps to slow moves
   if (std::ranges::any_of(instance.robots(), committed)) return false;
   for (int profile = 0; profile < instance.roadmap().profile_count(); ++profile) {
@@ -24,12 +24,14 @@ Traffic::Traffic(const Instance& instance, const Relations& relations, Limits& l
       relations_(relations),
       limits_(limits),
       unit_(has_unit_moves(instance)),
-      vertex_count_(instance.roadmap().vertex_count()) {
+      vertex_count_(instance.roadmap().vertex_count()),
+      users_(instance) {
   limits.charge(static_cast<std::size_t>(instance.roadmap().element_count()) * sizeof(visits_.front()));
   visits_.resize(instance.roadmap().element_count());
 }
 
 void Traffic::add(int robot, std::span<const Occupation> path) {
+  users_.add(robot, path);
   for (const Occupation& it : path) {
     if (unit_ && it.element >= vertex_count_) continue;
     std::vector<Visit>& visits = visits_[it.element];
@@ -45,6 +47,7 @@ void Traffic::add(int robot, std::span<const Occupation> path) {
 }
 
 void Traffic::remove(int robot, std::span<const Occupation> path) {
+  users_.remove(robot, path);
   for (const Occupation& it : path) {
     if (unit_ && it.element >= vertex_count_) continue;
     std::vector<Visit>& visits = visits_[it.element];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mrpbench_mapf/model/conflict.hpp"
+#include "mrpbench_mapf/single_agent/resource_users.hpp"
 
 namespace mrpbench::mapf::lns {
 
@@ -19,8 +20,9 @@ class Traffic {
   void remove(int robot, std::span<const Occupation> path);
   /// In the order of `begin`.
   std::span<const Visit> at(int element) const { return visits_[element]; }
+  const ResourceUsers& users() const { return users_; }
 
-  /// Call `found(robot)` for every visit with which `occupation` of `robot` conflicts.
+  /// Call `found(other)`, perhaps repeatedly, for every robot with which `occupation` of `robot` conflicts.
   template <class Found>
   void conflicts_of(int robot, const Occupation& occupation, Found found) const {
     if (unit_ && occupation.element >= vertex_count_) {
@@ -37,6 +39,10 @@ class Traffic {
         if (relation == Relation::ordered && !overtakes(occupation, {near.element, visit.begin, visit.end})) continue;
         found(visit.robot);
       }
+    }
+    if (instance_.resources().empty()) return;
+    for (const Use& use : uses(instance_, {&occupation, 1})) {
+      for (const int other : users_.too_many_with(robot, use)) found(other);
     }
   }
   /// On unit roadmaps: call `found(robot)` for all robots that go from `to` to `from` between `tick` and `tick + 1`.
@@ -62,6 +68,7 @@ class Traffic {
   bool unit_;
   int vertex_count_;
   std::vector<std::vector<Visit>> visits_;
+  ResourceUsers users_;
 };
 
 }  // namespace mrpbench::mapf::lns

@@ -1,16 +1,13 @@
 #include "mrpbench_mapf/single_agent/reservations.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <utility>
 
 namespace mrpbench::mapf {
 
 Reservations::Reservations(const Instance& instance, const Relations& relations, Limits& limits)
-    : instance_(instance), relations_(relations), limits_(limits) {
+    : instance_(instance), relations_(relations), limits_(limits), users_(instance) {
   limits.charge(static_cast<std::size_t>(instance.roadmap().element_count()) * sizeof(std::int32_t));
   head_.assign(instance.roadmap().element_count(), -1);
-  users_.resize(instance.resources().size());
 }
 
 void Reservations::add(int robot, std::span<const Occupation> occupations) {
@@ -21,7 +18,7 @@ void Reservations::add(int robot, std::span<const Occupation> occupations) {
     entries_.push_back({robot, step++, occupation.begin, occupation.end, head});
     head = static_cast<std::int32_t>(entries_.size()) - 1;
   }
-  for (const auto& [resource, halves] : uses(instance_, occupations)) users_[resource].push_back({robot, halves});
+  users_.add(robot, occupations);
   limits_.charge_growth(counted_, entries_.capacity() * sizeof(Entry));
 }
 
@@ -29,43 +26,7 @@ void Reservations::clear() {
   for (const std::int32_t element : touched_) head_[element] = -1;
   touched_.clear();
   entries_.clear();
-  for (std::vector<User>& it : users_) it.clear();
-}
-
-void Reservations::full(int robot, int resource, std::vector<Range>& halves) const {
-  const Resource& it = instance_.resources()[resource];
-  const auto add = [&](Half first, Half last) {  // before the first, its own setup would reach into it
-    const std::int64_t since = first - std::int64_t{2} * it.setup;
-    halves.push_back({static_cast<Half>(std::max<std::int64_t>(since, 0)), last});
-  };
-  if (it.capacity == 1) {
-    for (const User& use : users_[resource]) {
-      if (use.robot != robot) add(use.halves.first, use.halves.last);
-    }
-    return;
-  }
-  std::vector<User> others;
-  std::ranges::copy_if(users_[resource], std::back_inserter(others), [&](const User& it) { return it.robot != robot; });
-  std::ranges::sort(others, [](const User& a, const User& b) {
-    return a.robot != b.robot ? a.robot < b.robot : a.halves.first < b.halves.first;
-  });
-  std::vector<std::pair<Half, int>> changes;  // of the number of robots, at half-ticks
-  for (std::size_t i = 0; i < others.size();) {
-    Range whole = others[i].halves;
-    const std::int32_t who = others[i].robot;
-    for (++i; i < others.size() && others[i].robot == who && others[i].halves.first <= whole.last + 1; ++i) {
-      whole.last = std::max(whole.last, others[i].halves.last);
-    }
-    changes.push_back({whole.first, 1});
-    changes.push_back({whole.last + 1, -1});
-  }
-  std::ranges::sort(changes);
-  int count = 0;
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    count += changes[i].second;
-    if (count >= it.capacity && changes[i + 1].first > changes[i].first)
-      add(changes[i].first, changes[i + 1].first - 1);
-  }
+  users_.clear();
 }
 
 void Reservations::at_vertex(int robot, int vertex, std::vector<Range>& halves) const {
@@ -76,7 +37,7 @@ void Reservations::at_vertex(int robot, int vertex, std::vector<Range>& halves) 
       halves.push_back({entry.begin, entry.end});
     }
   }
-  for (const std::int32_t resource : instance_.resources_of(vertex)) full(robot, resource, halves);
+  for (const std::int32_t resource : instance_.resources_of(vertex)) users_.full(robot, resource, halves);
 }
 
 void Reservations::on_edge(int robot, int edge, Tick duration, std::vector<Range>& departures) const {
@@ -99,13 +60,8 @@ void Reservations::on_edge(int robot, int edge, Tick duration, std::vector<Range
       if (!departures.empty() && departures.back().first > departures.back().last) departures.pop_back();
     }
   }
-  std::vector<Range> halves;
   for (const std::int32_t resource : instance_.resources_of(instance_.roadmap().vertex_count() + edge)) {
-    full(robot, resource, halves);
-  }
-  for (const Range& it : halves) {
-    const Range hit{it.first / 2 + 1 - duration, (it.last - 1) >> 1};
-    if (hit.first <= hit.last) departures.push_back(hit);
+    users_.full_departures(robot, resource, duration, departures);
   }
 }
 

@@ -11,8 +11,11 @@
 
 namespace mrpbench::mapf {
 
-/// Needs a roadmap of unit moves, throws std::invalid_argument for any other. Complete: unsolvable if all
-/// configurations were seen. The lower bound is the cost itself where all better ones were ruled out.
+/// Needs robots with one goal each, where they stay; throws std::invalid_argument for others. Where every move takes a
+/// tick and robots exclude one another only at one vertex, it is complete (unsolvable if all configurations were seen),
+/// and the lower bound is the cost itself where all better ones were ruled out. Elsewhere a configuration says where
+/// robots stand between their moves, whose order is planned (`lacam/joint_moves.hpp`); the search is complete if a
+/// robot on an edge excludes all that it excludes at its end, and otherwise gives up when it has seen all.
 Result solve_lacam(const Instance& instance, const LacamOptions& options, Limits& limits);
 
 }  // namespace mrpbench::mapf

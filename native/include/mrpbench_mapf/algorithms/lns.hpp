@@ -11,8 +11,8 @@
 
 namespace mrpbench::mapf {
 
-/// Where the first plan comes from: repairing conflicts; LaCAM, where the roadmap allows it; or LaCAM, then repairing
-/// for a while, and the cheaper one.
+/// Where the first plan comes from, if every move takes one tick: repairing conflicts; LaCAM; or LaCAM, then repairing
+/// for a while, and the cheaper one. Elsewhere LaCAM plans if repairing takes long, unless only repairing is asked for.
 enum class Initial { repair, lacam, either };
 
 struct LnsOptions {
@@ -27,8 +27,9 @@ struct LnsOptions {
         objective_option<LnsOptions>(),
         {"initial", &LnsOptions::initial,
          Choices<Initial>{{"repair", Initial::repair}, {"lacam", Initial::lacam}, {"either", Initial::either}},
-         "Source of the first plan: repair, lacam (where every move takes one tick; elsewhere repair), or either "
-         "(lacam, then repair for a while, and the cheaper of the two plans)"},
+         "Source of the first plan: repair, lacam, or either (lacam, then repair for a while, and the cheaper of the "
+         "two "
+         "plans); where moves take several ticks, lacam and either repair for a while, then use LaCAM"},
         {"neighbourhood", &LnsOptions::neighbourhood, at_least(1),
          "Number of robots that are replanned at a time; none = 8 while repairing, then 1 to 32, chosen by success"},
         {"iterations", &LnsOptions::iterations, at_least(0),

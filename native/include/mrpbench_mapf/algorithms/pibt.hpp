@@ -17,12 +17,12 @@ struct PibtOptions {
   static Description<PibtOptions> description() {
     return {{"swap", &PibtOptions::swap, "Lets robots change places in narrow passages", "Okumura, IJCAI 2023"},
             {"steps", &PibtOptions::steps, at_least(0),
-             "Ticks after which the planner gives up; 0 = twice the number of vertices of the roadmap, plus 1000"},
+             "Steps after which the planner gives up; 0 = twice the number of vertices of the roadmap, plus 1000"},
             {"seed", &PibtOptions::seed, "Seed of the choice between equally good vertices"}};
   }
 };
 
-/// Needs a roadmap of unit moves, throws std::invalid_argument for any other.
+/// Needs robots with one goal each, where they stay; throws std::invalid_argument for others.
 Result solve_pibt(const Instance& instance, const PibtOptions& options, Limits& limits);
 
 }  // namespace mrpbench::mapf

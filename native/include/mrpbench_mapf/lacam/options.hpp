@@ -28,7 +28,8 @@ struct LacamOptions {
          "If that fails, looks for a cheaper plan along guide paths that avoid each other; in a crowd, where there are "
          "none, draws further first plans at random",
          "Okumura, AAMAS 2024"},
-        {"star", &LacamOptions::star, "After the first plan, continues the search over configurations",
+        {"star", &LacamOptions::star,
+         "After the first plan, continues the search over configurations, where every move takes one tick",
          "Okumura, IJCAI 2023"},
         {"neighbourhoods", &LacamOptions::neighbourhoods,
          "After the first plan, improves it by large neighbourhood search"},

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "mrpbench_mapf/model/conflict.hpp"
-#include "mrpbench_mapf/model/uses.hpp"
 #include "mrpbench_mapf/single_agent/obstacles.hpp"
+#include "mrpbench_mapf/single_agent/resource_users.hpp"
 
 namespace mrpbench::mapf {
 
@@ -17,9 +17,6 @@ class Reservations {
 
   void add(int robot, std::span<const Occupation> occupations);
   void clear();
-  /// Half-ticks in which `robot` must not be on any element of `resource`: with it there would be too many, then or,
-  /// as it uses the resource for the setup after it has left, soon after.
-  void full(int robot, int resource, std::vector<Range>& halves) const;
   bool empty() const { return entries_.empty(); }
 
   /// What the occupations of all robots but `robot` mean for it.
@@ -40,21 +37,14 @@ class Reservations {
       }
     }
   }
-  /// Call `found(other, halves)` for every use of a resource by another robot that meets `use`.
-  template <class Found>
-  void users_beside(int robot, const Use& use, Found found) const {
-    for (const User& it : users_[use.resource]) {
-      if (it.robot == robot || it.halves.first > use.halves.last || it.halves.last < use.halves.first) continue;
-      found(it.robot, it.halves);
-    }
-  }
+  const ResourceUsers& users() const { return users_; }
   /// Number of conflicts of `occupation`; for a resource that holds several robots, each of its users counts.
   int count(int robot, const Occupation& occupation) const {
     int number = 0;
     conflicts_of(robot, occupation, [&](const auto&, Relation) { ++number; });
-    if (users_.empty()) return number;
+    if (instance_.resources().empty()) return number;
     for (const Use& use : uses(instance_, {&occupation, 1})) {
-      users_beside(robot, use, [&](int, Range) { ++number; });
+      users_.beside(robot, use, [&](int, Range) { ++number; });
     }
     return number;
   }
@@ -67,18 +57,13 @@ class Reservations {
     std::int32_t next;
   };
 
-  struct User {
-    std::int32_t robot;
-    Range halves;  // setup included
-  };
-
   const Instance& instance_;
   const Relations& relations_;
   Limits& limits_;
   std::vector<std::int32_t> head_;  // by element, -1 = none
   std::vector<Entry> entries_;
   std::vector<std::int32_t> touched_;
-  std::vector<std::vector<User>> users_;  // by resource
+  ResourceUsers users_;
   std::size_t counted_ = 0;
 };
 

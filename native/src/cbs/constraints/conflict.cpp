@@ -150,7 +150,7 @@ class Occupations {
 void find_in_resources(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,
                        Arena<Constraint>& constraints, std::vector<Conflict>& found) {
   for (const Use& use : uses(space.instance(), path.occupied)) {
-    present.reservations().users_beside(robot, use, [&](int other, const Range& theirs) {
+    present.reservations().users().beside(robot, use, [&](int other, const Range& theirs) {
       const Half instant = instant_of(use.halves, theirs);
       const auto resource_constraint = [&](int it) {
         return Constraint{it, use.resource, {instant, instant}, Constraint::Kind::resource};

@@ -12,8 +12,9 @@ class Lns(NativePlanner):
     """Repairs a plan with conflicts (Li et al., AAAI 2022), then improves it (Li et al., IJCAI 2021).
 
     Improvement ends when all robots arrive as early as if they were alone, after `limits.iterations` groups, or when
-    the time is over. Incomplete if the first plan comes from repairing alone.
+    the time is over. Incomplete if the first plan comes from repairing alone, and where moves take several ticks;
+    there, LaCAM plans if repairing takes long.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})

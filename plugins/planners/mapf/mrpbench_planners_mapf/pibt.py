@@ -3,17 +3,17 @@
 from typing import ClassVar
 
 from mrpbench_core.api.planner import Promise
+from mrpbench_planners_mapf.configurations import ConfigurationPlanner
 from mrpbench_planners_mapf.recipe import native_planner
-from mrpbench_planners_mapf.unit_moves import UnitMoves
 
 
 @native_planner("pibt")
-class Pibt(UnitMoves):
-    """Moves every robot tick by tick to where robots of higher priority leave room (Okumura et al., AIJ 2022).
+class Pibt(ConfigurationPlanner):
+    """Moves every robot step by step to where robots of higher priority leave room (Okumura et al., AIJ 2022).
 
-    For roadmaps on which every move takes one tick. Incomplete: robots may move in circles, so the planner gives up
-    after `steps` ticks. With `swap`, two robots that meet in a narrow passage change places where that is possible
-    (Okumura, IJCAI 2023).
+    Incomplete: robots may move in circles, so the planner gives up after `steps` steps. With `swap`, two robots that
+    meet in a narrow passage change places where that is possible (Okumura, IJCAI 2023). A step takes a tick where all
+    moves do. Elsewhere it is one move of each robot, and each move starts as soon as those before it allow.
     """
 
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})

@@ -11,9 +11,8 @@ from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.pibt import Pibt
 
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
-from mrpbench_core.testing.instances.problems import movingai, problem_on
+from mrpbench_core.testing.instances.problems import movingai
 from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
-from mrpbench_core.testing.instances.roadmaps import grid_of
 from mrpbench_core.testing.oracles.judge import ask
 from mrpbench_core.testing.oracles.optimum import least_makespan, least_sum_of_costs
 
@@ -86,17 +85,6 @@ def test_the_curve_falls_to_the_cost_of_the_plan(planner):
     assert seconds == sorted(seconds)
     assert cost[-1] == result.plan.sum_of_costs
     assert all(point.lower_bound <= cost[-1] for point in result.history)
-
-
-@pytest.mark.parametrize("planner", [Lacam(), Pibt()])
-def test_more_than_unit_moves_is_skipped_with_the_reason(planner):
-    road = grid_of(["..."])
-    assert planner.skip(problem_on(road, [0], [2])) is None
-    assert planner.skip(problem_on(attrs.evolve(road, duration=[[2, 2, 2, 2]]), [0], [2])) == (
-        "does not support edge_durations"
-    )
-    assert "disappear" in planner.skip(problem_on(road, [0], [2], at_goal="disappear"))
-    assert "footprints" in planner.skip(problem_on(road, [0], [2], radius=0.3))
 
 
 @pytest.mark.parametrize("planner", [Lacam(), Lns(), Pibt()])

@@ -9,7 +9,10 @@ from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
+from mrpbench_planners_mapf.lacam import Lacam
+from mrpbench_planners_mapf.lns import Lns
 from mrpbench_planners_mapf.pbs import Pbs
+from mrpbench_planners_mapf.pibt import Pibt
 from mrpbench_planners_mapf.prioritized import Prioritized
 
 from mrpbench_core.model.planning.plan import PlanStatus
@@ -24,7 +27,8 @@ from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 BOUNDED = (Ecbs(w=1.0), Ecbs(w=1.5), Eecbs(w=1.0), Eecbs(w=1.05, flex=True), Eecbs(w=1.5, target=False))
 TECHNIQUES = ("heuristic", "target", "corridor", "rectangle", "prioritize", "bypass")
 ABLATIONS = (Cbs(), Cbs(**dict.fromkeys(TECHNIQUES, False)), *(Cbs(**{name: False}) for name in TECHNIQUES))
-PLANNERS = (*ABLATIONS, *BOUNDED, Pbs(), Prioritized(restarts=20))
+ANYTIME = (Pibt(), Lacam(), Lns(), Lns(initial="repair"), Lns(objective="makespan", neighbourhood=2))
+PLANNERS = (*ABLATIONS, *BOUNDED, Pbs(), Prioritized(restarts=20), *ANYTIME)
 seeds = st.integers(0, 2**32 - 1)
 
 
@@ -56,21 +60,21 @@ def test_plans_on_grids_keep_to_resources_and_none_is_missed(seed, planner):
 
 
 @settings(max_examples=30, deadline=None)
-@given(seed=seeds, capacity=st.integers(1, 3))
-def test_priorities_respect_resources_that_hold_several(seed, capacity):
+@given(seed=seeds, capacity=st.integers(1, 3), planner=st.sampled_from((Pbs(), Prioritized(restarts=20), *ANYTIME)))
+def test_resources_that_hold_several_robots_are_respected(seed, capacity, planner):
     random = np.random.default_rng(seed)
     asked = with_resources(random, random_grid_problem(random, 4, size=4), capacity)
-    for planner in (Pbs(), Prioritized(restarts=20)):
-        ask(planner, asked)
+    if planner.skip(asked) is None:
+        ask(planner, asked, budget=attrs.evolve(BUDGET, iterations=20))
 
 
-@pytest.mark.parametrize("planner", [Cbs(), Eecbs(), Ecbs(), Pbs()])
+@pytest.mark.parametrize("planner", [Cbs(), Eecbs(), Ecbs(), Pbs(), Lns()])
 def test_what_has_a_simple_plan_is_solved(planner):
     random = np.random.default_rng(1)
     asked = [with_resources(random, random_graph_problem(random, 3)) for _ in range(40)]
     solvable = [it for it in asked if Prioritized(restarts=50).plan(it, BUDGET).status is PlanStatus.SOLVED]
     assert len(solvable) > 10
-    solved = [planner.plan(it, AMPLE).status is PlanStatus.SOLVED for it in solvable]
+    solved = [planner.plan(it, attrs.evolve(AMPLE, iterations=20)).status is PlanStatus.SOLVED for it in solvable]
     assert all(solved)
 
 
@@ -90,14 +94,14 @@ def test_two_robots_pass_a_door_one_after_the_other(planner, setup):
     assert ask(planner, asked, optimum, AMPLE).plan.sum_of_costs == optimum
 
 
-@pytest.mark.parametrize("planner", [Cbs(), Eecbs(w=1.0), Ecbs(w=1.0), Pbs(), Prioritized()])
+@pytest.mark.parametrize("planner", [Cbs(), Eecbs(w=1.0), Ecbs(w=1.0), Pbs(), Prioritized(), Lns()])
 def test_a_robot_that_ends_in_a_doorway_lets_the_others_through_first(planner):
     asked = problem_on(hall(setup=3), [5, 0, 2], [7, 3, 1])
-    result = ask(planner, asked, budget=AMPLE)
+    result = ask(planner, asked, budget=attrs.evolve(AMPLE, iterations=20))
     assert result.status is PlanStatus.SOLVED
 
 
-@pytest.mark.parametrize("planner", [Cbs(), Cbs(target=False), Eecbs(), Ecbs(), Pbs(), Prioritized()])
+@pytest.mark.parametrize("planner", [Cbs(), Cbs(target=False), Eecbs(), Ecbs(), Pbs(), Prioritized(), Pibt(), Lns()])
 @pytest.mark.parametrize(("starts", "goals"), [([6, 8], [4, 10]), ([4, 10], [6, 8])])
 def test_more_robots_than_a_resource_holds_at_the_start_or_for_good_are_seen_at_once(planner, starts, goals):
     assert planner.plan(problem_on(hall(), starts, goals), AMPLE).status is PlanStatus.UNSOLVABLE

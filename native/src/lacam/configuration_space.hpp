@@ -1,0 +1,47 @@
+// What a search over configurations needs to know of an instance: where it starts, how it goes on, and what plan a
+// sequence of configurations is.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "lacam/configuration_generator.hpp"
+#include "lacam/guide_paths.hpp"
+#include "lacam/joint_moves.hpp"
+
+namespace mrpbench::mapf::lacam {
+
+class ConfigurationSpace {
+ public:
+  /// For instances that are `suitable`.
+  ConfigurationSpace(const Instance& instance, Limits& limits);
+
+  const Moves& moves() const { return moves_; }
+  /// Every move takes one tick, and robots exclude one another only at one vertex: a step takes a tick.
+  bool is_unit() const { return !relations_; }
+  /// Where there is a plan, there is a sequence of configurations. False also if robots would block one another once
+  /// they have done what they are committed to.
+  bool misses_no_plan() const;
+  /// Where robots are free to go; nothing if not all can be there at one time.
+  std::optional<std::vector<std::int32_t>> start();
+  std::unique_ptr<ConfigurationGenerator> generator(DistanceTables& tables, const GuidePaths* guides, bool swap,
+                                                    std::uint64_t seed, Limits& limits);
+  std::vector<Path> paths_of(const std::vector<Configuration>& sequence);
+  /// Set `result` to unsolvable if that is soon proved; else set the lower bound.
+  bool prove_unsolvable(DistanceTables& tables, Limits& limits, Result& result) const;
+
+ private:
+  std::vector<Path> unit_paths_of(const std::vector<Configuration>& sequence) const;
+
+  const Instance& instance_;
+  Moves moves_;
+  std::optional<Relations> relations_;  // none where all is unit
+  std::optional<JointMoves> joint_;
+};
+
+/// Does every robot have one goal, where it stays?
+bool is_suitable(const Instance& instance);
+/// Throws std::invalid_argument naming the `solver` that can do nothing with an instance that is not.
+void require_suitable(const Instance& instance, const char* solver);
+
+}  // namespace mrpbench::mapf::lacam
