@@ -152,3 +152,30 @@ TEST("the static layer draws the walls nearby") {
   map.update({0, 0, 0});
   CHECK(count(map, 254) == 60);
 }
+
+TEST("a robot may be where its inscribed circle is clear of what beams hit, though a cell nearby is marked") {
+  CostmapOptions plain = options();  // 0.1078 m
+  std::vector<double> one(360, kNothing);
+  one[0] = 0.149;  // marks the cell from 0.10 to 0.15
+  Costmap map(plain, nullptr);
+  map.see({0.001, 0.001, 0}, {}, one);
+  map.update({0.001, 0.001, 0});
+  const auto free = [&](double x) { return map.is_free(map.frame().cell({x, 0.001}), {x, 0.001}); };
+  CHECK(map.at(map.frame().cell({0.041, 0.001})) == kInscribed);
+  CHECK(free(0.041) && !free(0.043));
+}
+
+TEST("a robot that is too close to something may come no closer, and may leave") {
+  CostmapOptions close = options();
+  close.footprint_clearing = false;
+  std::vector<double> one(360, kNothing);
+  one[0] = 0.09;
+  Costmap map(close, nullptr);
+  map.see({0.001, 0.001, 0}, {}, one);
+  map.update({0.001, 0.001, 0});
+  const auto free = [&](double x, double y) { return map.is_free(map.frame().cell({x, y}), {x, y}); };
+  CHECK(free(0.001, 0.001) && free(-0.03, 0.001) && free(0.001, 0.03));
+  CHECK(!free(0.01, 0.001));
+  map.update({-0.5, 0.001, 0});
+  CHECK(!free(0.001, 0.001));
+}

@@ -20,6 +20,7 @@ from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.common.poses import wrapped
+from mrpbench_core.model.execution.orders import Orders
 
 LEAD = 0.02
 """metres by which a robot may lead the last of its group."""
@@ -71,14 +72,14 @@ class Rotations:
         self.rotating: Bool = np.zeros(len(robots), bool)
         """bool[n]: robots that are commanded here and not by their controllers."""
 
-    def update(self, now: float, in_step: tuple[Group, ...]) -> None:
-        """Take note of the groups of `Orders.in_step`."""
-        if in_step != self._in_step:
-            self._take(now, in_step)
+    def update(self, now: float, orders: Orders) -> None:
+        """Take note of the groups that rotate."""
+        if orders.in_step != self._in_step:
+            self._take(now, orders.in_step)
         self.rotating[:] = False
-        if in_step:
-            here = self._follower.reached[self._robots] == self._segments
-            self.rotating[self._robots[here]] = True
+        if orders.in_step:
+            reached, released = self._follower.reached[self._robots], orders.released[self._robots]
+            self.rotating[self._robots[(reached == self._segments) & (released > self._segments)]] = True
             self.rotating[self._follower.only_turn()] = False
 
     def _take(self, now: float, in_step: tuple[Group, ...]) -> None:

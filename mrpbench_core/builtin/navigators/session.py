@@ -46,7 +46,7 @@ class WaypointsSession(NavigatorSession):
         pose, measured = observation.estimate.pose, observation.odometry.twist
         follower, recoveries = self.follower, self.recoveries
         follower.update(pose, measured[:, 0], orders.released, observation.level)
-        self.rotations.update(now, orders.in_step)
+        self.rotations.update(now, orders)
         rotating = self.rotations.rotating
         self.detours.shorten(pose, rotating)
         foot = follower.foot(pose)

@@ -53,6 +53,10 @@ class Costmap {
   const CostmapOptions& options() const { return options_; }
   double inscribed() const { return inscribed_; }
   std::uint8_t at(Cell c) const { return cost_[frame_.index(c)]; }
+  /// Tell whether the robot's centre may be at a point, whose cell is `c`. Nav2 forbids cells of the cost `kInscribed`.
+  /// Some of them are farther than the inscribed radius from the points that beams hit: these are free here. And a
+  /// robot that was closer at the last update may drive where it comes no closer, so that it can leave.
+  bool is_free(Cell c, Point p) const { return at(c) < kInscribed || (at(c) == kInscribed && clearance(p) >= room_); }
   const std::vector<std::uint8_t>& costs() const { return cost_; }
   /// Mark the cells (of this frame) through which outlines of the static map pass.
   void draw_walls(std::vector<std::uint8_t>& cells) const;
@@ -61,6 +65,8 @@ class Costmap {
   void roll(Pose pose);
   void trace();
   void clear_footprint(Pose pose);
+  void mark(Cell c, Point p);
+  double clearance(Point p) const;
   void inflate();
 
   CostmapOptions options_;
@@ -70,6 +76,14 @@ class Costmap {
   Point centre_;
   bool known_ = false;
   std::vector<std::uint8_t> marks_, spare_, cost_;
+  /// Where in a marked cell beams ended on average since it was marked, in cells from its lower left corner.
+  struct Hit {
+    float x = 0.5f, y = 0.5f;
+    std::uint32_t beams = 0;
+  };
+  std::vector<Hit> hits_, spare_hits_;
+  /// Metres that the robot keeps from what beams hit.
+  double room_ = 0;
   struct {
     Pose pose;
     Sensor sensor;

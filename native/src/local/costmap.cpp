@@ -80,6 +80,9 @@ Costmap::Costmap(CostmapOptions options, std::shared_ptr<const StaticMap> walls)
   frame_.height = static_cast<int>(std::lround(options_.height / options_.resolution));
   marks_.assign(frame_.size(), kFree);
   cost_ = spare_ = marks_;
+  hits_.resize(frame_.size());
+  spare_hits_ = hits_;
+  room_ = inscribed_;
   reach_ = static_cast<int>(std::floor(options_.inflation_radius / options_.resolution));
   const auto side = static_cast<std::size_t>(2 * reach_ + 1);
   stamp_width_ = (side + kBlock - 1) / kBlock * kBlock;
@@ -117,7 +120,27 @@ void Costmap::update(Pose pose) {
   cost_ = marks_;
   if (options_.static_layer) draw_walls(cost_);
   if (options_.inflation_layer && reach_ > 0) inflate();
+  room_ = clearance(centre_);
   known_ = true;
+}
+
+/// Metres from a point to the nearest one that beams hit, or to the centre of the nearest wall's cell, but not more
+/// than the inscribed radius.
+double Costmap::clearance(Point p) const {
+  double nearest = inscribed_;
+  const Cell at = frame_.cell(p);
+  const int reach = 1 + static_cast<int>(std::ceil(inscribed_ / frame_.resolution));
+  for (int y = std::max(0, at.y - reach); y <= std::min(frame_.height - 1, at.y + reach); ++y) {
+    for (int x = std::max(0, at.x - reach); x <= std::min(frame_.width - 1, at.x + reach); ++x) {
+      const Cell c{x, y};
+      const std::size_t i = frame_.index(c);
+      if (cost_[i] != kLethal) continue;
+      const Hit hit = marks_[i] == kLethal ? hits_[i] : Hit{};
+      const Point corner = frame_.centre(c) - Point{0.5, 0.5} * frame_.resolution;
+      nearest = std::min(nearest, sim::length(corner + Point{hit.x, hit.y} * frame_.resolution - p));
+    }
+  }
+  return nearest;
 }
 
 /// Move the frame with the robot by whole cells; marks that stay inside are kept.
@@ -131,9 +154,12 @@ void Costmap::roll(Pose pose) {
   const int left = std::max(0, -dx), right = std::min(frame_.width, frame_.width - dx);
   for (int y = std::max(0, -dy); left < right && y < std::min(frame_.height, frame_.height - dy); ++y) {
     const auto from = marks_.begin() + static_cast<std::ptrdiff_t>(frame_.index({left + dx, y + dy}));
-    std::copy_n(from, right - left, spare_.begin() + static_cast<std::ptrdiff_t>(frame_.index({left, y})));
+    const auto to = static_cast<std::ptrdiff_t>(frame_.index({left, y}));
+    std::copy_n(from, right - left, spare_.begin() + to);
+    std::copy_n(hits_.begin() + (from - marks_.begin()), right - left, spare_hits_.begin() + to);
   }
   marks_.swap(spare_);
+  hits_.swap(spare_hits_);
   frame_.origin = origin;
 }
 
@@ -188,9 +214,21 @@ void Costmap::trace() {
   for (std::size_t i = 0; options_.marking && i < beams; ++i) {
     const double range = scan_.ranges[i];
     if (!(range >= options_.obstacle_min_range && range < options_.obstacle_max_range)) continue;
-    const Cell hit = frame_.cell(origin + direction(i) * range);
-    if (frame_.holds(hit)) marks_[frame_.index(hit)] = kLethal;
+    const Point end = origin + direction(i) * range;
+    const Cell hit = frame_.cell(end);
+    if (frame_.holds(hit)) mark(hit, end);
   }
+}
+
+void Costmap::mark(Cell c, Point p) {
+  const std::size_t i = frame_.index(c);
+  Hit& hit = hits_[i];
+  if (marks_[i] != kLethal) hit = {0, 0, 0};
+  marks_[i] = kLethal;
+  const Point inside = (p - frame_.centre(c)) * (1 / frame_.resolution) + Point{0.5, 0.5};
+  const float share = 1.0f / static_cast<float>(++hit.beams);
+  hit.x += (static_cast<float>(inside.x) - hit.x) * share;
+  hit.y += (static_cast<float>(inside.y) - hit.y) * share;
 }
 
 void Costmap::clear_footprint(Pose pose) {

@@ -53,19 +53,22 @@ class Obstacle : public Critic {
 
 struct Centre {
   double operator()(const Costmap& costmap, Pose pose) const {
-    return at(costmap, costmap.frame().cell({pose.x, pose.y}));
+    const Point p{pose.x, pose.y};
+    return at(costmap, costmap.frame().cell(p), p);
   }
 
-  void ends(const Scene& scene, const Trajectories&, std::span<double> raw) const {
+  void ends(const Scene& scene, const Trajectories& all, std::span<double> raw) const {
     const std::vector<Cell>& cells = scene.ends->ahead(0);
-    for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = at(*scene.costmap, cells[i]);
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      const Pose end = all.end(i);
+      raw[i] = at(*scene.costmap, cells[i], {end.x, end.y});
+    }
   }
 
  private:
-  static double at(const Costmap& costmap, Cell c) {
+  static double at(const Costmap& costmap, Cell c, Point p) {
     if (!costmap.frame().holds(c)) return kOff;
-    const std::uint8_t cost = costmap.at(c);
-    return cost >= kInscribed ? kHit : cost;
+    return costmap.is_free(c, p) ? costmap.at(c) : kHit;
   }
 };
 

@@ -116,7 +116,7 @@ bool is_free(const Costmap& costmap, Pose pose, bool by_radius) {
   const Frame& frame = costmap.frame();
   const Cell centre = frame.cell({pose.x, pose.y});
   if (!costmap.knows() || !frame.holds(centre)) return true;
-  if (by_radius) return costmap.at(centre) < kInscribed;
+  if (by_radius) return costmap.is_free(centre, {pose.x, pose.y});
   std::vector<Point> corners;
   place(costmap.options().footprint, pose, corners);
   bool free = costmap.at(centre) < kLethal;

@@ -1,5 +1,6 @@
 """Robots of a rotation stand and face their way before they drive, and none leads the others."""
 
+import attrs
 import numpy as np
 import pytest
 
@@ -79,6 +80,15 @@ def test_a_robot_that_cannot_move_stops_its_group_which_gives_up():
     events = [event for step in range(4000) for event in ring.step(step * PERIOD).events]
     assert {event.robot for event in events if event.kind == "no_progress"} == {0, 1, 2, 3}
     assert {event.robot for event in events if event.kind == "aborted"} == {0, 1, 2, 3}
+    assert ring.driven.max() < LEAD
+
+
+def test_a_robot_that_starts_late_is_not_commanded_before():
+    ring = _Ring(_pose((0.0, 0.0), np.zeros(4)))
+    ring.orders = attrs.evolve(ring.orders, released=np.array([1, 1, 0, 1], "i4"))
+    for step in range(100):
+        ring.step(step * PERIOD)
+        assert (ring.twist[2] == 0).all()
     assert ring.driven.max() < LEAD
 
 

@@ -149,15 +149,27 @@ def test_a_critic_that_returns_no_scores_is_blamed_by_its_name(answer):
         ask(GoalDist(), Leftward(answer=answer))
 
 
-def test_a_robot_without_an_admissible_command_says_why():
+def encircled(distance):
+    """The session and first command of a robot whose beams all end at a distance."""
     session = Dwb(critics=(BaseObstacle(),), local_costmap=LocalCostmap(footprint_clearing_enabled=False)).start_fleet(
         (BURGER,), NOWHERE, PERIOD
     )
-    scan = ScanBatch(stamp=0.0, robot=[0], ranges=np.full((1, 360), 0.13))
+    scan = ScanBatch(stamp=0.0, robot=[0], ranges=np.full((1, 360), distance))
     path = np.array([[(0.0, 0.0), (1.0, 0.0)]])
-    command = session.command(look(0.0, np.zeros((1, 3)), np.zeros((1, 2)), path, (scan,)))
+    return session, session.command(look(0.0, np.zeros((1, 3)), np.zeros((1, 2)), path, (scan,)))[0]
+
+
+def test_a_robot_without_an_admissible_command_says_why():
+    session, command = encircled(0.04)
     assert np.isnan(command).all()
     assert session.failure_reason(0) == "419 × BaseObstacle: Trajectory Hits Obstacle."
+
+
+def test_a_robot_that_is_too_close_to_everything_around_it_may_turn_only():
+    session, command = encircled(0.13)
+    assert command[0] == 0
+    assert command[1] != 0
+    assert session.failure_reason(0).endswith("× BaseObstacle: Trajectory Hits Obstacle.")
 
 
 def test_a_robot_at_the_end_of_its_path_stands():
