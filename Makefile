@@ -58,11 +58,12 @@ cpp: install ## run the C++ tests, without Python
 python: install ## run the Python tests, JOBS at a time
 	$(BIN)/pytest --numprocesses $(JOBS) --dist worksteal
 
-soak: install ## compare thousands of random instances with brute force, and disturb studies at random (an hour)
+soak: install ## compare random instances with brute force, disturb studies, look for robots that stand (two hours)
 	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1
 	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 2
+	$(BIN)/python plugins/controllers/dwb/tests/soak_driving.py 1000 0
 
 SANITIZED := build/sanitized
 CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python

@@ -58,22 +58,23 @@ class RecoveryManager:
         self.aborted[:] = False
         self._attempts = [0] * len(self._robots)
 
-    def begin(self, robot: int, now: float, pose: Float) -> list[Event]:
-        """Begin the next attempt of a robot, or let it give up; returns the events that follow."""
+    def begin(self, robot: int, now: float, pose: Float, events: list[Event]) -> bool:
+        """Begin the next attempt of a robot and append its event, or let the robot give up and return False."""
         reached = int(self._follower.reached[robot])
         if reached > self._reached[robot]:
             self._reached[robot], self._attempts[robot] = reached, 0
         self._attempts[robot] += 1
         if self._attempts[robot] > self._options.max_recoveries or not self._names:
             self.aborted[robot] = True
-            return [Event(stamp=now, kind="aborted", robot=robot)]
+            return False
         index = self._next[robot] % len(self._names)
         name, recovery = self._names[index], self._options.recoveries[index]
         self._next[robot] += 1
         session = recovery.start(self._robots[robot], self._surroundings(robot, pose), self._options.period)
         self._sessions[robot] = name, session
         self.recovering[robot] = True
-        return [Event(stamp=now, kind="recovery", robot=robot, detail=name)]
+        events.append(Event(stamp=now, kind="recovery", robot=robot, detail=name))
+        return True
 
     def step(self, now: float, pose: Float, measured: Float, twist: Float) -> list[Event]:
         """Write the commands of recovering robots into `twist` f8[n,2]; returns the events that follow."""

@@ -8,15 +8,18 @@ import numpy as np
 from mrpbench_core.api.navigator import NavigatorSession
 from mrpbench_core.builtin.navigators.controller_server import ControllerServer
 from mrpbench_core.builtin.navigators.detours import Detours
+from mrpbench_core.builtin.navigators.obstructions import obstruction
 from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
 from mrpbench_core.builtin.navigators.recovery_manager import RecoveryManager
 from mrpbench_core.builtin.navigators.rotations import Rotations
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.model.common.arrays import Bool, Byte, Float, Int
+from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.observation import FleetObservation, Observations
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.worlds.world import World
 
 _FOLLOWING, _WAITING, _RECOVERING, _ABORTED = (
     np.uint8(mode) for mode in (Mode.FOLLOWING, Mode.WAITING, Mode.RECOVERING, Mode.ABORTED)
@@ -34,6 +37,8 @@ class WaypointsSession(NavigatorSession):
     recoveries: RecoveryManager
     rotations: Rotations
     xy_goal_tolerance: float
+    fleet: Fleet
+    world: World
 
     def adopt(self, routes: Sequence[Route]) -> None:
         """Follow new routes; robots that gave up try again."""
@@ -58,12 +63,14 @@ class WaypointsSession(NavigatorSession):
         stuck |= self.rotations.command(now, pose, able, twist)
         failed = self.controllers.have_failed(now, following)
         for robot in (stuck | failed).nonzero()[0].tolist():
-            if stuck[robot]:
-                events.append(Event(stamp=now, kind="no_progress", robot=robot))
-            else:
-                reason = self.controllers.failure_reason(robot)
-                events.append(Event(stamp=now, kind="no_command", robot=robot, detail=reason))
-            events += recoveries.begin(robot, now, pose)
+            kind = "no_progress" if stuck[robot] else "no_command"
+            reason = "" if stuck[robot] else self.controllers.failure_reason(robot)
+            events.append(Event(stamp=now, kind=kind, robot=robot, detail=reason))
+            if not recoveries.begin(robot, now, pose, events):
+                path = follower.corners[follower.begin[robot] : follower.end[robot]]
+                cause = obstruction(self.fleet, self.world, robot, pose, observation.level, path)
+                detail = cause or f"{kind}: {reason}".removesuffix(": ")
+                events.append(Event(stamp=now, kind="aborted", robot=robot, detail=detail))
             self.detours.cancel(robot)
             twist[robot] = 0.0
         events += recoveries.step(now, pose, measured, twist)

@@ -101,6 +101,8 @@ class Waypoints(Navigator):
             recoveries=RecoveryManager(fleet.robots, recoveries, controllers, follower),
             rotations=Rotations(follower, fleet.robots, period, self.movement_time_allowance),
             xy_goal_tolerance=self.xy_goal_tolerance,
+            fleet=fleet,
+            world=world,
         )
 
     @property

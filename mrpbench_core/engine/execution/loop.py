@@ -61,8 +61,8 @@ class ExecutionResult:
 
     arrived: bool
     """Every robot completed the last move of its path."""
-    aborted: bool
-    """At least one robot gave up."""
+    gave_up: tuple[str, ...]
+    """Robots that gave up, each with the cause if the navigator named one."""
     simulated_s: float
 
 
@@ -107,6 +107,7 @@ class ExecutionLoop:
         assert plan is not None
         robots = len(context.fleet)
         self._step = self._revision = 0
+        self._causes: dict[int, str] = {}
         self._checks = ContractChecks(_segments(plan))
         self._state: State = self._checks.state(inputs.simulation.state)
         self._dispatcher = components.dispatcher.start(context.problem, plan)
@@ -215,6 +216,7 @@ class ExecutionLoop:
         if late.any():
             orders = attrs.evolve(orders, released=np.where(late, 0, orders.released))
         self._motion = self._checks.motion(self._navigator.step(self._now, observation, orders))
+        self._causes |= {event.robot: event.detail for event in self._motion.events if event.kind == "aborted"}
 
     def _result(self) -> ExecutionResult | None:
         """Return the end of the execution, or None if it continues."""
@@ -224,7 +226,12 @@ class ExecutionLoop:
         self._inputs.progress(self._now, at_goal)
         if not (at_goal | gave_up).all() and self._now < self._inputs.limit_s:
             return None
-        return ExecutionResult(arrived=bool(at_goal.all()), aborted=bool(gave_up.any()), simulated_s=self._now)
+        names = self._inputs.context.fleet.names
+        causes = tuple(
+            f"{names[robot]}: {self._causes.get(robot, '')}".removesuffix(": ")
+            for robot in gave_up.nonzero()[0].tolist()
+        )
+        return ExecutionResult(arrived=bool(at_goal.all()), gave_up=causes, simulated_s=self._now)
 
     def _record(self, observation: FleetObservation, last: bool) -> None:
         """Record this control period, and show it to hooks."""

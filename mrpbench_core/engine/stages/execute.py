@@ -123,7 +123,9 @@ def _failure(result: ExecutionResult, config: RunConfig) -> RunEnded | None:
     """Return the status of the run, None if every robot arrived."""
     if result.arrived:
         return None
-    if result.aborted:
-        return RunEnded(RunStatus.EXECUTION_ABORTED, Stage.EXECUTION, "a robot gave up before all had arrived")
+    if result.gave_up:
+        causes = "; ".join(result.gave_up[:3]) + ("; …" if len(result.gave_up) > 3 else "")
+        said = f"a robot gave up before all had arrived: {causes}"
+        return RunEnded(RunStatus.EXECUTION_ABORTED, Stage.EXECUTION, said)
     late = f"not all robots arrived within {config.limits.execution:g} simulated seconds"
     return RunEnded(RunStatus.GOALS_MISSED, Stage.EXECUTION, late)

@@ -17,7 +17,7 @@ from mrpbench_core.testing.execution.rings import rotate
 
 SIMULATORS = {
     "kinematic": (Kinematic, 20),
-    "planar": (Planar, 120),
+    "planar": (Planar, 40),
     "pybullet": (partial(PyBullet, model="wheels"), 4),
 }
 """Each with the number of rings that rotate at once."""
@@ -71,15 +71,13 @@ def main() -> int:
                 total.missing += rings * TURNS - found.rotations
                 total.contacts += found.contacts
                 total.gaps[cell] = min(total.gaps.get(cell, found.gap), found.gap)
+                gaps = ", ".join(f"{gap:.4f} m on {side} m" for side, gap in sorted(total.gaps.items()))
+                print(
+                    f"seed {seed}: {simulator:9} {controller:12} {total.rotations} rotations, {total.missing} not "
+                    f"completed, {total.contacts} contacts; smallest gaps {gaps}",
+                    flush=True,
+                )
         seed += 1
-        print(f"after seed {seed - 1}:", flush=True)
-        for (simulator, controller), total in totals.items():
-            gaps = ", ".join(f"{gap:.4f} m on {side} m" for side, gap in sorted(total.gaps.items()))
-            print(
-                f"  {simulator:9} {controller:12} {total.rotations} rotations, {total.missing} not completed, "
-                f"{total.contacts} contacts; smallest gaps {gaps}",
-                flush=True,
-            )
     return int(any(total.contacts or total.missing for total in totals.values()))
 
 

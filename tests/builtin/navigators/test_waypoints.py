@@ -93,10 +93,13 @@ def test_a_robot_without_progress_tries_recoveries_in_turn_and_then_gives_up(fle
         motion = session.step(period * 0.05, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
         events += motion.events
         modes.add(int(motion.mode[0]))
-    happened = [event.detail or event.kind for event in events if event.kind != "recovery_failed"]
+    happened = [
+        event.detail if event.kind == "recovery" else event.kind for event in events if event.kind != "recovery_failed"
+    ]
     tried = ["clear", "spin", "wait", "back_up", "clear", "spin"]
     assert happened == [word for name in tried for word in ("no_progress", name)] + ["no_progress", "aborted"]
     assert {event.robot for event in events} == {0}
+    assert events[-1].detail == "no_progress"
     assert [controller.cleared for controller in controllers] == [2, 0]
     assert modes == {Mode.FOLLOWING, Mode.RECOVERING, Mode.ABORTED}
     assert motion.mode.tolist() == [Mode.ABORTED, Mode.WAITING]

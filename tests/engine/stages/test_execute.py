@@ -84,6 +84,15 @@ def test_a_robot_held_back_is_recorded_without_a_command(tmp_path):
     assert command[time[:, None] > delay + 1].any()
 
 
+def test_the_error_of_an_aborted_run_names_robots_that_gave_up_and_the_cause(tmp_path):
+    impatient = {"movement_time_allowance": 0.5, "required_movement_radius": 9.0, "max_recoveries": 0}
+    record = executed(tmp_path, navigator={"plugin": "waypoints", **impatient})
+    assert record["status"] == "execution_aborted"
+    assert record["error"]["message"].startswith(
+        "a robot gave up before all had arrived: robot_0: no_progress; robot_1"
+    )
+
+
 @pytest.mark.parametrize("when", ["open", "write", "close", "exit"])
 def test_an_export_that_fails_is_named_and_costs_nothing_else(tmp_path, monkeypatch, when):
     monkeypatch.chdir(tmp_path)

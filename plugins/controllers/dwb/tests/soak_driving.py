@@ -20,14 +20,11 @@ import attrs
 import numpy as np
 from mrpbench_metrics_standard.progress import progress
 
+from mrpbench_core.builtin.navigators.obstructions import obstruction
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import execute
-from mrpbench_core.model.common.arrays import Float
-from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.execution.motion import Mode
-from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.runs.status import PLANNED, RunStatus
-from mrpbench_core.model.worlds.solids import segments
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 
@@ -45,8 +42,7 @@ SHARES = (0.24, 0.19, 0.04, 0.19, 0.19, 0.15)
 NAV2 = Path(__file__).with_name("nav2_params.yaml")
 MOVED = 0.05
 """metres along its path by which a robot must move so that it does not stand."""
-AHEAD = 0.4
-"""metres of the path ahead that have to be free."""
+STANDS = "STANDS with free space ahead"
 
 
 @attrs.frozen
@@ -120,8 +116,8 @@ def drive(seed: int, keep: Path | None) -> RunOutcome:
 def standing_robots(recording: Recording) -> Iterator[Standing]:
     """Robots that did not arrive, each with the reason for which it stands."""
     context = recording.context()
-    time, truth, reached, released, mode = (
-        recording.channel(name) for name in ("time", "truth", "reached", "released", "mode")
+    time, truth, level, reached, released, mode = (
+        recording.channel(name) for name in ("time", "truth", "level", "reached", "released", "mode")
     )
     along = progress(truth, reached, context.routes)
     events = list(zip(*(recording.channel(f"event_{it}") for it in ("time", "kind", "robot", "detail")), strict=True))
@@ -137,26 +133,9 @@ def standing_robots(recording: Recording) -> Iterator[Standing]:
         elif mode[-1, robot] != Mode.ABORTED and time[-1] - time[at] < 20:
             cause = "still under way"
         else:
-            cause = obstruction(context, truth[at], robot, along[at, robot]) or "STANDS"
+            route_ahead = route.waypoint[reached[at, robot] + 1 :, :2]
+            cause = obstruction(context.fleet, context.world, robot, truth[at], level[at], route_ahead) or STANDS
         yield Standing(robot, float(time[at]), cause, said)
-
-
-def obstruction(context: RunContext, pose: Float, robot: int, along: float) -> str:
-    """What is within the radius of a robot on the path ahead of it; "" if there is free space."""
-    route = context.routes[robot]
-    corners = route.waypoint[np.append(True, route.is_move), :2]
-    at = np.append(0.0, np.cumsum(np.hypot(*np.diff(corners, axis=0).T)))
-    ahead = along + np.arange(0.0, AHEAD, 0.05)
-    points = np.column_stack([np.interp(ahead, at, corners[:, axis]) for axis in (0, 1)])
-    radius = context.fleet.radii
-    gaps = np.hypot(*(pose[:, None, :2] - points).transpose(2, 0, 1)).min(axis=1) - radius - radius[robot]
-    gaps[robot] = np.inf
-    if gaps.min() < 0:
-        return "robot in the way"
-    walls = segments(context.world)
-    starts, ends = walls[:, :2], walls[:, 2:]
-    near = min(float(point_segment_distance(point[None], starts, ends).min()) for point in points)
-    return "wall in the way" if near < radius[robot] - 0.02 else ""
 
 
 def main() -> int:
@@ -175,6 +154,8 @@ def main() -> int:
     with ProcessPoolExecutor(given.workers) as pool:
         for outcome in pool.map(partial(drive, keep=given.keep), seeds):
             statuses[outcome.status] += 1
+            if statuses.total() % 50 == 0:
+                print(f"{statuses.total()} runs: {dict(statuses)}, {dict(causes)}", flush=True)
             causes.update({it.cause for it in outcome.standing})
             if outcome.status != RunStatus.SUCCEEDED:
                 print(f"seed {outcome.seed} ({outcome.name}): {outcome.status} {outcome.error}", flush=True)
@@ -182,7 +163,7 @@ def main() -> int:
                 print(f"    robot {it.robot} since {it.since:.1f} s: {it.cause}; {it.detail}", flush=True)
     print(f"{given.runs} runs:", ", ".join(f"{count} {status}" for status, count in statuses.most_common()))
     print("runs with robots that:", ", ".join(f"{count} {cause}" for cause, count in causes.most_common()) or "-")
-    return int(causes["STANDS"] > 0)
+    return int(causes[STANDS] > 0)
 
 
 if __name__ == "__main__":
