@@ -8,8 +8,9 @@ from typing import Any
 from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.cli.output.replays import write_replay
 from mrpbench_core.cli.output.summary import plugins_line, print_summary
-from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.engine.study.invoke import prepare
+from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.status import RunStatus
@@ -36,11 +37,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do the run and print where its results are."""
-    study = load_study(_configuration())
-    print(plugins_line([study]), flush=True)
-    progress = Printed()
-    done = run_study(study, prepare(study, out=arguments.out, rerun="all", progress=progress))
-    progress.close()
+    with slots_of_this_process() as slots:
+        study = read_study(slots, _configuration())
+        print(plugins_line([study]), flush=True)
+        progress = Printed()
+        done = run_study(study, prepare(study.name, slots, out=arguments.out, rerun="all", progress=progress))
+        progress.close()
     if done.mistakes:
         raise InputError(next(iter(done.mistakes.values())))
     print_summary(done.results)

@@ -12,8 +12,10 @@ from mrpbench_core.cli.input.arguments import add_configuration, read_options, s
 from mrpbench_core.cli.output.progress import SHORT, Printed
 from mrpbench_core.cli.output.summary import plugins_line, print_summary
 from mrpbench_core.cli.output.table import print_json, print_table
-from mrpbench_core.config.study import Study, load_studies
+from mrpbench_core.engine.loading.runs import StudyRuns
+from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.engine.study.invoke import prepare
+from mrpbench_core.engine.study.reading import read_studies
 from mrpbench_core.engine.study.study import Request, StudyOutcome, choose, run_study
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.runs.status import RunStatus
@@ -60,23 +62,25 @@ def run(arguments: argparse.Namespace) -> int:
     """Do the runs."""
     files, overrides = split_words(arguments.words)
     options = read_options(arguments.executor_option, "--executor-option")
-    if arguments.json and not arguments.dry_run:
+    with slots_of_this_process() as slots:
+        if not arguments.json or arguments.dry_run:
+            return _work(slots, arguments, files, overrides, options)[0]
         with redirect_stdout(sys.stderr):
-            code, done = _work(arguments, files, overrides, options)
-        print_json([_outcome(request, results) for request, results in done])
-        return code
-    return _work(arguments, files, overrides, options)[0]
+            code, done = _work(slots, arguments, files, overrides, options)
+    print_json([_outcome(request, results) for request, results in done])
+    return code
 
 
 def _work(
-    arguments: argparse.Namespace, files: Sequence[str], overrides: Sequence[str], options: dict[str, Any]
+    slots: str, arguments: argparse.Namespace, files: Sequence[str], overrides: Sequence[str], options: dict[str, Any]
 ) -> tuple[int, list[tuple[Request, Results]]]:
     """Do the runs, or list them; return the exit code and the results of each finished study."""
-    studies = load_studies(files, overrides)
+    studies = read_studies(slots, files, overrides)
     progress = Printed()
     requests = [
         prepare(
-            study,
+            study.name,
+            slots,
             overrides,
             out=arguments.out,
             workers=arguments.workers,
@@ -104,7 +108,7 @@ def _outcome(request: Request, results: Results) -> dict[str, Any]:
     return {"out": str(request.out), "runs": len(results), "statuses": results.statuses()}
 
 
-def _run_one(study: Study, request: Request, progress: Printed) -> tuple[int, Results]:
+def _run_one(study: StudyRuns, request: Request, progress: Printed) -> tuple[int, Results]:
     try:
         with closing(progress):
             done = run_study(study, request)
@@ -119,7 +123,7 @@ def _run_one(study: Study, request: Request, progress: Printed) -> tuple[int, Re
     return int(RunStatus.CRASHED in done.results.statuses() or bool(done.mistakes or study.errors)), done.results
 
 
-def _list(studies: Sequence[Study], requests: Sequence[Request], as_json: bool) -> None:
+def _list(studies: Sequence[StudyRuns], requests: Sequence[Request], as_json: bool) -> None:
     found: list[dict[str, Any]] = []
     for study, request in zip(studies, requests, strict=True):
         selection, _ = choose(study, request)

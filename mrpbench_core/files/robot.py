@@ -1,5 +1,6 @@
 """Read robots from `robots/*.yaml` of this package, or from a user's file of the same format."""
 
+import functools
 import math
 from importlib import resources
 from pathlib import Path
@@ -47,7 +48,17 @@ def load_robot(name_or_path: str, folder: Path | None = None) -> RobotModel:
     Raises:
         InputError: the name is unknown, the file unreadable, or a key unknown, missing or wrong.
     """
-    document = load(robot_file(name_or_path, folder))
+    file = robot_file(name_or_path, folder)
+    return _built_in(file) if file.parent == _ROBOTS else _read(file)
+
+
+@functools.cache
+def _built_in(file: Path) -> RobotModel:
+    return _read(file)
+
+
+def _read(file: Path) -> RobotModel:
+    document = load(file)
     values = _fields(document, RobotModel, ())
     values["name"] = _name(document)
     values["footprint"] = _footprint(document, values["footprint"])

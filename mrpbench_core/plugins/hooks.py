@@ -84,6 +84,10 @@ class Hooks:
         except InputError as error:
             self._refuse(provider.name, str(error))
 
+    def has(self, hook: str) -> bool:
+        """Tell whether any plugin implements `hook`."""
+        return hook in self._known
+
     def call(self, hook: str, **arguments: Any) -> None:
         """Call every implementation of `hook`. Mappings are copied, so that no plugin can change a record."""
         for found in self._known.get(hook, ()):

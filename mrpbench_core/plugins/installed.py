@@ -14,6 +14,7 @@ from packaging.requirements import InvalidRequirement, Requirement
 from packaging.utils import canonicalize_name
 
 from mrpbench_core.files.errors import InputError, one_line
+from mrpbench_core.plugins.importing import watched
 from mrpbench_core.plugins.kinds import PREFIX, kind_of
 
 CORE = "mrpbench-core"
@@ -57,14 +58,15 @@ def load(provider: Provider) -> Any:
         InputError: the import fails; the error names distribution, version and cause.
     """
     module, _, path = provider.value.partition("[")[0].partition(":")
-    try:
-        found: Any = importlib.import_module(module.strip())
-        for attribute in filter(None, path.strip().split(".")):
-            found = getattr(found, attribute)
-    except (Exception, SystemExit) as error:
-        name = f"{provider.kind} {provider.name!r} of {provider.origin}"
-        raise InputError(f"{name} cannot be imported: {one_line(error)}") from error
-    return found
+    name = f"{provider.kind} {provider.name!r} of {provider.origin}"
+    with watched(name):
+        try:
+            found: Any = importlib.import_module(module.strip())
+            for attribute in filter(None, path.strip().split(".")):
+                found = getattr(found, attribute)
+        except (Exception, SystemExit) as error:
+            raise InputError(f"{name} cannot be imported: {one_line(error)}") from error
+        return found
 
 
 def refresh() -> None:

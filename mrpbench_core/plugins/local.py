@@ -16,6 +16,7 @@ import attrs
 
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.files.text import read_text
+from mrpbench_core.plugins.importing import watched
 from mrpbench_core.plugins.siblings import importing, sibling_imports
 
 _PREFIX = "mrpbench_local_"
@@ -81,7 +82,10 @@ def source_of(cls: type) -> LocalSource | None:
 
 def _import_module(name: str) -> ModuleType:
     try:
-        return importlib.import_module(name)
+        with watched(name):
+            return importlib.import_module(name)
+    except InputError:
+        raise
     except (Exception, SystemExit) as error:
         raise InputError(f"{name} cannot be imported: {one_line(error)}") from error
 
@@ -103,8 +107,9 @@ def _import_source(source: LocalSource) -> ModuleType:
     sys.modules[name] = module  # attrs and pickle find classes there
     linecache.cache[module.__file__] = (len(source.text), None, source.text.splitlines(keepends=True), module.__file__)
     try:
-        exec(compile(source.text, module.__file__, "exec"), vars(module))  # noqa: S102 - running it is what was asked
-    except InputError:  # of a sibling module
+        with watched(module.__file__):
+            exec(compile(source.text, module.__file__, "exec"), vars(module))  # noqa: S102 - running it is what was asked
+    except InputError:  # of a sibling module, or of the import
         del sys.modules[name]
         raise
     except SyntaxError as error:

@@ -6,7 +6,7 @@ import time
 from collections import Counter
 from typing import Any
 
-from mrpbench_core.config.study import RunPoint
+from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.engine.study.selection import Selection
 from mrpbench_core.files.text import counted
@@ -30,7 +30,7 @@ class Printed(StudyProgress):
         self.interval_s = GOING_S if self._live else None
         self._progress: dict[str, dict[str, Any]] = {}
         self._total = 0
-        self._going: dict[str, RunPoint] = {}
+        self._going: dict[str, StudyRun] = {}
         self._counts: Counter[str] = Counter()
         self._began = self._drawn = time.monotonic()
 
@@ -49,7 +49,7 @@ class Printed(StudyProgress):
             )
         sys.stdout.flush()
 
-    def started(self, point: RunPoint) -> None:
+    def started(self, point: StudyRun) -> None:
         """Show the run in the live line."""
         self._going[point.run_id] = point
         self._draw()
@@ -59,18 +59,18 @@ class Printed(StudyProgress):
         self._progress = {facts["run_id"]: facts for facts in progress}
         self._draw()
 
-    def finished(self, point: RunPoint, record: dict[str, Any]) -> None:
+    def finished(self, point: StudyRun, record: dict[str, Any]) -> None:
         """Count the run; on a terminal only a failure gets a line of its own."""
         said = [(record.get("error") or {}).get("message", "")]
         said += [f"no export {name}: {reason}" for name, reason in record.get("unexported", {}).items()]
         self._end(point, record["status"], "; ".join(filter(None, said)))
 
-    def lost(self, point: RunPoint, reason: str) -> None:
+    def lost(self, point: StudyRun, reason: str) -> None:
         """Print that the run is repeated."""
         self._going.pop(point.run_id)
         self._say(f"{point.run_id[:SHORT]} is repeated: {reason}")
 
-    def refused(self, point: RunPoint, mistake: str) -> None:  # noqa: ARG002
+    def refused(self, point: StudyRun, mistake: str) -> None:  # noqa: ARG002
         """Count the run; the error is printed at the end, once for all runs that it affects."""
         self._going.pop(point.run_id)
         self._counts["not run"] += 1
@@ -81,7 +81,7 @@ class Printed(StudyProgress):
         if self._live:
             print("\r\x1b[K", end="", flush=True)
 
-    def _end(self, point: RunPoint, status: str, message: str) -> None:
+    def _end(self, point: StudyRun, status: str, message: str) -> None:
         self._going.pop(point.run_id)
         self._counts[status] += 1
         if not self._live or status in (RunStatus.CRASHED, RunStatus.OUT_OF_MEMORY, RunStatus.WALL_TIMEOUT):

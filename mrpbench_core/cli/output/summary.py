@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 
 from mrpbench_core.cli.output.table import print_table
-from mrpbench_core.config.study import Study
-from mrpbench_core.engine.study.record import code_of
+from mrpbench_core.engine.loading.runs import StudyRuns
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.groups import RunGroup, group_runs
@@ -20,11 +19,11 @@ ABREAST = 4
 """Number of groups up to which each group is a column of the table."""
 
 
-def plugins_line(studies: Sequence[Study]) -> str:
+def plugins_line(studies: Sequence[StudyRuns]) -> str:
     """Return one line with the distributions and versions of the plugins."""
     offered: dict[str, list[str]] = {}
     for entry in {
-        id(part): part for study in studies for point in study.runs for part in code_of(point)["components"]
+        id(part): part for study in studies for point in study.runs for part in point.code["components"]
     }.values():
         owner = f"{entry['distribution']} {entry['version']}" if "distribution" in entry else "local"
         names = offered.setdefault(owner, [])

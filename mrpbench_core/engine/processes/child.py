@@ -1,27 +1,16 @@
-"""The invoker's view of a worker process: starts it, exchanges messages, measures its memory and ends it."""
+"""The invoker's end of a supervisor process."""
 
-import contextlib
-import json
-import os
-import select
 import signal
+import socket
 import subprocess
 import sys
-import threading
-import time
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
-import psutil
+from mrpbench_core.engine.processes.channel import Channel, ClosedError, GarbledError, new_key
 
-WORKER = "mrpbench_core.engine.processes.worker"
-
-SAMPLING_S = 0.1
-"""Seconds between measurements of a worker's memory, or more where a measurement takes long."""
-
-CLOSING_S = 1.0
-"""Seconds between the end of a worker's messages and its own."""
+ENDING_S = 10.0
+"""Seconds that a supervisor may take to kill its jobs and end."""
 
 
 class WorkerDied(Exception):  # noqa: N818 - it says what happened
@@ -33,48 +22,21 @@ class WorkerDied(Exception):  # noqa: N818 - it says what happened
 
 
 class Child:
-    """One worker process, leader of its own process group.
+    """One supervisor process. It is in a session of its own, so that it does not receive Ctrl-C."""
 
-    In a group of its own, the worker does not receive Ctrl-C, and is ended together with every process it started.
-    """
-
-    def __init__(self, log: Path) -> None:
-        """Start the process; `log` receives its output before the first job."""
-        jobs, self._jobs = os.pipe()
-        self._messages, messages = os.pipe()
-        lifeline, self._lifeline = os.pipe()
-        try:
-            with log.open("ab") as output:
-                self._process = subprocess.Popen(
-                    [
-                        sys.executable,
-                        "-m",
-                        "mrpbench_core.engine.processes.worker",
-                        *map(str, (jobs, messages, lifeline)),
-                    ],
-                    stdin=subprocess.DEVNULL,
-                    stdout=output,
-                    stderr=output,
-                    pass_fds=(jobs, messages, lifeline),
-                    start_new_session=True,
-                )
-        except OSError:
-            self._close_pipes()
-            raise
-        finally:
-            for descriptor in (jobs, messages, lifeline):
-                os.close(descriptor)
-        self._buffer = b""
-        self._poll = select.poll()
-        self._poll.register(self._messages, select.POLLIN)
-        self._reaping = threading.Lock()
-        self._watched = psutil.Process(self._process.pid)
-        self._next_sample = 0.0
-
-    @property
-    def pid(self) -> int:
-        """Process id."""
-        return self._process.pid
+    def __init__(self) -> None:
+        ours, theirs = socket.socketpair()
+        with theirs:
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", "mrpbench_core.engine.processes.supervisor", str(theirs.fileno())],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                pass_fds=[theirs.fileno()],
+                start_new_session=True,
+            )
+        key = new_key()
+        ours.sendall(key)
+        self._channel = Channel(ours, key)
 
     def send(self, message: Mapping[str, Any]) -> None:
         """Hand over a job.
@@ -82,91 +44,46 @@ class Child:
         Raises:
             WorkerDied: the process has ended.
         """
-        content = json.dumps(message).encode() + b"\n"
         try:
-            while content:
-                content = content[os.write(self._jobs, content) :]
-        except BrokenPipeError:
+            self._channel.send(message)
+        except ClosedError:
             raise self._end() from None
 
-    def receive(self, timeout_s: float) -> dict[str, Any] | None:
+    def receive(self, timeout_s: float | None = None) -> dict[str, Any] | None:
         """The next message, or None when none came in time.
 
         Raises:
             WorkerDied: the process ended.
         """
-        while b"\n" not in self._buffer:
-            ended = self._ended()  # checked before reading, so that the last message is received
-            if not self._poll.poll(0 if ended else timeout_s * 1000):
-                if ended:
-                    raise self._end()
-                return None
-            content = os.read(self._messages, 1 << 16)
-            if not content:
-                raise self._end()
-            self._buffer += content
-        line, _, self._buffer = self._buffer.partition(b"\n")
-        message: dict[str, Any] = json.loads(line)
-        return message
-
-    def memory(self) -> int | None:
-        """Resident bytes of the process and its descendants, or None when it is too early to measure again."""
-        began = time.monotonic()
-        if began < self._next_sample:
-            return None
-        total = 0
-        with contextlib.suppress(psutil.NoSuchProcess):
-            for process in (self._watched, *self._watched.children(recursive=True)):
-                with contextlib.suppress(psutil.NoSuchProcess):
-                    total += process.memory_info().rss
-        now = time.monotonic()
-        self._next_sample = now + max(SAMPLING_S, 20 * (now - began))
-        return total
+        try:
+            return self._channel.receive(timeout_s)
+        except (ClosedError, GarbledError):
+            raise self._end() from None
 
     def is_alive(self) -> bool:
         """Tell whether it still runs."""
-        return not self._ended()
+        return self._process.poll() is None
 
-    def is_tidy(self, memory_bytes: int) -> bool:
-        """Tell whether the process may execute another run: it holds little memory and left no program running."""
-        started = Path(f"/proc/{self.pid}/task/{self.pid}/children")  # far cheaper than looking at every process
-        try:
-            busy = started.exists() and started.read_text().strip()
-            return not busy and self._watched.memory_info().rss < memory_bytes
-        except (OSError, psutil.Error):
-            return False
-
-    def kill(self) -> None:
-        """End the process and everything it has started; may be called from any thread."""
-        with self._reaping:
-            if self._process.returncode is None:
-                with contextlib.suppress(ProcessLookupError):
-                    os.killpg(self.pid, signal.SIGKILL)
+    def stop(self) -> None:
+        """Let it end its job and itself; may be called from any thread."""
+        self._channel.shut_down()
 
     def close(self) -> None:
-        """Kill it and release its pipes."""
-        self.kill()
-        with self._reaping:
+        """End it, with its job if it has one."""
+        self.stop()
+        try:
+            self._process.wait(ENDING_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
             self._process.wait()
-        self._close_pipes()
-
-    def _close_pipes(self) -> None:
-        for descriptor in (self._jobs, self._messages, self._lifeline):
-            os.close(descriptor)
-
-    def _ended(self) -> bool:
-        """Tell whether the process ended, without reaping it: until then its process id is not reused."""
-        return os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
+        self._channel.close()
 
     def _end(self) -> WorkerDied:
-        """Return the exception that describes how the child ended."""
-        deadline = time.monotonic() + CLOSING_S
-        while not self._ended():
-            if time.monotonic() > deadline:
-                return WorkerDied("the worker process closed its connection")
-            time.sleep(0.001)
-        status = os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOWAIT)
-        assert status is not None
-        if status.si_code == os.CLD_EXITED:
-            return WorkerDied(f"the worker process ended with exit code {status.si_status}")
-        return WorkerDied(f"the worker process was ended by {signal.Signals(status.si_status).name}", status.si_status)
+        """The exception that says how the process ended."""
+        try:
+            code = self._process.wait(ENDING_S)
+        except subprocess.TimeoutExpired:
+            return WorkerDied("the supervisor process closed its connection")
+        if code >= 0:
+            return WorkerDied(f"the supervisor process ended with exit code {code}")
+        return WorkerDied(f"the supervisor process was ended by {signal.Signals(-code).name}", -code)

@@ -1,7 +1,7 @@
-"""The input and the output of a worker: plain data, which may cross machines."""
+"""The input and the output of a worker slot: plain data, which may cross machines."""
 
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import attrs
 
@@ -24,7 +24,7 @@ class Job:
     memory_bytes: int
 
     def message(self) -> dict[str, Any]:
-        """The job as JSON, for the child."""
+        """The job as JSON, for the supervisor and the worker."""
         return {
             "run_id": self.run_id,
             "parcel": self.parcel,
@@ -32,6 +32,7 @@ class Job:
             "exports": str(self.paths.exports),
             "picture": None if self.paths.picture is None else str(self.paths.picture),
             "log": str(self.log),
+            "wall_s": self.wall_s,
             "memory_bytes": self.memory_bytes,
         }
 
@@ -46,6 +47,13 @@ class Failure:
     seconds: float
     """Wall time in that stage."""
     scenario_id: str | None = None
+    lost: bool = False
+    """Something outside ended the process, which says nothing about the run."""
+
+    @classmethod
+    def of_message(cls, message: dict[str, Any]) -> Self:
+        """The failure that a supervisor sent."""
+        return cls(**{**message, "status": RunStatus(message["status"]), "stage": Stage(message["stage"])})
 
 
 @attrs.frozen(kw_only=True)
@@ -55,8 +63,6 @@ class JobOutcome:
     run_id: str
     record: RunRecord | None = None
     failure: Failure | None = None
-    lost: bool = False
-    """Something outside ended the worker, which says nothing about the run."""
     mistake: str | None = None
     """A mistake of the user or a full disk, in one line: the run is not recorded."""
     machine: dict[str, Any] | None = None

@@ -1,11 +1,15 @@
 """The worker slots of this process, shared by the threads of an executor or of a remote worker."""
 
+import secrets
 import threading
-from typing import Any
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any, TypeVar
 
 from mrpbench_core.engine.processes.job import Job, JobOutcome
 from mrpbench_core.engine.processes.slot import Slot, SlotStopped
 
+T = TypeVar("T")
 _LOCK = threading.Lock()
 _POOLS: dict[str, "Slots"] = {}
 
@@ -19,8 +23,8 @@ class Slots:
         self._busy: set[Slot] = set()
         self._closed = False
 
-    def run(self, job: Job) -> JobOutcome:
-        """Execute a run in an idle slot, or in a new one.
+    def use(self, work: Callable[[Slot], T]) -> T:
+        """Call `work` with an idle slot, or with a new one.
 
         Raises:
             SlotStopped: the slots were closed.
@@ -31,7 +35,7 @@ class Slots:
             slot = self._idle.pop() if self._idle else Slot()
             self._busy.add(slot)
         try:
-            return slot.run(job)
+            return work(slot)
         finally:
             with self._lock:
                 self._busy.discard(slot)
@@ -54,23 +58,40 @@ class Slots:
             slot.close()
 
 
-def run_in_slot(invocation: str, job: Job) -> JobOutcome:
+@contextmanager
+def slots_of_this_process() -> Iterator[str]:
+    """A key for the slots of one invocation in this process, which end with it."""
+    key = secrets.token_hex(8)
+    try:
+        yield key
+    finally:
+        close_slots(key)
+
+
+def run_in_slot(key: str, job: Job) -> JobOutcome:
     """Execute a run in one of this process's slots for an invocation; executors call this function."""
     with _LOCK:
-        slots = _POOLS.setdefault(invocation, Slots())
-    return slots.run(job)
+        slots = _POOLS.setdefault(key, Slots())
+    return slots.use(lambda slot: slot.run(job))
 
 
-def progress_in_slots(invocation: str) -> list[dict[str, Any]]:
+def ask_in_slot(key: str, job: Mapping[str, Any]) -> dict[str, Any]:
+    """Let one of this process's slots execute a job; see `Slot.ask`."""
+    with _LOCK:
+        slots = _POOLS.setdefault(key, Slots())
+    return slots.use(lambda slot: slot.ask(job))
+
+
+def progress_in_slots(key: str) -> list[dict[str, Any]]:
     """How far each run of an invocation is that is executed in this process; see `Slot.progress`."""
     with _LOCK:
-        slots = _POOLS.get(invocation)
+        slots = _POOLS.get(key)
     return [] if slots is None else slots.progress()
 
 
-def close_slots(invocation: str) -> None:
+def close_slots(key: str) -> None:
     """End the children that serve an invocation in this process."""
     with _LOCK:
-        slots = _POOLS.pop(invocation, None)
+        slots = _POOLS.pop(key, None)
     if slots is not None:
         slots.close()

@@ -1,78 +1,69 @@
-"""The child process of a worker slot, a module that is run with three descriptors: JOBS MESSAGES LIFELINE.
+"""Executes one job in a process of its own, which a fork server has forked for it.
 
-Reads one job a line and executes it, announcing each stage. What plugins print, in Python or in native code, goes to
-the run's log.
+Plugins run here. What they print, in Python or in native code, goes to the run's log.
 """
 
-import contextlib
-import ctypes
-import faulthandler
-import json
 import os
 import resource
-import sys
+import socket
+import tempfile
 import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import psutil
 
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import unpack
 from mrpbench_core.engine.json_values import jsonable, printable
+from mrpbench_core.engine.loading.runs import loaded
 from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.pipeline import execute
-from mrpbench_core.engine.processes.lifeline import tie_to_invoker
-from mrpbench_core.engine.processes.machine import machine
+from mrpbench_core.engine.processes.channel import KEY_BYTES, Channel
+from mrpbench_core.engine.processes.output import flush, redirect
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.model.runs.status import RunStatus, Stage
-from mrpbench_core.plugins.hooks import Hooks, load_hooks
+from mrpbench_core.plugins.hooks import Hooks
+from mrpbench_core.plugins.importing import tell_imports
 from mrpbench_core.store.paths import RunPaths
 
-Send = Callable[[dict[str, Any]], None]
+
+def execute_job(connection: socket.socket, hooks: Hooks, executed: Callable[[], None]) -> None:
+    """Receive a job, execute it, and send its answer; call `executed` before."""
+    connection.set_inheritable(False)  # programs that a plugin starts must not keep it open
+    Path("/proc/self/oom_score_adj").write_text("500")  # the kernel is to end a run, never the invoker
+    channel = Channel(connection, connection.recv(KEY_BYTES, socket.MSG_WAITALL))
+    job = channel.receive()
+    assert job is not None
+    redirect(job["log"])
+    tell_imports(lambda plugin: channel.send({"importing": plugin}))
+    if "study" in job:
+        os.chdir(job["folder"])
+        found = {"study": loaded(job["study"], job["overrides"])}
+    else:
+        found = _run(job, channel, hooks)
+    flush()
+    executed()
+    channel.send(found)
 
 
-def main(jobs: int, messages: int, lifeline: int) -> None:
-    """Execute jobs until the slot closes its end."""
-    tie_to_invoker(lifeline)
-    for descriptor in (jobs, messages):  # programs that a plugin starts must not keep them open
-        os.set_inheritable(descriptor, False)
-    Path("/proc/self/oom_score_adj").write_text("500")  # the kernel is to end a worker, never the invoker
-    for stream in (sys.stdout, sys.stderr):
-        stream.reconfigure(line_buffering=True, errors="backslashreplace")  # type: ignore[union-attr]
-    faulthandler.enable()
-    hooks = load_hooks()
-    with os.fdopen(jobs, "rb") as requests, os.fdopen(messages, "wb", buffering=0) as replies:
-
-        def say(message: dict[str, Any]) -> None:
-            replies.write(json.dumps(message).encode() + b"\n")
-
-        say({"ready": True, "machine": machine()})
-        for line in requests:
-            hooks.enable()
-            say(_answer(json.loads(line), say, hooks))
-
-
-def _answer(job: dict[str, Any], say: Send, hooks: Hooks) -> dict[str, Any]:
-    """Execute a job with a log of its own, which is kept only if something was printed."""
-    log = Path(job["log"])
+def _run(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, Any]:
+    """Execute a run; return its answer."""
     try:
-        _redirect(log)
+        os.environ["TMPDIR"] = tempfile.tempdir = job["temporary"]
+        np.random.seed()  # noqa: NPY002 - the state that plugins find in a process that was not forked
         _backstop(job["memory_bytes"])
-        answer = _execute(job, say, hooks)
-        _flush()
-        _redirect(Path(os.devnull))
-        if not log.stat().st_size:
-            log.unlink()
+        return _execute(job, channel, hooks)
     except OSError as error:
-        return {"mistake": f"{log}: {error.strerror}"}
-    return answer
+        return {"mistake": f"{job['log']}: {error.strerror}"}
 
 
-def _execute(job: dict[str, Any], say: Send, hooks: Hooks) -> dict[str, Any]:
+def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, Any]:
     def announce(name: Stage, facts: dict[str, Any]) -> None:
-        say({"stage": name, **jsonable(facts)})
+        channel.send({"stage": name, **jsonable(facts)})
 
     paths = RunPaths(
         recording=Path(job["recording"]),
@@ -82,14 +73,17 @@ def _execute(job: dict[str, Any], say: Send, hooks: Hooks) -> dict[str, Any]:
     observers = Observers(
         planned=lambda problem, result: hooks.call("mrpbench_planned", problem=problem, result=result),
         executing=lambda context: hooks.call("mrpbench_executing", context=context),
-        stepped=lambda **seen: hooks.call("mrpbench_stepped", **seen),
+        stepped=(lambda **seen: hooks.call("mrpbench_stepped", **seen)) if hooks.has("mrpbench_stepped") else None,
         executed=lambda: hooks.call("mrpbench_executed"),
-        progress=lambda **facts: say({"progress": facts}),
+        progress=lambda **facts: channel.send({"progress": facts}),
     )
     try:
         record = jsonable(execute(unpack(job["parcel"]), job["run_id"], paths, announce, observers).message())
     except (InputError, InputErrors) as error:
         return {"mistake": jsonable(str(error))}
+    except BrokenContractError as error:
+        traceback.print_exc()
+        return {"status": RunStatus.CONTRACT_BROKEN, "message": printable(str(error))}
     except MemoryError as error:
         traceback.print_exc()
         return {"status": RunStatus.OUT_OF_MEMORY, "message": printable(str(error)) or "no memory left"}
@@ -112,21 +106,6 @@ def describe(error: BaseException) -> str:
     return f"{type(error).__name__}{': ' + text if text else ''}{where}"
 
 
-def _redirect(file: Path) -> None:
-    target = os.open(file, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND, 0o644)
-    os.dup2(target, 1)
-    os.dup2(target, 2)
-    os.close(target)
-
-
-def _flush() -> None:
-    """Empty Python's and the C library's buffers, so that each run's output is in its own log."""
-    for stream in (sys.stdout, sys.stderr):
-        with contextlib.suppress(ValueError):  # a plugin closed it
-            stream.flush()
-    ctypes.CDLL(None).fflush(None)
-
-
 def _backstop(memory_bytes: int) -> None:
     """Refuse a single huge allocation, which sampling would notice too late.
 
@@ -135,7 +114,3 @@ def _backstop(memory_bytes: int) -> None:
     limit = psutil.Process().memory_info().vms + 4 * memory_bytes + 8 * 2**30
     hard = resource.getrlimit(resource.RLIMIT_AS)[1]
     resource.setrlimit(resource.RLIMIT_AS, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
-
-
-if __name__ == "__main__":
-    main(*map(int, sys.argv[1:]))

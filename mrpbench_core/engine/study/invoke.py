@@ -7,8 +7,9 @@ from typing import Any
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
-from mrpbench_core.config.study import Study, load_study
+from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.engine.study.progress import StudyProgress
+from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.selection import Rerun, read_shard_option
 from mrpbench_core.engine.study.study import Request, run_study
 from mrpbench_core.files.errors import InputError, InputErrors
@@ -43,19 +44,21 @@ def run(
         InputErrors, InputError: the configuration is wrong, or some runs cannot be made of it. Runs that could be made
             are recorded before.
     """
-    study = load_study(config, overrides)
-    request = prepare(
-        study,
-        overrides,
-        out=out,
-        workers=workers,
-        executor=executor,
-        executor_options=executor_options,
-        shard=shard,
-        rerun=rerun,
-        progress=progress,
-    )
-    done = run_study(study, request)
+    with slots_of_this_process() as slots:
+        study = read_study(slots, config, overrides)
+        request = prepare(
+            study.name,
+            slots,
+            overrides,
+            out=out,
+            workers=workers,
+            executor=executor,
+            executor_options=executor_options,
+            shard=shard,
+            rerun=rerun,
+            progress=progress,
+        )
+        done = run_study(study, request)
     mistakes = [InputError(mistake) for mistake in dict.fromkeys(done.mistakes.values())]
     if study.errors or mistakes:
         raise InputErrors(*study.errors, *mistakes)
@@ -63,7 +66,8 @@ def run(
 
 
 def prepare(
-    study: Study,
+    name: str,
+    slots: str,
     overrides: Sequence[str] = (),
     *,
     out: Path | str | None = None,
@@ -74,7 +78,7 @@ def prepare(
     rerun: Rerun | None = None,
     progress: StudyProgress | None = None,
 ) -> Request:
-    """The options of a study; see `run`.
+    """The options of the study `name`, with a key of `slots_of_this_process`; see `run`.
 
     Raises:
         InputErrors, InputError: what is wrong with that.
@@ -83,7 +87,8 @@ def prepare(
         raise InputError(f"workers: at least 1, got {workers}")
     block = from_data({"plugin": executor, **(executor_options or {})}, Location())
     return Request(
-        out=Path("results") / study.name if out is None else Path(out),
+        out=Path("results") / name if out is None else Path(out),
+        slots=slots,
         executor=structure_component(ExecutorSource, block, "executor", Path.cwd()),  # type: ignore[type-abstract]
         workers=workers,
         shard=None if shard is None else read_shard_option(shard),

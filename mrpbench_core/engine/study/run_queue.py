@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import attrs
 
 from mrpbench_core.api.executor import RemoteExecutor, WorkerLost
-from mrpbench_core.config.study import RunPoint
+from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.engine.processes.job import Failure, Job, JobOutcome
 from mrpbench_core.engine.processes.slots import close_slots, progress_in_slots, run_in_slot
 from mrpbench_core.engine.study.progress import StudyProgress
@@ -27,8 +27,9 @@ LOSSES = 3
 class RunQueue:
     """The runs that wait for a worker, and those that are being executed."""
 
-    invocation: str
-    waiting: deque[tuple[RunPoint, int]]
+    slots: str
+    """Key of the worker slots, in each process that executes runs."""
+    waiting: deque[tuple[StudyRun, int]]
     """Runs with their attempts."""
     workers: int
     folder: ResultsFolder
@@ -37,7 +38,7 @@ class RunQueue:
     progress: StudyProgress
     mistakes: dict[str, str] = attrs.field(factory=dict)
     """The errors of refused runs, by run id."""
-    _going: dict[Future[JobOutcome], tuple[RunPoint, int]] = attrs.field(factory=dict, init=False)
+    _going: dict[Future[JobOutcome], tuple[StudyRun, int]] = attrs.field(factory=dict, init=False)
     _losses: Counter[str] = attrs.field(factory=Counter, init=False)
 
     def run_all(self, executor: Executor) -> None:
@@ -49,7 +50,7 @@ class RunQueue:
             while self._hand_out(executor):
                 done = wait(self._going, self.progress.interval_s, FIRST_COMPLETED).done
                 if not done:
-                    self.progress.going(progress_in_slots(self.invocation))
+                    self.progress.going(progress_in_slots(self.slots))
                     continue
                 ended = [(*self._going.pop(future), future) for future in done]
                 self._hand_out(executor)  # before storing, so that no worker waits for the disk
@@ -70,11 +71,11 @@ class RunQueue:
             self.hooks.enable()
             self.hooks.call("mrpbench_run_started", run_id=point.run_id, config=point.canonical)
             self.progress.started(point)
-            self._going[executor.submit(run_in_slot, self.invocation, self._job(point))] = point, attempt
+            self._going[executor.submit(run_in_slot, self.slots, self._job(point))] = point, attempt
         return bool(self._going)
 
-    def _take(self, point: RunPoint, attempt: int, outcome: JobOutcome) -> None:
-        if outcome.lost and outcome.failure is not None:
+    def _take(self, point: StudyRun, attempt: int, outcome: JobOutcome) -> None:
+        if outcome.failure is not None and outcome.failure.lost:
             self._losses[point.run_id] += 1
             if self._losses[point.run_id] < LOSSES:  # else it was perhaps the run itself
                 self.progress.lost(point, outcome.failure.message)
@@ -94,14 +95,14 @@ class RunQueue:
         self.hooks.call("mrpbench_run_finished", record=record)
         self.progress.finished(point, record)
 
-    def _job(self, point: RunPoint) -> Job:
+    def _job(self, point: StudyRun) -> Job:
         return Job(
             run_id=point.run_id,
             parcel=point.parcel,
             paths=self.folder.run(point.run_id),
             log=self.folder.log(point.run_id),
-            wall_s=point.config.limits.wall,
-            memory_bytes=point.config.limits.memory,
+            wall_s=point.wall_s,
+            memory_bytes=point.memory_bytes,
         )
 
     @contextmanager
@@ -109,18 +110,18 @@ class RunQueue:
         try:
             yield
         finally:
-            close_slots(self.invocation)
+            close_slots(self.slots)
             if isinstance(executor, RemoteExecutor):
                 for future in self._going:
                     future.cancel()
-                executor.everywhere(close_slots, self.invocation)
+                executor.everywhere(close_slots, self.slots)
             executor.shutdown(wait=True, cancel_futures=True)
 
 
-def _lost(point: RunPoint, loss: WorkerLost) -> JobOutcome:
+def _lost(point: StudyRun, loss: WorkerLost) -> JobOutcome:
     """The outcome of a run whose remote worker was lost."""
-    failure = Failure(status=RunStatus.CRASHED, stage=Stage.WORKER, message=str(loss), seconds=0.0)
-    return JobOutcome(run_id=point.run_id, failure=failure, lost=True)
+    failure = Failure(status=RunStatus.CRASHED, stage=Stage.WORKER, message=str(loss), seconds=0.0, lost=True)
+    return JobOutcome(run_id=point.run_id, failure=failure)
 
 
 def _left_a_recording(outcome: JobOutcome) -> bool:

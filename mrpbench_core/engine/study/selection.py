@@ -6,7 +6,7 @@ from typing import Literal
 
 import attrs
 
-from mrpbench_core.config.study import RunPoint
+from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.status import FAILED
 from mrpbench_core.store.results import Results
@@ -18,7 +18,7 @@ Rerun = Literal["failed", "changed", "all"]
 class Selection:
     """The runs to execute, each with its attempt, and the state of the others."""
 
-    todo: tuple[tuple[RunPoint, int], ...]
+    todo: tuple[tuple[StudyRun, int], ...]
     chosen: tuple[str, ...]
     """Ids of every run of the study in this shard."""
     changed: tuple[str, ...]
@@ -26,11 +26,11 @@ class Selection:
 
 
 def select(
-    points: Iterable[RunPoint],
+    points: Iterable[StudyRun],
     results: Results,
     rerun: Rerun | None,
     shard: tuple[int, int] | None,
-    origin_now: Callable[[RunPoint], str],
+    origin_now: Callable[[StudyRun], str],
 ) -> Selection:
     """Choose the runs without a record, and those that `rerun` names."""
     chosen = {point.run_id: point for point in points if shard is None or in_shard(point.run_id, shard)}

@@ -10,11 +10,9 @@ from typing import Any
 import attrs
 
 from mrpbench_core.api.executor import ExecutorSource
-from mrpbench_core.config.study import RunPoint, Study
+from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
 from mrpbench_core.engine.processes.machine import machine
-from mrpbench_core.engine.stages.measure import describe
 from mrpbench_core.engine.study.progress import StudyProgress
-from mrpbench_core.engine.study.record import code_of
 from mrpbench_core.engine.study.run_queue import RunQueue
 from mrpbench_core.engine.study.selection import Rerun, Selection, select
 from mrpbench_core.files.errors import InputError
@@ -31,6 +29,8 @@ class Request:
     """The options of a study."""
 
     out: Path
+    slots: str
+    """Key of the worker slots."""
     executor: ExecutorSource
     workers: int = 1
     shard: tuple[int, int] | None = None
@@ -51,21 +51,20 @@ class StudyOutcome:
     """The error of each refused run, by run id."""
 
 
-def choose(study: Study, request: Request) -> tuple[Selection, Results]:
+def choose(study: StudyRuns, request: Request) -> tuple[Selection, Results]:
     """Select the runs that would be executed now, and read the records of the study's runs; nothing on disk changes."""
     results = Results(ResultsFolder(request.out), only=(point.run_id for point in study.runs))
     origins: dict[int, str] = {}
 
-    def origin_now(point: RunPoint) -> str:
-        code = code_of(point)  # the same object for the same plugins
-        if id(code) not in origins:
-            origins[id(code)] = origin(code)
-        return origins[id(code)]
+    def origin_now(point: StudyRun) -> str:
+        if id(point.code) not in origins:
+            origins[id(point.code)] = origin(point.code)
+        return origins[id(point.code)]
 
     return select(study.runs, results, request.rerun, request.shard, origin_now), results
 
 
-def run_study(study: Study, request: Request) -> StudyOutcome:
+def run_study(study: StudyRuns, request: Request) -> StudyOutcome:
     """Execute the runs that `choose` selects.
 
     Raises:
@@ -82,7 +81,7 @@ def run_study(study: Study, request: Request) -> StudyOutcome:
         return StudyOutcome(results=Results(folder, only=selection.chosen), mistakes=mistakes)
 
 
-def _do(study: Study, request: Request, folder: ResultsFolder, selection: Selection) -> dict[str, str]:
+def _do(study: StudyRuns, request: Request, folder: ResultsFolder, selection: Selection) -> dict[str, str]:
     """Execute the selected runs; returns the mistakes in those that were refused."""
     invocation = new_invocation()
     hooks = load_hooks()
@@ -95,7 +94,7 @@ def _do(study: Study, request: Request, folder: ResultsFolder, selection: Select
         raise InputError(f"cannot be written: {error.strerror}", file=error.filename or folder.path) from error
     with closing(shard), request.executor.open(request.workers) as executor:
         schedule = RunQueue(
-            invocation=invocation,
+            slots=request.slots,
             waiting=deque(selection.todo),
             workers=request.workers,
             folder=folder,
@@ -109,17 +108,16 @@ def _do(study: Study, request: Request, folder: ResultsFolder, selection: Select
     return schedule.mistakes
 
 
-def _facts(study: Study, request: Request, invocation: str) -> dict[str, Any]:
+def _facts(study: StudyRuns, request: Request, invocation: str) -> dict[str, Any]:
     """The facts that are needed to repeat the invocation and to read its records."""
-    codes = {id(code): code for code in map(code_of, study.runs)}.values()
-    metrics = {name: metric for point in study.runs for name, metric in point.config.metrics.items()}
+    codes = {id(point.code): point.code for point in study.runs}.values()
     return {
         "invocation": invocation,
         "started": datetime.now(UTC).isoformat(timespec="seconds"),
         "process": os.getpid(),
         "machine": machine(),
         "versions": {name: version for code in codes for name, version in code["versions"].items()},
-        "columns": describe(metrics),
+        "columns": study.columns,
         "overrides": list(request.overrides),
         "study": study.document,
     }

@@ -5,7 +5,6 @@ from pathlib import Path
 from mrpbench_core.engine.processes.job import Job
 from mrpbench_core.engine.processes.slot import Slot
 from mrpbench_core.engine.record import RunRecord
-from mrpbench_core.model.runs.status import Stage
 from mrpbench_core.store.paths import RunPaths
 
 FACTS = {"simulated_s": 3.0, "limit_s": 60.0, "arrived": 1, "robots": 2}
@@ -20,7 +19,7 @@ class Scripted:
     def send(self, message):
         assert message["run_id"] == "r"
 
-    def receive(self, patience):
+    def receive(self):
         self.seen.append(self.slot.progress)
         return self.messages.pop(0)
 
@@ -28,8 +27,8 @@ class Scripted:
 def test_progress_is_that_of_the_execution_under_way(tmp_path, monkeypatch):
     slot = Slot()
     end = {"record": RunRecord(run_id="r").message()}
-    child = Scripted(slot, {"stage": Stage.EXECUTION}, {"progress": FACTS}, {"stage": Stage.METRICS}, end)
-    monkeypatch.setattr(slot, "_ready", lambda job: child)
+    child = Scripted(slot, {"progress": None}, {"progress": FACTS}, {"progress": None}, end)
+    monkeypatch.setattr(slot, "_ready", lambda: child)
     paths = RunPaths(recording=tmp_path / "r", exports=tmp_path / "e", picture=None)
     job = Job(run_id="r", parcel={}, paths=paths, log=Path("log"), wall_s=60.0, memory_bytes=2**30)
     assert slot.run(job).record.run_id == "r"

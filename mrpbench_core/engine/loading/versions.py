@@ -1,15 +1,32 @@
-"""Versions of everything whose change could change a run's numbers."""
+"""Components and versions of everything whose change could change a run's numbers."""
 
 import functools
 from collections.abc import Iterable, Mapping
 from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 from packaging.markers import UndefinedEnvironmentName
 from packaging.requirements import InvalidRequirement, Requirement
 
+from mrpbench_core.api.component import Component
+from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.plugins.installed import CORE, distribution
+from mrpbench_core.plugins.provenance import components_in, origin
 from mrpbench_core.version import __version__
+
+
+def code_of(config: RunConfig, folder: Path) -> dict[str, Any]:
+    """The components and versions that a run would be made with now."""
+    return _code(tuple(dict.fromkeys(map(type, components_in(config)))), folder)
+
+
+@functools.lru_cache(maxsize=256)
+def _code(classes: tuple[type[Component], ...], folder: Path) -> dict[str, Any]:
+    components = [origin(cls, folder) for cls in classes]
+    for entry in components:  # the place of a checkout says nothing about the code
+        entry.pop("direct_url", None)
+    return {"components": components, "versions": versions(components)}
 
 
 def versions(components: Iterable[Mapping[str, Any]]) -> dict[str, str]:

@@ -1,0 +1,1 @@
+"""Loads studies as plain data, in a worker: their runs, with the versions of their components."""

@@ -1,0 +1,148 @@
+"""The runs of a study as plain data, which cross from the worker that loads a configuration to the invoker."""
+
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.config.study import RunPoint, Study, load_study
+from mrpbench_core.engine.loading.versions import code_of
+from mrpbench_core.engine.stages.measure import describe
+from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.plugins.provenance import components_in
+
+
+@attrs.frozen(kw_only=True)
+class StudyRun:
+    """One run of a study as plain data."""
+
+    run_id: str
+    canonical: dict[str, Any] = attrs.field(repr=False)
+    """The configuration, for records and workers; see `mrpbench_core.config.canonical`."""
+    axes: dict[str, Any]
+    """Plain values of the keys that vary in the study, by dotted key."""
+    folder: Path
+    sources: dict[str, str] = attrs.field(repr=False)
+    """Texts of local plugins by file."""
+    code: dict[str, Any] = attrs.field(repr=False)
+    """Its components and their versions; the same object for runs with the same ones."""
+    live: bool
+    """Something outside of the process takes part."""
+    wall_s: float
+    memory_bytes: int
+
+    @property
+    def parcel(self) -> dict[str, Any]:
+        """Plain data from which a worker makes the configuration; see `mrpbench_core.config.study.unpack`."""
+        return {"config": self.canonical, "folder": str(self.folder), "sources": self.sources}
+
+
+@attrs.frozen(kw_only=True)
+class StudyRuns:
+    """The runs that one configuration describes, each once; see `mrpbench_core.config.study.Study`."""
+
+    name: str
+    runs: tuple[StudyRun, ...]
+    errors: tuple[InputError, ...] = ()
+    document: Any = None
+    columns: dict[str, Any] = attrs.field(factory=dict)
+    """The declaration of each metric column; see `mrpbench_core.engine.stages.measure.describe`."""
+
+
+def loaded(source: str | Mapping[str, Any], overrides: Sequence[str]) -> dict[str, Any]:
+    """Load a study; return it, or its errors, as plain data."""
+    try:
+        return _pack(load_study(source, overrides))
+    except InputErrors as several:
+        return {"errors": [_pack_error(error) for error in several.errors]}
+    except InputError as error:
+        return {"errors": [_pack_error(error)]}
+
+
+def _pack(study: Study) -> dict[str, Any]:
+    """A study as plain data; values that several runs share are given once."""
+    values = _Values()
+    metrics = {name: metric for point in study.runs for name, metric in point.config.metrics.items()}
+    return {
+        "name": study.name,
+        "folder": str(study.folder),
+        "errors_of_points": [_pack_error(error) for error in study.errors],
+        "document": study.document,
+        "columns": describe(metrics),
+        "runs": [_packed(point, values) for point in study.runs],
+        "values": values.texts,
+    }
+
+
+class _Values:
+    """Plain values by number, each once."""
+
+    def __init__(self) -> None:
+        self.texts: list[str] = []
+        self._numbers: dict[str, int] = {}
+
+    def __call__(self, value: Any) -> int:
+        text = json.dumps(value)
+        if text not in self._numbers:
+            self._numbers[text] = len(self.texts)
+            self.texts.append(text)
+        return self._numbers[text]
+
+
+def _packed(point: RunPoint, values: _Values) -> list[Any]:
+    limits = point.config.limits
+    return [
+        point.run_id,
+        {key: values(value) for key, value in point.canonical.items()},
+        point.axes,
+        values(point.sources),
+        values(code_of(point.config, point.folder)),
+        any(component.live for component in components_in(point.config)),
+        limits.wall,
+        limits.memory,
+    ]
+
+
+def unpack_study(study: dict[str, Any]) -> StudyRuns:
+    """The study that `loaded` returned."""
+    values = [json.loads(text) for text in study["values"]]
+    folder = Path(study["folder"])
+    return StudyRuns(
+        name=study["name"],
+        errors=tuple(map(unpack_error, study["errors_of_points"])),
+        document=study["document"],
+        columns=study["columns"],
+        runs=tuple(
+            StudyRun(
+                run_id=run_id,
+                canonical={key: values[number] for key, number in canonical.items()},
+                axes=axes,
+                folder=folder,
+                sources=values[sources],
+                code=values[code],
+                live=live,
+                wall_s=wall_s,
+                memory_bytes=memory_bytes,
+            )
+            for run_id, canonical, axes, sources, code, live, wall_s, memory_bytes in study["runs"]
+        ),
+    )
+
+
+def _pack_error(error: InputError) -> dict[str, Any]:
+    return {
+        "message": error.message,
+        "file": None if error.file is None else str(error.file),
+        "line": error.line,
+        "column": error.column,
+        "hint": error.hint,
+    }
+
+
+def unpack_error(fault: Mapping[str, Any]) -> InputError:
+    """An error that `loaded` returned."""
+    return InputError(
+        fault["message"], file=fault["file"], line=fault["line"], column=fault["column"], hint=fault["hint"]
+    )

@@ -1,0 +1,135 @@
+"""A fork server: a process that has imported the plugins of a configuration, and forks a fresh process for each run.
+
+Each run starts from the same state: what the plugins did when they were imported, and nothing that another run did.
+"""
+
+import functools
+import gc
+import importlib
+import os
+import signal
+import socket
+import sys
+import traceback
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from typing import Any, NoReturn, Self
+
+from mrpbench_core.config.study import unpack
+from mrpbench_core.engine.processes.channel import Channel, ClosedError, GarbledError, new_key
+from mrpbench_core.engine.processes.output import redirect
+from mrpbench_core.engine.processes.process_tree import end_with_parent
+from mrpbench_core.engine.stages.fleet import robot_model
+from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.plugins.hooks import Hooks, load_hooks
+from mrpbench_core.plugins.importing import tell_imports
+
+Execute = Callable[[socket.socket, Hooks, Callable[[], None]], None]
+"""Receives a job from a connection, executes it, calls its last argument and answers."""
+_NAMES = 1 << 15
+"""Bytes of module names, less than a pipe holds."""
+
+
+class ForkServer:
+    """A fork server, as the process that started it sees it."""
+
+    def __init__(self, pid: int, connection: socket.socket, key: bytes) -> None:
+        self.pid = pid
+        self._connection = connection
+        self._channel = Channel(connection, key)
+
+    @classmethod
+    def start(cls, job: Mapping[str, Any], execute: Execute, inherited: tuple[socket.socket, ...]) -> Self:
+        """Start a server for jobs with the plugins of `job`; it closes the sockets that it inherits."""
+        ours, theirs = socket.socketpair()
+        parent, key = os.getpid(), new_key()
+        pid = os.fork()
+        if pid == 0:
+            try:
+                end_with_parent(parent)
+                for connection in (ours, *inherited):
+                    connection.close()
+                _serve(theirs, Channel(theirs, key), job, execute)
+            except BaseException:  # noqa: BLE001 - nothing of the parent's stack may run in this process
+                traceback.print_exc()
+                os._exit(1)
+        theirs.close()
+        return cls(pid, ours, key)
+
+    def fileno(self) -> int:
+        """Readable when there is a message, or the server has ended."""
+        return self._connection.fileno()
+
+    def fork(self, connection: socket.socket) -> None:
+        """Fork a process that executes the job of `connection`."""
+        with suppress(OSError):  # it has ended, which `receive` tells
+            socket.send_fds(self._connection, [b"f"], [connection.fileno()])
+
+    def receive(self, timeout_s: float | None = None) -> dict[str, Any] | None:
+        """The next message: `importing`, a plugin or None; `forked`; or `ended`, the wait status of the forked process.
+
+        Raises:
+            ClosedError: the server has ended.
+        """
+        try:
+            return self._channel.receive(timeout_s)
+        except GarbledError as error:
+            raise ClosedError from error
+
+    def kill(self) -> None:
+        """End it at once."""
+        os.kill(self.pid, signal.SIGKILL)
+
+    def wait(self) -> int:
+        """The wait status of the server itself, which has ended or ends now."""
+        self._connection.close()
+        return os.waitpid(self.pid, 0)[1]
+
+
+def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], execute: Execute) -> NoReturn:
+    redirect(job["log"])
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    os.setsid()  # Ctrl-C reaches the invoker only
+    tell_imports(lambda plugin: channel.send({"importing": plugin}))
+    hooks = load_hooks()
+    if "parcel" in job:
+        with suppress(InputError, InputErrors):  # the run reports them
+            for entry in unpack(job["parcel"]).fleet:
+                robot_model(entry)
+    server = os.getpid()
+    while True:
+        gc.freeze()  # collections in the forked processes then leave the shared memory alone
+        _, descriptors, _, _ = socket.recv_fds(connection, 1, 1)
+        if not descriptors:  # the supervisor closed its end
+            os._exit(0)
+        imported, writer = os.pipe()
+        pid = os.fork()
+        if pid == 0:
+            end_with_parent(server)
+            connection.close()
+            os.close(imported)
+            os.set_inheritable(writer, False)
+            execute(socket.socket(fileno=descriptors[0]), hooks, functools.partial(_tell, writer, set(sys.modules)))
+            os._exit(0)
+        os.close(descriptors[0])
+        os.close(writer)
+        channel.send({"forked": pid})
+        status = os.waitpid(pid, 0)[1]
+        channel.send({"ended": status})
+        _import(imported)
+        os.close(imported)
+
+
+def _tell(descriptor: int, before: set[str]) -> None:
+    """Write the names of the modules that this process has imported since."""
+    with suppress(OSError):  # a plugin closed it
+        os.write(descriptor, " ".join(sorted(set(sys.modules) - before)).encode()[:_NAMES])
+
+
+def _import(descriptor: int) -> None:
+    """Import what a run imported, so that the next one need not."""
+    os.set_blocking(descriptor, False)
+    with suppress(OSError):
+        for name in os.read(descriptor, _NAMES).decode(errors="replace").split():
+            with suppress(Exception, SystemExit):
+                importlib.import_module(name)

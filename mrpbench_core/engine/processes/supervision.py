@@ -1,0 +1,171 @@
+"""Follows one job from its start to the end of its process, from outside of that process."""
+
+import os
+import select
+import signal
+import socket
+import time
+from collections.abc import Collection
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.engine.processes.channel import Channel, ClosedError, GarbledError, new_key
+from mrpbench_core.engine.processes.fork_server import ForkServer
+from mrpbench_core.engine.processes.limits import LimitMonitor
+from mrpbench_core.engine.processes.machine import oom_kills
+from mrpbench_core.engine.processes.output import cut
+from mrpbench_core.engine.processes.process_tree import descendants, kill_descendants, resident_bytes
+from mrpbench_core.engine.record import RunRecord
+from mrpbench_core.model.runs.status import RunStatus, Stage
+
+Message = dict[str, Any]
+
+SAMPLING_S = 0.05
+"""Seconds between two measurements of memory and log, which messages do not delay."""
+CLOSING_S = 1.0
+"""Seconds from the end of a connection to the end of its process."""
+OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
+"""Signals that people and batch systems send, and that defects do not raise."""
+
+
+class Supervision:
+    """The supervision of one job.
+
+    Args:
+        job: see `mrpbench_core.engine.processes.job.Job.message`.
+        invoker: receives how far the job is.
+        server: forks the process of the job.
+        servers: process ids of all fork servers, which do not belong to the job.
+    """
+
+    def __init__(self, job: Message, invoker: Channel, server: ForkServer, servers: Collection[int]) -> None:
+        self._log = Path(job["log"])
+        self._invoker = invoker
+        self._server = server
+        self._servers = servers
+        self._monitor = LimitMonitor(job["wall_s"], job["memory_bytes"])
+        self._next_sample = time.monotonic() + SAMPLING_S
+        self._oom_before = oom_kills()
+        self._connection, theirs = socket.socketpair()
+        self._closing: float | None = None
+        self._forked = False
+        key = new_key()
+        self._channel = Channel(self._connection, key)
+        self._poll = select.poll()
+        for source in (invoker, server, self._connection):
+            self._poll.register(source, select.POLLIN)
+        server.fork(theirs)
+        theirs.close()
+        with suppress(OSError, ClosedError):  # it has ended, which `run` finds
+            self._connection.sendall(key)
+            self._channel.send(job)
+
+    def run(self) -> tuple[Message, bool]:
+        """Return the answer, and whether the fork server still runs; afterwards no process of the job is left.
+
+        Raises:
+            ClosedError: the invoker closed its connection.
+        """
+        answer: Message | None = None
+        status: int | None = None
+        serves = True
+        try:
+            while answer is None and status is None and serves:
+                ready = self._wait()
+                if self._invoker.fileno() in ready:
+                    raise ClosedError  # a second job never comes before the answer to the first
+                answer = self._drain()
+                if self._server.fileno() in ready and answer is None:
+                    status, serves = self._heed()
+                    answer = self._drain()
+                answer = answer or self._exceeded()
+        finally:
+            if not self._forked:  # the server imports plugins without end, or has ended
+                self._server.kill()
+                serves = False
+            kill_descendants(self._servers)
+            while status is None and serves:
+                status, serves = self._heed()
+            self._connection.close()
+        if not serves:
+            status = self._server.wait()
+        assert status is not None
+        return answer or self._died(status), serves
+
+    def _wait(self) -> set[int]:
+        """Wait until something happens or is to be checked; return the descriptors that are ready."""
+        waits = [self._next_sample - time.monotonic(), self._monitor.patience()]
+        return {descriptor for descriptor, _ in self._poll.poll(max(0.0, min(waits)) * 1000)}
+
+    def _drain(self) -> Message | None:
+        """Read what the job says; return its answer."""
+        try:
+            while self._closing is None and (message := self._channel.receive(0)) is not None:
+                self._forked = True
+                if (answer := self._take(message)) is not None:
+                    return answer
+        except (GarbledError, KeyError, TypeError, ValueError) as error:
+            return self._failure(RunStatus.CRASHED, f"a plugin wrote to the connection of the engine: {error}")
+        except ClosedError:
+            self._poll.unregister(self._connection)
+            self._closing = time.monotonic() + CLOSING_S
+        return None
+
+    def _take(self, message: Message) -> Message | None:
+        """Take one message; return the answer that it is."""
+        if "progress" in message:
+            self._invoker.send(message)
+        elif "stage" in message:
+            self._monitor.enter(Stage(message["stage"]), message.get("limit_s"), message.get("scenario_id"))
+            self._invoker.send({"progress": None})
+        elif "importing" in message:
+            self._monitor.importing(message["importing"])
+        elif "status" in message:
+            return self._failure(RunStatus(message["status"]), message["message"])
+        else:
+            if "record" in message:
+                RunRecord.of_message(message["record"])  # the invoker will read it
+            return message
+        return None
+
+    def _heed(self) -> tuple[int | None, bool]:
+        """Wait for a message of the fork server: the wait status of the process if it ended, and whether it serves."""
+        try:
+            message = self._server.receive()
+        except ClosedError:
+            return None, False
+        assert message is not None
+        if "importing" in message:
+            self._monitor.importing(message["importing"])
+        self._forked = self._forked or "importing" not in message
+        return message.get("ended"), True
+
+    def _exceeded(self) -> Message | None:
+        """The failure of a job that exceeds a limit, or None."""
+        failure = self._monitor.overrun()
+        now = time.monotonic()
+        if failure is None and self._closing is not None and now > self._closing:
+            return self._failure(RunStatus.CRASHED, "the worker process closed its connection")
+        if failure is None and now >= self._next_sample:
+            cut(self._log)
+            failure = self._monitor.overweight(sum(map(resident_bytes, descendants(os.getpid(), self._servers))))
+            self._next_sample = time.monotonic() + max(SAMPLING_S, 20 * (time.monotonic() - now))
+        return None if failure is None else {"failure": attrs.asdict(failure)}
+
+    def _died(self, status: int) -> Message:
+        """The failure of a job whose process ended without an answer."""
+        if os.WIFEXITED(status):
+            code = os.WEXITSTATUS(status)
+            return self._failure(RunStatus.CRASHED, f"the worker process ended with exit code {code}")
+        number = os.WTERMSIG(status)
+        if number == signal.SIGKILL and oom_kills() > self._oom_before:
+            ended = "the machine ran out of memory, and the kernel ended the run"
+            return self._failure(RunStatus.OUT_OF_MEMORY, ended)
+        ended = f"the worker process was ended by {signal.Signals(number).name}"
+        return self._failure(RunStatus.CRASHED, ended, lost=number in OUTSIDE)
+
+    def _failure(self, status: RunStatus, message: str, lost: bool = False) -> Message:
+        return {"failure": attrs.asdict(self._monitor.failure(status, message, lost))}

@@ -1,0 +1,124 @@
+"""The supervisor process of a worker slot, a module that is run with one descriptor: its connection to the invoker.
+
+It executes one job after another, each in a fresh process, and never a plugin. It adopts every process that a job
+leaves behind, and kills the whole tree when the job ends, when it exceeds a limit, and when the invoker ends.
+"""
+
+import json
+import os
+import shutil
+import signal
+import socket
+import sys
+import tempfile
+from collections import OrderedDict
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, NoReturn
+
+from mrpbench_core.engine.processes.channel import KEY_BYTES, Channel, ClosedError
+from mrpbench_core.engine.processes.fork_server import ForkServer
+from mrpbench_core.engine.processes.machine import machine
+from mrpbench_core.engine.processes.output import cut, remove_empty
+from mrpbench_core.engine.processes.process_tree import become_subreaper, kill_descendants
+from mrpbench_core.engine.processes.supervision import Supervision
+from mrpbench_core.engine.processes.worker import execute_job
+
+SERVERS = 4
+"""Fork servers that are kept, the most recently used ones."""
+
+
+class Supervisor:
+    """Executes jobs until the invoker closes the connection."""
+
+    def __init__(self, connection: socket.socket) -> None:
+        self._connection = connection
+        self._invoker = Channel(connection, connection.recv(KEY_BYTES, socket.MSG_WAITALL))
+        self._servers: OrderedDict[str, ForkServer] = OrderedDict()
+        self._temporary = Path(tempfile.mkdtemp(prefix="mrpbench-"))
+
+    def serve(self) -> None:
+        """Answer one job after another."""
+        try:
+            self._invoker.send({"machine": machine()})
+            while (job := self._invoker.receive()) is not None:
+                self._invoker.send(self._answer(job))
+        except ClosedError:
+            return
+        finally:
+            kill_descendants()
+            shutil.rmtree(self._temporary, ignore_errors=True)
+
+    def _answer(self, job: dict[str, Any]) -> dict[str, Any]:
+        """Execute a job; return its answer."""
+        log = Path(job["log"])
+        try:
+            log.unlink(missing_ok=True)
+            log.touch()
+        except OSError as error:
+            return {"mistake": f"{log}: {error.strerror}"}
+        plugins, server = self._server(job)
+        pids = {server.pid for server in self._servers.values()}
+        answer, serves = Supervision({**job, "temporary": str(self._temporary)}, self._invoker, server, pids).run()
+        if not serves:
+            del self._servers[plugins]
+        cut(log)
+        remove_empty(log)
+        self._clean()
+        return answer
+
+    def _server(self, job: Mapping[str, Any]) -> tuple[str, ForkServer]:
+        """The fork server for the plugins of a job, and the key under which it is kept."""
+        parcel = job.get("parcel", {})
+        plugins = json.dumps([sorted(set(_plugins(parcel))), parcel.get("sources"), parcel.get("folder")])
+        if plugins not in self._servers:
+            while len(self._servers) >= SERVERS:
+                self._servers.popitem(last=False)[1].wait()
+            self._servers[plugins] = ForkServer.start(job, execute_job, (self._connection,))
+        self._servers.move_to_end(plugins)
+        return plugins, self._servers[plugins]
+
+    def _clean(self) -> None:
+        """Remove the temporary files of a job."""
+        for left in self._temporary.iterdir():
+            if left.is_dir() and not left.is_symlink():
+                shutil.rmtree(left, ignore_errors=True)
+            else:
+                left.unlink(missing_ok=True)
+
+
+def _plugins(value: Any) -> Iterator[str]:
+    """The names of all plugins in a configuration as plain data."""
+    if isinstance(value, Mapping):
+        if isinstance(value.get("plugin"), str):
+            yield value["plugin"]
+        for inner in value.values():
+            yield from _plugins(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from _plugins(inner)
+
+
+def main(descriptor: int) -> None:
+    """Serve the invoker at the other end of a socket."""
+    become_subreaper()
+    connection = socket.socket(fileno=descriptor)
+    connection.set_inheritable(False)
+    signal.signal(signal.SIGTERM, _terminate)
+    try:
+        Supervisor(connection).serve()
+    except _TerminatedError:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        os.kill(os.getpid(), signal.SIGTERM)
+
+
+class _TerminatedError(BaseException):
+    """SIGTERM was received."""
+
+
+def _terminate(number: int, frame: object) -> NoReturn:  # noqa: ARG001
+    raise _TerminatedError
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]))
