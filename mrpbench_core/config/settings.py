@@ -188,6 +188,15 @@ class RunConfig:
     control_rate: float = option(
         20.0, help="rate at which dispatcher, navigator and controller act", unit="Hz", validator=validators.gt(0)
     )
+    goal_tolerance: float = option(
+        0.7,
+        help="true distance from its goal within which a robot that rests has arrived; 0.7 m is that of MRP-Bench",
+        unit="m",
+        validator=validators.gt(0),
+    )
+    grant_truth: bool = option(
+        False, help="give the true poses to a localizer other than `ground_truth` that needs them"
+    )
     noise: Noise = option(Noise(), help="errors of sensors, motors and starts")
     metrics: Mapping[str, Metric] = block(("planning", "execution"), help="metrics to compute")
     export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")
@@ -212,7 +221,15 @@ def default_plugin(key: str) -> Any:
 EXECUTION = ("dispatcher", "navigator", "controller", "localizer")
 """Without a simulator these are None unless the file names them."""
 
-ONLY_EXECUTION = ("plan_filter", "control_rate", "noise", "replanning", "limits.execution")
+ONLY_EXECUTION = (
+    "plan_filter",
+    "control_rate",
+    "goal_tolerance",
+    "grant_truth",
+    "noise",
+    "replanning",
+    "limits.execution",
+)
 """Keys that do not change what a run does when there is no simulator."""
 
 NOT_IDENTIFYING = ("name", "metrics", "export", "recording", "limits.wall")

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.engine.own import own
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
@@ -21,16 +22,17 @@ _LAST_MODE = int(max(Mode))
 
 
 class ContractChecks:
-    """Checks what the components of one execution return; each method returns its argument.
-
-    An array that is identical (`is`) to the one of the last call is not checked again: returned arrays do not change.
+    """Checks what the components of one execution return; each method returns a copy that no component holds.
 
     Args:
         length: i8[n] segments of each robot's path.
+        reach: f8[n] metres that each robot can possibly move in one control period; None = not checked.
     """
 
-    def __init__(self, length: NDArray[Any]) -> None:
+    def __init__(self, length: NDArray[Any], reach: NDArray[Any] | None = None) -> None:
         self.length = length
+        self._reach = np.inf if reach is None else reach
+        self._before: State | None = None
         self._robots = len(length)
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
@@ -38,12 +40,12 @@ class ContractChecks:
     def adopt(self, length: NDArray[Any]) -> None:
         """Continue with the paths of a new plan."""
         self.length = length
-        self._released = self._released.copy()  # so that the next array is checked
 
     def state(self, state: State) -> State:
         """Check the state that a simulator returns."""
         kind = "the simulator"
         self._is(kind, state, State)
+        state = own(state)
         self._finite(kind, "pose", state.pose)
         self._finite(kind, "twist", state.twist)
         self._one_each(kind, "level", state.level)
@@ -53,6 +55,10 @@ class ContractChecks:
             and ((one < 0) | (one >= self._robots) | (other < -1) | (other >= self._robots) | (one == other)).any()
         ):
             _refuse(kind, "contacts that name no robot, or a robot twice")
+        if self._before is not None:
+            moved = np.hypot(*(state.pose[:, :2] - self._before.pose[:, :2]).T)
+            self._no_robot(kind, "a position that it cannot have reached in one control period", moved > self._reach)
+        self._before = state
         return state
 
     def scans(self, batches: tuple[ScanBatch, ...]) -> tuple[ScanBatch, ...]:
@@ -65,11 +71,12 @@ class ContractChecks:
                 _refuse("the simulator", "a scan of a robot that does not exist")
             if not (batch.ranges >= 0).all():
                 _refuse("the simulator", "ranges that are negative or no numbers")
-        return batches
+        return own(batches)
 
     def estimate(self, estimate: Estimate) -> Estimate:
         """Check the estimate that a localizer returns."""
         self._is("the localizer", estimate, Estimate)
+        estimate = own(estimate)
         self._finite("the localizer", "pose", estimate.pose)
         if estimate.covariance is not None and np.shape(estimate.covariance) != (self._robots, 3, 3):
             _refuse("the localizer", f"a covariance of shape {np.shape(estimate.covariance)}")
@@ -79,8 +86,7 @@ class ContractChecks:
         """Check the orders that a dispatcher returns."""
         kind = "the dispatcher"
         self._is(kind, orders, Orders)
-        if orders.released is self._released:
-            return orders
+        orders = own(orders)
         self._one_each(kind, "released", orders.released)
         self._no_robot(kind, "released less than before", orders.released < self._released)
         self._no_robot(kind, "released more segments than there are", orders.released > self.length)
@@ -91,15 +97,15 @@ class ContractChecks:
         """Check the motion that a navigator returns, after the orders of the same period."""
         kind = "the navigator"
         self._is(kind, motion, Motion)
+        motion = own(motion)
         self._finite(kind, "twist", motion.twist)
         for name in ("reached", "cleared", "mode"):
             self._one_each(kind, name, getattr(motion, name))
-        if motion.reached is not self._reached or motion.cleared is not self._cleared:
-            self._no_robot(kind, "reached less than before", motion.reached < self._reached)
-            self._no_robot(kind, "reached what was not released", motion.reached > self._released)
-            self._no_robot(kind, "cleared less than before", motion.cleared < self._cleared)
-            self._no_robot(kind, "cleared what it had not come to", motion.cleared > motion.reached + 1)
-            self._reached, self._cleared = motion.reached, motion.cleared
+        self._no_robot(kind, "reached less than before", motion.reached < self._reached)
+        self._no_robot(kind, "reached what was not released", motion.reached > self._released)
+        self._no_robot(kind, "cleared less than before", motion.cleared < self._cleared)
+        self._no_robot(kind, "cleared what it had not come to", motion.cleared > motion.reached + 1)
+        self._reached, self._cleared = motion.reached, motion.cleared
         self._no_robot(kind, "a mode that does not exist", motion.mode > _LAST_MODE)
         return motion
 

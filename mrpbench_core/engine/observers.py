@@ -17,7 +17,7 @@ class Observers:
     """problem: Problem, result: PlanResult."""
     executing: Callable[..., Any] = _ignore
     """context: RunContext."""
-    stepped: Callable[..., Any] = _ignore
+    stepped: Callable[..., Any] | None = None
     """now: float (simulated seconds), state: State, observation: FleetObservation, routes: Sequence[Route]."""
     executed: Callable[..., Any] = _ignore
     progress: Callable[..., Any] = _ignore

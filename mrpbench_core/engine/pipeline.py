@@ -1,5 +1,8 @@
 """One run from its configuration to its record, in this process."""
 
+from collections.abc import Mapping
+from typing import Any
+
 import attrs
 import numpy as np
 
@@ -8,16 +11,17 @@ from mrpbench_core.engine.execution.replanning import replanning_fault
 from mrpbench_core.engine.execution.routes import Router, speed_limits
 from mrpbench_core.engine.json_values import printable
 from mrpbench_core.engine.observers import Observers
+from mrpbench_core.engine.own import own
 from mrpbench_core.engine.record import RunError, RunRecord
 from mrpbench_core.engine.stage import Announce, RunEnded, RunInputs
 from mrpbench_core.engine.stages.assign import assign, tasks_of_plan
 from mrpbench_core.engine.stages.execute import execute_plan
-from mrpbench_core.engine.stages.judge import judge
+from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.measure import measure, measure_recording
-from mrpbench_core.engine.stages.plan import STATUS, budget_of, call_planner
+from mrpbench_core.engine.stages.plan import LATE_S, STATUS, budget_of, call_planner
 from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance, require_free_doorways
 from mrpbench_core.engine.stages.problem_building import build_problem
-from mrpbench_core.model.planning.plan import PlanResult
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.runs.run import FinishedRun, RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
@@ -91,16 +95,24 @@ def _plan(inputs: RunInputs, problem: Problem) -> tuple[PlanResult, RunEnded | N
     if reason := config.planner.skip(problem) or replanning_fault(config):
         raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, reason)
     inputs.announce(Stage.PLANNING, {"limit_s": config.limits.planning})
+    promises = Promises.of(config.planner)
     result, timing = call_planner(config.planner, problem, budget_of(config))
     inputs.timing.update(timing)
     inputs.announce(Stage.CHECKING, {})  # which is no part of the planner's time
-    result, fault = judge(config.planner, problem, result)
-    inputs.observers.planned(problem=problem, result=result)
+    result, fault = judge(promises, problem, result)
+    inputs.observers.planned(problem=own(problem), result=own(result))
     if fault is not None:
         return attrs.evolve(result, plan=None), RunEnded(RunStatus.PLAN_INVALID, Stage.PLANNING, fault)
     if result.plan is None:
-        return result, RunEnded(STATUS[result.status], Stage.PLANNING, f"the planner ended with {result.status}")
+        return result, RunEnded(STATUS[result.status], Stage.PLANNING, _unsolved(config, result, timing))
     return result, None
+
+
+def _unsolved(config: RunConfig, result: PlanResult, timing: Mapping[str, Any]) -> str:
+    """Why there is no plan."""
+    if result.status == PlanStatus.TIMEOUT and timing["planning_s"] > config.limits.planning + LATE_S:
+        return f"returned after {timing['planning_s']:.3f} s; the limit is {config.limits.planning:g} s"
+    return f"the planner ended with {result.status}"
 
 
 def _router(config: RunConfig, instance: RunInstance, assigned: tuple[int, ...], problem: Problem) -> Router:

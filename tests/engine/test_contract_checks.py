@@ -23,13 +23,18 @@ def checks():
     return ContractChecks(np.array([2, 1]))
 
 
-def test_what_keeps_the_contract_goes_through():
+def test_what_keeps_the_contract_goes_through_as_a_copy():
     checked = checks()
-    assert checked.state(STATE) is STATE
     assert checked.scans((SCAN,)) == (SCAN,)
-    assert checked.estimate(ESTIMATE) is ESTIMATE
-    assert checked.orders(ORDERS) is ORDERS
-    assert checked.motion(MOTION) is MOTION
+    for check, given in (
+        (checked.state, STATE),
+        (checked.estimate, ESTIMATE),
+        (checked.orders, ORDERS),
+        (checked.motion, MOTION),
+    ):
+        returned = check(given)
+        assert returned == given
+        assert returned is not given
 
 
 @pytest.mark.parametrize(

@@ -17,10 +17,10 @@ from mrpbench_core.api.world import WorldSource
 from mrpbench_core.config.canonical import canonical
 from mrpbench_core.config.settings import FleetEntry
 from mrpbench_core.engine.analysis.observed_run import ObservedRun, Sampling, observe, observe_own
+from mrpbench_core.engine.loading.versions import versions
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.engine.record import RunError, RunRecord, StoredRecord
 from mrpbench_core.engine.stages.measure import describe, measure
-from mrpbench_core.engine.study.versions import versions
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import Writer, line
 from mrpbench_core.files.robot import load_robot

@@ -14,21 +14,22 @@ from mrpbench_core.api.navigator import Navigator
 from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import ContractChecks
+from mrpbench_core.engine.execution.arrivals import Arrivals
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
 from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.replanning import Replanner, Revision
+from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.observation import FleetObservation
 from mrpbench_core.model.execution.orders import FleetView, Orders
-from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.runs.run import RunContext
 
-WAITING, ABORTED = int(Mode.WAITING), int(Mode.ABORTED)
+ABORTED = int(Mode.ABORTED)
 
 
 @attrs.frozen(kw_only=True)
@@ -45,14 +46,30 @@ class LoopComponents:
         """The components that a configuration names.
 
         Raises:
-            InputError: a component that execution needs is `none`.
+            InputError: a component that execution needs is `none`, or needs true poses that are not granted.
         """
         chosen = {}
         for field in attrs.fields(cls):
             chosen[field.name] = getattr(config, field.name)
             if chosen[field.name] is None:
                 raise InputError(f"{field.name}: cannot be 'none' when there is a simulator")
-        return cls(**chosen)
+        found = cls(**chosen)
+        if found.needs_truth and not config.grant_truth and not _is_ground_truth(found.localizer):
+            raise InputError(
+                f"localizer: {type(found.localizer).__name__} needs the true poses",
+                hint="`grant_truth: true` grants them",
+            )
+        return found
+
+    @property
+    def needs_truth(self) -> bool:
+        """Whether the localizer needs the true poses."""
+        return bool(self.localizer.needs_truth)
+
+
+def _is_ground_truth(localizer: Localizer) -> bool:
+    """Tell whether a localizer is the one of the core, which says by its name what it is given."""
+    return type(localizer).__module__ == "mrpbench_core.builtin.localizers.ground_truth"
 
 
 @attrs.frozen(kw_only=True)
@@ -64,6 +81,8 @@ class ExecutionResult:
     gave_up: tuple[str, ...]
     """Robots that gave up, each with the cause if the navigator named one."""
     simulated_s: float
+    contradiction: str | None = None
+    """What the navigator reports and the true poses contradict."""
 
 
 @attrs.frozen(kw_only=True)
@@ -72,9 +91,13 @@ class LoopInputs:
 
     context: RunContext
     """World, fleet, problem, plan and routes."""
+    given: RunContext
+    """A copy of it for components."""
     components: LoopComponents
     simulation: Simulation
-    """Opened, with the robots at the starts of their routes."""
+    """Opened, with the robots at `placed`."""
+    placed: NDArray[np.float64]
+    """f8[n,3] start poses."""
     noise: Disturbances
     """Errors of sensors, motors and start times."""
     recorder: Recorder
@@ -83,9 +106,11 @@ class LoopInputs:
     """Asks for new plans; knows the first one."""
     limit_s: float
     """Simulated seconds after which the execution ends."""
+    goal_tolerance: float
+    """Metres from its goal within which a robot has arrived."""
     seeds: tuple[int, int]
     """Seed and repeat of the run."""
-    stepped: Callable[..., Any]
+    stepped: Callable[..., Any] | None
     """Called after every control period; see `mrpbench_core.api.hooks`."""
     progress: Callable[[float, NDArray[np.bool_]], None] = lambda now, arrived: None  # noqa: ARG005
     """Called in every control period with the simulated seconds and whether each robot has arrived."""
@@ -102,28 +127,31 @@ class ExecutionLoop:
 
     def __init__(self, inputs: LoopInputs) -> None:
         self._inputs = inputs
-        context, components = inputs.context, inputs.components
+        context, given, components = inputs.context, inputs.given, inputs.components
         plan = context.result.plan
         assert plan is not None
+        assert given.result.plan is not None
         robots = len(context.fleet)
         self._step = self._revision = 0
         self._causes: dict[int, str] = {}
-        self._checks = ContractChecks(_segments(plan))
+        self._checks = ContractChecks(_segments(plan), _reach(context))
+        self._checks.state(attrs.evolve(inputs.simulation.state, pose=inputs.placed))
         self._state: State = self._checks.state(inputs.simulation.state)
-        self._dispatcher = components.dispatcher.start(context.problem, plan)
+        self._dispatcher = components.dispatcher.start(given.problem, given.result.plan)
         self._localizer = components.localizer.start(
-            context.fleet, context.world, self._state.pose, seed_of(*inputs.seeds, "localizer")
+            given.fleet, given.world, self._state.pose.copy(), seed_of(*inputs.seeds, "localizer")
         )
         self._navigator = components.navigator.start(
-            context.fleet,
-            context.world,
-            context.routes,
+            given.fleet,
+            given.world,
+            given.routes,
             components.controller,
             context.period,
             seed_of(*inputs.seeds, "navigator"),
         )
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
-        self._take(context.routes)
+        self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
+        self._given_routes = given.routes
         self._orders = Orders(released=np.zeros(robots, "i4"))
         self._motion = Motion(
             twist=np.zeros((robots, 2)),
@@ -155,8 +183,8 @@ class ExecutionLoop:
         inputs, state = self._inputs, self._state
         odometry = inputs.noise.odometry(state)
         scans = inputs.noise.scans(self._checks.scans(inputs.simulation.scans()))
-        truth = state.pose if inputs.components.localizer.needs_truth else None
-        estimate = self._checks.estimate(self._localizer.update(self._now, odometry, scans, truth))
+        truth = state.pose.copy() if inputs.components.needs_truth else None
+        estimate = self._checks.estimate(self._localizer.update(self._now, own(odometry), own(scans), truth))
         return FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
 
     def _dispatch(self, observation: FleetObservation) -> None:
@@ -175,12 +203,12 @@ class ExecutionLoop:
         )
         view = self._facility_manager.with_grants(view, self._state)
         if replanner.pending is None:
-            self._orders = self._checks.orders(self._dispatcher.update(now, view))
+            self._orders = self._checks.orders(self._dispatcher.update(now, own(view)))
             if reason := replanner.reason(now, view, self._orders.replan):
                 replanner.request(now, reason, view, self._orders.released)
         if (revision := replanner.take_due(now)) and self._adopt(revision):
             view = attrs.evolve(view, revision=self._revision)
-            self._orders = self._checks.orders(self._dispatcher.update(now, view))
+            self._orders = self._checks.orders(self._dispatcher.update(now, own(view)))
         self._facility_manager.assign(self._orders)
 
     def _adopt(self, new: Revision) -> bool:
@@ -188,13 +216,14 @@ class ExecutionLoop:
         now, fault = self._now, new.fault
         if new.plan is not None and not fault:
             try:
-                self._dispatcher.adopt(new.problem, new.plan)
+                self._dispatcher.adopt(own(new.problem), own(new.plan))
             except DispatchError as error:
                 fault = str(error)
             else:
                 self._revision += 1
-                self._take(new.routes)
-                self._navigator.adopt(new.routes)
+                self._arrivals.adopt(new.routes)
+                self._given_routes = own(new.routes)
+                self._navigator.adopt(self._given_routes)
                 self._inputs.replanner.use(new.problem, new.plan)
                 self._checks.adopt(_segments(new.plan))
                 self._facility_manager.adopt(new.problem, new.plan)
@@ -205,33 +234,33 @@ class ExecutionLoop:
         self._inputs.recorder.events((Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}"),))
         return False
 
-    def _take(self, routes: tuple[Route, ...]) -> None:
-        """Follow routes from now on."""
-        self._routes = routes
-        self._arrival = np.array([route.last_move for route in routes], np.int64)
-
     def _drive(self, observation: FleetObservation) -> None:
         """Command the robots; nothing is released to a robot that has not started yet."""
         orders, late = self._orders, self._now < self._inputs.noise.start_delay
         if late.any():
             orders = attrs.evolve(orders, released=np.where(late, 0, orders.released))
-        self._motion = self._checks.motion(self._navigator.step(self._now, observation, orders))
+        self._motion = self._checks.motion(self._navigator.step(self._now, own(observation), own(orders)))
         self._causes |= {event.robot: event.detail for event in self._motion.events if event.kind == "aborted"}
 
     def _result(self) -> ExecutionResult | None:
         """Return the end of the execution, or None if it continues."""
-        motion = self._motion
-        at_goal = (motion.reached >= self._arrival) & (motion.mode == WAITING)
-        gave_up = motion.mode == ABORTED
-        self._inputs.progress(self._now, at_goal)
-        if not (at_goal | gave_up).all() and self._now < self._inputs.limit_s:
+        arrivals = self._arrivals
+        self._confirmed = arrivals.update(self._now, self._state, self._motion)
+        gave_up = self._motion.mode == ABORTED
+        self._inputs.progress(self._now, arrivals.arrived)
+        if not (arrivals.arrived | arrivals.mistaken | gave_up).all() and self._now < self._inputs.limit_s:
             return None
         names = self._inputs.context.fleet.names
         causes = tuple(
             f"{names[robot]}: {self._causes.get(robot, '')}".removesuffix(": ")
             for robot in gave_up.nonzero()[0].tolist()
         )
-        return ExecutionResult(arrived=bool(at_goal.all()), gave_up=causes, simulated_s=self._now)
+        return ExecutionResult(
+            arrived=bool(arrivals.arrived.all()),
+            gave_up=causes,
+            simulated_s=self._now,
+            contradiction=arrivals.contradiction(),
+        )
 
     def _record(self, observation: FleetObservation, last: bool) -> None:
         """Record this control period, and show it to hooks."""
@@ -244,12 +273,13 @@ class ExecutionLoop:
             estimate=observation.estimate,
             odometry=observation.odometry,
             orders=self._orders,
-            motion=self._motion,
+            motion=self._confirmed,
             waits_for=self._facility_manager.waits_for(len(state.pose)),
             facility=self._facility_manager.states(state),
         )
         recorder.sample(self._step, sample, last)
-        self._inputs.stepped(now=now, state=state, observation=observation, routes=self._routes)
+        if self._inputs.stepped is not None:
+            self._inputs.stepped(now=now, state=own(state), observation=own(observation), routes=self._given_routes)
 
     def _simulate(self) -> None:
         """Let one control period pass."""
@@ -259,6 +289,11 @@ class ExecutionLoop:
         self._state = self._checks.state(inputs.simulation.step(driven))
         self._step += 1
         inputs.recorder.contacts(self._now, self._state)
+
+
+def _reach(context: RunContext) -> NDArray[np.float64]:
+    """Metres f8[n] that each robot can possibly move in one control period: twice what it can drive, and a contact."""
+    return np.array([2 * robot.max_speed * context.period + 0.05 for robot in context.fleet.robots])
 
 
 def _segments(plan: Plan) -> NDArray[np.int64]:

@@ -9,6 +9,7 @@ from mrpbench_core.api.assigner import AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
 from mrpbench_core.checking.scenario import check_travel
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.own import Handed
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.costs import cost_matrix
 from mrpbench_core.engine.stages.prepare import RunInstance, summary
@@ -35,12 +36,14 @@ def assign(config: RunConfig, instance: RunInstance, announce: Announce, timing:
         costs = np.zeros((len(instance.fleet), len(instance.scenario.tasks)))
     timing["cost_matrix_s"] = time.perf_counter() - began
     question = AssignmentProblem(costs=costs, tasks=instance.scenario.tasks)
+    handed = Handed(question, "the assignment problem")
     began = time.perf_counter()
     try:
-        assignment = assigner.assign(question)
+        assignment = assigner.assign(handed.given)
     except AssignmentError as error:
         raise RunEnded(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, str(error)) from error
     timing["assignment_s"] = time.perf_counter() - began
+    handed.check(assigner)
     if faults := check_assignment(question, assignment):
         raise RunEnded(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, f"{type(assigner).__name__} {faults[0]}")
     return tuple(int(task) for task in assignment.task)

@@ -13,10 +13,11 @@ from mrpbench_core.engine.execution.progress import ExecutionProgress
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.execution.routes import Router, start_poses
+from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.engine.stages.export import Exports
-from mrpbench_core.engine.stages.judge import judge
+from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
@@ -38,6 +39,7 @@ def execute_plan(inputs: RunInputs, context: RunContext, router: Router) -> tupl
     inputs.announce(Stage.EXECUTION, {})
     writer = RecordingWriter(inputs.paths.recording, context)
     exports = Exports()
+    given = own(context)
 
     def sink(chunk: Chunk) -> None:
         writer.write({name: rows for name, rows in chunk.items() if config.recording.scans or name[:5] != "scan_"})
@@ -45,13 +47,13 @@ def execute_plan(inputs: RunInputs, context: RunContext, router: Router) -> tupl
 
     ended: RunEnded | None
     try:
-        exports.open(config.export, context, inputs.paths.exports)
+        exports.open(config.export, given, inputs.paths.exports)
         wants_scans = config.recording.scans or bool(config.export)
         recorder = Recorder(config.recording.rate, context.period, sink, wants_scans)
         began = time.perf_counter()
         replanner = _replanner(inputs, context, router)
-        inputs.observers.executing(context=context)
-        result = _simulate(inputs, context, recorder, replanner)
+        inputs.observers.executing(context=given)
+        result = _simulate(inputs, context, given, recorder, replanner)
         ended = _failure(result, config)
         timing["execution_wall_s"] = time.perf_counter() - began
         timing["real_time_factor"] = result.simulated_s / timing["execution_wall_s"]
@@ -74,6 +76,8 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
     """Asks the run's planner for new plans, within the limits and measured like the first call."""
     config, timing = inputs.config, inputs.timing
 
+    promises = Promises.of(config.planner)
+
     def ask(problem: Problem) -> tuple[PlanResult, str | None]:
         if reason := config.planner.skip(problem):
             return PlanResult(status=PlanStatus.GAVE_UP), f"the planner {reason}"
@@ -82,14 +86,16 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
         inputs.announce(Stage.EXECUTION, {})
         timing["replanning_s"] = timing.get("replanning_s", 0.0) + spent["planning_s"]
         timing["clock_bound"] = timing.get("clock_bound", False) or spent["clock_bound"]
-        result, fault = judge(config.planner, problem, result)
+        result, fault = judge(promises, problem, result)
         return result, fault or (f"the planner ended with {result.status}" if result.plan is None else None)
 
     assert context.result.plan is not None
     return Replanner(config.replanning, ask, router, context.problem, context.result.plan)
 
 
-def _simulate(inputs: RunInputs, context: RunContext, recorder: Recorder, replanner: Replanner) -> ExecutionResult:
+def _simulate(
+    inputs: RunInputs, context: RunContext, given: RunContext, recorder: Recorder, replanner: Replanner
+) -> ExecutionResult:
     """Open the simulator and run the execution loop."""
     config = inputs.config
     assert config.simulator is not None
@@ -99,18 +105,22 @@ def _simulate(inputs: RunInputs, context: RunContext, recorder: Recorder, replan
     noise = Disturbances(config.noise, context.fleet, poses, context.period, *seeds)
     seed = seed_of(*seeds, "simulator")
     levels = np.array([route.level[0] for route in context.routes], np.int16)
-    with config.simulator.open(context.world, context.fleet, poses, seed, context.period, levels=levels) as simulation:
+    placed = poses.copy(), seed, context.period
+    with config.simulator.open(given.world, given.fleet, *placed, levels=levels.copy()) as simulation:
         if not np.array_equal(simulation.state.level, levels):
             raise ExecutionError("the simulator supports the lowest level only, and robots start on other levels")
         loop = ExecutionLoop(
             LoopInputs(
                 context=context,
+                given=given,
                 components=components,
                 simulation=simulation,
+                placed=poses,
                 noise=noise,
                 recorder=recorder,
                 replanner=replanner,
                 limit_s=config.limits.execution,
+                goal_tolerance=config.goal_tolerance,
                 seeds=seeds,
                 stepped=inputs.observers.stepped,
                 progress=ExecutionProgress(inputs.observers.progress, config.limits.execution),
@@ -128,4 +138,4 @@ def _failure(result: ExecutionResult, config: RunConfig) -> RunEnded | None:
         said = f"a robot gave up before all had arrived: {causes}"
         return RunEnded(RunStatus.EXECUTION_ABORTED, Stage.EXECUTION, said)
     late = f"not all robots arrived within {config.limits.execution:g} simulated seconds"
-    return RunEnded(RunStatus.GOALS_MISSED, Stage.EXECUTION, late)
+    return RunEnded(RunStatus.GOALS_MISSED, Stage.EXECUTION, result.contradiction or late)

@@ -1,6 +1,7 @@
 """Judges a plan by what its planner promises."""
 
 import math
+from typing import Self
 
 import attrs
 
@@ -12,7 +13,24 @@ from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
 
 
-def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
+@attrs.frozen(kw_only=True)
+class Promises:
+    """What a planner promises, noted before it is called."""
+
+    kept: frozenset[Promise]
+    factor: float
+    """The sum of costs is at most this times the lower bound, where a bound is promised."""
+    assigns: bool
+
+    @classmethod
+    def of(cls, planner: Planner) -> Self:
+        """The promises of a planner as it is configured."""
+        promised = frozenset(planner.promises)
+        factor = float(getattr(planner, "w", 1.0)) if Promise.BOUNDED in promised else 1.0
+        return cls(kept=promised, factor=factor, assigns=bool(planner.assigns))
+
+
+def judge(promises: Promises, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
     """Count the plan's conflicts, and say which promise it breaks, or None.
 
     Every planner must return valid paths, and one that assigns must give each robot a task of its own. Freedom from
@@ -25,17 +43,17 @@ def judge(planner: Planner, problem: Problem, result: PlanResult) -> tuple[PlanR
     report = check_plan(problem, result.plan)
     if report.faults:
         return result, report.faults[0]
-    if planner.assigns and (shared := check_choice(problem, result.plan)):
+    if promises.assigns and (shared := check_choice(problem, result.plan)):
         return result, shared[0]
     if result.status == PlanStatus.TIMEOUT:  # but not without a plan: a success that depends on the clock
         result = attrs.evolve(result, status=PlanStatus.SOLVED, clock_bound=True)
     statistics = {**result.statistics, "conflicts": float(len(report.conflicts))}
     result = attrs.evolve(result, statistics=statistics)
-    if report.conflicts and Promise.CONFLICT_FREE in planner.promises:
+    if report.conflicts and Promise.CONFLICT_FREE in promises.kept:
         return result, str(report.conflicts[0])
     if result.plan is not None and not math.isnan(result.lower_bound):
-        factor = float(getattr(planner, "w", 1.0)) if Promise.BOUNDED in planner.promises else 1.0
-        held = {Promise.BOUNDED, Promise.OPTIMAL} & planner.promises
+        factor = promises.factor
+        held = {Promise.BOUNDED, Promise.OPTIMAL} & promises.kept
         cost = result.plan.sum_of_costs
         if held and not result.clock_bound and cost > factor * result.lower_bound + 1e-6:
             return result, f"cost {cost} exceeds {factor:g} times its lower bound {result.lower_bound:g}"

@@ -5,9 +5,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import attrs
 import numpy as np
 
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.metric import Metric
+from mrpbench_core.engine.own import Handed
 from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.store.recording import Recording
@@ -19,13 +22,19 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
     """Values by `<metric>.<column>`, and the reason for each metric or `<metric>.<column>` that cannot be measured."""
     values: dict[str, Any] = {}
     reasons: dict[str, str] = {}
+    handed = Handed(run.context, "the context")
     for name, metric in metrics.items():
         reason = _obstacle(metric.requires, run) or (None if metric.requires or run.planned else "planned by others")
         if reason is not None:
             reasons[name] = reason
             values |= {f"{name}.{column.name}": None for column in metric.columns}
             continue
-        measured, reason = _measured(metric, run)
+        measured, reason = _measured(metric, attrs.evolve(run, context=handed.given))
+        try:
+            handed.check(metric)
+        except BrokenContractError:
+            measured, reason = {}, "the metric changed the run"
+            handed = Handed(run.context, "the context")
         if reason is not None:
             reasons[name] = reason
         for column in metric.columns:

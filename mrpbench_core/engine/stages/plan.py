@@ -2,8 +2,8 @@
 
 import math
 import resource
-import time
 from pathlib import Path
+from time import perf_counter, process_time  # by name: a plugin that replaces `time.perf_counter` changes no record
 from typing import Any
 
 import attrs
@@ -11,6 +11,7 @@ import attrs
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.own import Handed, own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
@@ -26,24 +27,39 @@ STATUS = {
 """A run's status for each way of having no plan."""
 
 
+LATE_S = 0.1
+"""Wall seconds after the limit within which a planner that ended its search at the limit may still return."""
+
+
 def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[PlanResult, dict[str, Any]]:
     """The result of the planner, valid or not, and the timing of the call alone.
 
-    CPU time counts programs that the planner ran to their end; peak memory is that of this process alone.
+    CPU time counts programs that the planner ran to their end; peak memory is that of this process alone. A plan that
+    comes more than `LATE_S` after the limit is dropped: the planner timed out.
+
+    Raises:
+        BrokenContractError: the planner changed the problem.
     """
+    handed = Handed(problem, "the problem")
     _reset_peak()
     before = _resident()
-    began, cpu = time.perf_counter(), _cpu_s()
+    began, cpu = perf_counter(), _cpu_s()
     try:
-        result = planner.plan(problem, budget)
+        result = planner.plan(handed.given, budget)
     except InputError as error:  # no mistake of the user's any more: the problem was sound
         raise RuntimeError(f"the planner raised InputError: {error}") from error
+    seconds = perf_counter() - began
     timing: dict[str, Any] = {
-        "planning_s": time.perf_counter() - began,
+        "planning_s": seconds,
         "planning_cpu_s": _cpu_s() - cpu,
         "planning_peak_bytes": max(0, _peak() - before),
-        "clock_bound": _clock_bound(result),
     }
+    handed.check(planner)
+    if result_fault(result) is None:
+        result = own(result)  # judged and used by what it is now
+        if seconds > budget.wall_s + LATE_S and result.status in (PlanStatus.SOLVED, PlanStatus.TIMEOUT):
+            result = attrs.evolve(result, status=PlanStatus.TIMEOUT, plan=None)
+    timing["clock_bound"] = _clock_bound(result)
     if history := _history(result):
         timing["planning_history"] = history
     return result, timing
@@ -79,7 +95,7 @@ def budget_of(config: RunConfig) -> Budget:
 def _cpu_s() -> float:
     """Of this process and of the programs that it has run."""
     programs = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return time.process_time() + programs.ru_utime + programs.ru_stime
+    return process_time() + programs.ru_utime + programs.ru_stime
 
 
 def _reset_peak() -> None:

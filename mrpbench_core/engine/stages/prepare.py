@@ -6,6 +6,7 @@ import numpy as np
 from mrpbench_core.checking.doorways import check_doorways
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import check_drawn
+from mrpbench_core.engine.own import Handed, own
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.fleet import build_fleet
 from mrpbench_core.files.errors import InputError
@@ -43,12 +44,16 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
         RunEnded: the scenario cannot be solved by any planner.
     """
     announce(Stage.WORLD, {})
-    world = config.world.load()
+    world = own(config.world.load())
     fleet = build_fleet(config, config.scenario.size())
     announce(Stage.ROADMAP, {})
-    roadmap = config.roadmap.build(world, fleet)
+    given = Handed((world, fleet), "world or fleet")
+    roadmap = own(config.roadmap.build(*given.given))
+    given.check(config.roadmap)
     announce(Stage.SCENARIO, {})
-    scenario = check_drawn(config.scenario.draw(world, roadmap, fleet, config.seed), len(fleet))
+    handed = Handed((world, roadmap, fleet), "world, roadmap or fleet")
+    scenario = own(check_drawn(config.scenario.draw(*handed.given, config.seed), len(fleet)))
+    handed.check(config.scenario)
     if any(task.release > 0 for task in scenario.tasks) or len(scenario.tasks) > len(fleet):
         raise InputError("scenario: tasks released over time, or more tasks than robots, cannot be executed yet")
     start = roadmap.locate(scenario.start[:, :2], scenario.start_level)

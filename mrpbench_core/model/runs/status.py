@@ -29,6 +29,8 @@ class RunStatus(StrEnum):
     """The planner does not support the problem."""
     UNKNOWN = "unknown"
     """A recording of others ends before its robots are seen to arrive or to stop."""
+    CONTRACT_BROKEN = "contract_broken"
+    """A component returned what its contract forbids, or changed its inputs."""
     CRASHED = "crashed"
     """The worker process died, or a plugin raised an exception."""
 
@@ -40,6 +42,7 @@ PLANNED = frozenset({RunStatus.SUCCEEDED, RunStatus.GOALS_MISSED, RunStatus.EXEC
 FAILED = frozenset(
     {
         RunStatus.CRASHED,
+        RunStatus.CONTRACT_BROKEN,
         RunStatus.OUT_OF_MEMORY,
         RunStatus.WALL_TIMEOUT,
         RunStatus.PLAN_INVALID,

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from mrpbench_core.api.planner import Planner, Promise
-from mrpbench_core.engine.stages.judge import judge
+from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.faults import require
@@ -52,7 +52,7 @@ def answer_faults(problem: Problem, planner: Planner, result: PlanResult, optimu
         result: the answer.
         optimum: the least sum of costs, inf if there is no plan, None if it is not known.
     """
-    _, broken = judge(planner, problem, result)
+    _, broken = judge(Promises.of(planner), problem, result)
     found = [] if broken is None else [broken]
     if result.status is PlanStatus.GAVE_UP and Promise.COMPLETE in planner.promises:
         found.append("gave up, but promises to be complete")

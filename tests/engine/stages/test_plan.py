@@ -9,7 +9,7 @@ import pytest
 
 from mrpbench_core.api import Planner, Promise
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.stages.judge import judge
+from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
 from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature
@@ -63,7 +63,7 @@ def test_planners_get_a_seed_that_only_the_runs_seed_and_repeat_decide():
 
 def judged(planner_class, problem, result):
     planner = planner_class(result=result)
-    return judge(planner, problem, call_planner(planner, problem, BUDGET)[0])
+    return judge(Promises.of(planner), problem, call_planner(planner, problem, BUDGET)[0])
 
 
 def test_conflicts_are_counted_for_a_planner_that_promises_nothing(run_context):

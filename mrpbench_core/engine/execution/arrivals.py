@@ -1,0 +1,70 @@
+"""Which robots have arrived: what the navigator reports counts only where the true poses agree."""
+
+from collections.abc import Sequence
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32
+from mrpbench_core.model.execution.motion import Mode, Motion
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.execution.state import State
+
+REST = 0.05, 0.2
+"""m/s and rad/s below which a robot is at rest."""
+SETTLING_S = 5.0
+"""Simulated seconds at rest after which a robot that is reported to be at its goal, and is not, will not get there."""
+
+
+class Arrivals:
+    """Compares the reports of a navigator with the true states of the robots.
+
+    Args:
+        routes: one per robot; a robot arrives at the last waypoint.
+        tolerance: metres from there within which a robot has arrived.
+    """
+
+    def __init__(self, routes: Sequence[Route], tolerance: float) -> None:
+        self._tolerance = tolerance
+        self._rests_since = np.full(len(routes), np.inf)
+        self._recorded: Int32 = np.zeros(len(routes), np.int32)
+        self.adopt(routes)
+
+    def adopt(self, routes: Sequence[Route]) -> None:
+        """Continue with the routes of a new plan."""
+        self._last: Int = np.array([route.last_move for route in routes], np.int64)
+        self._goal: Float = np.array([route.waypoint[-1, :2] for route in routes])
+        self._level: Int16 = np.array([route.level[-1] for route in routes], np.int16)
+
+    def update(self, now: float, state: State, motion: Motion) -> Motion:
+        """Compare a report at `now` with the true state; return the report with confirmed arrivals only."""
+        speed = np.abs(state.twist)
+        resting = (speed[:, 0] < REST[0]) & (speed[:, 1] < REST[1])
+        self._rests_since = np.where(resting, np.minimum(self._rests_since, now), np.inf)
+        self.away: Float = np.hypot(*(state.pose[:, :2] - self._goal).T)
+        """f8[n] metres from the goal, inf on another level."""
+        self.away[state.level != self._level] = np.inf
+        near = self.away <= self._tolerance
+        self.claimed: Bool = (motion.reached >= self._last) & (motion.mode == Mode.WAITING)
+        """bool[n]: the robot is reported to have arrived."""
+        self.arrived: Bool = self.claimed & near & resting
+        """bool[n]: the robot is reported to have arrived, is at its goal, and rests."""
+        self.mistaken: Bool = self.claimed & ~near & (now - self._rests_since >= SETTLING_S)
+        """bool[n]: the robot is reported to have arrived, and stands elsewhere."""
+        early = (motion.reached >= self._last) & ~near & (self._last > 0)
+        if not early.any():
+            self._recorded = motion.reached
+            return motion
+        self._recorded = np.maximum(self._recorded, np.where(early, self._last - 1, motion.reached)).astype(np.int32)
+        return attrs.evolve(motion, reached=self._recorded)
+
+    def contradiction(self) -> str | None:
+        """What the navigator reports and the true poses contradict, or None."""
+        wrong = np.flatnonzero(self.claimed & ~(self.away <= self._tolerance))
+        if not len(wrong):
+            return None
+        worst = wrong[self.away[wrong].argmax()]
+        robots = "robot " if len(wrong) == 1 else "robots "
+        robots += ", ".join(map(str, wrong[:5].tolist())) + (f" and {len(wrong) - 5} more" if len(wrong) > 5 else "")
+        far = "on another level" if np.isinf(self.away[worst]) else f"{self.away[worst]:.2f} m from its goal"
+        return f"the navigator reports that {robots} arrived, but robot {worst} is {far}"

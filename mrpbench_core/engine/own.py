@@ -1,0 +1,121 @@
+"""Copies of what crosses between the engine and components, so that the engine judges by data that no component holds.
+
+Read-only arrays and frozen classes keep a component from changing its inputs by mistake; they do not keep it from
+changing them on purpose.
+"""
+
+import enum
+from collections.abc import Mapping
+from typing import Any, Generic, TypeVar
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.model.common.arrays import equal_arrays
+from mrpbench_core.plugins.kinds import kind_of
+
+T = TypeVar("T")
+_PLAIN = (bool, int, float, str)
+
+
+def own(value: T) -> T:
+    """Return a copy that shares no array, no container and no object of `mrpbench_core.model` with `value`.
+
+    Raises:
+        BrokenContractError: an object is of a class that is derived from one of the model.
+    """
+    copied: T = _own(value, {})
+    return copied
+
+
+def _own(value: Any, known: dict[int, Any]) -> Any:
+    kind = type(value)
+    if isinstance(value, np.ndarray):
+        array = np.array(value, copy=True, subok=False)
+        array.setflags(write=False)
+        return array
+    if attrs.has(kind) and not isinstance(value, type):
+        if id(value) not in known:
+            known[id(value)] = value, _own_object(value, known)  # the original is kept, so that its id stays its own
+        return known[id(value)][1]
+    if isinstance(value, enum.Enum | np.generic) or value is None:
+        return value
+    for plain in _PLAIN:
+        if isinstance(value, plain):
+            return value if kind is plain else plain(value)
+    if isinstance(value, tuple | list | frozenset):
+        items = [_own(item, known) for item in value]
+        return kind(*items) if hasattr(kind, "_fields") else kind(items)
+    if isinstance(value, Mapping):
+        return {key: _own(item, known) for key, item in value.items()}
+    return value
+
+
+def _own_object(value: Any, known: dict[int, Any]) -> Any:
+    kind = type(value)
+    if not kind.__module__.startswith("mrpbench_core.model."):
+        base = next((cls.__name__ for cls in kind.__mro__ if cls.__module__.startswith("mrpbench_core.model.")), "it")
+        raise BrokenContractError(f"a component returned the class {kind.__name__} instead of {base} itself")
+    return kind(**{alias: _own(getattr(value, name), known) for alias, name in _fields(kind)})
+
+
+_KNOWN_FIELDS: dict[type, tuple[tuple[str, str], ...]] = {}
+
+
+def _fields(kind: type) -> tuple[tuple[str, str], ...]:
+    """Alias and name of each field that `__init__` takes."""
+    if kind not in _KNOWN_FIELDS:
+        _KNOWN_FIELDS[kind] = tuple((field.alias, field.name) for field in attrs.fields(kind) if field.init)
+    return _KNOWN_FIELDS[kind]
+
+
+def difference(given: Any, kept: Any, name: str) -> str | None:
+    """Return where `given` differs from `kept`, as in `problem.goals`, or None."""
+    if type(given) is not type(kept):
+        return name
+    if isinstance(kept, np.ndarray):
+        return None if equal_arrays(given, kept) else name
+    if attrs.has(type(kept)):
+        return _difference_in_fields(given, kept, name)
+    if isinstance(kept, tuple | list):
+        if len(given) != len(kept):
+            return name
+        pairs = zip(given, kept, strict=True)
+        return next((where for one, other in pairs if (where := difference(one, other, name))), None)
+    if isinstance(kept, Mapping):
+        if given.keys() != kept.keys():
+            return name
+        return next((where for key in kept if (where := difference(given[key], kept[key], name))), None)
+    return None if given == kept or (given != given and kept != kept) else name
+
+
+def _difference_in_fields(given: Any, kept: Any, name: str) -> str | None:
+    for _, field in _fields(type(kept)):
+        if where := difference(getattr(given, field), getattr(kept, field), f"{name}.{field}"):
+            return where
+    return None
+
+
+def name_of(component: Component) -> str:
+    """The name of a component in messages about its contract."""
+    return f"the {kind_of(component.group)} {type(component).__name__}"
+
+
+class Handed(Generic[T]):
+    """A copy that components are given, beside what the engine keeps."""
+
+    def __init__(self, kept: T, name: str) -> None:
+        self._kept = kept
+        self._name = name
+        self.given = own(kept)
+
+    def check(self, component: Component) -> None:
+        """Require that the copy is unchanged.
+
+        Raises:
+            BrokenContractError: it was changed by a component, which has just been called.
+        """
+        if (where := difference(self.given, self._kept, self._name)) is not None:
+            raise BrokenContractError(f"{name_of(component)} changed {where}")
