@@ -1,4 +1,4 @@
-"""Measure the overhead of a run: worker slot, messages, record.
+"""Measure the overhead of a run: processes, messages, record.
 
 Prints milliseconds per run for a minimal run, in a study and alone in this process, and their difference.
 """
@@ -9,7 +9,9 @@ from pathlib import Path
 
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.engine.study.invoke import prepare
+from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.store.paths import RunPaths
 
@@ -21,32 +23,32 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "tiny.map").write_text("type octile\nheight 3\nwidth 3\nmap\n...\n...\n...\n")
-        study = load_study(
-            {
-                "world": {"plugin": "movingai", "file": str(folder / "tiny.map")},
-                "roadmap": "grid",
-                "scenario": {"plugin": "random", "robots": 1},
-                "assigner": "identity",
-                "planner": "example",
-                "simulator": "none",
-                "metrics": [],
-                "matrix": {"seed": f"0..{RUNS - 1}"},
-            }
-        )
-        warm_up = prepare(study, out=folder / "warm-up", shard=f"0/{RUNS}")
-        began = time.perf_counter()
-        run_study(study, warm_up)
-        start = time.perf_counter() - began
-        began = time.perf_counter()
-        run_study(study, prepare(study, out=folder / "out"))
-        studied = (time.perf_counter() - began - start) / RUNS
+        described = {
+            "world": {"plugin": "movingai", "file": str(folder / "tiny.map")},
+            "roadmap": "grid",
+            "scenario": {"plugin": "random", "robots": 1},
+            "assigner": "identity",
+            "planner": "example",
+            "simulator": "none",
+            "metrics": [],
+            "matrix": {"seed": f"0..{RUNS - 1}"},
+        }
+        with slots_of_this_process() as slots:
+            began = time.perf_counter()
+            study = read_study(slots, described)
+            run_study(study, prepare(study.name, slots, out=folder / "warm-up", shard=f"0/{RUNS}"))
+            start = time.perf_counter() - began
+            began = time.perf_counter()
+            run_study(study, prepare(study.name, slots, out=folder / "out"))
+            studied = (time.perf_counter() - began) / RUNS
         paths = RunPaths(recording=folder / "none.zip", exports=folder / "none")
+        points = load_study(described).runs
         began = time.perf_counter()
-        for point in study.runs:
+        for point in points:
             execute(point.config, point.run_id, paths, lambda stage, facts: None)  # noqa: ARG005
         alone = (time.perf_counter() - began) / RUNS
     print(f"{studied * 1e3:.2f} ms in a study, {alone * 1e3:.2f} ms alone: {(studied - alone) * 1e3:.2f} ms a run")
-    print(f"{start:.2f} s to start a study and its first worker")
+    print(f"{start:.2f} s to read a study and to start its first worker")
 
 
 if __name__ == "__main__":

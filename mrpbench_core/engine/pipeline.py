@@ -131,7 +131,7 @@ def _context(
         fleet=instance.fleet,
         scenario=instance.scenario,
         problem=router.problem,
-        result=result,
+        result=attrs.evolve(result, history=()),  # wall times are in the record, and recordings are reproducible
         routes=routes,
         goal=tuple((float(x), float(y), float(yaw)) for x, y, yaw in (route.waypoint[-1] for route in routes)),
         period=1 / inputs.config.control_rate,

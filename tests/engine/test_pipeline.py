@@ -46,6 +46,32 @@ def first(tmp_path_factory):
     return *execute_first(folder), folder
 
 
+TIMED = """
+import time
+
+import attrs
+
+from mrpbench_core.model.planning.plan import AnytimePoint
+from mrpbench_planners_example import Example
+
+
+@attrs.frozen(kw_only=True)
+class Timed(Example):
+    def plan(self, problem, budget):
+        point = AnytimePoint(seconds=time.perf_counter(), cost=1.0)
+        return attrs.evolve(super().plan(problem, budget), history=(point,))
+"""
+
+
+def test_recordings_hold_no_wall_times(tmp_path):
+    (tmp_path / "timed.py").write_text(TIMED)
+    made = [
+        execute_first(tmp_path / name, planner=f"{tmp_path}/timed.py:Timed", limits=SHORT)[0] for name in ("a", "b")
+    ]
+    assert made[0]["timing"]["planning_history"] != made[1]["timing"]["planning_history"]
+    assert digest(tmp_path / "a" / "run.zip") == digest(tmp_path / "b" / "run.zip")
+
+
 def test_a_run_goes_through_every_stage_and_succeeds(first):
     record, stages, folder = first
     before, after = ["world", "roadmap", "scenario", "assignment"], ["execution", "export", "metrics"]
