@@ -151,8 +151,8 @@ def kill_a_worker_at_work(marks):
     while len(names := sorted(mark.name for mark in marks.iterdir())) < 3:
         assert time.monotonic() < deadline
         time.sleep(0.02)
-    child = int(names[-1].split("-")[1])
-    psutil.Process(child).parent().kill()
+    _, _, worker, *_ = psutil.Process(int(names[-1].split("-")[1])).parents()  # above fork server and supervisor
+    worker.kill()
 
 
 def test_a_study_survives_the_loss_of_a_worker_and_says_what_is_done_again(cluster, study, tmp_path):
