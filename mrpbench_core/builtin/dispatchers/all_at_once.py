@@ -7,8 +7,8 @@ Environments", ICRA 2023), with 2.5 s between one robot and the next. Only their
 import attrs
 import numpy as np
 
-from mrpbench_core.api import Dispatcher, DispatcherSession, option
-from mrpbench_core.builtin.dispatchers.facility_use import refuse_facilities
+from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
+from mrpbench_core.checking.facility_use import check_facility_use
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -28,7 +28,6 @@ class AllAtOnce(Dispatcher):
         Raises:
             DispatchError: the plan uses a door or a lift, which would not be opened.
         """
-        refuse_facilities(problem, plan, "all_at_once")
         return AllAtOnceSession(self.stagger, problem, plan)
 
 
@@ -43,6 +42,8 @@ class AllAtOnceSession(DispatcherSession):
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
         """Continue with the new paths."""
+        if uses := check_facility_use(problem, plan):
+            raise DispatchError(f"{uses[0]}, and the dispatcher all_at_once does not request doors or lifts: use adg")
         self.length = np.array([len(path) for path in plan.paths], np.int32)
         if problem.commitments:
             self.released = np.maximum(self.released, [len(path) for path in problem.commitments])

@@ -3,8 +3,8 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.api import Dispatcher, DispatcherSession
-from mrpbench_core.builtin.dispatchers.facility_use import refuse_facilities
+from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession
+from mrpbench_core.checking.facility_use import check_facility_use
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -20,7 +20,6 @@ class Timed(Dispatcher):
         Raises:
             DispatchError: the plan uses a door or a lift, which would not be opened.
         """
-        refuse_facilities(problem, plan, "timed")
         return TimedSession(problem, plan)
 
 
@@ -33,6 +32,8 @@ class TimedSession(DispatcherSession):
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
         """Continue with the times of the new plan."""
+        if uses := check_facility_use(problem, plan):
+            raise DispatchError(f"{uses[0]}, and the dispatcher timed does not request doors or lifts: use adg")
         if problem.commitments:
             self.released = np.maximum(self.released, [len(path) for path in problem.commitments])
         robot = np.repeat(np.arange(len(plan.paths)), [len(path) for path in plan.paths])

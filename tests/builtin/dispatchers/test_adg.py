@@ -245,9 +245,12 @@ def test_a_robot_in_a_lift_is_released_when_the_cabin_has_arrived(make):
 
 @pytest.mark.parametrize("dispatcher", [Timed(), AllAtOnce()], ids=["timed", "all_at_once"])
 def test_those_that_ask_for_nothing_refuse_plans_through_doors(make, dispatcher):
-    with pytest.raises(DispatchError, match="robot 0 needs the door door"):
+    with pytest.raises(DispatchError, match="robot 0 uses the door door"):
         dispatcher.start(*with_door(make, [[0, 1, 2]]))
-    dispatcher.start(*with_door(make, [[0, 1]]))
+    session = dispatcher.start(*with_door(make, [[0, 1]]))
+    with pytest.raises(DispatchError, match="robot 0 uses the door door"):
+        session.adopt(*with_door(make, [[0, 1, 2]]))
+    assert session.update(9.0, make.view([0])).released.tolist() == [1]
 
 
 def test_robots_that_disappear_make_room_when_their_path_ends(make):
