@@ -7,6 +7,7 @@ import numpy as np
 
 from mrpbench_core.checking.clearance import has_clearance, solids
 from mrpbench_core.checking.components import components
+from mrpbench_core.checking.door_sweeps import check_door_sweeps
 from mrpbench_core.checking.navigation import called, crossings, duplicates, unique_edges, vertices_on_lanes
 from mrpbench_core.checking.passages import narrow_passages
 from mrpbench_core.model.planning.roadmap import Roadmap
@@ -45,6 +46,8 @@ class WorldFacts:
     """Faults of the map, one sentence each."""
     narrow: tuple[str, ...]
     """Passages narrower than the robot, one sentence each."""
+    sweeps: tuple[str, ...]
+    """Lanes and cells that the leaves of doors sweep, and doors without a place to wait, one sentence each."""
     notes: tuple[str, ...]
     """Omissions and assumptions of the loader and the roadmap, one sentence each."""
 
@@ -81,6 +84,7 @@ def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
             *_duplicates(world),  # last, because maps with several graphs have many
         ),
         narrow=tuple(_narrow(world, 2 * radius)),
+        sweeps=tuple(check_door_sweeps(world, roadmap, radius)),
         notes=(*world.notes, *roadmap.notes),
     )
 

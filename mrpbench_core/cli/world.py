@@ -152,7 +152,12 @@ def _print(facts: "WorldFacts") -> None:
         ),
     ]
     print_table(["fact", "value"], rows, facts.name)
-    for title, sentences in (("faults", facts.faults), ("narrow passages", facts.narrow), ("notes", facts.notes)):
+    for title, sentences in (
+        ("faults", facts.faults),
+        ("narrow passages", facts.narrow),
+        ("doors", facts.sweeps),
+        ("notes", facts.notes),
+    ):
         if sentences:
             print(f"{title}:")
             for sentence in sentences[:SHOWN]:
