@@ -64,10 +64,49 @@ TEST("a robot at its goal finishes later, or for good") {
   CHECK(target);
 }
 
+namespace {
+
+/// Two robots that drive side by side through a resource of both lanes, which takes 3 ticks to be ready again.
+Instance gate() {
+  Roadmap road = grid(5, 2);
+  std::vector<int> elements{2, 7};
+  for (int edge = 0; edge < road.edge_count(); ++edge) {
+    for (const int vertex : {2, 7}) {
+      if (road.tail(edge) == vertex || road.head(edge) == vertex) elements.push_back(10 + edge);
+    }
+  }
+  return Instance(std::move(road), {robot(0, 4), robot(5, 9)}, {}, {}, {{1, 3, elements}});
+}
+
+}  // namespace
+
+TEST("of two robots that use a resource, one enters it once the other could have left it") {
+  const Root root(gate());
+  CHECK(root.conflicts.size() == 1);
+  const Conflict& conflict = root.conflicts[0];
+  CHECK(conflict.kind == Conflict::Kind::precedence);
+  CHECK(conflict.cardinality == Conflict::Cardinality::both);
+  for (int robot = 0; robot < 2; ++robot) {
+    // The other one comes out at tick 3, and the resource is in use until the half-tick before tick 6.
+    CHECK((conflict.branch[robot][0] == Constraint{robot, 0, {0, 11}, Constraint::Kind::resource}));
+  }
+}
+
+TEST("a robot that is under way may have left a resource before, so that no order is decided on") {
+  Instance it = gate();
+  std::vector<Robot> robots = it.robots();
+  robots[0].committed = {{edge_between(it.roadmap(), 0, 1), 0, 1}};
+  const Root root(Instance(it.roadmap(), robots, {}, {}, it.resources()));
+  CHECK(!root.conflicts.empty());
+  for (const Conflict& conflict : root.conflicts) CHECK(conflict.kind == Conflict::Kind::standard);
+}
+
 TEST("switched off, conflicts are resolved by the standard constraints") {
-  const CbsOptions off{.target = false, .corridor = false, .rectangle = false};
+  const CbsOptions off{.target = false, .corridor = false, .rectangle = false, .precedence = false};
   const Root root(instance(rooms(4, 1), {robot(1, 6), robot(5, 2)}), off);
   for (const Conflict& conflict : root.conflicts) CHECK(conflict.kind == Conflict::Kind::standard);
+  const Root other(gate(), off);
+  for (const Conflict& conflict : other.conflicts) CHECK(conflict.kind == Conflict::Kind::standard);
 }
 
 TEST("pairs of robots say what a node still costs, or that it has no solution") {

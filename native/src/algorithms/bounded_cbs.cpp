@@ -25,7 +25,15 @@ class BoundedSearch final : public LowLevel {
     if (options_.flex) bound = {options_.w, others.least, others.cost};
     state.load(robot, goal, context_.table);
     context_.table.add(more);
-    return search_.search(context_.table, context_.distance_to_goal(robot, goal), present, bound, known, path);
+    DistanceTable& distance = context_.distance_to_goal(robot, goal);
+    if (!context_.soft_intervals) {
+      return search_.search(context_.table, distance, present, bound, known, path);
+    }
+    const Tick least = context_.intervals.least_cost(context_.table, distance);
+    if (least == kForever) return kForever;
+    const Tick latest = std::min(std::max(bound(least), least), context_.table.latest_finish());
+    const bool found = context_.soft_intervals->search(context_.table, distance, &present, latest, path);
+    return found ? std::max(known, least) : kForever;
   }
   bool is_optimal() const override { return false; }
   /// Where moves take many ticks the paths must not cost more: dear detours would use the bound up long before the last

@@ -34,6 +34,9 @@ struct CbsOptions {
   bool target = true;
   bool corridor = true;
   bool rectangle = true;
+  /// Which robot uses a resource first: Carlier and Pinson, "An algorithm for solving the job-shop problem", Management
+  /// Science 1989.
+  bool precedence = true;
   /// Expansions after which the search for a pair of robots in `heuristic` ends with the bound it has.
   std::int64_t pair_expansions = 64;
 
@@ -64,7 +67,10 @@ struct CbsOptions {
         {"rectangle", &CbsOptions::rectangle,
          "Delays one of two robots that cross the same region until the other has left it; needs unit durations and "
          "no footprints",
-         "generalised rectangles; Li et al., AIJ 2021"}};
+         "generalised rectangles; Li et al., AIJ 2021"},
+        {"precedence", &CbsOptions::precedence,
+         "Delays one of two robots that use a door, lift or mutex until the other could have left it",
+         "disjunctive arcs; Carlier and Pinson, Management Science 1989"}};
   }
   static Option<CbsOptions> heuristic_choice() {
     return {"heuristic", &CbsOptions::heuristic,

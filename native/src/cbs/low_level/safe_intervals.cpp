@@ -28,6 +28,19 @@ Tick SafeIntervals::earliest(const ConstraintTable& table, DistanceTable& distan
              [&](const State& at, bool) { return at.vertex == vertex ? at.arrival : kForever; });
 }
 
+Tick SafeIntervals::earliest_exit(const ConstraintTable& table, DistanceTable& distance, std::span<const char> inside) {
+  return run(table, distance, kForever, [&](const State& at, bool) {
+    Tick soonest = kForever;
+    for (const Move& move : space_.moves(table.robot(), at.vertex)) {
+      const bool on_edge = inside[space_.vertex_count() + move.edge];
+      if (on_edge ? inside[move.head] : !inside[at.vertex]) continue;
+      const Tick depart = table.next_entry(at.vertex, move.edge, at.arrival);
+      if (depart <= at.last) soonest = std::min(soonest, depart + (on_edge ? move.duration : 0));
+    }
+    return soonest;
+  });
+}
+
 /// `cost_at(state, moved)`: what it costs to end there, kForever if that is not possible.
 template <class CostAt>
 Tick SafeIntervals::run(const ConstraintTable& table, DistanceTable& distance, Tick latest, CostAt cost_at) {

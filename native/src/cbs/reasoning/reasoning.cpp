@@ -7,7 +7,10 @@ void Reasoning::examine(const NodeState& state, Conflict& conflict) {
   conflict.examined = true;
   if (context_.options.target && examine_target(state, conflict)) return;
   rate(state, conflict);
-  if (conflict.resource >= 0) return;
+  if (conflict.resource >= 0) {
+    if (context_.options.precedence) examine_precedence(state, conflict);
+    return;
+  }
   if (context_.options.prioritize) examine_junction(state, conflict);
   if (context_.options.corridor && examine_corridor(state, conflict)) return;
   if (context_.options.rectangle && context_.space.classical()) examine_rectangle(state, conflict);
@@ -111,6 +114,13 @@ void Reasoning::examine_rectangle(const NodeState& state, Conflict& conflict) {
     return;
   }
   use(conflict, Conflict::Kind::rectangle, rectangles_.one_branch(), rectangles_.other_branch());
+  rate(state, conflict);
+}
+
+void Reasoning::examine_precedence(const NodeState& state, Conflict& conflict) {
+  const auto branches = precedence_.resolve(state, conflict);
+  if (!branches) return;
+  use(conflict, Conflict::Kind::precedence, std::span(&(*branches)[0], 1), std::span(&(*branches)[1], 1));
   rate(state, conflict);
 }
 

@@ -25,7 +25,7 @@ from mrpbench_core.testing.oracles.judge import AMPLE, BUDGET, ask, compare_with
 from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
 BOUNDED = (Ecbs(w=1.0), Ecbs(w=1.5), Eecbs(w=1.0), Eecbs(w=1.05, flex=True), Eecbs(w=1.5, target=False))
-TECHNIQUES = ("heuristic", "target", "corridor", "rectangle", "prioritize", "bypass")
+TECHNIQUES = ("heuristic", "target", "corridor", "rectangle", "precedence", "prioritize", "bypass")
 ABLATIONS = (Cbs(), Cbs(**dict.fromkeys(TECHNIQUES, False)), *(Cbs(**{name: False}) for name in TECHNIQUES))
 ANYTIME = (Pibt(), Lacam(), Lns(), Lns(initial="repair"), Lns(objective="makespan", neighbourhood=2))
 PLANNERS = (*ABLATIONS, *BOUNDED, Pbs(), Prioritized(restarts=20), *ANYTIME)

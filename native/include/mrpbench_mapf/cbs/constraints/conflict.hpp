@@ -11,7 +11,7 @@ namespace mrpbench::mapf {
 
 struct Conflict {
   /// By what reasoning the branches were made.
-  enum class Kind : std::int8_t { standard, rectangle, corridor, target };
+  enum class Kind : std::int8_t { standard, rectangle, corridor, precedence, target };
   /// How many of the branches cost more than the node: none, one, both (Boyarski et al., IJCAI 2015).
   enum class Cardinality : std::int8_t { none, semi, both };
 

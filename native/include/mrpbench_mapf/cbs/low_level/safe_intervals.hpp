@@ -18,6 +18,9 @@ class SafeIntervals {
   Tick least_cost(const ConstraintTable& table, DistanceTable& distance);
   /// The earliest tick at which it can be at `vertex`, to which `distance` leads; kForever if not by tick `latest`.
   Tick earliest(const ConstraintTable& table, DistanceTable& distance, int vertex, Tick latest);
+  /// The earliest tick at which it can leave the elements that are `inside` (by element) for one that is not;
+  /// kForever if it cannot. `distance` leads to the vertices from which such moves start.
+  Tick earliest_exit(const ConstraintTable& table, DistanceTable& distance, std::span<const char> inside);
 
  private:
   struct State {

@@ -5,6 +5,7 @@
 #include "mrpbench_mapf/cbs/constraints/node_state.hpp"
 #include "mrpbench_mapf/cbs/low_level/mdd_cache.hpp"
 #include "mrpbench_mapf/cbs/low_level/safe_intervals.hpp"
+#include "mrpbench_mapf/cbs/low_level/soft_intervals.hpp"
 #include "mrpbench_mapf/cbs/low_level/space_time_astar.hpp"
 #include "mrpbench_mapf/cbs/options.hpp"
 
@@ -35,6 +36,8 @@ class SearchContext {
   DistanceTables distances;
   SafeIntervals intervals;
   SpaceTimeAstar astar;
+  /// Only if there are resources, for which robots wait long: then instead of searches tick by tick.
+  std::optional<SoftIntervals> soft_intervals;
   ConstraintTable table, scratch;
 
  private:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mrpbench_mapf/cbs/reasoning/corridor.hpp"
+#include "mrpbench_mapf/cbs/reasoning/precedence.hpp"
 #include "mrpbench_mapf/cbs/reasoning/rectangle.hpp"
 #include "mrpbench_mapf/cbs/reasoning/target.hpp"
 
@@ -11,7 +12,11 @@ class Reasoning {
  public:
   /// The constraints of branches are kept in `constraints`.
   Reasoning(SearchContext& context, Arena<Constraint>& constraints)
-      : context_(context), constraints_(constraints), corridors_(context), rectangles_(context.limits) {}
+      : context_(context),
+        constraints_(constraints),
+        corridors_(context),
+        rectangles_(context.limits),
+        precedence_(context) {}
 
   /// Fill in what `conflict` says about its resolution, unless that was done before.
   void examine(const NodeState& state, Conflict& conflict);
@@ -24,6 +29,7 @@ class Reasoning {
   bool examine_corridor(const NodeState& state, Conflict& conflict);
   bool examine_corridor_to(const NodeState& state, Conflict& conflict, int passing, int ending);
   void examine_rectangle(const NodeState& state, Conflict& conflict);
+  void examine_precedence(const NodeState& state, Conflict& conflict);
   void rate(const NodeState& state, Conflict& conflict);
   void use(Conflict& conflict, Conflict::Kind kind, std::span<const Constraint> one, std::span<const Constraint> other);
 
@@ -31,6 +37,7 @@ class Reasoning {
   Arena<Constraint>& constraints_;
   Corridors corridors_;
   Rectangles rectangles_;
+  Precedence precedence_;
 };
 
 }  // namespace mrpbench::mapf
