@@ -9,11 +9,14 @@ from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.checking.reachability import round_trips
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.model.worlds.doors import leaf_segments
+from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.testing.instances.buildings import MOST_DOORS, MOST_LIFTS, random_building
 from mrpbench_core.testing.instances.problems import problem_on
 
@@ -92,3 +95,37 @@ def test_robots_that_change_floors_get_plans(tmp_path, name, seed, robots):
     result = getattr(planners, planner)().plan(problem, BUDGET)
     assert result.status is PlanStatus.SOLVED
     assert check_plan(problem, result.plan).valid
+
+
+def twins(building):
+    """Tell whether two lifts stand side by side."""
+    at = [centre for centre, _ in building.lifts.values()]
+    return any(np.isclose(np.hypot(*np.subtract(one, other)), 1.8) for one in at for other in at)
+
+
+@pytest.mark.parametrize("side_by_side", [False, True], ids=["one lift", "two lifts side by side"])
+def test_robots_that_queue_at_lifts_change_floors_without_contact(tmp_path, side_by_side):
+    pytest.importorskip("mrpbench_planners_mapf")
+    lifts = 2 if side_by_side else 1
+    drawn = (random_building(np.random.default_rng(seed), floors=2, lifts=lifts, lanes=2) for seed in range(100))
+    building = next(building for building in drawn if twins(building) == side_by_side)
+    file = tmp_path / "drawn.building.yaml"
+    file.write_text(building.text)
+    up, down = (sorted(name for name in places if "west" in name) for places in building.places.values())
+    study = {
+        "world": {"plugin": "rmf", "file": str(file)},
+        "roadmap": "graph",
+        "scenario": {"plugin": "named", "starts": [*up[:2], down[0]], "goals": [*down[1:3], up[2]]},
+        "assigner": "identity",
+        "planner": "pbs",
+        "simulator": "kinematic",
+        "control_rate": "10 Hz",
+        "limits": {"execution": "15 min", "planning": "60 s"},
+        "metrics": ["execution"],
+    }
+    (point,) = load_study(study).runs
+    paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
+    record = execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
+    assert record["status"] == "succeeded", record.get("error")
+    assert record["metrics"]["execution.robot_contacts"] == 0
+    assert record["metrics"]["execution.wall_contacts"] == 0
