@@ -8,6 +8,7 @@ from mrpbench_core.cli.input.arguments import read_options
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
+from mrpbench_core.model.runs.status import RunStatus
 
 SHOWN = 20
 """Notes and robots that are printed."""
@@ -123,7 +124,8 @@ def _print(record: dict[str, Any], out: Path) -> None:
     for key, value in record["metrics"].items():
         reason = reasons.get(key) or reasons.get(key.partition(".")[0]) or ""
         rows.append([key, f"{value:.6g}" if isinstance(value, float) else value, "" if value is not None else reason])
-    print_table(["metric", "value", "reason for null"], rows)
+    partial = " (partial: the recording ends early)" * (record["status"] == RunStatus.UNKNOWN)
+    print_table(["metric", f"value{partial}", "reason for null"], rows)
     print(f"{record['status']}, scenario {record['scenario_id']}")
     sources: dict[str, list[str]] = {}
     for robot, source in record["analysis"]["sources"].items():

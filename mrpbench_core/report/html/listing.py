@@ -49,6 +49,7 @@ def packed_runs(report: Report, replays: Mapping[str, str]) -> str:
         "replays": {run_id[:SHORT]: address for run_id, address in replays.items()},
     }
     data |= {"tones": [tone(status) for status in statuses.known]}
+    data |= {"partial": [status == RunStatus.UNKNOWN for status in statuses.known]}
     data |= {"statuses": list(statuses.known), "messages": list(messages.known)}
     text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
     return base64.b64encode(zlib.compress(text.encode(), 7)).decode()

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from mrpbench_core.api.metric import Column
+from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.report.reading.columns import Columns
 
 STAGES = (
@@ -35,6 +36,7 @@ def facts_of(record: Mapping[str, Any], columns: Columns, planner: str) -> dict[
         "run_id": record["run_id"],
         "status": record["status"],
         "error": record.get("error"),
+        "partial": record["status"] == RunStatus.UNKNOWN,
         "planner": planner,
         "choices": [*named.items(), *((key, str(record.get(key, ""))) for key in ("seed", "repeat"))],
         "metrics": [{"name": name, "value": value, **_facts(columns.get(name))} for name, value in numbers_of(record)],

@@ -20,6 +20,7 @@ def study(written, record, tmp_path_factory):
                 took = 0.01 * (seed + 1) * (1 + more)
                 records.append(record(planner, seed, status, repeat=repeat, cost=cost, took=took, **extra))
     records.append(record("cbs", 77, "scenario_infeasible", scenario="none"))
+    records.append(record("cbs", 79, "unknown", scenario="cut short", cost=5.0))
     return written(records, tmp_path_factory.mktemp("study"))
 
 

@@ -58,6 +58,7 @@ def test_the_data_are_the_runs(page, scripts, chunk, unpack):
     data = json.loads(found["run"][1])
     assert data["facts"]["run_id"] == "0123456789abcdef"
     assert data["facts"]["status"] == "goals_missed"
+    assert not data["facts"]["partial"]
     assert data["facts"]["planner"] == "eecbs w=1.2"
     metrics = {metric["name"]: metric for metric in data["facts"]["metrics"]}
     assert metrics["execution.duration_s"] == {

@@ -27,7 +27,7 @@ function list(runs) {
     { name: "seed", number: true, of: (i) => runs.seed[i] },
     { name: "repeat", number: true, of: (i) => runs.repeat[i] },
     { name: "status", of: (i) => runs.statuses[runs.status[i]] },
-    ...runs.columns.map((name, column) => ({ name, number: true, of: (i) => runs.values[column][i] })),
+    ...runs.columns.map((name, column) => ({ name, number: true, measured: true, of: (i) => runs.values[column][i] })),
     { name: "message", of: (i) => runs.messages[runs.message[i]] },
   ];
   const state = { sort: -1, down: false, shown: PART, found: [], open: -1 };
@@ -98,10 +98,10 @@ function list(runs) {
       row.className = "entry";
       row.tabIndex = 0;
       row.dataset.run = i;
-      for (const { name, number, of } of columns) {
+      for (const { name, number, measured, of } of columns) {
         const value = of(i);
         const kind = number ? "number" : name === "status" ? runs.tones[runs.status[i]] : name === "message" ? "message" : "words";
-        cell(row, value === null ? "–" : name === "status" ? value.replaceAll("_", " ") : String(value), kind);
+        cell(row, value === null ? "–" : name === "status" ? value.replaceAll("_", " ") : `${value}${measured && runs.partial[runs.status[i]] ? " (partial)" : ""}`, kind);
       }
       if (i === state.open) detail(body, i);
     }

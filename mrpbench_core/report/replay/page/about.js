@@ -3,6 +3,7 @@
 import { clockText } from "replay/clock.js";
 import { List, make } from "replay/list.js";
 
+const PARTIAL = "partial, because the recording ends before the run";
 const STAGES = ["execution", "planning"]; // the order of the key figures
 
 export function fillHeader(run) {
@@ -21,8 +22,8 @@ export function fillFigures(run) {
   const chosen = STAGES.flatMap((stage) => metrics.filter(({ primary }) => primary === stage));
   document.getElementById("figures").append(
     ...chosen.map((metric) => {
-      const figure = make("div", "figure", make("b", "", ...withUnit(metric)), make("span", "", label(metric)));
-      figure.title = `${metric.name}: ${metric.text}`;
+      const figure = make("div", "figure", make("b", "", ...withUnit(metric)), make("span", "", `${label(metric)}${run.facts.partial ? " (partial)" : ""}`));
+      figure.title = `${metric.name}: ${metric.text}${run.facts.partial ? `; ${PARTIAL}` : ""}`;
       return figure;
     }),
   );
@@ -32,6 +33,7 @@ export function fillAbout(run, thinning) {
   const { facts } = run;
   const page = document.getElementById("about");
   if (facts.error) page.append(make("p", "error", `${facts.error.stage}: ${facts.error.message}`));
+  if (facts.partial) page.append(make("p", "note", `The values of this run are ${PARTIAL}.`));
   page.append(section("choices", facts.choices.map(([name, value]) => [name, [value]]), true));
   for (const [title, metrics] of groups(facts.metrics)) {
     const rows = metrics.map((metric) => [metric.name.slice(title.length + 1).replaceAll("_", " "), withUnit(metric), metric.text]);

@@ -145,7 +145,10 @@ def test_a_bag_cut_short_after_all_arrived_is_a_success(analyze, foreign):
 
 
 def test_runs_of_unknown_end_leave_the_success_rate(analyze, foreign, capsys):
-    analyze(passing(foreign(), seconds=12).close())
+    bag = passing(foreign(), seconds=12).close()
+    analyze(bag)
+    assert main(["analyze", str(bag), "--world", "free.map", "--scenario", "two.yaml", "--out", "measured"]) == 0
+    assert "partial: the recording ends early" in capsys.readouterr().out
     assert main(["report", "measured"]) == 0
     table = capsys.readouterr().out
     assert "0/0" in table
