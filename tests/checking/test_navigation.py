@@ -11,7 +11,7 @@ def world_of(points, *pairs) -> World:
     )
 
 
-def test_an_edge_counts_once_whatever_its_direction_and_graph():
+def test_an_edge_counts_once_in_any_direction_and_graph():
     world = world_of([(0, 0), (1, 0), (0, 0), (1, 0), (2, 0)], (0, 1), (1, 0), (2, 3), (3, 4))
     assert unique_edges(world) == [(2, 3), (3, 4)]
     assert duplicates(world) == [(0, 2), (1, 3)]

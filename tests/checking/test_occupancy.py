@@ -70,7 +70,7 @@ def test_the_frame_of_the_raster_can_be_given():
     assert rasterise(Level(name=""), 0.1).blocked.tolist() == [[False]]
 
 
-def test_a_level_that_is_a_raster_stays_what_it_is():
+def test_the_raster_of_a_level_stays_unchanged():
     own = Occupancy(blocked=np.eye(4, dtype=bool), cell_size=0.5, origin=(1, 2))
     level = Level(name="", occupancy=own)
     assert rasterise(level, 0.5) is own
@@ -89,7 +89,7 @@ def test_a_raster_too_large_is_refused():
         rasterise(Level(name="", walls=[[0, 0, 5e5, 0]]), 0.005)
 
 
-def test_a_furnished_flat_covers_what_it_covers():
+def test_the_blocked_area_of_a_furnished_flat_stays_the_same():
     level = Household().load().levels[0]
     area = rasterise(level, 0.02).blocked.mean() * 12.4 * 9.2
     assert area == pytest.approx(rasterise(level, 0.05).blocked.mean() * 12.4 * 9.2, rel=0.03)

@@ -22,11 +22,11 @@ def test_a_gap_in_a_wall_is_a_passage_of_its_width(width, angle):
 
 
 @pytest.mark.parametrize("width", [0.0, 0.08, 0.26, 0.7])
-def test_a_wide_gap_and_a_crack_are_none(width):
+def test_a_wide_gap_and_a_crack_are_not_passages(width):
     assert narrow_passages(walls_with_gap(width), 0.25) == []
 
 
-def test_a_gap_that_leads_nowhere_is_none():
+def test_a_gap_that_leads_nowhere_is_not_a_passage():
     wall = [[0, 0, 8, 0]]
     shelf = np.array([[3, 0.15], [5, 0.15], [5, 0.6], [3, 0.6]])
     dead_end = Level(name="", walls=[*wall, [2.9, 0, 2.9, 3]], obstacles=(Obstacle(name="", polygon=shelf),))
@@ -47,7 +47,7 @@ def test_a_wider_robot_finds_the_doors_of_a_flat_too_narrow():
         assert [p for p in narrow_passages(level, 0.8) if abs(p.x - x) < 0.06 and abs(p.y - y) < 0.06], (x, y)
 
 
-def test_roomy_worlds_have_none():
+def test_wide_worlds_have_no_narrow_passages():
     for source in (Office(), Warehouse()):
         assert narrow_passages(source.load().levels[0], 0.25) == []
     assert narrow_passages(Level(name=""), 0.25) == []

@@ -91,12 +91,12 @@ def test_damage_is_named(channels, damage, fault):
     assert fault in check_recording(channels, FLEET)
 
 
-def test_a_push_within_reason_is_no_jump(channels):
+def test_a_short_push_is_not_a_jump(channels):
     channels["truth"][2:, 1, 1] += 0.7
     assert check_recording(channels, FLEET) == []
 
 
-def test_not_even_a_new_plan_takes_back_what_was_released(channels):
+def test_a_new_plan_does_not_take_back_released_segments(channels):
     channels["released"][3:, 0] = 1
     channels["reached"][3:, 0] = 1
     channels["event_kind"] = np.array(["replan"])

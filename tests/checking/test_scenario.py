@@ -50,7 +50,7 @@ def test_a_shared_goal_is_named_unless_robots_disappear_there(roadmap):
     assert check_scenario(attrs.evolve(posed, rules=Rules(at_goal="disappear"))) == []
 
 
-def test_passing_through_anothers_goal_and_choosing_among_goals_is_no_fault(roadmap):
+def test_passing_anothers_goal_and_choosing_among_goals_are_allowed(roadmap):
     assert check_scenario(problem(roadmap, [0, 1], [[[1], [0]], [[1]]])) == []
     assert check_scenario(problem(roadmap, [0, 1], [[[0, 1]], [[0, 1]]])) == []
 
@@ -107,7 +107,7 @@ def test_a_robot_without_goals_is_feasible_anywhere(roadmap):
     assert check_scenario(problem(roadmap, [3, 0], [[], [[2]]])) == []
 
 
-def test_what_no_assignment_can_mend_is_named_from_travel_times():
+def test_travel_times_name_goals_that_no_assignment_can_reach():
     way, no = 1.0, np.inf
     square = np.array([[way, no], [no, no]])
     assert check_travel(square) == [

@@ -73,7 +73,7 @@ def test_a_defect_is_one_line_and_says_where_the_rest_is(mrpbench, monkeypatch, 
     assert "Traceback" in mrpbench("info")[2]
 
 
-def test_a_closed_pipe_is_no_error(tmp_path):
+def test_a_closed_pipe_is_not_an_error(tmp_path):
     command = f"{sys.executable} -m mrpbench_core.cli.main schema | head -1; echo ${{PIPESTATUS[0]}}"
     done = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
     assert (done.stdout, done.stderr) == ("{\n0\n", "")

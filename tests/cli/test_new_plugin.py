@@ -71,7 +71,7 @@ def test_an_uninstalled_plugin_is_gone(mrpbench, command, tmp_path):
 
 
 @pytest.mark.parametrize("kind", kinds())
-def test_what_is_written_is_clean(kind, mrpbench, tmp_path):
+def test_written_plugins_pass_the_linter(kind, mrpbench, tmp_path):
     mrpbench("new-plugin", kind, "neat", "--folder", "here/neat")
     folder = tmp_path / "here/neat"
     package = f"mrpbench_{kind}s_neat"

@@ -50,7 +50,7 @@ def test_components_in_an_option_are_named_as_in_a_configuration(mrpbench):
 
 
 @pytest.mark.parametrize("words", [["show", "hook:ros2"], ["show", "hooks:ros2", "--json"]])
-def test_a_hook_is_shown_with_what_it_observes(mrpbench, words):
+def test_a_hook_is_shown_with_the_events_that_it_observes(mrpbench, words):
     code, out, _ = mrpbench("plugins", *words)
     assert code == 0
     for text in ("mrpbench-bridges-ros2", "MRPBENCH_ROS2", "mrpbench_stepped"):

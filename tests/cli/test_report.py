@@ -45,7 +45,7 @@ def test_tables_have_counts_intervals_and_rules(study):
         assert words in output
 
 
-def test_the_files_say_what_the_tables_say(study):
+def test_the_files_have_the_numbers_of_the_tables(study):
     code, output, _ = study("report", "results/tiny", "--json", "--csv", "a.csv", "--pairs-csv", "p.csv")
     assert code == 0
     told = json.loads(output)

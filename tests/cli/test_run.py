@@ -93,7 +93,7 @@ def test_a_frozen_scenario_is_the_one_the_study_draws(mrpbench):
     assert again["run_id"] != record["run_id"]
 
 
-def test_what_init_writes_is_valid_and_is_not_overwritten(mrpbench):
+def test_the_file_of_init_is_valid_and_is_not_overwritten(mrpbench):
     assert mrpbench("init", "mine")[0] == 0
     code, output, errors = mrpbench("run", "mine.yaml", "--dry-run", "--json")
     assert (code, errors) == (0, "")

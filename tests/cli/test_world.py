@@ -79,7 +79,7 @@ def test_the_roadmap_becomes_a_moving_ai_map(invoke, tmp_path, capsys):
     assert again.read_text() == file.read_text()
 
 
-def test_what_a_map_cannot_say_is_said(invoke, tmp_path, capsys):
+def test_parts_that_a_map_cannot_express_are_named(invoke, tmp_path, capsys):
     parser = argparse.ArgumentParser()
     command.configure(parser)
     command.run(parser.parse_args(["household", "--cell-size", "0.4", "--roadmap", "grid",

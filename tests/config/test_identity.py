@@ -122,7 +122,7 @@ def test_a_planner_that_assigns_makes_the_assigner_irrelevant():
     assert identity("task_assigning", "sum") != identity("task_assigning", "bottleneck")
 
 
-def test_what_only_an_execution_needs_may_be_left_out_without_one():
+def test_options_of_the_execution_may_be_left_out_without_one():
     planning = BASE | {"simulator": "none"}
     assert run(planning).run_id == run(planning | {"controller": "pure_pursuit", "dispatcher": "none"}).run_id
     assert run(planning).run_id != run(planning | {"controller": "dwb"}).run_id

@@ -44,7 +44,7 @@ def test_a_bare_word_and_a_missing_block_can_be_patched():
     ]
 
 
-def test_blocks_are_put_in_place_before_they_are_patched_whatever_the_order():
+def test_blocks_are_set_before_their_options_in_any_order():
     points = expand({"planner.w": [1, 2], "planner": [{"plugin": "a", "w": 9}, "b"]})
     assert [point["planner"] for point in points] == [
         {"plugin": "a", "w": 1},
@@ -138,7 +138,7 @@ def test_ranges_hold_both_ends(text, numbers):
 
 
 @pytest.mark.parametrize("text", ["0...3", "0..", "..3", "0.0..3", "a..b", 3, None, "0..3 "])
-def test_anything_else_is_no_range(text):
+def test_other_texts_are_not_ranges(text):
     assert integers(text) is None
 
 

@@ -40,7 +40,7 @@ def validator(toy):
         "matrix: {seed: [1], include: {seed: 2}}\n",
     ],
 )
-def test_what_is_read_is_valid(validator, text):
+def test_accepted_configurations_are_valid(validator, text):
     validator.validate(loads(SMALL + text).data)
     assert load_study(loads(SMALL + text).data).runs
 
@@ -68,7 +68,7 @@ def test_what_is_read_is_valid(validator, text):
         "matrix: {exclude: [3]}\n",
     ],
 )
-def test_what_is_refused_is_invalid(validator, text):
+def test_refused_configurations_are_invalid(validator, text):
     data = loads(SMALL + text).data
     with pytest.raises(InputErrors):
         load_study(data)
@@ -94,5 +94,5 @@ def test_the_installed_plugins_have_a_schema():
     jsonschema.Draft202012Validator.check_schema(schema())
 
 
-def test_what_is_required_has_no_default():
+def test_required_options_have_no_default():
     assert "default" not in schema()["properties"]["world"]

@@ -81,7 +81,7 @@ def test_the_mistakes_of_several_files_are_reported_together(toy, tmp_path):
 
 
 @pytest.mark.parametrize("text", ["[]", "3", "planner", "null"])
-def test_what_is_no_block_is_refused(errors, text):
+def test_a_value_that_is_not_a_block_is_refused(errors, text):
     (line,) = errors(text)
     assert line.startswith("some.yaml:1:1: expected a block of settings")
 

@@ -48,7 +48,7 @@ def test_what_keeps_the_contract_goes_through_as_a_copy():
         ({"contacts": [[1, 1]]}, "contacts"),
     ],
 )
-def test_states_that_are_none_are_refused(changes, message):
+def test_wrong_states_are_refused(changes, message):
     with pytest.raises(BrokenContractError, match=f"the simulator returned {message}"):
         checks().state(attrs.evolve(STATE, **changes))
 
@@ -56,7 +56,7 @@ def test_states_that_are_none_are_refused(changes, message):
 @pytest.mark.parametrize(
     "changes", [{"robot": [2]}, {"robot": [0, 1]}, {"ranges": [1.0]}, {"ranges": [[np.nan]]}, {"ranges": [[-1.0]]}]
 )
-def test_scans_that_are_none_are_refused(changes):
+def test_wrong_scans_are_refused(changes):
     with pytest.raises(BrokenContractError, match="the simulator returned"):
         checks().scans((attrs.evolve(SCAN, **changes),))
 
@@ -64,18 +64,18 @@ def test_scans_that_are_none_are_refused(changes):
 @pytest.mark.parametrize(
     "changes", [{"pose": np.zeros((3, 3))}, {"pose": np.full((2, 3), np.nan)}, {"covariance": np.zeros((2, 3))}]
 )
-def test_estimates_that_are_none_are_refused(changes):
+def test_wrong_estimates_are_refused(changes):
     with pytest.raises(BrokenContractError, match="the localizer returned"):
         checks().estimate(attrs.evolve(ESTIMATE, **changes))
 
 
 @pytest.mark.parametrize(("released", "message"), [([2], "shape"), ([3, 1], "more segments"), ([-1, 0], "less than")])
-def test_orders_that_are_none_are_refused(released, message):
+def test_wrong_orders_are_refused(released, message):
     with pytest.raises(BrokenContractError, match=f"the dispatcher returned .*{message}"):
         checks().orders(Orders(released=released))
 
 
-def test_what_was_released_is_not_taken_back():
+def test_released_segments_are_not_taken_back():
     checked = checks()
     checked.orders(ORDERS)
     with pytest.raises(BrokenContractError, match="for robot 0: released less than before"):
@@ -93,7 +93,7 @@ def test_what_was_released_is_not_taken_back():
         ({"mode": [0, 5]}, "for robot 1: a mode that does not exist"),
     ],
 )
-def test_motions_that_are_none_are_refused(changes, message):
+def test_wrong_motions_are_refused(changes, message):
     checked = checks()
     checked.orders(ORDERS)
     with pytest.raises(BrokenContractError, match=f"the navigator returned {message}"):
@@ -123,7 +123,7 @@ def test_other_things_than_the_contract_names_are_refused():
         ([[0, 0, 0], [1, 0, np.nan]], [np.inf, 1, 0], "a goal of 'dock' that is nowhere"),
     ],
 )
-def test_scenarios_that_are_none_are_refused(start, goal, message):
+def test_wrong_scenarios_are_refused(start, goal, message):
     scenario = Scenario(start=start, start_level=[0] * len(start), tasks=(Task(goals=[goal], name="dock"),))
     with pytest.raises(BrokenContractError, match=f"the scenario returned {message}"):
         check_drawn(scenario, 2)

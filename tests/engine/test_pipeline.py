@@ -137,7 +137,7 @@ def test_without_a_simulator_the_run_ends_after_planning(tmp_path):
     assert not (tmp_path / "run.zip").exists()
 
 
-def test_a_planner_is_not_given_what_it_does_not_support(tmp_path):
+def test_a_planner_does_not_get_problems_that_it_does_not_support(tmp_path):
     record, _ = execute_first(tmp_path, roadmap="graph")
     assert record["status"] == "skipped"
     assert record["error"]["message"] == "does not support edge_durations, footprints"

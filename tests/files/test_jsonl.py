@@ -8,7 +8,7 @@ from mrpbench_core.files import jsonl
 from mrpbench_core.files.errors import InputError
 
 
-def test_what_is_written_is_read(tmp_path):
+def test_written_lines_are_read_back(tmp_path):
     path = tmp_path / "a.jsonl"
     with jsonl.Writer(path, exclusive=True) as writer:
         writer.write({"a": 1, "b": [None, "ü\n\u2028"]})

@@ -42,7 +42,7 @@ def test_a_node_is_found_in_its_namespace(file):
     assert nav2_block(file, "local_costmap").take("width", int) == 3
 
 
-def test_what_is_missing_is_none(file):
+def test_missing_parameters_are_none(file):
     assert nav2_block(file, "amcl") is None
     assert nav2_block(file, "controller_server", "GoalChecker") is None
 

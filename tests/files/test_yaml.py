@@ -203,7 +203,7 @@ def test_json_means_the_same_as_yaml(value, indent):
 
 @settings(deadline=None, max_examples=80)
 @given(trees(st.text("abc :-#'\"\n", max_size=12)))
-def test_what_pyyaml_writes_is_read_back(value):
+def test_output_of_pyyaml_is_read_back(value):
     assert yaml.loads(pyyaml.safe_dump(value)).data == value
 
 

@@ -70,7 +70,7 @@ def test_one_that_raises_is_logged_once_and_disabled_until_the_next_run(log):
     assert calls == [0, 9]
 
 
-def test_what_keeps_a_plugin_from_working_is_one_warning(log):
+def test_the_fault_of_a_plugin_is_one_warning(log):
     def broken():
         raise ValueError("oh")
 
@@ -120,7 +120,7 @@ def test_hooks_cannot_change_a_record():
         ({}, "implements no hook"),
     ],
 )
-def test_what_is_no_hook_is_refused_with_a_clear_log(log, functions, what):
+def test_a_class_that_is_not_a_hook_is_refused_with_a_clear_log(log, functions, what):
     hooks = Hooks()
     hooks.register(plugin(**functions), "odd")
     assert hooks.disabled == ("odd",)

@@ -248,5 +248,5 @@ def test_listing_imports_neither_plugins_nor_numpy():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
-def test_the_base_component_is_no_kind():
+def test_the_base_component_is_not_a_kind():
     assert not hasattr(Component, "group")

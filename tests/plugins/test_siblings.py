@@ -71,7 +71,7 @@ def test_an_edit_of_anything_it_imports_is_another_plugin(folder, name):
     assert hashed(folder) != before
 
 
-def test_an_edit_of_what_it_does_not_import_is_none(folder):
+def test_an_edit_of_a_module_that_it_does_not_import_changes_nothing(folder):
     before = hashed(folder)
     (folder / "unused.py").write_text("raise KeyboardInterrupt\n")
     assert hashed(folder) == before
@@ -83,7 +83,7 @@ def test_an_edited_module_is_read_anew(folder):
     assert status(folder) == "unsolvable"
 
 
-def test_what_it_imports_travels_with_it(folder):
+def test_modules_that_it_imports_are_sent_with_it(folder):
     (folder / "a.yaml").write_text("{world: office, scenario: {robots: 1}, planner: ./mine.py:Mine, simulator: none}")
     (point,) = load_study(folder / "a.yaml").runs
     texts = sources(point.config, folder)
@@ -94,7 +94,7 @@ def test_what_it_imports_travels_with_it(folder):
     assert status(folder, texts) == "gave_up"
 
 
-def test_two_plugins_share_what_they_import(folder):
+def test_two_plugins_share_the_modules_that_they_import(folder):
     (folder / "other.py").write_text("from aid import later\n" + PLANNER)
     module = sys.modules[Registry(Planner).get("./other.py:Mine", folder).__module__]
     assert module.later is sys.modules[type(planner(folder)).__module__].later

@@ -36,7 +36,7 @@ def test_the_same_results_do_not_differ(two):
     assert (entry.found.difference.n, entry.found.ties, entry.verdict, found.differing) == (8, 8, "not shown", {})
 
 
-def test_what_got_worse_is_said_by_the_columns_direction(two):
+def test_the_direction_of_a_column_decides_what_is_worse(two):
     found = two({"cbs": costs(5.0)}, {"cbs": costs(5.0, step=0.1)})
     assert of(found)[""].verdict == "worse"
     assert of(two({"cbs": costs(5.0, step=0.1)}, {"cbs": costs(5.0)}))[""].verdict == "better"
@@ -49,7 +49,7 @@ def test_configurations_are_matched_and_the_others_named(two):
     assert found.unmatched == (("astar",), ("ecbs",))
 
 
-def test_what_differs_between_the_folders_is_what_is_compared(two):
+def test_options_that_differ_between_the_folders_are_compared(two):
     found = two({"cbs": costs(5.0)}, {"ecbs": costs(5.0, step=-0.1)})
     assert of(found)[""].verdict == "better"
     assert found.differing == {"planner.plugin": ("cbs", "ecbs")}

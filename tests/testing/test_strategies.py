@@ -33,7 +33,7 @@ def test_fleets_and_scenarios_are_whole(fleet, scenario):
     assert scenario.id == scenario.id
 
 
-def test_what_matters_is_drawn():
+def test_all_features_are_drawn():
     search = settings(max_examples=2000, database=None, phases=[Phase.generate])  # any will do, not only the least
     walls = find(strategies.grids(), lambda grid: len(grid.position) < np.prod(grid.grid.shape), settings=search)
     assert len(walls.position)

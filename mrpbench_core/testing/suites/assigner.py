@@ -42,7 +42,7 @@ class AssignerConformance(ComponentConformance):
             one, other = assigned(self.make(), problem), assigned(self.make(), problem)
             require((one.task == other.task).all(), f"{name}: returns another assignment the second time")
 
-    def test_avoids_what_is_forbidden(self) -> None:
+    def test_avoids_forbidden_pairs(self) -> None:
         assigner = self.reading_costs()
         for name, problem in forbidding():
             faults = check_assignment(problem, assigned(assigner, problem))

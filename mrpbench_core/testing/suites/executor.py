@@ -31,7 +31,7 @@ class ExecutorConformance(ComponentConformance):
             found = [future.result(timeout=60) for future in [executor.submit(abs, -number) for number in range(8)]]
         require(found == list(range(8)), f"two workers returned {found}")
 
-    def test_returns_what_calls_return(self) -> None:
+    def test_returns_the_results_of_calls(self) -> None:
         with self.make().open(1) as executor:
             futures = [executor.submit(divmod, number, 7) for number in range(20)]
             found = [future.result(timeout=60) for future in futures]
@@ -46,7 +46,7 @@ class ExecutorConformance(ComponentConformance):
             "equal calls were made only once, so that repeated runs would be lost",
         )
 
-    def test_hands_on_what_calls_raise(self) -> None:
+    def test_passes_on_the_exceptions_of_calls(self) -> None:
         with self.make().open(1) as executor:
             error = executor.submit(divmod, 1, 0).exception(timeout=60)
             require(isinstance(error, ZeroDivisionError), f"a call that raises ZeroDivisionError gave {error!r}")

@@ -38,7 +38,7 @@ class ExporterConformance(ComponentConformance):
             self.make().open(context(), here / NAME).close()
             require(written(here), "wrote nothing for a run without chunks")
 
-    def test_replaces_what_is_there(self) -> None:
+    def test_replaces_an_earlier_export(self) -> None:
         with folder() as here:
             self.export(here)
             before = written(here)

@@ -16,7 +16,7 @@ class ImporterConformance(ComponentConformance):
         """Return the importer to check."""
         raise NotImplementedError("define make(self) and return the importer to check")
 
-    def test_refuses_what_is_not_there(self) -> None:
+    def test_refuses_a_missing_file(self) -> None:
         with TemporaryDirectory() as folder:
             refuses(self.make(), Path(folder) / "nothing")
 

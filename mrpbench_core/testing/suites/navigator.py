@@ -77,7 +77,7 @@ class NavigatorConformance(ComponentConformance):
             away < 0.4, f"`reached` says that all have arrived, but a robot is {away:.2f} m from the end of its route"
         )
 
-    def test_robots_stop_at_the_end_of_what_is_released(self) -> None:
+    def test_robots_stop_at_the_end_of_the_released_segments(self) -> None:
         motions, states = self.drive(lambda _: np.array([1, 0], np.int32), seconds=20.0)
         away = np.hypot(*(states[-1].pose[:, :2] - [ROUTES[0].waypoint[1, :2], ROUTES[1].waypoint[0, :2]]).T)
         require(away.max() < 0.35, f"robots are {away.round(2).tolist()} m from the end of what was released")

@@ -44,7 +44,7 @@ class PlannerConformance(ComponentConformance):
                 f"{name} is {declared!r} instead of a frozenset of {kind.__name__}",
             )
 
-    def test_skips_what_it_does_not_support(self) -> None:
+    def test_skips_features_that_it_does_not_support(self) -> None:
         planner = self.make()
         for name, problem in solvable().items():
             reason = planner.skip(problem)

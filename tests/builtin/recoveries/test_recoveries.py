@@ -80,7 +80,7 @@ def test_nothing_is_tried_where_there_is_no_room(recovery):
     assert attempt(recovery, Room(lambda pose: False))[1:] == ([], False)
 
 
-def test_backing_up_ends_before_what_is_behind():
+def test_backing_up_ends_before_an_obstacle_behind_the_robot():
     poses, _, succeeded = attempt(BackUp(), Room(lambda pose: math.dist(pose[:2], (1, 2)) < 0.1))
     assert not succeeded
     assert math.dist(poses[-1, :2], (1, 2)) < 0.1

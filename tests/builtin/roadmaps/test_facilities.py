@@ -164,7 +164,7 @@ def test_a_leaf_that_opens_into_the_room_bars_nothing_in_the_hall(make_fleet):
     assert len(roadmap.edges) == 6
 
 
-def test_the_setup_of_a_door_is_what_it_takes_to_open(make_fleet):
+def test_the_setup_of_a_door_is_its_opening_time(make_fleet):
     door = Door(name="door", start=(2.5, 2.0), end=(3.5, 2.0), motion="sliding")
     (resource,) = Graph(tick=0.5).build(hall(door), make_fleet(RADIUS)).resources
     assert (resource.kind, resource.capacity) == ("door", 1)

@@ -51,7 +51,7 @@ def test_a_lane_that_no_robot_fits_on_is_left_out_and_named(make_fleet):
     assert roadmap.notes == ("Lane v1 – v2 is left out where a robot on it would touch something solid.",)
 
 
-def test_a_place_in_a_wall_is_no_vertex(make_fleet):
+def test_a_place_in_a_wall_is_not_a_vertex(make_fleet):
     lanes = [Lane(start=0, end=1), Lane(start=1, end=2)]
     roadmap = Graph().build(world_of([(6, 0), (0, 0), (4, 0)], lanes, [[6, -1, 6, 1]]), make_fleet(0.1))
     assert roadmap.place.tolist() == [-1, 0, 1]
@@ -82,7 +82,7 @@ def test_the_original_maps_become_one_piece(shared_data, make_fleet, name, drawn
     assert np.hypot(*moved.T).max() < 0.2
 
 
-def test_a_mutex_is_a_resource_of_its_lanes_and_of_what_lies_only_between_them(make_fleet, two_rooms):
+def test_a_mutex_is_a_resource_of_its_lanes_and_of_the_vertices_between_them(make_fleet, two_rooms):
     places = tuple(Vertex(name=str(index), x=0.5 + index, y=1.5) for index in range(6))
     lanes = tuple(Lane(start=index, end=index + 1, mutex="gap" if 0 < index < 4 else "") for index in range(5))
     roadmap = Graph().build(attrs.evolve(two_rooms, vertices=places, lanes=lanes), make_fleet(0.1))

@@ -62,7 +62,7 @@ def test_pieces_of_a_lane_lead_from_its_start_to_its_end(drawn):
 @settings(deadline=None, max_examples=200)
 @given(st.lists(st.tuples(*[st.tuples(st.floats(0, 5), st.floats(0, 5))] * 2), min_size=1, max_size=8))
 @example([((0, 0), (1.078125, 4.25)), ((1, 4.625), (0.25, 2.5)), ((2.375, 2.125), (0.375, 5))])  # three close vertices
-def test_a_wide_tolerance_connects_what_meets_without_going_to_and_fro(drawn):
+def test_a_wide_tolerance_connects_lanes_that_meet_without_edges_to_and_fro(drawn):
     points, pieces = cut(drawn, 0.2)
     label = components(len(pieces.position), pieces.ends)[pieces.vertex[0::2]]
     a, b = points[0::2], points[1::2]

@@ -51,7 +51,7 @@ def test_walls_block_lanes_of_their_own_level_only(tower, make_fleet):
     assert roadmap.notes == ("Lane south – north is left out where a robot on it would touch something solid.",)
 
 
-def test_random_scenarios_take_the_largest_connected_part_whatever_its_level(tower, make_fleet):
+def test_random_scenarios_take_the_largest_connected_part_on_any_level(tower, make_fleet):
     upstairs = [Vertex(name=f"attic_{x}", x=x, y=3.5, level=1) for x in (3, 5)]
     lanes = [Lane(start=3, end=4), Lane(start=3, end=5), Lane(start=0, end=3)]
     world = attrs.evolve(tower, vertices=(*tower.vertices, *upstairs), lanes=(*lanes, tower.lanes[1]))

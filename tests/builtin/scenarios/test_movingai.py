@@ -58,7 +58,7 @@ def test_a_mistake_is_located(tmp_path, corridor, text, message):
     assert str(error.value) == f"{tmp_path / 'tiny.scen'}{message}"
 
 
-def test_a_world_that_is_no_raster_is_refused(tmp_path, corridor):
+def test_a_world_without_a_raster_is_refused(tmp_path, corridor):
     with pytest.raises(InputError, match="world walls is no raster"):
         draw(tmp_path, corridor, "version 1\n", world=World(name="walls", levels=(Level(name="L1"),)))
 

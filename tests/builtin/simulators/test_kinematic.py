@@ -99,7 +99,7 @@ commands = st.lists(st.tuples(st.floats(-1, 1), st.floats(-4, 4)), min_size=6, m
 
 @settings(deadline=None, max_examples=25)
 @given(st.lists(commands, min_size=1, max_size=4))
-def test_whatever_robots_do_they_overlap_nothing(plan):
+def test_robots_overlap_nothing_under_any_commands(plan):
     starts = [[0.3, 0.3, 0], [0.6, 0.3, 2], [0.3, 0.6, -1], [0.6, 0.6, 1], [1.4, 0.4, 3], [1.7, 1.7, -2]]
     states, _ = drive(ROOM, starts, lambda period: plan[period // 25 % len(plan)], 100)
     outline = segments(ROOM)

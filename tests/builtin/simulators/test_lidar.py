@@ -24,14 +24,14 @@ def test_a_disc_is_hit_on_its_near_side():
     assert np.allclose(ranges, [np.inf, 0.75, np.inf, np.inf])
 
 
-def test_what_is_too_near_or_too_far_gives_no_return():
+def test_obstacles_too_near_or_too_far_give_no_return():
     lidar = Lidar(beams=1, mount=(0.0, 0.0, 0.2), range=3.5, min_range=0.12)
     for distance, seen in ((0.1, False), (0.13, True), (3.4, True), (3.6, False)):
         ranges = scan(lidar, np.zeros(3), NOTHING, np.array([[distance + 0.2, 0.0]]), np.array([0.2]))
         assert np.isfinite(ranges[0]) == seen
 
 
-def test_what_is_too_near_still_hides_what_is_behind():
+def test_an_obstacle_that_is_too_near_still_hides_obstacles_behind_it():
     lidar = Lidar(beams=1, mount=(0.0, 0.0, 0.2), min_range=0.12)
     ranges = scan(lidar, np.zeros(3), NOTHING, np.array([[0.25, 0.0], [1.0, 0.0]]), np.array([0.2, 0.2]))
     assert np.isinf(ranges[0])

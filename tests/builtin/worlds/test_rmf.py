@@ -113,7 +113,7 @@ def test_open_doors_leave_free_doorways(tmp_path):
     assert (free.vertices, free.levels[0].walls.tolist()) == (operated.vertices, operated.levels[0].walls.tolist())
 
 
-def test_what_is_not_understood_is_noted(tmp_path):
+def test_unknown_parts_are_noted(tmp_path):
     text = BUILDING.replace("alpha: [3, 1]", "alpha: [3, 1], colour: [1, red], odd: [9, 1]") + (
         "    models: [{model_name: Throne, x: 1, y: 1}, {model_name: Throne, x: 2, y: 2}]\n"
         "    human_lanes: [1, 2, 3]\n    smell: 1\n  L2: {}\ncrowd_sim: {enable: 1}\n"
@@ -196,7 +196,7 @@ def test_an_unknown_level_lists_those_there_are(tmp_path):
 @pytest.mark.parametrize(
     "text", ["[]", "levels: 3", "levels: {L1: [2]}", "levels: {L1: {vertices: 5}}", "x", "levels:"]
 )
-def test_what_is_no_building_is_refused(tmp_path, text):
+def test_a_file_that_is_not_a_building_is_refused(tmp_path, text):
     with pytest.raises(InputError):
         load(tmp_path, text)
 

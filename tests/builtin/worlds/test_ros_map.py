@@ -67,7 +67,7 @@ def test_thresholds_are_the_files(load):
     assert blocked(load(values, other, unknown="free")) == [[False, False, False, False, True]]
 
 
-def test_the_mode_scale_blocks_what_is_certain_only(load):
+def test_the_mode_scale_blocks_only_certainly_occupied_cells(load):
     values = [[255 - round(255 * share) for share in (0.1, 0.5, 0.9)]]
     assert blocked(load(values, YAML + "mode: scale\n")) == [[False, False, True]]
 
@@ -169,7 +169,7 @@ def test_an_unknown_key_is_noted(load):
     assert load([[0]], YAML + "colour: 1\n").notes == ("key 'colour' is not known and has no effect.",)
 
 
-def test_without_pillow_the_error_says_what_to_install(load, monkeypatch, tmp_path):
+def test_without_pillow_the_error_names_the_package_to_install(load, monkeypatch, tmp_path):
     load([[0]])
     monkeypatch.setitem(sys.modules, "PIL", None)
     with pytest.raises(InputError, match=r"map.yaml:1:8: images need Pillow .*mrpbench-core\[images\]"):

@@ -26,7 +26,7 @@ def test_a_value_is_yaml_and_a_placeholder_is_text(text, value):
 
 
 @pytest.mark.parametrize("word", ["key", "a-b=1", "key=[/{robot}/odom"])
-def test_a_word_that_is_no_option_is_one_line(word):
+def test_the_error_for_an_unknown_option_is_one_line(word):
     with pytest.raises(InputError) as caught:
         read_options([word], "--option")
     assert "\n" not in str(caught.value)

@@ -10,7 +10,7 @@ from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.report.reading.axes import word
 
 
-def test_a_terminal_has_one_line_that_counts_and_lines_for_what_went_wrong(capsys, monkeypatch):
+def test_a_terminal_has_one_line_of_counts_and_a_line_for_each_failure(capsys, monkeypatch):
     monkeypatch.setattr(progress, "REFRESH_S", 0.0)
     points = [types.SimpleNamespace(run_id=f"{number:016d}", axes={"seed": number}) for number in range(4)]
     results = type("NoResults", (dict,), {"damaged": (), "folder": types.SimpleNamespace(path=Path("out"))})()

@@ -191,7 +191,7 @@ def test_a_mutex_is_granted_at_once_to_as_many_as_it_has_room_for():
     assert facility_manager.with_grants(view, state).granted == ((0, "aisle"), (1, "aisle"))
 
 
-def test_what_there_is_not_cannot_be_asked_for():
+def test_an_unknown_resource_cannot_be_requested():
     world, problem, plan = two_before_the_door()
     facility_manager, _, _ = stand(world, problem, plan, {})
     with pytest.raises(ExecutionError, match="the dispatcher asked for 'gate', which the roadmap does not have"):

@@ -43,7 +43,7 @@ def test_by_default_everything_is_exact():
 
 
 @pytest.mark.parametrize("step", [0.01, 0.002])
-def test_odometry_drifts_with_the_root_of_the_way_whatever_the_period(step):
+def test_odometry_drifts_with_the_root_of_the_distance_at_any_period(step):
     """Two independent wheels of error k per root metre: distance errs by k sqrt(d/2), heading by k sqrt(2 d) / axle."""
     steps, k = round(1 / step), 0.003
     ends = [straight(disturbances(seed, odometry=k), steps, step)[1].pose for seed in range(80)]
@@ -143,7 +143,7 @@ def test_noise_follows_seed_repeat_and_robot_and_nothing_else():
 
 
 @pytest.mark.parametrize("name", sorted(EVERYTHING))
-def test_no_cause_changes_what_another_does(name):
+def test_sources_of_noise_do_not_change_one_another(name):
     everything = trace(3, 0, 2, EVERYTHING)
     without = trace(3, 0, 2, {**EVERYTHING, name: 0.0})
     unchanged = {

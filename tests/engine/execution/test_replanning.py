@@ -182,7 +182,7 @@ def test_the_run_goes_on_with_its_plan_when_no_new_one_is_found(tmp_path, monkey
     assert set(events()) == {"replan_failed"}
 
 
-def test_a_planner_that_cannot_begin_with_what_was_released_is_skipped(tmp_path, monkeypatch):
+def test_a_planner_that_cannot_begin_with_released_segments_is_skipped(tmp_path, monkeypatch):
     pytest.importorskip("mrpbench_planners_example")
     record, _ = executed(tmp_path, monkeypatch, planner="example", replanning={"period": "5 s"})
     assert record["status"] == "skipped"

@@ -28,6 +28,6 @@ def test_speed_limits_count_only_where_the_world_has_some(run_context):
     np.testing.assert_allclose(speed_limits(limited, roadmap), 0.5)  # 1 m in one tick of 2 s
 
 
-def test_robots_stand_at_their_first_waypoint_whatever_the_plan(run_context):
+def test_robots_start_at_their_first_waypoint_with_any_plan(run_context):
     np.testing.assert_array_equal(start_poses(run_context.routes, ANY), [[0.5, 0.5, 0], [1.5, 0.5, 0]])
     assert start_poses(run_context.routes, np.array([np.nan, 2.0]))[:, 2].tolist() == [0, 2]

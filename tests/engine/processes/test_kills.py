@@ -121,7 +121,7 @@ def test_runs_whose_worker_was_killed_are_done_again_and_it_is_said(undisturbed)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_an_interrupted_study_keeps_what_is_finished_and_goes_on(undisturbed, number):
+def test_an_interrupted_study_keeps_finished_runs_and_continues(undisturbed, number):
     process = invoke("--workers", "2")
     wait_for_records(3)
     workers = children(process)

@@ -49,7 +49,7 @@ def test_neighbours_of_misbehaving_plugins_go_on(study):
     assert all(record["timing"]["concurrent_workers"] == 2 for record in records.values())
 
 
-def test_a_run_that_passes_the_wall_limit_is_ended_in_whatever_stage(study):
+def test_a_run_that_exceeds_the_wall_limit_is_ended_in_any_stage(study):
     study["limits"] = {"planning": 60, "wall": 2.0}
     study["assigner"] = "identity"  # which imports no solver
     record = outcomes(study, ["hang_with_gil"])["hang_with_gil"]
@@ -57,7 +57,7 @@ def test_a_run_that_passes_the_wall_limit_is_ended_in_whatever_stage(study):
     assert record["error"]["stage"] == "planning"
 
 
-def test_what_plugins_print_goes_to_the_log_of_their_run(study, capfd):
+def test_output_of_plugins_goes_to_the_log_of_their_run(study, capfd):
     records = outcomes(study, ["print", "nothing"])
     log = Path("out/logs", f"{records['print']['run_id']}.txt").read_text()
     assert set(log.splitlines()) == {"from Python", "from a descriptor", "from C", "from a program"}

@@ -52,7 +52,7 @@ def test_travel_times_are_seconds_of_each_robots_own_profile(triangle):
     assert costs.tolist() == [[4.5, 6.0], [2.5, 3.5]]  # ticks (4+5, 4+5+3), (2+3, 2+3+2)
 
 
-def test_where_there_is_no_way_the_cost_is_infinite(corridor):
+def test_the_cost_of_an_unreachable_goal_is_infinite(corridor):
     one_way = Roadmap(
         position=corridor.position,
         level=corridor.level,

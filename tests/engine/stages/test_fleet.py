@@ -23,7 +23,7 @@ def test_one_entry_makes_the_whole_fleet():
     assert names(FleetEntry(robot=BURGER), size=3) == [BURGER] * 3
 
 
-def test_entries_without_a_count_share_what_is_left():
+def test_entries_without_a_count_share_the_remaining_robots():
     entries = FleetEntry(robot=BURGER), FleetEntry(robot=WAFFLE, count=1), FleetEntry(robot=WAFFLE)
     assert names(*entries, size=6) == [BURGER] * 3 + [WAFFLE] + [WAFFLE] * 2
 

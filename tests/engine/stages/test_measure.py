@@ -63,7 +63,7 @@ def test_a_column_without_its_channel_is_null_alone(run_context):
     assert reasons == {"m.touches": "no contact"}
 
 
-def test_what_others_planned_is_not_taken_for_a_failure(run_context):
+def test_a_recording_without_plans_does_not_count_as_a_failed_plan(run_context):
     @attrs.frozen(kw_only=True)
     class Solved(Length):
         columns = (Column("solved", "", "higher", "Whether."),)
@@ -97,7 +97,7 @@ def test_a_metric_that_raises_costs_neither_the_run_nor_the_others(run_context):
     assert reasons == {"broken": "the metric raised ValueError: no idea"}
 
 
-def test_what_is_no_number_is_null_and_said(run_context):
+def test_values_that_are_not_numbers_are_null_with_the_reason(run_context):
     run = FinishedRun(context=run_context, executed=True)
     text = {"broken": Broken(returns={"length_s": "long", "odd": 1})}
     values, reasons = measure(text, run)

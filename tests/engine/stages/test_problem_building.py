@@ -25,7 +25,7 @@ def test_robots_wider_than_a_cell_need_footprints(corridor, robot_model):
     assert Feature.FOOTPRINTS not in features(corridor, (wide, robot_model))
 
 
-def test_a_roadmap_that_is_no_raster_needs_footprints(corridor, robot_model):
+def test_a_roadmap_that_is_not_a_raster_needs_footprints(corridor, robot_model):
     graph = attrs.evolve(corridor, grid=None, duration=[[3, 3, 2, 2]])
     assert features(graph, (robot_model, robot_model)) == {Feature.FOOTPRINTS, Feature.EDGE_DURATIONS}
 

@@ -20,7 +20,7 @@ def test_every_run_is_in_one_shard(run_id, count):
 
 
 @pytest.mark.parametrize("text", ["", "1", "/", "1/", "/2", "2/2", "-1/2", "1/0", "a/b", "1/2/3"])
-def test_what_is_no_shard_is_refused(text):
+def test_a_word_that_is_not_a_shard_is_refused(text):
     with pytest.raises(InputError, match="not i/n"):
         read_shard_option(text)
     assert read_shard_option("0/1") == (0, 1)
@@ -49,7 +49,7 @@ def results(tmp_path):
         ("all", "old", {"new": 1, "good": 5, "bad": 5}, ()),
     ],
 )
-def test_what_is_done_again_is_the_next_attempt(results, rerun, code, todo, changed):
+def test_a_repeated_run_is_the_next_attempt(results, rerun, code, todo, changed):
     points = [types.SimpleNamespace(run_id=run_id) for run_id in ("new", "good", "bad")]
     selection = select(points, results, rerun, None, lambda point: origin({"versions": code}))
     assert {point.run_id: attempt for point, attempt in selection.todo} == todo

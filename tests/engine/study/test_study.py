@@ -23,7 +23,7 @@ def shards():
     return {file.name for file in Path("out/runs").iterdir()}
 
 
-def test_what_has_a_record_is_not_done_again(study):
+def test_runs_with_a_record_are_not_repeated(study):
     study["matrix"] = {"seed": "0..2"}
     first = list(run(study, out="out"))
     before = shards()
@@ -82,7 +82,7 @@ def test_a_shards_records_count_when_they_are_copied_to_another_folder(study):
     assert done == {record["run_id"] for record in load("out")} - part
 
 
-def test_an_invocation_leaves_what_is_needed_to_do_it_again(study):
+def test_an_invocation_keeps_the_files_that_repeat_it(study):
     run(study, "seed=0..1", out="out")
     (file,) = Path("out/invocations").iterdir()
     facts = load_yaml(file).data

@@ -17,7 +17,7 @@ def test_rows_and_columns_are_not_mixed_up(shape):
 
 
 @pytest.mark.parametrize("values", [[0.5], [np.nan], [np.inf], np.array([2**32]), [2**31], [-(2**40)]])
-def test_what_is_no_whole_number_or_too_large_is_refused(values):
+def test_fractions_and_too_large_numbers_are_refused(values):
     with pytest.raises(ValueError, match="expected whole numbers that fit in int32"):
         frozen_array(values, "i4")
 
@@ -36,12 +36,12 @@ def test_the_copy_cannot_be_written():
         held[0] = 1
 
 
-def test_what_cannot_be_written_is_held_without_a_copy():
+def test_read_only_arrays_are_kept_without_a_copy():
     held = frozen_array([1.0, 2.0], "f8")
     assert frozen_array(held, "f8") is held
 
 
-def test_a_view_of_what_can_be_written_is_copied():
+def test_a_view_of_a_writable_array_is_copied():
     given = np.zeros(2)
     view = given[:]
     view.flags.writeable = False

@@ -47,7 +47,7 @@ def test_exclusions_are_exactly_the_pairs_closer_than_the_distance(roadmap, dist
 
 @given(*[st.tuples(coordinates, coordinates).map(np.array) for _ in range(4)])
 @settings(deadline=None, max_examples=200)
-def test_segment_distance_is_what_sampling_finds(a, b, c, d):
+def test_segment_distance_equals_the_sampled_distance(a, b, c, d):
     share = np.linspace(0, 1, 121)[:, None]
     sampled = point_segment_distance(a + share * (b - a), c, d).min()
     exact = float(segment_distance(a, b, c, d))

@@ -97,7 +97,7 @@ def test_it_takes_as_long_as_leaves_are_long():
     st.floats(0.2, 5),
     st.floats(0, 1),
 )
-def test_what_is_swept_holds_the_leaves_at_every_opening(motion, axis, direction, degrees, ratio, opening):
+def test_the_swept_area_contains_the_leaves_at_every_opening(motion, axis, direction, degrees, ratio, opening):
     door = attrs.evolve(
         DOOR,
         motion=motion,

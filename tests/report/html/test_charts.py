@@ -45,7 +45,7 @@ def test_a_mark_stands_where_its_value_is():
     assert "no value" in chart
 
 
-def test_nothing_to_draw_is_no_chart():
+def test_without_values_there_is_no_chart():
     assert intervals([("a", 0, None)], "success", percent=True) == ""
     empty = np.empty(0)
     assert steps([Curve("a", 0, empty, empty)], "x", "y", log_x=True, start=0.0, top=1.0) == ""

@@ -35,7 +35,7 @@ def test_text_of_runs_is_text(page):
     assert "&lt;b&gt;bad&lt;/b&gt;" in text
 
 
-def test_the_page_tells_what_a_reviewer_asks(page, parsed):
+def test_the_page_answers_the_questions_of_a_reviewer(page, parsed):
     words = " ".join(" ".join(parsed(page.read_text(encoding="utf-8")).words).split())
     assert "42 runs of 2 configurations on 12 scenarios." in words
     assert "<b>bad</b> is worse than cbs in planning.cost : 1.47 [1.26, 1.64] on average" in words

@@ -88,7 +88,7 @@ def test_an_empty_world_and_a_strip_can_be_drawn(tmp_path):
     assert abs(size(tmp_path / "b.png")[0] - PIXELS) <= 1
 
 
-def test_without_matplotlib_the_error_says_what_to_install(tmp_path, monkeypatch):
+def test_without_matplotlib_the_error_names_the_package_to_install(tmp_path, monkeypatch):
     real = builtins.__import__
 
     def without(name, *rest):

@@ -26,11 +26,11 @@ def test_a_plain_option_that_varies_stays():
     assert axes == [{"control_rate": 20.0}, {"control_rate": 10.0}]
 
 
-def test_what_samples_of_one_configuration_differ_in_is_no_axis():
+def test_differences_between_samples_of_one_configuration_are_not_an_axis():
     assert find_axes([config(CBS), config(CBS) | {"seed": 4, "repeat": 1, "name": "y"}]) == [{}, {}]
 
 
-def test_a_stage_that_is_not_there_is_an_axis_but_not_what_follows_from_it():
+def test_a_missing_stage_is_an_axis_and_its_options_are_not():
     without = config(CBS, simulator=None, dispatcher=None)
     driven = config(CBS, simulator={"plugin": "kinematic"}, dispatcher={"plugin": "adg"})
     assert find_axes([without, driven]) == [{"simulator.plugin": None}, {"simulator.plugin": "kinematic"}]

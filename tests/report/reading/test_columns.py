@@ -27,7 +27,7 @@ def test_columns_without_an_invocation_are_described_by_the_installed_metric():
     assert known["execution.duration_s"].unit == "s"
 
 
-def test_what_a_folder_declares_goes_before_what_is_installed():
+def test_columns_declared_in_a_folder_take_precedence_over_installed_ones():
     own = OLD | {"primary": False, "stage": "planning", "drawn": "interval", "aliases": []}
     known = describe_columns({"execution.duration_s": own, "execution.success": OLD | {"primary": True}})
     assert "execution.duration_s" not in names(known)

@@ -21,13 +21,13 @@ def test_yes_and_no_are_told_from_numbers(results, record):
     assert {"succeeded", "planned", "planning.solved", "timing.clock_bound"} == runs.flags
 
 
-def test_null_is_no_number(results, record):
+def test_null_is_not_a_number(results, record):
     runs = read_runs([results([record(), record(seed=1, cost=3.0)])])
     assert np.isnan(runs.values["planning.cost"][0])
     assert runs.values["planning.cost"][1] == 3.0
 
 
-def test_only_what_is_asked_for_is_kept(results, record):
+def test_only_the_requested_columns_are_kept(results, record):
     runs = read_runs([results([record(cost=1.0)])], ["planning.cost"])
     assert set(runs.values) == {"succeeded", "planned", "planning.cost"}
 

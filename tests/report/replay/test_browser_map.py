@@ -47,7 +47,7 @@ def test_two_fingers_zoom(show, chunk, ask):
     assert ask("replay.shown.selected") == -1
 
 
-def test_layers_and_colours_change_what_is_drawn(show, wait, chunk, ask, press, pixels):
+def test_layers_and_colours_change_the_drawing(show, wait, chunk, ask, press, pixels):
     browser = show(chunk)
     browser.execute_script("replay.clock.seek(1)")
     for key in ("plan", "reserved", "driven", "estimate"):

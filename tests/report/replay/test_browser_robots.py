@@ -42,7 +42,7 @@ def test_a_robot_is_found_by_its_number(show, chunk, ask, press, texts):
     assert texts("#robot-list .note") == ["No robot has this name."]
 
 
-def test_the_list_says_what_robots_do(show, chunk, texts):
+def test_the_list_shows_the_states_of_robots(show, chunk, texts):
     browser = show(chunk)
     assert texts(".robot .state") == ["waiting", "following"]
     browser.execute_script("replay.clock.seek(3)")

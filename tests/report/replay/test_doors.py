@@ -68,7 +68,7 @@ def test_lifts_know_their_doors_stops_and_levels():
     assert packed["cabins"][0]["stops"] == [[0, 0.0], [1, 3.0]]
 
 
-def test_what_doors_do_is_packed_if_it_was_recorded(store, chunk, run_context, unpack):
+def test_recorded_states_of_doors_are_packed(store, chunk, run_context, unpack):
     world = attrs.evolve(run_context.world, levels=building().levels, lifts=building().lifts)
     doing = np.linspace([0, 0, 0], [1, 0.5, 3], len(chunk["time"]))
     recording = store(chunk | {"facility": doing}, context=attrs.evolve(run_context, world=world))

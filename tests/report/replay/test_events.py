@@ -18,7 +18,7 @@ def test_arrivals_are_events_too(store, chunk, run_context):
     assert events == [[1.5, "spin", 0, "</script><b>"], [2.0, "arrived", 1, ""], [4.0, "arrived", 0, ""]]
 
 
-def test_what_was_not_recorded_did_not_happen(store, chunk, run_context):
+def test_recordings_without_events_and_contacts_have_none(store, chunk, run_context):
     recording = store({"time": chunk["time"], "truth": chunk["truth"]})
     assert read_events(recording, run_context) == []
     assert read_contacts(recording) == []

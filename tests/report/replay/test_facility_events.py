@@ -18,5 +18,5 @@ def test_doors_open_and_close_and_lifts_leave_and_arrive(store):
     ]
 
 
-def test_a_recording_without_facilities_has_none(store, chunk, run_context):
+def test_a_recording_without_facilities_has_no_facility_events(store, chunk, run_context):
     assert read_facility_events(store(chunk), run_context.world) == []

@@ -65,7 +65,7 @@ def test_nothing_differs():
     assert compare_rates(np.ones(4), np.ones(4)).p == 1.0
 
 
-def test_nothing_in_common_is_no_comparison():
+def test_groups_without_common_units_are_not_compared():
     assert compare_values(np.empty(0), np.empty(0)) is None
     assert compare_rates(np.empty(0), np.empty(0)) is None
 

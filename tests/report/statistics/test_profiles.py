@@ -7,7 +7,7 @@ from mrpbench_core.report.statistics.profiles import cactus, profiles
 NAN = np.nan
 
 
-def test_a_cactus_counts_what_is_done_within_a_time():
+def test_a_cactus_plot_counts_the_runs_done_within_a_time():
     times, done = cactus(np.array([3.0, NAN, 1.0, 2.0]))
     assert times.tolist() == [1, 2, 3]
     assert done.tolist() == [1, 2, 3]

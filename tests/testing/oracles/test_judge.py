@@ -103,7 +103,7 @@ def test_false_results_have_faults(planner, result, optimum, said):
     assert any(said in fault for fault in answer_faults(ASKED, planner, result, optimum))
 
 
-def test_conflicts_are_faults_of_those_that_promise_none():
+def test_conflicts_are_faults_of_planners_that_promise_no_conflicts():
     asked = problem_on(grid_of(["..."]), [0, 2], [2, 0])
     crossing = Plan(paths=(path([(0, 1), (1, 2)], asked), path([(2, 1), (1, 0)], asked)))
     result = PlanResult(status=PlanStatus.SOLVED, plan=crossing, lower_bound=4)
@@ -138,7 +138,7 @@ def test_another_answer_to_the_same_question_is_found(second, changed):
     assert changes(ASKED, Careless(answers=(second,)), BUDGET, answer()) == []
 
 
-def test_a_problem_that_a_planner_skips_is_no_question_for_it():
+def test_a_planner_is_not_judged_by_problems_that_it_skips():
     asked = problem_on(grid_of(["..."]), [0], [2], horizon=5)
     with pytest.raises(Fault, match="skips, because it does not support horizon"):
         ask(Optimal(answers=(answer(),)), asked)

@@ -33,7 +33,7 @@ def test_optima_are_those_found_by_hand(name):
 
 
 @pytest.mark.parametrize("name", unsolvable())
-def test_what_has_no_plan_has_none(name):
+def test_an_instance_without_a_plan_has_no_optimum(name):
     assert least_sum_of_costs(unsolvable()[name]) == math.inf
 
 

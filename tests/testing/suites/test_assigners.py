@@ -43,6 +43,6 @@ def test_an_assigner_that_gives_all_the_first_task():
     assert {
         "gives each task to one robot",
         "is optimal",
-        "avoids what is forbidden",
+        "avoids forbidden pairs",
         "raises an assignment error when nothing is feasible",
     } <= found.keys()

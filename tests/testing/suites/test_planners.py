@@ -66,7 +66,7 @@ PLANNERS = {
     },
     "is complete": {"plan": gives_up, "promises": frozenset({Promise.COMPLETE})},
     "declares features and promises": {"plan": gives_up, "supports": {"footprints"}},
-    "skips what it does not support": {"plan": gives_up, "skip": lambda self, asked: None},
+    "skips features that it does not support": {"plan": gives_up, "skip": lambda self, asked: None},
     "has a problem for every feature it supports": {
         "plan": gives_up,
         "supports": frozenset({Feature.GOAL_SETS}),

@@ -84,6 +84,6 @@ class TextSession(ExporterSession):
 
 def test_an_exporter():
     assert not failed_checks(suite_for(Text()))
-    assert set(failed_checks(suite_for(Text(mode="a")))) == {"replaces what is there"}
-    assert set(failed_checks(suite_for(Text(scratch=True)))) == {"writes a run", "replaces what is there"}
+    assert set(failed_checks(suite_for(Text(mode="a")))) == {"replaces an earlier export"}
+    assert set(failed_checks(suite_for(Text(scratch=True)))) == {"writes a run", "replaces an earlier export"}
     assert set(failed_checks(suite_for(Text(careless=True)))) == {"leaves nothing of a run that failed"}

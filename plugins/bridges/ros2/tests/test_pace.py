@@ -22,7 +22,7 @@ def test_waits_for_the_wall_clock(clock):
     assert twice.left(7.0) == 0.75
 
 
-def test_what_is_late_is_not_made_up_by_waiting_less_later(clock):
+def test_a_late_period_does_not_shorten_later_ones(clock):
     real = Pace(1.0)
     real.left(0.0)
     clock[0] += 3

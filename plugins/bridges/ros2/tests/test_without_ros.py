@@ -17,7 +17,7 @@ def nothing(monkeypatch):
     monkeypatch.setitem(sys.modules, "rclpy", None)
 
 
-def test_one_line_says_what_is_missing(nothing):
+def test_one_line_names_the_missing_package(nothing):
     with pytest.raises(InputError, match="ROS 2 cannot be imported") as raised:
         Link("x")
     assert "source a ROS 2 installation" in str(raised.value)

@@ -37,7 +37,7 @@ pose = st.tuples(st.floats(-20, 20), st.floats(-20, 20), st.floats(-3, 3))
 
 @settings(deadline=None, max_examples=40)
 @given(pose, ranges, st.sampled_from([0.2, 0.55]), st.sampled_from([1.0, 3.0]))
-def test_costs_are_those_of_nav2_around_whatever_is_marked(pose, ranges, radius, factor):
+def test_costs_around_marked_cells_are_those_of_nav2(pose, ranges, radius, factor):
     costs, x, y, inscribed = see(
         session(inflation_radius=radius, cost_scaling_factor=factor, footprint_clearing_enabled=False), pose, ranges
     )
@@ -85,7 +85,7 @@ def test_the_map_is_made_as_often_as_it_says():
     assert see(controller, (0.5, 0.0, 0.0), now=0.2)[1] == pytest.approx(-1.0)
 
 
-def test_clearing_forgets_what_was_marked():
+def test_clearing_removes_marked_cells():
     controller = session()
     assert see(controller, (0.0, 0.0, 0.0), [1.0] * 24)[0].any()
     controller.clear(0)
@@ -93,7 +93,7 @@ def test_clearing_forgets_what_was_marked():
     assert controller.is_free(0, np.array([[1.0, 0.0, 0.0]])).all()
 
 
-def test_what_is_marked_is_not_free_as_far_as_the_footprint_reaches():
+def test_cells_within_the_footprint_of_a_marked_cell_are_not_free():
     controller = session(robot_radius=0.1)
     see(controller, (0.0, 0.0, 0.0), [math.inf] * 6 + [1.0] + [math.inf] * 17)  # one mark straight to the left
     poses = np.array([(-0.032, y, 0.0) for y in (0.5, 0.85, 0.92, 1.0, 1.08, 1.2)])
@@ -206,7 +206,7 @@ FACE = Obstacle(name="shelf", polygon=[(0.5, -0.4), (1.3, -0.4), (1.3, 0.4), (0.
 SHELF = World(name="w", levels=(Level(name="L1", obstacles=(FACE,)),))
 
 
-def test_no_way_leads_into_what_the_static_map_encloses():
+def test_no_path_leads_into_an_area_that_the_static_map_encloses():
     controller = session(SHELF, robot_radius=0.1)  # the lidar saw its near face only
     see(controller, (0.0, 0.0, 0.0), scan_of_box(0.4, -0.4, 0.5))
     assert on_a_path(controller, [(0, 0), (0.9, 0)]) is None

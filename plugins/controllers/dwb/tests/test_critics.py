@@ -79,7 +79,7 @@ def test_goal_dist_counts_cells_to_the_end_of_the_path():
         assert judged.raw[0, index] == abs(cell(x) - 12) + abs(cell(y))
 
 
-def test_the_goal_is_where_the_path_leaves_what_is_looked_at():
+def test_the_goal_is_where_the_path_leaves_the_costmap():
     judged = Judged([GoalDist()], path=((0.025, 0.025), (5.025, 0.025)))
     still = judged.of(0.0, 0.5)
     assert judged.raw[0, still] == 20  # of points every 5 cm, those up to prune_distance = 1 m away
@@ -177,7 +177,7 @@ def wall_ahead(distance):
     return ranges
 
 
-def test_base_obstacle_costs_what_the_costmap_says_under_the_centre():
+def test_base_obstacle_reads_the_cost_under_the_centre():
     judged = Judged([BaseObstacle()], scan=wall_ahead(0.6), poses=((0.025, 0.025, 0.0),))
     inscribed = 0.1078
     column = cell(0.025 - 0.032 + 0.6)  # the lidar sits 3.2 cm behind the centre

@@ -138,7 +138,7 @@ def test_without_any_the_limits_are_the_robots():
     ]
 
 
-def test_no_option_exceeds_what_the_robot_can():
+def test_no_option_exceeds_the_limits_of_the_robot():
     numbers, _, _ = Dwb(max_vel_x=5.0, max_vel_theta=9.0, acc_lim_x=99.0).settings(BURGER, 0.05)
     assert (numbers["max_vel_x"], numbers["max_vel_theta"], numbers["acc_lim_x"]) == (0.22, 2.84, 2.5)
 

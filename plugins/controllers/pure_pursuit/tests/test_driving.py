@@ -105,7 +105,7 @@ def test_a_robot_takes_the_yaw_of_its_goal():
     assert abs(math.remainder(poses[-1, 0, 2] + 2.0, math.tau)) <= 0.25
 
 
-def test_a_robot_waits_at_the_end_of_what_is_released_and_goes_on():
+def test_a_robot_waits_at_the_end_of_the_released_segments_and_goes_on():
     path = route(L_SHAPE, 0.35)
     poses, _, reached, _, events = drive([path], release=lambda now: 3 if now < 15 else 8)
     at_rest = poses[round(14.9 / PERIOD), 0, :2]

@@ -41,7 +41,7 @@ point = st.tuples(coordinate, coordinate)
 
 @settings(deadline=None, max_examples=100)
 @given(point, st.floats(-3, 3), st.floats(0, 0.99), st.lists(point, min_size=1, max_size=4), st.floats(0.05, 1))
-def test_the_carrot_is_as_far_away_as_asked_for_whatever_the_path(robot, angle, share, rest, distance):
+def test_the_carrot_is_at_the_lookahead_distance_on_any_path(robot, angle, share, rest, distance):
     first = robot[0] + share * distance * math.cos(angle), robot[1] + share * distance * math.sin(angle)
     assume(any(math.dist(other, first) > 1e-6 for other in rest))
     assert math.dist(robot, carrot([first, *rest], *robot, distance)) == pytest.approx(distance, abs=1e-6)

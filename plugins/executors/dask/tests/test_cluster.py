@@ -155,7 +155,7 @@ def kill_a_worker_at_work(marks):
     worker.kill()
 
 
-def test_a_study_survives_the_loss_of_a_worker_and_says_what_is_done_again(cluster, study, tmp_path):
+def test_a_study_survives_the_loss_of_a_worker_and_names_the_repeated_runs(cluster, study, tmp_path):
     run(study, out="here", workers=2)
     undisturbed = essence("here")
     for mark in (tmp_path / "marks").iterdir():

@@ -70,7 +70,7 @@ def test_a_run_comes_back_with_its_numbers(analyze, capsys):
     assert "recorded" in table
 
 
-def test_what_no_bag_shows_is_null_with_the_reason(analyze, foreign):
+def test_values_that_no_bag_shows_are_null_with_the_reason(analyze, foreign):
     code, found, _ = analyze(passing(foreign(), seconds=20).close())
     values, reasons = found["metrics"], found["unmeasured"]
     assert (code, found["status"]) == (0, "succeeded")
@@ -89,7 +89,7 @@ def test_what_no_bag_shows_is_null_with_the_reason(analyze, foreign):
     }
 
 
-def test_numbers_of_a_foreign_bag_are_what_was_driven(analyze, foreign):
+def test_numbers_of_a_foreign_bag_are_those_of_the_driven_paths(analyze, foreign):
     _, found, _ = analyze(passing(foreign(), seconds=20).close())
     values = found["metrics"]
     assert values["execution.goals_reached"] == 2

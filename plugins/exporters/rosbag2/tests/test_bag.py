@@ -48,7 +48,7 @@ def metadata(bag):
 
 @pytest.mark.parametrize("version", [8, 9])
 @pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
-def test_metadata_say_what_the_bag_holds(context, recording, tmp_path, storage, version):
+def test_metadata_list_the_topics_of_the_bag(context, recording, tmp_path, storage, version):
     bag = export(context, recording, tmp_path / "bag", storage=storage, version=version, start_time=50.0)
     facts = metadata(bag)
     suffix = {"mcap": "mcap", "sqlite3": "db3"}[storage]
@@ -76,7 +76,7 @@ def test_metadata_say_what_the_bag_holds(context, recording, tmp_path, storage, 
         assert quality["depth"] == (1 if latched else 10)
 
 
-def test_mcap_is_compressed_indexed_and_says_what_is_latched(context, recording, tmp_path):
+def test_mcap_is_compressed_and_indexed_and_names_latched_topics(context, recording, tmp_path):
     bag = export(context, recording, tmp_path / "bag")
     with (bag / "bag.mcap").open("rb") as file:
         reader = make_reader(file, validate_crcs=True)
@@ -161,7 +161,7 @@ def test_log_time_does_not_run_backwards(tmp_path):
         assert [stamp for _, stamp, _ in reader.messages()] == [5, 9, 9]
 
 
-def test_what_is_no_bag_is_not_replaced(tmp_path):
+def test_a_folder_that_is_not_a_bag_is_not_replaced(tmp_path):
     (tmp_path / "thesis").mkdir()
     (tmp_path / "thesis" / "chapter.tex").write_text("years of work")
     (tmp_path / "file").write_text("")

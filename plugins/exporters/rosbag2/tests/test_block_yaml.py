@@ -15,5 +15,5 @@ NAMES = st.from_regex("[a-z][a-z_0-9]{3,10}", fullmatch=True).filter(lambda name
         lambda value: isinstance(value, dict | list)
     )
 )
-def test_a_library_reads_what_was_written(value):
+def test_a_library_reads_the_written_yaml(value):
     assert yaml.safe_load(block_yaml(value)) == value

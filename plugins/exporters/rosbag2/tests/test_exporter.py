@@ -83,7 +83,7 @@ def test_every_stamp_is_the_log_time_and_log_time_never_falls(context, recording
             assert all(stamp == log_time for stamp in stamps_of(message)), topic
 
 
-def test_frames_precede_what_stands_in_them(context, recording, tmp_path):
+def test_frames_precede_the_poses_in_them(context, recording, tmp_path):
     destination = export(context, [recording], tmp_path / "bag")
     order = Counter()
     with (destination / "bag.mcap").open("rb") as file:
@@ -258,7 +258,7 @@ def test_memory_does_not_grow_with_the_run(context, recording, tmp_path):
     assert max(held[20:]) < max(held[:20]) + 2**18
 
 
-def test_writes_only_what_is_asked_for(context, recording, tmp_path, read):
+def test_writes_only_the_requested_topics(context, recording, tmp_path, read):
     topics = ("/tf*", "/robot_1/odom", "/events")
     bag = read(export(context, [recording], tmp_path / "bag", topics=topics))
     assert set(bag) == {"/tf", "/tf_static", "/robot_1/odom", "/events"}

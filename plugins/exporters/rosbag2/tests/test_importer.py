@@ -131,7 +131,7 @@ def test_robots_are_chosen_by_pattern(foreign):
     assert list(sources(read(bag, "a*"))) == ["a1", "a2"]
 
 
-def test_a_bag_without_poses_says_what_it_holds(foreign):
+def test_the_error_for_a_bag_without_poses_lists_its_topics(foreign):
     bag = foreign()
     bag.amcl("/initialpose", 0, 0, 0, 0)
     with pytest.raises(
@@ -200,7 +200,7 @@ def test_a_bag_without_metadata_is_read(foreign, storage):
 
 
 @pytest.mark.parametrize("part", [0.3, 0.8])
-def test_what_is_whole_of_a_cut_off_mcap_is_read(foreign, part):
+def test_the_complete_part_of_a_truncated_mcap_is_read(foreign, part):
     path, file = filled(foreign, "mcap", step=0.005)
     whole = FromRosbag2().read(path).tracks[0]
     content = file.read_bytes()
@@ -212,7 +212,7 @@ def test_what_is_whole_of_a_cut_off_mcap_is_read(foreign, part):
     assert any("damaged" in note for note in observed.notes)
 
 
-def test_what_can_be_read_of_a_damaged_database_is_read(foreign):
+def test_the_readable_part_of_a_damaged_database_is_read(foreign):
     path, file = filled(foreign, "sqlite3")
     whole = FromRosbag2().read(path).tracks[0]
     content = bytearray(file.read_bytes())

@@ -90,7 +90,7 @@ def test_without_a_pattern_that_fits_the_topics_are_listed(tmp_path):
     ("encoding", "schema", "data"),
     [("ros1msg", "ros1", b""), ("jsonschema", "json", b"{}"), ("protobuf", "protobuf", b"\x08\x01")],
 )
-def test_what_is_not_of_ros_2_is_refused_in_one_line(tmp_path, encoding, schema, data):
+def test_files_that_are_not_of_ros_2_are_refused_in_one_line(tmp_path, encoding, schema, data):
     file = tmp_path / "odd.mcap"
     with file.open("wb") as stream:
         writer = BareWriter(stream)

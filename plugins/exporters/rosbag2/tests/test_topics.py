@@ -18,7 +18,7 @@ def test_patterns_that_match_something_are_accepted(pattern):
 
 
 @pytest.mark.parametrize("pattern", ["tf", "/robot_0/odometry", "", "/Tf", "/robot0/odom"])
-def test_patterns_that_match_no_topic_of_any_run_are_refused_with_what_there_is(pattern):
+def test_patterns_that_match_no_topic_are_refused_with_the_list_of_topics(pattern):
     with pytest.raises(ValueError, match=r"no topic matches .*; there are /clock, .*/robot_\*/scan"):
         Rosbag2(topics=("/tf", pattern))
 

@@ -57,7 +57,7 @@ def particles(localizer):
     return session._filters.particles(0)
 
 
-def test_the_file_sets_what_is_not_set_here(tmp_path):
+def test_the_file_sets_the_options_that_are_not_given(tmp_path):
     file = tmp_path / "nav2.yaml"
     file.write_text(NAV2)
     assert len(particles(Amcl(nav2=file))) == 900

@@ -32,7 +32,7 @@ def test_the_order_of_robots_does_not_matter(touching, permuted):
     assert Contact().measure(permuted(touching, [2, 3, 1, 0])) == Contact().measure(touching)
 
 
-def test_where_nothing_touched_there_is_no_first_touch(executed):
+def test_runs_without_contacts_have_no_first_contact(executed):
     values = Contact().measure(executed([2, 5, 8], STILL, [[0] * 3] * 4, [[(0, 0)]] * 4))
     assert values.pop("first_s") is None
     assert set(values.values()) == {0}

@@ -71,7 +71,7 @@ def test_a_robot_that_is_early_counts_as_punctual(late):
 
 @pytest.mark.parametrize("metric", [Delay(), Fairness()])
 @pytest.mark.parametrize("missing", ["plan", "time", "reached", "samples"])
-def test_what_cannot_be_measured_is_null(late, metric, missing):
+def test_values_that_cannot_be_measured_are_null(late, metric, missing):
     if missing == "plan":
         run = attrs.evolve(late, context=attrs.evolve(late.context, result=PlanResult(status=PlanStatus.UNKNOWN)))
     elif missing == "samples":
@@ -85,7 +85,7 @@ def test_what_cannot_be_measured_is_null(late, metric, missing):
 
 @settings(deadline=None, max_examples=100)
 @given(st.lists(st.floats(0, 1e300), min_size=1, max_size=20), st.floats(1e-3, 1e3))
-def test_jains_index_lies_between_one_nth_and_one_whatever_the_unit(shares, unit):
+def test_jains_index_lies_between_one_nth_and_one_in_any_unit(shares, unit):
     values = np.array(shares)
     index = jain(values)
     assert 1 / len(values) - 1e-12 <= index <= 1 + 1e-12

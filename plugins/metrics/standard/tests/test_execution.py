@@ -127,7 +127,7 @@ def test_touches_of_a_pair_close_in_time_are_one_episode(crossing):
     assert Execution(contact_pause=5.0).measure(crossing)["robot_contacts"] == 1
 
 
-def test_distance_is_what_was_driven(crossing):
+def test_distance_is_the_length_of_the_driven_path(crossing):
     assert Execution().measure(crossing)["distance_m"] == pytest.approx(4 + 3)
 
 
@@ -151,7 +151,7 @@ def test_the_order_of_many_robots_does_not_matter(executed, permuted, data, coun
 
 
 @pytest.mark.parametrize("damage", ["truth", "time", "nan", "empty"])
-def test_what_cannot_be_measured_is_null_never_zero(crossing, damage):
+def test_values_that_cannot_be_measured_are_null_and_not_zero(crossing, damage):
     channels = dict(crossing.channels)
     if damage == "nan":
         broken = crossing.channel("truth").copy()

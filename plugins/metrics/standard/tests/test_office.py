@@ -17,7 +17,7 @@ def measured(tmp_path_factory):
     return record["metrics"]
 
 
-def test_all_is_measured_but_what_did_not_happen(measured):
+def test_all_columns_have_values_except_those_of_events_that_did_not_happen(measured):
     unknown = {name for name, value in measured.items() if value is None and name.split(".")[0] in OTHERS}
     assert unknown <= {"contact.first_s"}
 

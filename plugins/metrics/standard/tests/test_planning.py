@@ -26,7 +26,7 @@ def test_the_originals_costs_count_states(planned):
     assert (values["mrp_bench.cost"], values["mrp_bench.makespan"]) == (6 + 4 + 1, 6)
 
 
-def test_what_the_planner_and_validator_counted_is_passed_on(planned):
+def test_counts_of_planner_and_validator_are_passed_on(planned):
     counted = {"expansions": 12.0, "generated": 40, "conflicts": 0.0}
     values = Planning().measure(planned([TO_THE_END], [0], lower_bound=4.0, statistics=counted))
     assert (values["expansions"], values["generated"], values["conflicts"]) == (12, 40, 0)

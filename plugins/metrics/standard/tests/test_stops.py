@@ -40,7 +40,7 @@ def test_without_the_channel_released_only_that_is_null(halting):
     assert values == Stops().measure(halting) | {"standing_released_s": None}
 
 
-def test_turning_on_the_spot_is_no_stand(executed):
+def test_a_robot_that_turns_on_the_spot_does_not_stand(executed):
     run = executed(range(5), [[(0, 0)] * 5], [[0] * 5], [WAY])
     yaw = np.array([3.0, 3.1, 3.2 - 2 * np.pi, -3.0, -3.0])
     truth = np.stack([np.zeros(5), np.zeros(5), yaw], axis=1)[:, None]

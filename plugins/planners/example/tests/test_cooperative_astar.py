@@ -147,13 +147,13 @@ def test_time_is_kept():
         ({"horizon": 5}, "horizon"),
     ],
 )
-def test_what_it_cannot_solve_it_is_not_given(fields, missing):
+def test_problems_that_it_does_not_support_are_skipped(fields, missing):
     assert Example().skip(problem(grid(1, 2), [0], [1], **fields)) == f"does not support {missing}"
     footprints = attrs.evolve(problem(grid(1, 2), [0], [1]), features={Feature.FOOTPRINTS})
     assert Example().skip(footprints) == "does not support footprints"
 
 
-def test_no_robots_is_no_trouble():
+def test_a_problem_without_robots_is_solved():
     result = Example().plan(problem(grid(1, 2), [], []), AMPLE)
     assert result.status is PlanStatus.SOLVED
     assert result.plan.paths == ()

@@ -155,7 +155,7 @@ def test_a_program_that_writes_nothing_has_found_nothing(tmp_path):
         ),
     ],
 )
-def test_a_program_that_fails_is_named_with_what_it_said(tmp_path, text, said):
+def test_the_error_of_a_failing_program_has_its_name_and_output(tmp_path, text, said):
     with pytest.raises(RuntimeError, match=said):
         External(binary=program(tmp_path, text)).plan(problem(), AMPLE)
 
@@ -181,7 +181,7 @@ def test_a_program_that_passes_its_memory_is_killed(tmp_path):
     assert 100_000_000 < result.statistics["memory_bytes"] < 1_000_000_000
 
 
-def test_what_is_no_map_of_cells_is_skipped_with_the_reason(tmp_path):
+def test_a_problem_without_a_raster_is_skipped_with_the_reason(tmp_path):
     planner, asked = External(binary=program(tmp_path, SOLVER)), problem()
     free = attrs.evolve(asked.roadmap, grid=None)
     assert "does not have" in planner.skip(attrs.evolve(asked, roadmap=free))

@@ -66,7 +66,7 @@ coordinate = st.floats(-4, 4).map(lambda value: round(value, 3))
     st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)),
     st.sampled_from([1.0, 3.5, 20.0]),
 )
-def test_a_beam_reads_almost_what_its_close_neighbour_reads(lines, discs, pose, beams, mount, reach):
+def test_neighbouring_beams_have_almost_equal_ranges(lines, discs, pose, beams, mount, reach):
     """Where a beam grazes an end or an edge, rounding decides what it meets; so it may read what its neighbours do."""
     outline = wall_boxes(np.array(lines).reshape(-1, 4), 0.1)
     discs, pose = np.array(discs, float).reshape(-1, 3), np.array(pose)

@@ -79,7 +79,7 @@ commands = st.lists(st.tuples(st.floats(-1, 1), st.floats(-4, 4)), min_size=6, m
 
 @settings(deadline=None, max_examples=40)
 @given(st.lists(commands, min_size=1, max_size=4), st.floats(0, 0.3), st.floats(0, 0.5))
-def test_whatever_robots_do_they_overlap_nothing(plan, slip, noise):
+def test_robots_overlap_nothing_under_any_commands(plan, slip, noise):
     robots = (BURGER,) * 5 + (attrs.evolve(WAFFLE, max_speed=2.0),)
     simulator = Planar(slip=slip, actuation_noise=noise)
     states, _ = drive(simulator, FURNISHED, robots, STARTS, lambda period: plan[period // 25 % len(plan)], 100, seed=3)

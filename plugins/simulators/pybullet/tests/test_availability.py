@@ -22,7 +22,7 @@ def open_one():
 @pytest.mark.parametrize(
     ("version", "message"), [((3, 12), r"no PyBullet wheel for Python 3\.12"), ((3, 11), "PyBullet cannot be imported")]
 )
-def test_without_pybullet_opening_says_in_one_line_what_to_do(monkeypatch, version, message):
+def test_without_pybullet_the_error_is_one_line_with_a_remedy(monkeypatch, version, message):
     monkeypatch.setitem(sys.modules, "pybullet", None)  # makes the import fail
     monkeypatch.setattr(sys, "version_info", type("V", (tuple,), {"major": version[0], "minor": version[1]})(version))
     with pytest.raises(InputError, match=message) as caught:

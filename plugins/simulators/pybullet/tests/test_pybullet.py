@@ -40,7 +40,7 @@ def travelled(states):
 @MODELS
 @pytest.mark.parametrize("name", ["turtlebot3_burger", "turtlebot3_waffle", "agv_600"])
 @pytest.mark.parametrize("command", [(0.2, 0.0), (0.0, 1.0), (0.2, 0.5), (0.15, -1.5), (-0.1, 0.3)])
-def test_robots_do_what_the_kinematic_simulator_does(model, name, command):
+def test_robots_move_as_in_the_kinematic_simulator(model, name, command):
     robot, bullet = load_robot(name), PyBullet(model=model)
     rigid, plane = (run(kind, EMPTY, (robot,), [[1, 2, 0.4]], [command], 8)[0] for kind in (bullet, Kinematic()))
     assert travelled(rigid) == pytest.approx(travelled(plane), rel=0.005, abs=0.005)

@@ -126,7 +126,7 @@ def test_a_mistake_in_geographic_coordinates_is_one_line(load, old, new, message
     assert message in str(caught.value)
 
 
-def test_without_pyproj_the_error_says_what_to_install(load, monkeypatch):
+def test_without_pyproj_the_error_names_the_package_to_install(load, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyproj", None)
     with pytest.raises(InputError, match=r"1:20: coordinate_system 'wgs84' needs pyproj .*mrpbench-core\[geo\]"):
         load(EARTH)

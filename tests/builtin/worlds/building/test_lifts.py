@@ -39,7 +39,7 @@ def test_places_in_the_cabin_name_their_lift(load):
     ]
 
 
-def test_a_hole_that_is_a_lift_shaft_is_no_hole(load):
+def test_a_lift_shaft_is_not_a_hole(load):
     shaft = TOWER.replace('[5.2, 0.1, 0, ""]]', '[5.2, 0.1, 0, ""], [4.2, -0.4, 0, ""], [5.8, 0.5, 0, ""]]')
     assert load(shaft.replace("[0, 1, 1]", "[1, 2, 3]")).levels[1].holes == ()
     assert len(load(TOWER.replace("[0, 1, 1]", "[0, 0, 0]")).levels[1].holes) == 1

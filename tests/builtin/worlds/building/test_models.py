@@ -44,7 +44,7 @@ def test_an_estimate_that_blocks_a_lane_is_left_out_and_named(load):
     assert len(obstacles(load, model("Desk", 3, 1), clearance=0.2)) == 1
 
 
-def test_a_measured_footprint_stays_whatever_it_blocks(load, tmp_path):
+def test_a_measured_footprint_stays_even_if_it_blocks_a_lane(load, tmp_path):
     own = tmp_path / "own.yaml"
     own.write_text("Desk: {size: [1, 1], centre: [0.5, 0], height: 2}\nThrone: {radius: 0.5}\n")
     desk, throne = obstacles(load, model("Desk", 3, 0), model("Throne", 5, 0), footprints=own)
@@ -53,7 +53,7 @@ def test_a_measured_footprint_stays_whatever_it_blocks(load, tmp_path):
     assert np.hypot(*(throne.polygon - (5, 0)).T) == pytest.approx(0.5)
 
 
-def test_what_is_out_of_reach_or_unknown_is_no_obstacle_and_named(load):
+def test_models_out_of_reach_or_without_a_footprint_are_left_out_and_named(load):
     world = load(ROOM % ", ".join([model("Coke", 3, 3, z=0.9), model("Throne", 4, 4), model("BedSheet", 5, 5)]))
     assert world.levels[0].obstacles == ()
     for part in ("'Coke' is higher than", "'Throne' has no known footprint", "'BedSheet' is not an"):
