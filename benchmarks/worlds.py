@@ -51,7 +51,7 @@ def study(name: str, options: argparse.Namespace) -> dict[str, Any]:
 
 
 def touches(record: dict[str, Any], kind: str) -> int:
-    """How often robots touched one another, or something solid; 0 if they did not drive, which is a failure anyway."""
+    """Number of contacts of robots with one another and with solid things; 0 if they did not drive, a failure too."""
     counted = record["metrics"].get(f"execution.{kind}_contacts")
     if counted is None and record["status"] == RunStatus.SUCCEEDED:
         raise SystemExit(f"the simulator reports no contacts: {record['run_id']}")

@@ -39,7 +39,7 @@ class Component(ABC):
     group: ClassVar[str]
     """Entry-point group of the kind, e.g. `mrpbench.planners`."""
     live: ClassVar[bool] = False
-    """Whether something outside takes part that has its own clock; such runs are marked and are not repeatable."""
+    """True if something outside with a clock of its own takes part; such runs are marked and are not repeatable."""
 
     def reads(self) -> tuple[Path, ...]:
         """Return files that the component reads besides those of its options, e.g. because one of these names them.

@@ -26,7 +26,7 @@ class Track:
     """One of `SOURCES`."""
     topic: str
     placed: bool = True
-    """Whether poses are in the frame `map`; otherwise they are in a frame of the robot with an unknown origin."""
+    """True if poses are in the frame `map`; otherwise they are in a frame of the robot with an unknown origin."""
     time: Float = array("f8")
     """f8[k] seconds since the recording's first pose, strictly increasing."""
     pose: Float = array("f8", 3)

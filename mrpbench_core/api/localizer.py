@@ -24,7 +24,7 @@ class Localizer(Component):
 
     group: ClassVar[str] = "mrpbench.localizers"
     needs_truth: ClassVar[bool] = False
-    """Whether `update` needs the true poses, which only `ground_truth` gets without `grant_truth: true`."""
+    """True if `update` needs the true poses, which only `ground_truth` gets without `grant_truth: true`."""
 
     @abstractmethod
     def start(self, fleet: Fleet, world: World, placements: Float, seed: int) -> LocalizerSession:

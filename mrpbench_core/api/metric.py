@@ -35,7 +35,7 @@ class Column:
     """The data that this number needs in addition to `Metric.requires`. If they are missing, only this column is null;
     recordings of real fleets lack data that only a simulator has."""
     primary: bool = False
-    """Whether tables, figures, summaries and replays show it unless the user selects columns."""
+    """True if tables, figures, summaries and replays show it unless the user selects columns."""
     stage: ColumnStage = "execution"
     """The stage that it measures. Figures that count runs without a value as failures use the runs that have a plan, or
     the runs that succeeded."""

@@ -37,7 +37,7 @@ class Planner(Component):
 
     @property
     def assigns(self) -> bool:
-        """Whether the planner also assigns tasks to robots.
+        """True if the planner also assigns tasks to robots.
 
         By default it does if it supports goal sets and its option `assign` is on; a planner that always assigns
         overrides this. It replaces the assigner: the goal set of every robot contains the goals of all tasks.

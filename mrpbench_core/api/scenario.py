@@ -15,7 +15,7 @@ class ScenarioSource(Component):
 
     group: ClassVar[str] = "mrpbench.scenarios"
     gives_goals: ClassVar[bool] = False
-    """Whether task i is the goal of robot i. The default assigner is then `identity`, and records count the robots to
+    """True if task i is the goal of robot i. The default assigner is then `identity`, and records count the robots to
     which another assigner gives another goal."""
 
     @abstractmethod

@@ -17,7 +17,7 @@ class Serial(ExecutorSource):
     """One run after another: for timing."""
 
     def open(self, workers: int) -> Executor:
-        """One thread."""
+        """Use one thread."""
         if workers != 1:
             raise InputError(f"the executor serial has one worker, not {workers}", hint="processes has several")
         return ThreadPoolExecutor(1, "mrpbench-run")
@@ -28,5 +28,5 @@ class Processes(ExecutorSource):
     """`--workers` runs at once, each in a process of its own."""
 
     def open(self, workers: int) -> Executor:
-        """As many threads as workers."""
+        """Use one thread per worker."""
         return ThreadPoolExecutor(workers, "mrpbench-run")

@@ -89,7 +89,7 @@ def wander(random, grid, at):
 
 
 def in_use(grid, resource, at, path, end):
-    """Whether a robot uses the resource in each half tick: even ones are instants, odd ones what lies between."""
+    """Tell whether a robot uses the resource in each half tick: even ones are instants, odd ones the time between."""
     doing = []
     for edge, enter, leave in zip(path.edge.tolist(), path.enter.tolist(), path.leave.tolist(), strict=True):
         standing = at in resource.vertices

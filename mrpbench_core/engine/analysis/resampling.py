@@ -26,7 +26,7 @@ class Resampled:
     notes: tuple[str, ...]
     """Assumptions, one sentence each."""
     gaps: tuple[str, ...]
-    """What is unknown."""
+    """The times at which the pose is unknown, in words."""
     trigger: float = 0.0
     """metres that the robot moves unseen between two poses, if the source is silent while it stands; else 0."""
 

@@ -43,7 +43,7 @@ def poses_in_walls(names: Sequence[str], time: Float, truth: Float, level: Int16
 
 
 def _solid(level: Level, place: Float) -> Bool:
-    """Whether places f8[k,2] are in solid cells; nothing is known, and so nothing solid, outside the raster."""
+    """Tell which places f8[k,2] are in solid cells; nothing is known, and so nothing solid, outside the raster."""
     low, high = bounds(level)
     own = level.occupancy
     raster = rasterise(level, max(own.cell_size if own else CELL, float((high - low).max()) / MOST_CELLS))

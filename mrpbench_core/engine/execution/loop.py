@@ -63,7 +63,7 @@ class LoopComponents:
 
     @property
     def needs_truth(self) -> bool:
-        """Whether the localizer needs the true poses."""
+        """True if the localizer needs the true poses."""
         return bool(self.localizer.needs_truth)
 
 

@@ -15,7 +15,7 @@ from mrpbench_core.model.planning.problem import Problem
 
 @attrs.frozen(kw_only=True)
 class Promises:
-    """What a planner promises, noted before it is called."""
+    """The promises of a planner, noted before it is called."""
 
     kept: frozenset[Promise]
     factor: float

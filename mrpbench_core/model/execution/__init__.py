@@ -1,1 +1,1 @@
-"""What simulator, localizer, dispatcher, navigator and controller exchange in every control period."""
+"""The data that simulator, localizer, dispatcher, navigator and controller exchange in every control period."""

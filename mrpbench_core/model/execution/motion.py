@@ -1,4 +1,4 @@
-"""What a navigator commands and reports."""
+"""The commands and reports of a navigator."""
 
 from enum import IntEnum
 

@@ -1,4 +1,4 @@
-"""What the robots sense, and what navigators and controllers know of it."""
+"""The sensor data of the robots, and the part of them that navigators and controllers get."""
 
 from typing import Self
 

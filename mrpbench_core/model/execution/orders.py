@@ -1,4 +1,4 @@
-"""What a dispatcher sees, and what it decides."""
+"""The inputs and the decisions of a dispatcher."""
 
 import attrs
 

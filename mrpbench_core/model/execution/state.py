@@ -1,4 +1,4 @@
-"""What a simulator is given, and the true state that it returns."""
+"""The inputs of a simulator, and the true state that it returns."""
 
 from collections.abc import Mapping
 

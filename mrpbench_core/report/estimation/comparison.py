@@ -34,12 +34,12 @@ class Comparison:
 
     @property
     def is_mixed(self) -> bool:
-        """Whether the mean and the ranks, which decide the verdict, have different signs."""
+        """True if the mean and the ranks, which decide the verdict, have different signs."""
         return self.found.effect * self.found.difference.value < 0
 
     @property
     def verdict(self) -> str:
-        """Whether the second is better, worse, different (where no direction is known), or not shown to differ."""
+        """The verdict on the second: better, worse, different (where no direction is known), or not shown to differ."""
         if self.p_adjusted >= SIGNIFICANT:
             return "not shown"
         return {1: "better", -1: "worse", 0: "different"}[direction(self.column) * (1 if self.found.effect > 0 else -1)]

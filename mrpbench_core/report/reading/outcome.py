@@ -1,4 +1,4 @@
-"""Whether a run had a plan, and what counts as its planning time if it had none."""
+"""Tells whether a run had a plan, and gives the planning time that counts if it had none."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -34,7 +34,7 @@ class Runs:
     scenario: Int
     """Number of the scenario; -1 if none was drawn."""
     counted: Bool
-    """Whether the run says something about the method."""
+    """True if the run says something about the method."""
     config: Int
     """Index into `configs`."""
     reassigned: Int

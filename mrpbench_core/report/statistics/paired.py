@@ -50,7 +50,7 @@ class Difference:
 
     @property
     def can_be_significant(self) -> bool:
-        """Whether the test would be significant if all units that differ did so in the same direction."""
+        """True if the test would be significant if all units that differ did so in the same direction."""
         return bool(2.0 ** (1 - self.above - self.below) <= 1 - LEVEL)
 
 

@@ -33,7 +33,7 @@ def around(columns: int) -> Int:
 
 @attrs.frozen(kw_only=True)
 class RingsResult:
-    """What happened to rings of robots."""
+    """The outcome of an execution of rings of robots."""
 
     rotations: int
     """Rotations that all robots of a ring completed, summed over rings."""

@@ -66,7 +66,7 @@ def ways(roadmap: Roadmap) -> tuple[np.ndarray, np.ndarray]:
 
 
 def blocks_a_robot(roadmap: Roadmap, door: Door) -> bool:
-    """Whether a robot that holds the door open can come to an edge that its open leaf blocks, by search over its moves.
+    """Tell by search whether a robot that holds the door open can come to an edge that its open leaf blocks.
 
     Independent of the code under test: edges and vertices by turns, through the resource only.
     """

@@ -109,7 +109,7 @@ def load(source, file: Path) -> World | str:
 
 
 def both(outcomes) -> bool:
-    """Some were worlds, some were not."""
+    """Tell whether some files load and others are refused."""
     return len({isinstance(outcome, World) for outcome in outcomes}) == 2
 
 

@@ -58,7 +58,7 @@ class Standing:
 
 @attrs.frozen
 class RunOutcome:
-    """What happened in a run."""
+    """The outcome of a run."""
 
     seed: int
     name: str

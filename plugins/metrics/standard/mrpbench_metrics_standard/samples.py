@@ -1,4 +1,4 @@
-"""Whether a run can be measured, and the result if it cannot."""
+"""Tells whether a run can be measured, and gives the result if it cannot."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from mrpbench_core.model.runs.run import FinishedRun
 
 
 def measurable(metric: Metric, run: FinishedRun) -> bool:
-    """Whether the run has everything that the metric requires, samples, and finite true positions."""
+    """Tell whether the run has everything that the metric requires, samples, and finite true positions."""
     if not all(run.has(channel) for channel in metric.requires) or not len(run.channel("time")):
         return False
     return "truth" not in metric.requires or bool(np.isfinite(run.channel("truth")).all())

@@ -67,7 +67,7 @@ coordinate = st.floats(-4, 4).map(lambda value: round(value, 3))
     st.sampled_from([1.0, 3.5, 20.0]),
 )
 def test_neighbouring_beams_have_almost_equal_ranges(lines, discs, pose, beams, mount, reach):
-    """Where a beam grazes an end or an edge, rounding decides what it meets; so it may read what its neighbours do."""
+    """A beam that grazes an end or an edge may have the range of its neighbour: rounding decides what it meets."""
     outline = wall_boxes(np.array(lines).reshape(-1, 4), 0.1)
     discs, pose = np.array(discs, float).reshape(-1, 3), np.array(pose)
     lidar = Lidar(beams=beams, range=reach, min_range=0.1, mount=(*mount, 0.2))

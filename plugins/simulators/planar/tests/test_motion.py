@@ -37,7 +37,7 @@ def test_a_free_robot_moves_as_in_the_kinematic_simulator(command):
 
 
 def test_robots_that_touch_walls_and_each_other_move_as_in_the_kinematic_simulator():
-    """Where many push each other, rounding grows; a minute with hundreds of contacts shows by how much."""
+    """Rounding errors grow where many robots push each other; a minute with hundreds of contacts shows by how much."""
     robots = (BURGER,) * 4 + (WAFFLE,) * 2
     starts = [[1, 1, 0.3], [1.3, 1.1, 2], [1.2, 1.4, -1], [0.3, 0.3, 3], [2.5, 1, -2.5], [2, 0.5, 1]]
     (ours, _), (theirs, _) = (drive(kind, FURNISHED, robots, starts, wander, 1200) for kind in (Planar(), Kinematic()))

@@ -89,7 +89,7 @@ class Span:
     """The part of a recording in which its clock runs evenly."""
 
     use_log: bool
-    """Whether log times are used as stamps, because some topic has no stamps."""
+    """True if log times are used as stamps, because some topic has no stamps."""
     since: int
     until: int
     note: str | None = None
