@@ -96,7 +96,7 @@ def outcome_of(row: Mapping[str, str]) -> Outcome:
 
 
 def measured(file: Path, solvers: Sequence[str], limit: float = 10.0) -> dict[MapfInstance, Outcome]:
-    """The best that any of `solvers` was measured to reach, from a table of measurements."""
+    """The best measured result of any of `solvers`, from a table of measurements."""
     best: dict[MapfInstance, Outcome] = {}
     with file.open() as stream:
         for row in csv.DictReader(stream):

@@ -56,7 +56,7 @@ def test_a_run_shows_robots_in_their_colours(tmp_path, robot_model):
 
 
 @pytest.mark.parametrize("part", ["routes", "truth"])
-def test_plans_and_drives_can_be_drawn_alone(tmp_path, part):
+def test_planned_or_driven_paths_can_be_drawn_alone(tmp_path, part):
     world = Office().load()
     if part == "routes":
         extra = {"routes": [Route(waypoint=[[1.2, 6, np.nan], [6, 6, np.nan]], level=[0, 0], speed=[1.0])]}

@@ -30,7 +30,7 @@ def test_the_signed_rank_test_of_darwins_maize():
 
 
 @given(st.lists(st.integers(-5, 5).filter(bool), min_size=1, max_size=9, unique_by=abs))
-def test_the_signed_rank_test_is_that_of_all_flips(steps):
+def test_the_signed_rank_test_equals_the_count_over_all_sign_flips(steps):
     steps = np.array(steps, float)
     ranks = np.argsort(np.argsort(np.abs(steps))) + 1
     sums = np.array(

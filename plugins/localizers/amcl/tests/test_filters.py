@@ -85,7 +85,7 @@ def test_a_kidnapped_robot_recovers_when_particles_may_be_placed_anywhere():
     assert recovers[-100:].max() < 0.2
 
 
-def test_a_robots_draws_follow_seed_and_index_and_no_other_robot():
+def test_random_draws_depend_on_seed_and_robot_alone():
     def drawn(seed, robots):
         fleet, starts = Fleet(robots=(BURGER,) * robots), np.tile((2.3, 1.2, 0.3), (robots, 1))
         return Amcl().start(fleet, ROOM, starts, seed)._filters.particles(0)
