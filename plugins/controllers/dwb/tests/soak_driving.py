@@ -65,6 +65,8 @@ class RunOutcome:
     status: str
     error: str
     standing: tuple[Standing, ...]
+    touched: tuple[str, ...]
+    """What robots touched: `robot`, `wall`, or both."""
 
 
 def config(seed: int) -> dict[str, Any]:
@@ -104,13 +106,16 @@ def drive(seed: int, keep: Path | None) -> RunOutcome:
         paths = RunPaths(recording=Path(name) / "run.zip", exports=Path(name) / "exports")
         record = execute(point.config, str(seed), paths, lambda *_: None)
         found: tuple[Standing, ...] = ()
-        if record.status in PLANNED and record.status != RunStatus.SUCCEEDED and paths.recording.exists():
+        touched: tuple[str, ...] = ()
+        if record.status in PLANNED and paths.recording.exists():
             recording = Recording(paths.recording)
             found = tuple(standing_robots(recording))
+            others = recording.channel("contact")[:, 1]
+            touched = ("robot",) * bool((others >= 0).any()) + ("wall",) * bool((others < 0).any())
             recording.close()
-            if keep is not None:
+            if keep is not None and record.status != RunStatus.SUCCEEDED:
                 (keep / f"{seed}.zip").write_bytes(paths.recording.read_bytes())
-    return RunOutcome(seed, label(settings), str(record.status), str(record.error or ""), found)
+    return RunOutcome(seed, label(settings), str(record.status), str(record.error or ""), found, touched)
 
 
 def standing_robots(recording: Recording) -> Iterator[Standing]:
@@ -150,6 +155,7 @@ def main() -> int:
         given.keep.mkdir(parents=True, exist_ok=True)
     statuses: Counter[str] = Counter()
     causes: Counter[str] = Counter()
+    contacts: Counter[str] = Counter()
     seeds = range(given.seed, given.seed + given.runs)
     with ProcessPoolExecutor(given.workers) as pool:
         for outcome in pool.map(partial(drive, keep=given.keep), seeds):
@@ -157,12 +163,14 @@ def main() -> int:
             if statuses.total() % 50 == 0:
                 print(f"{statuses.total()} runs: {dict(statuses)}, {dict(causes)}", flush=True)
             causes.update({it.cause for it in outcome.standing})
+            contacts.update(f"{'adg' if ' adg' in outcome.name else 'timed'}: {it}" for it in outcome.touched)
             if outcome.status != RunStatus.SUCCEEDED:
                 print(f"seed {outcome.seed} ({outcome.name}): {outcome.status} {outcome.error}", flush=True)
             for it in outcome.standing:
                 print(f"    robot {it.robot} since {it.since:.1f} s: {it.cause}; {it.detail}", flush=True)
     print(f"{given.runs} runs:", ", ".join(f"{count} {status}" for status, count in statuses.most_common()))
     print("runs with robots that:", ", ".join(f"{count} {cause}" for cause, count in causes.most_common()) or "-")
+    print("runs with contacts:", ", ".join(f"{count} {kind}" for kind, count in contacts.most_common()) or "-")
     return int(causes[STANDS] > 0)
 
 
