@@ -1,7 +1,6 @@
 #include "algorithms/anytime_fallback.hpp"
 
-#include "lacam/lacam_search.hpp"
-#include "lns/improvement.hpp"
+#include "algorithms/multi_start.hpp"
 #include "lns/repair.hpp"
 
 namespace mrpbench::mapf {
@@ -21,7 +20,9 @@ class AnytimeFallback::Search {
         is_done_(!repair_.begin()) {
     if (!lacam::is_suitable(instance)) return;
     space_.emplace(instance, limits);
-    if (!space_->is_unit()) lacam_.emplace(instance, *space_, distances, nullptr, LacamOptions{}, limits, of_lacam_);
+    if (space_->is_unit()) return;
+    lacam_.emplace(instance, *space_, distances, nullptr, LacamOptions{}, limits, of_lacam_);
+    multi_start_.emplace(*space_, distances, schedule_, LacamOptions{});
   }
 
   const std::vector<Path>& paths() const { return schedule_.paths(); }
@@ -31,7 +32,7 @@ class AnytimeFallback::Search {
   /// Take a step; true if there is a better plan now.
   bool advance() {
     if (found_ || repair_.is_done()) {
-      const bool better = !found_ || improvement_.advance();
+      const bool better = !found_ || (multi_start_ ? multi_start_->advance() : improvement_.advance());
       found_ = true;
       is_done_ = improvement_.is_done();
       return better;
@@ -50,6 +51,7 @@ class AnytimeFallback::Search {
   lns::Improvement improvement_;
   std::optional<lacam::ConfigurationSpace> space_;
   std::optional<lacam::LacamSearch> lacam_;  // where repairing alone may take long: moves of several ticks, resources
+  std::optional<MultiStart> multi_start_;
   Statistics of_lacam_;
   bool found_ = false;  // a plan without conflicts
   bool is_done_;
@@ -84,13 +86,11 @@ void AnytimeFallback::begin() {
 
 /// Search on until this has taken `effort` in all.
 void AnytimeFallback::advance(std::int64_t effort) {
-  bool better = false;
   while (!search_->is_done() && effort_ < effort) {
     const std::int64_t before = result_.statistics.low_level_expansions;
-    better |= search_->advance();
+    if (search_->advance()) keep(search_->paths());
     effort_ += result_.statistics.low_level_expansions - before + kOverhead;
   }
-  if (better) keep(search_->paths());
 }
 
 void AnytimeFallback::keep(std::vector<Path> paths) {

@@ -1,8 +1,7 @@
 #include "mrpbench_mapf/algorithms/lacam.hpp"
 
+#include "algorithms/multi_start.hpp"
 #include "lacam/arrivals.hpp"
-#include "lacam/lacam_search.hpp"
-#include "lns/improvement.hpp"
 #include "lns/repair.hpp"
 #include "lns/spread.hpp"
 
@@ -55,23 +54,24 @@ class Lacam {
     const bool in_turn = options_.prioritized && has_room && plan_in_turn(schedule);
     // What is good for the sum need not be for the last robot.
     const bool enough = in_turn && options_.objective == Objective::flowtime;
-    if (options_.guides && !enough) {
-      if (space_.is_unit() && best_.first < kCrowded * least_) {
+    if (options_.guides && space_.is_unit() && !enough) {
+      if (best_.first < kCrowded * least_) {
         follow_guide_paths(schedule);
       } else {
         draw_others();
       }
     }
-    const bool star = options_.star && space_.is_unit();  // elsewhere steps say nothing about costs
-    if (best_.first == least_ || !(star || options_.neighbourhoods)) return;
+    // Where moves take several ticks, steps say nothing about costs.
+    if (best_.first == least_ || !((options_.star && space_.is_unit()) || options_.neighbourhoods)) return;
     schedule.replace(result_.paths);
+    if (!space_.is_unit()) return start_often(schedule);
     Improvement improvement(schedule, options_.objective, {}, options_.seed);
     for (std::int64_t k = 0; !options_.iterations || k < *options_.iterations; ++k) {
       if (options_.neighbourhoods && improvement.advance()) {
         improvement.copy_changed(result_.paths);
         note();
       }
-      if (star && !search_.exhausted() && search_.advance()) {
+      if (options_.star && !search_.exhausted() && search_.advance()) {
         std::vector<Path> paths = space_.paths_of(search_.way());
         if (value(options_.objective, paths) < best_) {
           schedule.replace(paths);
@@ -80,6 +80,13 @@ class Lacam {
       }
       if (best_.first == least_ || (search_.exhausted() && rule_out_better())) return;
       if (search_.exhausted() && !options_.neighbourhoods) return;
+    }
+  }
+
+  void start_often(Schedule& schedule) {
+    MultiStart multi_start(space_, tables_, schedule, options_);
+    for (std::int64_t k = 0; best_.first > least_ && (!options_.iterations || k < *options_.iterations); ++k) {
+      if (multi_start.advance()) keep(schedule.paths());
     }
   }
 

@@ -23,7 +23,8 @@ class Lacam(ConfigurationPlanner):
 
     Where moves take several ticks, or robots have footprints or use resources, a configuration says where robots stand
     between their moves, and each move starts as soon as those before it allow. Guide paths and `star` do not apply
-    there, so the result is not proved to be optimal. The search stays complete, because a robot on an edge excludes
+    there; when neighbourhoods bring nothing any more, they are planned from another first plan. The result is not
+    proved to be optimal. The search stays complete, because a robot on an edge excludes
     all that it will exclude at its end. Problems in which this does not hold are skipped.
     """
 

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_planners_mapf.bounded import Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.lacam import Lacam
 from mrpbench_planners_mapf.lns import Lns
@@ -99,3 +100,10 @@ def test_robots_that_disappear_or_choose_goals_are_skipped_with_the_reason(plann
     assert planner.skip(problem_on(road, [0], [2])) is None
     assert "disappear" in planner.skip(problem_on(road, [0], [2], at_goal="disappear"))
     assert "goal_sets" in planner.skip(problem_on(road, [0], [(1, 2)]))
+
+
+def test_eecbs_has_a_plan_in_a_building_long_before_its_tree_has_one():
+    asked = random_building_problem(np.random.default_rng([9, 2]), 9, junctions=16)
+    result = ask(Eecbs(w=1.2), asked, budget=BUDGET)
+    assert result.status is PlanStatus.SOLVED
+    assert result.statistics["expansions"] < 600  # alone, it needs more than 1,200
