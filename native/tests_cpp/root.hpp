@@ -16,9 +16,11 @@ struct Root {
         constraints(limits),
         paths(true, limits),
         reasoning(context, constraints) {
+    const AvoidanceTable none(context.space, limits);
     for (int robot = 0; robot < instance.size(); ++robot) {
       FoundPath path;
-      CHECK(context.plan(state, robot, TimedPath::kAnyGoal, {}, nullptr, path));
+      state.load(robot, TimedPath::kAnyGoal, context.table);
+      CHECK(context.search.search(context.table, context.distances[robot], none, {}, {}, 0, path) < kForever);
       state.set_path(robot, paths.keep(path));
     }
     AvoidanceTable present(context.space, limits);

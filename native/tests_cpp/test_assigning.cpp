@@ -2,7 +2,6 @@
 #include <set>
 
 #include "check.hpp"
-#include "mrpbench_mapf/algorithms/bounded_cbs.hpp"
 #include "mrpbench_mapf/algorithms/cbs.hpp"
 #include "plans.hpp"
 
@@ -19,8 +18,7 @@ Result optimal(const Instance& it, GoalChoice goals) {
 
 Result bounded(const Instance& it, GoalChoice goals, Selection selection) {
   Limits limits(0.2, 1LL << 30);
-  const BoundedOptions options{.w = kW, .selection = selection, .techniques = {.goals = goals}};
-  return solve_bounded(it, options, limits);
+  return solve_cbs(it, {.goals = goals, .selection = selection, .w = kW}, limits);
 }
 
 /// Robots that may take any of the goals of all, and of one more vertex, on a grid with holes; lanes take `longest`

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "check.hpp"
-#include "mrpbench_mapf/algorithms/bounded_cbs.hpp"
 #include "mrpbench_mapf/algorithms/cbs.hpp"
 #include "plans.hpp"
 
@@ -10,30 +9,31 @@ using namespace mrpbench::mapf;
 
 namespace {
 
-BoundedOptions draw(Random& random) {
-  BoundedOptions options;
+CbsOptions draw(Random& random) {
+  CbsOptions options;
   const auto toss = [&] { return random.below(2) == 0; };
   options.w = std::array{1.0, 1.02, 1.1, 1.5, 4.0}[random.below(5)];
-  options.selection = toss() ? Selection::focal : Selection::explicit_estimation;
-  options.techniques.prioritize = toss();
-  options.techniques.bypass = toss();
-  options.techniques.heuristic = toss();
-  options.techniques.target = toss();
-  options.techniques.corridor = toss();
-  options.techniques.rectangle = toss();
+  options.selection =
+      std::array{Selection::best_first, Selection::focal, Selection::explicit_estimation}[random.below(3)];
+  options.prioritize = toss();
+  options.bypass = toss();
+  options.heuristic = toss();
+  options.target = toss();
+  options.corridor = toss();
+  options.rectangle = toss();
   options.flex = toss();
   options.incumbent_after = toss() ? std::nullopt : std::optional(static_cast<std::int64_t>(toss() ? 0 : 200));
-  options.distance_weight = toss() ? 1.0 : 1.5;
-  options.conflict_weight = toss() ? 0.0 : 5.0;
+  options.order.distance_weight = toss() ? 1.0 : 1.5;
+  options.order.conflict_weight = toss() ? 0.0 : 5.0;
   return options;
 }
 
-std::int64_t expansions(const Instance& it, double w, CbsOptions techniques) {
-  BoundedOptions options;
+std::int64_t expansions(const Instance& it, double w, CbsOptions options) {
   options.w = w;
-  options.techniques = techniques;
+  options.selection = Selection::explicit_estimation;
+  options.order = {.distance_weight = 1.2, .conflict_weight = 20.0};
   Limits limits = unlimited();
-  return solve_bounded(it, options, limits).statistics.expansions;
+  return solve_cbs(it, options, limits).statistics.expansions;
 }
 
 }  // namespace
@@ -46,8 +46,8 @@ TEST("plans are sound, their cost is within the bound, and the bound below the o
     if (least_makespan(it) < 0) continue;
     Limits all = unlimited(), little(kForever, 2 << 20);  // plain searches may take for ever
     const Result best = solve_cbs(it, {}, all);
-    const BoundedOptions options = draw(random);
-    const Result result = solve_bounded(it, options, little);
+    const CbsOptions options = draw(random);
+    const Result result = solve_cbs(it, options, little);
     CHECK(result.lower_bound <= static_cast<double>(sum_of_costs(best)));
     CHECK(result.status == Status::solved || result.status == Status::out_of_memory);
     if (result.status != Status::solved) continue;

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "mrpbench_mapf/algorithms/astar.hpp"
-#include "mrpbench_mapf/algorithms/bounded_cbs.hpp"
 #include "mrpbench_mapf/algorithms/cbs.hpp"
 #include "mrpbench_mapf/algorithms/lacam.hpp"
 #include "mrpbench_mapf/algorithms/lns.hpp"
@@ -47,43 +46,51 @@ Algorithm make(std::string name, std::string help, Result (*solve)(const Instanc
   return made;
 }
 
+constexpr double kW = 1.2;
+constexpr StateOrder kWeighted{.distance_weight = 1.2, .conflict_weight = 20.0};
+
 /// ECBS as published has no techniques.
-BoundedOptions ecbs() {
-  BoundedOptions options{
-      .selection = Selection::focal, .incumbent_after = std::nullopt, .distance_weight = 1.0, .conflict_weight = 0.0};
+CbsOptions ecbs() {
+  CbsOptions options{.selection = Selection::focal, .w = kW};
   for (const auto& row : CbsOptions::description()) {
-    if (row.info.type == OptionInfo::Type::boolean) row.set(options.techniques, false);
+    if (row.info.type == OptionInfo::Type::boolean) row.set(options, false);
   }
   return options;
 }
 
-/// `heuristic` raises lower bounds, which a focal list hardly ever waits for; the fallback keeps to one assignment.
-BoundedOptions assigning(GoalChoice goals) {
-  return {.selection = Selection::focal,
-          .techniques = {.goals = goals, .heuristic = false},
-          .incumbent_after = std::nullopt};
+CbsOptions eecbs() {
+  return {.selection = Selection::explicit_estimation, .w = kW, .incumbent_after = 100'000, .order = kWeighted};
 }
 
-const Fixed kAssigningBounded =
-    only({"goal_choice", "selection", "heuristic", "flex", "incumbent_after", "distance_weight", "conflict_weight"});
+/// `heuristic` raises lower bounds, which a focal list hardly ever waits for; the fallback keeps to one assignment.
+CbsOptions assigning(GoalChoice goals) {
+  return {.goals = goals, .selection = Selection::focal, .w = kW, .heuristic = false, .order = kWeighted};
+}
+
+/// The names of all variants but EECBS decide these, and `more`.
+Fixed fixed(Names more) {
+  more.insert(more.end(),
+              {"goal_choice", "selection", "flex", "incumbent_after", "distance_weight", "conflict_weight"});
+  return only(more);
+}
 
 std::vector<Algorithm> make_all() {
   return {
       make("astar", "Plans every robot alone: shortest paths that may conflict.", solve_astar),
-      make("cbs", "Finds the least sum of costs by conflict-based search.", solve_cbs, {}, only({"goal_choice"})),
+      make("cbs", "Finds the least sum of costs by conflict-based search.", solve_cbs, {}, fixed({"w"})),
       make("cbs_ta", "Finds the least sum of costs over all assignments, with one tree per assignment.", solve_cbs,
-           {.goals = GoalChoice::ranked}, only({"goal_choice"})),
-      make("ecbs", "Finds at most w times the least sum of costs by focal search on both levels.", solve_bounded,
-           ecbs(), all_but({"w"})),
+           {.goals = GoalChoice::ranked}, fixed({"w"})),
+      make("ecbs", "Finds at most w times the least sum of costs by focal search on both levels.", solve_cbs, ecbs(),
+           all_but({"w"})),
       make("ecbs_ta",
            "Finds at most w times the least sum of costs over all assignments, with one tree per assignment.",
-           solve_bounded, assigning(GoalChoice::ranked), kAssigningBounded),
-      make("eecbs", "Finds at most w times the least sum of costs by explicit estimation search.", solve_bounded, {},
+           solve_cbs, assigning(GoalChoice::ranked), fixed({"heuristic"})),
+      make("eecbs", "Finds at most w times the least sum of costs by explicit estimation search.", solve_cbs, eecbs(),
            only({"goal_choice", "selection"})),
       make("ita_cbs", "Finds the least sum of costs over all assignments, with a single tree.", solve_cbs,
-           {.goals = GoalChoice::by_node}, only({"goal_choice", "heuristic"})),
+           {.goals = GoalChoice::by_node}, fixed({"w", "heuristic"})),
       make("ita_ecbs", "Finds at most w times the least sum of costs over all assignments, with a single tree.",
-           solve_bounded, assigning(GoalChoice::by_node), kAssigningBounded),
+           solve_cbs, assigning(GoalChoice::by_node), fixed({"heuristic"})),
       make("lacam", "Finds a plan soon by a search over configurations, then improves it.", solve_lacam),
       make("lns", "Replans groups of robots until there is no conflict, then to improve the plan.", solve_lns),
       make("pbs", "Plans robots in turn, by a search over priorities.", solve_pbs),

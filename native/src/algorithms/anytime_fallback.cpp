@@ -57,19 +57,19 @@ class AnytimeFallback::Search {
   bool is_done_;
 };
 
-AnytimeFallback::AnytimeFallback(SearchContext& context, const BoundedOptions& options, Result& result)
-    : context_(context), options_(options), result_(result) {}
+AnytimeFallback::AnytimeFallback(SearchContext& context, Result& result) : context_(context), result_(result) {}
 
 AnytimeFallback::~AnytimeFallback() = default;
 
 bool AnytimeFallback::solve() {
-  if (!options_.incumbent_after || options_.techniques.goals != GoalChoice::own) return false;
+  const CbsOptions& options = context_.options;
+  if (!options.incumbent_after || options.goals != GoalChoice::own) return false;
   const std::int64_t effort = result_.statistics.low_level_expansions - effort_;
   if (!root_effort_) root_effort_ = effort;
-  if (effort < *root_effort_ + *options_.incumbent_after) return false;
+  if (effort < *root_effort_ + *options.incumbent_after) return false;
   if (!begun_) begin();
   advance(effort / 2);
-  if (static_cast<double>(cost_) > options_.w * result_.lower_bound) return false;
+  if (static_cast<double>(cost_) > options.w * result_.lower_bound) return false;
   result_.paths = paths_;
   result_.status = Status::solved;
   return true;

@@ -6,7 +6,6 @@
 #include <memory>
 #include <vector>
 
-#include "mrpbench_mapf/cbs/bounded_options.hpp"
 #include "mrpbench_mapf/cbs/low_level/search_context.hpp"
 
 namespace mrpbench::mapf {
@@ -14,7 +13,7 @@ namespace mrpbench::mapf {
 class AnytimeFallback {
  public:
   /// `result` counts the low-level expansions of all searches, and has the lower bound.
-  AnytimeFallback(SearchContext& context, const BoundedOptions& options, Result& result);
+  AnytimeFallback(SearchContext& context, Result& result);
   ~AnytimeFallback();
 
   /// Call before each expansion of the tree: once it has taken a while, searches half as long as it has. True if there
@@ -29,7 +28,6 @@ class AnytimeFallback {
   void keep(std::vector<Path> paths);
 
   SearchContext& context_;
-  const BoundedOptions& options_;
   Result& result_;
   std::optional<std::int64_t> root_effort_;  // low-level expansions for the root of the tree
   bool begun_ = false;

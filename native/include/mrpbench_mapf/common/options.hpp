@@ -131,10 +131,4 @@ struct Option {
 template <class Options>
 using Description = std::vector<Option<Options>>;
 
-/// The rows of `inner`, of a struct that is the member `part`, at the end of `rows`.
-template <class Options, class Inner>
-void append(Description<Options>& rows, const Description<Inner>& inner, Inner Options::* part) {
-  for (const Option<Inner>& row : inner) rows.push_back(Option<Options>(row, part));
-}
-
 }  // namespace mrpbench::mapf

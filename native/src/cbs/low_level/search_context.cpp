@@ -20,22 +20,12 @@ SearchContext::SearchContext(const Instance& instance, const CbsOptions& options
       space(instance, limits),
       distances(instance, limits),
       intervals(space, limits, statistics),
-      astar(space, intervals, limits, statistics),
+      search(space, intervals, limits, statistics),
       table(space, limits),
       scratch(space, limits),
       builder_(space, limits),
       mdds_(limits, static_cast<std::size_t>(std::min(kMddBytes, limits.memory_left() / 4))) {
   if (!instance.resources().empty()) soft_intervals.emplace(space, limits, statistics);
-}
-
-bool SearchContext::plan(const NodeState& state, int robot, int goal, std::span<const Constraint> more,
-                         const AvoidanceTable* others, FoundPath& path) {
-  state.load(robot, goal, table);
-  table.add(more);
-  DistanceTable& distance = distance_to_goal(robot, goal);
-  if (!soft_intervals) return astar.search(table, distance, others, path);
-  const Tick least = intervals.least_cost(table, distance);
-  return least < kForever && soft_intervals->search(table, distance, others, least, path);
 }
 
 Tick SearchContext::least_cost(const NodeState& state, int robot) {

@@ -19,8 +19,7 @@ void Reasoning::examine(const NodeState& state, Conflict& conflict) {
 bool Reasoning::examine_target(const NodeState& state, Conflict& conflict) {
   if (conflict.one_stays != conflict.other_stays) return examine_passing(state, conflict);
   if (!conflict.one_stays) return false;
-  const auto branches = resolve_at_targets(state, conflict);
-  use(conflict, Conflict::Kind::target, std::span(&branches[0], 1), std::span(&branches[1], 1));
+  use(conflict, Conflict::Kind::target, resolve_at_targets(state, conflict));
   rate(state, conflict);
   return true;
 }
@@ -33,7 +32,7 @@ bool Reasoning::examine_passing(const NodeState& state, Conflict& conflict) {
   }
   const auto branches = resolve_at_target(context_.space, state, conflict, parked, passing);
   if (!branches) return false;
-  use(conflict, Conflict::Kind::target, std::span(&(*branches)[0], 1), std::span(&(*branches)[1], 1));
+  use(conflict, Conflict::Kind::target, *branches);
   if (context_.options.prioritize) {
     const int rising = context_.costs_more(state, parked, conflict.branch[0]) +
                        context_.costs_more(state, passing, conflict.branch[1]);
@@ -52,9 +51,9 @@ void Reasoning::examine_junction(const NodeState& state, Conflict& conflict) {
     const Half instant = earliest_done(state, conflict, robot, present.element);
     if (instant < conflict.time || instant >= present.range.first) continue;
     Conflict sooner = conflict;
-    const std::array branches{junction_constraint(conflict.one, present.element, instant),
-                              junction_constraint(conflict.other, present.element, instant)};
-    use(sooner, conflict.kind, std::span(&branches[0], 1), std::span(&branches[1], 1));
+    use(sooner, conflict.kind,
+        {junction_constraint(conflict.one, present.element, instant),
+         junction_constraint(conflict.other, present.element, instant)});
     rate(state, sooner);
     if (sooner.cardinality > conflict.cardinality) conflict = sooner;
   }
@@ -77,7 +76,7 @@ Half Reasoning::earliest_done(const NodeState& state, const Conflict& conflict, 
 bool Reasoning::examine_corridor(const NodeState& state, Conflict& conflict) {
   const bool pseudo = conflict.cardinality == Conflict::Cardinality::both;
   if (const auto branches = corridors_.resolve(state, conflict, pseudo)) {
-    use(conflict, Conflict::Kind::corridor, std::span(&(*branches)[0], 1), std::span(&(*branches)[1], 1));
+    use(conflict, Conflict::Kind::corridor, *branches);
     rate(state, conflict);
     return true;
   }

@@ -41,9 +41,11 @@ std::int32_t Dependencies::solve(const NodeState& state, int one, int other) {
   pair_.start(state, one, other);
   const std::int64_t before = expansions();
   const std::int64_t most = before + std::clamp<std::int64_t>(spare_, 1, context_.options.pair_expansions);
-  do {
+  for (;;) {
     if (!pair_.next()) return kImpossible;
-  } while (!pair_.is_solved() && pair_.expand(most));
+    if (pair_.is_solved() || expansions() >= most) break;
+    pair_.expand();
+  }
   const auto cost = static_cast<std::int32_t>(pair_.lower_bound());
   if (!pair_.is_solved()) {
     // To raise its bound by so much, a tree branches about 2^raised times.

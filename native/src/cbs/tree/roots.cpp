@@ -6,7 +6,7 @@ namespace mrpbench::mapf {
 
 bool ConstraintTree::start() {
   clear();
-  const GoalChoice goals = context_.options.goals;
+  const GoalChoice goals = options_.goals;
   if (goals == GoalChoice::ranked) {
     ranked_.emplace(find_candidates(context_), context_.limits);
     announce_root(0);
@@ -29,7 +29,8 @@ void ConstraintTree::start(const NodeState& state, int one, int other) {
     robots_.push_back(robot);
     TimedPath path = state.path(robot);
     if (path.cost > state.least(robot)) {
-      context_.plan(state, robot, path.goal, {}, nullptr, path_);
+      present_.refresh();
+      plan(state, robot, path.goal, {}, state.least(robot), {});
       path = paths_.keep(path_);
     }
     keep(root, {robot, path.cost, path});
@@ -69,9 +70,8 @@ bool ConstraintTree::make_root(std::span<const int> goals) {
   pending_.clear();
   root_plans_.resize(robots_.size());
   for (const int robot : robots_) {
-    // A cheapest path to the same goal is used again; a bounded one was chosen for where the others went then.
     const RobotPlan& known = root_plans_[robot];
-    if (optimal_ && !known.path.empty() && known.path.goal == goals[robot]) {
+    if (!known.path.empty() && known.path.goal == goals[robot]) {
       keep(root, known);
     } else {
       pending_.push_back(robot);

@@ -1,15 +1,17 @@
 // A path for one robot that has few conflicts with the present paths of others and costs at most w times the least: the
 // lower level of Barer, Sharon, Stern and Felner, "Suboptimal variants of the conflict-based search algorithm for the
-// multi-agent pathfinding problem", SoCS 2014.
+// multi-agent pathfinding problem", SoCS 2014. With w = 1 it is the space-time A* of Silver, "Cooperative pathfinding",
+// AIIDE 2005, with ties broken by conflicts.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
-#include "mrpbench_mapf/cbs/bounded_options.hpp"
 #include "mrpbench_mapf/cbs/constraints/avoidance_table.hpp"
 #include "mrpbench_mapf/cbs/low_level/focal_queue.hpp"
 #include "mrpbench_mapf/cbs/low_level/safe_intervals.hpp"
+#include "mrpbench_mapf/cbs/low_level/state_table.hpp"
+#include "mrpbench_mapf/cbs/options.hpp"
 #include "mrpbench_mapf/single_agent/distance_table.hpp"
 
 namespace mrpbench::mapf {
@@ -28,15 +30,15 @@ struct CostBound {
 
 class FocalSearch {
  public:
-  /// After `patience` states, what the cheapest path costs is found out first.
-  FocalSearch(const Space& space, SafeIntervals& intervals, const BoundedOptions& options, Limits& limits,
-              Statistics& statistics, std::size_t patience = 1024);
+  /// After `patience` states, the cost of the cheapest path is computed first.
+  FocalSearch(const Space& space, SafeIntervals& intervals, Limits& limits, Statistics& statistics,
+              std::size_t patience = 1024);
 
   /// Writes a path of the robot that `table` was reset for, and returns a lower bound on the cost of all its paths (at
   /// least `known`, which must be one), or kForever if there is none. `distance` leads to its goals. `others` must not
   /// contain the robot itself.
   Tick search(const ConstraintTable& table, DistanceTable& distance, const AvoidanceTable& others,
-              const CostBound& bound, Tick known, FoundPath& path);
+              const StateOrder& order, const CostBound& bound, Tick known, FoundPath& path);
 
  private:
   struct Node {
@@ -45,21 +47,19 @@ class FocalSearch {
     std::int32_t parent;  // -1: none
     std::int32_t edge;    // by which it was reached, -1 = waiting
     std::int32_t conflicts;
-    bool closed;
+    Tick f;
   };
-  std::int32_t& slot(std::int32_t vertex, Tick tick);
-  void grow();
+  static constexpr std::int32_t kExpanded = -1;  // in `known_`
+
+  void begin(Tick least);
+  void expand(std::int32_t node);
   void reach(std::int32_t vertex, Tick tick, std::int32_t parent, std::int32_t edge, std::int32_t conflicts);
   void finish(std::int32_t node, Tick cost);
-  void relax(const Node& node, Tick f, Tick h);
-  void expand(std::int32_t node);
-  void begin(Tick least, const CostBound& bound);
+  bool push(const Node& node, Tick h);
   void trace(std::int32_t node, FoundPath& path);
-  int column(Tick f, Tick h, std::int32_t conflicts) const;
 
   const Space& space_;
   SafeIntervals& intervals_;
-  const BoundedOptions& options_;
   Limits& limits_;
   Statistics& statistics_;
   std::size_t patience_;
@@ -68,9 +68,12 @@ class FocalSearch {
   const ConstraintTable* table_ = nullptr;
   DistanceTable* distance_ = nullptr;
   const AvoidanceTable* others_ = nullptr;
-  Tick least_ = 0;  // no path costs less
+  StateOrder order_;
+  CostBound bound_;
+  Tick least_ = 0;   // no path costs less
+  Tick latest_ = 0;  // no greater f matters
   std::vector<Node> nodes_;
-  std::vector<std::int32_t> known_;  // by hash of vertex and tick: node + 1, 0 = none
+  StateTable known_;  // the fewest conflicts with which a state was reached
   std::vector<Stop> stops_;
   FocalQueue queue_;
   std::size_t counted_ = 0;

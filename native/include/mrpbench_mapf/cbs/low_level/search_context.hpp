@@ -3,10 +3,9 @@
 
 #include "mrpbench_mapf/assignment/candidates.hpp"
 #include "mrpbench_mapf/cbs/constraints/node_state.hpp"
+#include "mrpbench_mapf/cbs/low_level/focal_search.hpp"
 #include "mrpbench_mapf/cbs/low_level/mdd_cache.hpp"
-#include "mrpbench_mapf/cbs/low_level/safe_intervals.hpp"
 #include "mrpbench_mapf/cbs/low_level/soft_intervals.hpp"
-#include "mrpbench_mapf/cbs/low_level/space_time_astar.hpp"
 #include "mrpbench_mapf/cbs/options.hpp"
 
 namespace mrpbench::mapf {
@@ -15,10 +14,7 @@ class SearchContext {
  public:
   SearchContext(const Instance& instance, const CbsOptions& options, Limits& limits, Statistics& statistics);
 
-  /// The cheapest path of `robot` to `goal` under what binds it in `state` and `more`. False if there is none.
-  bool plan(const NodeState& state, int robot, int goal, std::span<const Constraint> more, const AvoidanceTable* others,
-            FoundPath& path);
-  /// What its cheapest path to the goal costs, whatever it costs in `state`; kForever if it has none.
+  /// What the cheapest path of `robot` to its goal costs, whatever it costs in `state`; kForever if it has none.
   Tick least_cost(const NodeState& state, int robot);
   /// All its cheapest paths to the goal; it must have one.
   std::shared_ptr<const Mdd> mdd(const NodeState& state, int robot);
@@ -35,7 +31,7 @@ class SearchContext {
   const Space space;
   DistanceTables distances;
   SafeIntervals intervals;
-  SpaceTimeAstar astar;
+  FocalSearch search;
   /// Only if there are resources, for which robots wait long: then instead of searches tick by tick.
   std::optional<SoftIntervals> soft_intervals;
   ConstraintTable table, scratch;

@@ -32,6 +32,9 @@ class Reasoning {
   void examine_precedence(const NodeState& state, Conflict& conflict);
   void rate(const NodeState& state, Conflict& conflict);
   void use(Conflict& conflict, Conflict::Kind kind, std::span<const Constraint> one, std::span<const Constraint> other);
+  void use(Conflict& conflict, Conflict::Kind kind, const std::array<Constraint, 2>& branches) {
+    use(conflict, kind, std::span(&branches[0], 1), std::span(&branches[1], 1));
+  }
 
   SearchContext& context_;
   Arena<Constraint>& constraints_;

@@ -1,7 +1,6 @@
 // The constraint tree of conflict-based search (Sharon, Stern, Felner and Sturtevant, "Conflict-based search for
 // optimal multi-agent pathfinding", AIJ 2015) and of its bounded-suboptimal variants: an open list chooses the node to
-// expand, a low level plans the path of one robot. With the cheapest path and the least cost first, the tree is that of
-// CBS.
+// expand, a focal search plans the path of one robot. With w = 1 and the least cost first, the tree is that of CBS.
 //
 // Robots go to any of their goals; or each root of a forest sends them elsewhere (CBS-TA and ECBS-TA: Hoenig, Kiesel,
 // Tinka, Durham and Ayanian, "Conflict-based search with optimal task assignment", AAMAS 2018); or each node does
@@ -13,28 +12,36 @@
 
 #include "mrpbench_mapf/assignment/node_assignment.hpp"
 #include "mrpbench_mapf/cbs/reasoning/reasoning.hpp"
-#include "mrpbench_mapf/cbs/tree/low_level.hpp"
 #include "mrpbench_mapf/cbs/tree/open_list.hpp"
 
 namespace mrpbench::mapf {
 
 class Dependencies;
 
+/// The path of a robot, and a lower bound on the cost of all paths that its constraints allow.
+struct RobotPlan {
+  std::int32_t robot;
+  Tick least;
+  TimedPath path;
+};
+
+/// Sums over robots: what their paths cost, and their lower bounds.
+struct Sums {
+  Cost cost = 0, least = 0;
+};
+
+/// Numbers of nodes, of bypassed conflicts, and of roots.
 struct TreeCounts {
-  std::int64_t expanded = 0;  // nodes
-  std::int64_t resolved = 0;  // conflicts, by children or by a bypass
-  std::int64_t bypasses = 0;
-  std::int64_t planned = 0;    // nodes for which there are paths
-  std::int64_t generated = 0;  // nodes that were put into the open list
-  std::int64_t roots = 0;
+  std::int64_t expanded = 0, generated = 0, bypasses = 0, roots = 0;
 };
 
 class ConstraintTree {
  public:
   /// With `dependencies`, lower bounds of nodes are raised by what pairs of robots must still cost.
-  ConstraintTree(SearchContext& context, OpenList& open, LowLevel& low_level, Dependencies* dependencies = nullptr);
+  ConstraintTree(SearchContext& context, OpenList& open, const CbsOptions& options,
+                 Dependencies* dependencies = nullptr);
 
-  /// Make the root, for goals as `context.options` says. False if there is no solution.
+  /// Make the root, for goals as the options say. False if there is no solution.
   bool start();
   /// Begin with the cheapest paths of two robots in `state`, which must exist.
   void start(const NodeState& state, int one, int other);
@@ -42,9 +49,8 @@ class ConstraintTree {
   bool next();
   /// Does the node at hand have no conflicts?
   bool is_solved() const { return node_->conflicts.empty(); }
-  /// Branch on a conflict of the node at hand, bypass it, or put the node back with a higher lower bound. False if
-  /// the tree has resolved `most` conflicts already.
-  bool expand(std::int64_t most);
+  /// Branch on a conflict of the node at hand, bypass it, or put the node back with a higher lower bound.
+  void expand();
 
   /// No solution costs less.
   Cost lower_bound() const { return lower_bound_; }
@@ -90,11 +96,14 @@ class ConstraintTree {
   void examine(Conflict& conflict);
   void tighten(int robot);
   bool resolve(const Conflict& conflict);
+  bool allows_bypass(const Child& child) const;
   bool bypass(const Child& child);
   void take_over(std::span<const RobotPlan> plans);
   void branch();
   void plan_child(std::span<const Constraint> constraints, Child& child);
   bool replan(Child& child);
+  Tick plan(const NodeState& state, int robot, int goal, std::span<const Constraint> more, Tick known,
+            const Sums& others);
   int goal_of(int robot) const;
   bool is_settled(int robot, int goal, const Child& child) const;
   void ask_for(int robot, std::size_t asked);
@@ -106,9 +115,8 @@ class ConstraintTree {
 
   SearchContext& context_;
   OpenList& open_;
-  LowLevel& low_level_;
+  const CbsOptions options_;
   Dependencies* dependencies_;
-  const bool optimal_;
   std::vector<int> robots_;
   NodeState state_;  // of the node at hand
   AvoidanceTable present_;

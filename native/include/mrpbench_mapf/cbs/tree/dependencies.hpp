@@ -16,13 +16,13 @@ class Dependencies {
   static constexpr Cost kImpossible = kForever;
 
   explicit Dependencies(SearchContext& context)
-      : context_(context), open_(context.limits), low_level_(context), pair_(context, open_, low_level_) {}
+      : context_(context), open_(context.limits), pair_(context, open_, optimal(context.options)) {}
 
   /// A lower bound on how far the least costs of the robots are below that of any solution, given the conflicts of
   /// their present paths; `kImpossible` if there is no solution.
   Cost evaluate(const NodeState& state, std::span<const Conflict* const> conflicts);
-  /// Nodes that were expanded in the trees for pairs.
-  std::int64_t expansions() const { return pair_.counts().resolved; }
+  /// Nodes that were expanded, and conflicts that were bypassed, in the trees for pairs.
+  std::int64_t expansions() const { return pair_.counts().expanded + pair_.counts().bypasses; }
 
  private:
   struct Name {
@@ -40,12 +40,18 @@ class Dependencies {
   // many expansions, and as many more as nodes are evaluated.
   static constexpr std::int64_t kSpareAtFirst = 640;
 
+  /// The same techniques for cheapest paths.
+  static CbsOptions optimal(CbsOptions options) {
+    options.w = 1.0;
+    options.flex = false;
+    options.order = {};
+    return options;
+  }
   std::int32_t least_cost(const NodeState& state, int one, int other);
   std::int32_t solve(const NodeState& state, int one, int other);
 
   SearchContext& context_;
   BestFirst open_;
-  OptimalSearch low_level_;
   ConstraintTree pair_;
   std::unordered_map<Name, std::int32_t, Hash> known_;
   std::size_t counted_ = 0;

@@ -10,7 +10,7 @@
 #include <set>
 #include <tuple>
 
-#include "mrpbench_mapf/cbs/bounded_options.hpp"
+#include "mrpbench_mapf/cbs/options.hpp"
 #include "mrpbench_mapf/cbs/tree/open_list.hpp"
 
 namespace mrpbench::mapf {

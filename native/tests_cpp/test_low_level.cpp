@@ -1,7 +1,7 @@
 #include "check.hpp"
 #include "grids.hpp"
+#include "mrpbench_mapf/cbs/low_level/focal_search.hpp"
 #include "mrpbench_mapf/cbs/low_level/mdd.hpp"
-#include "mrpbench_mapf/cbs/low_level/space_time_astar.hpp"
 
 using namespace mrpbench::mapf;
 
@@ -15,11 +15,13 @@ struct Alone {
         tables(instance, limits),
         table(space, limits),
         intervals(space, limits, statistics),
-        astar(space, intervals, limits, statistics) {
+        search(space, intervals, limits, statistics),
+        others(space, limits) {
     table.reset(0);
   }
   Tick cost() {
-    const Tick cost = astar.search(table, tables[0], nullptr, path) ? path.cost : kForever;
+    const Tick cost = search.search(table, tables[0], others, {}, {}, 0, path);
+    CHECK(cost == kForever || path.cost == cost);
     CHECK(intervals.least_cost(table, tables[0]) == cost);
     return cost;
   }
@@ -32,7 +34,8 @@ struct Alone {
   DistanceTables tables;
   ConstraintTable table;
   SafeIntervals intervals;
-  SpaceTimeAstar astar;
+  FocalSearch search;
+  AvoidanceTable others;
   FoundPath path;
 };
 
@@ -108,22 +111,6 @@ TEST("constraints narrow the diagram") {
   const Mdd mdd = it.mdd(5);
   CHECK(mdd.node_count() == 4);  // waits at the start: one way only
   CHECK(mdd.always_at(1, 3));
-}
-
-TEST("the queue returns the least f, then the fewest conflicts, then the newest") {
-  BucketQueue<int> queue;
-  queue.push(5000, 0, 6);
-  queue.push(2, 1, 4);
-  queue.push(2, 0, 2);
-  queue.push(2, 0, 3);
-  queue.push(0, 7, 1);
-  queue.push(9000, 0, 7);
-  queue.push(2, 9999, 5);
-  for (const int expected : {1, 3, 2, 4, 5, 6, 7}) CHECK(queue.pop() == expected);
-  CHECK(queue.empty());
-  queue.push(1, 1, 8);
-  queue.clear();
-  CHECK(queue.empty());
 }
 
 TEST("robots in the way are counted, and forgotten") {
