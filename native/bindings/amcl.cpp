@@ -3,8 +3,6 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
 
-#include <map>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -25,53 +23,16 @@ using Output = nb::ndarray<nb::numpy, double>;
 static_assert(sizeof(Segment) == 4 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
 static_assert(sizeof(Point) == 2 * sizeof(double));
 
-/// A new array that owns its values.
-Output own(std::unique_ptr<double[]> values, std::initializer_list<std::size_t> shape) {
-  double* const data = values.release();
-  nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<double*>(p); });
-  return Output(data, shape, owner);
-}
-
 Parameters parameters(const nb::dict& given) {
   Parameters result;
-  std::map<std::string, double*> numbers{
-      {"alpha1", &result.alpha1},
-      {"alpha2", &result.alpha2},
-      {"alpha3", &result.alpha3},
-      {"alpha4", &result.alpha4},
-      {"z_hit", &result.z_hit},
-      {"z_rand", &result.z_rand},
-      {"sigma_hit", &result.sigma_hit},
-      {"laser_likelihood_max_dist", &result.laser_likelihood_max_dist},
-      {"pf_err", &result.pf_err},
-      {"pf_z", &result.pf_z},
-      {"update_min_d", &result.update_min_d},
-      {"update_min_a", &result.update_min_a},
-      {"recovery_alpha_slow", &result.recovery_alpha_slow},
-      {"recovery_alpha_fast", &result.recovery_alpha_fast},
-      {"initial_cov_xx", &result.initial_cov_xx},
-      {"initial_cov_yy", &result.initial_cov_yy},
-      {"initial_cov_aa", &result.initial_cov_aa},
-  };
-  std::map<std::string, int*> counts{
-      {"max_beams", &result.max_beams},
-      {"min_particles", &result.min_particles},
-      {"max_particles", &result.max_particles},
-      {"resample_interval", &result.resample_interval},
-  };
   for (const auto& [key, value] : given) {
     const auto name = nb::cast<std::string>(key);
-    if (name == "independent_beams") {
-      result.independent_beams = nb::cast<bool>(value);
-      continue;
-    }
-    if (const auto number = numbers.find(name); number != numbers.end()) {
-      *number->second = nb::cast<double>(value);
-    } else if (const auto count = counts.find(name); count != counts.end()) {
-      *count->second = nb::cast<int>(value);
-    } else {
-      throw std::invalid_argument("there is no parameter " + name);
-    }
+    const auto field = Parameters::fields().find(name);
+    if (field == Parameters::fields().end()) throw std::invalid_argument("there is no parameter " + name);
+    const auto assign = [&, &value = value](auto member) {
+      result.*member = nb::cast<std::remove_reference_t<decltype(result.*member)>>(value);
+    };
+    std::visit(assign, field->second);
   }
   return result;
 }
@@ -89,7 +50,7 @@ void construct(Fleet* self, const Matrix<4>& segments, double resolution, const 
 
 void sense(Fleet& self, const Vector<std::int32_t>& robots, const Table& ranges, const Matrix<3>& odometry,
            double range, double min_range, double forward, double leftward) {
-  if (ranges.shape(0) != robots.size()) throw std::invalid_argument("one row of ranges for each robot");
+  require(ranges.shape(0) == robots.size(), "one row of ranges for each robot");
   const Scans scans{
       {robots.data(), robots.size()}, {ranges.data(), ranges.size()}, range, min_range, {forward, leftward}};
   const nb::gil_scoped_release release;
@@ -97,34 +58,29 @@ void sense(Fleet& self, const Vector<std::int32_t>& robots, const Table& ranges,
 }
 
 Output poses(const Fleet& self, const Matrix<3>& odometry) {
-  if (odometry.shape(0) != self.size()) throw std::invalid_argument("one odometry pose for each robot");
-  auto values = std::make_unique_for_overwrite<double[]>(self.size() * 3);
+  require(odometry.shape(0) == self.size(), "one odometry pose for each robot");
+  std::vector<double> values;
   for (std::size_t robot = 0; robot < self.size(); ++robot) {
     const Pose pose = self.pose(robot, rows<Pose>(odometry)[robot]);
-    values[robot * 3] = pose.x;
-    values[robot * 3 + 1] = pose.y;
-    values[robot * 3 + 2] = pose.yaw;
+    values.insert(values.end(), {pose.x, pose.y, pose.yaw});
   }
   return own(std::move(values), {self.size(), 3});
 }
 
 Output covariances(const Fleet& self) {
-  auto values = std::make_unique_for_overwrite<double[]>(self.size() * 9);
+  std::vector<double> values;
   for (std::size_t robot = 0; robot < self.size(); ++robot) {
-    std::copy_n(self.estimate(robot).covariance.data(), 9, values.get() + robot * 9);
+    const auto& covariance = self.estimate(robot).covariance;
+    values.insert(values.end(), covariance.begin(), covariance.end());
   }
   return own(std::move(values), {self.size(), 3, 3});
 }
 
 Output particles(const Fleet& self, std::size_t robot) {
-  if (robot >= self.size()) throw std::invalid_argument("there is no such robot");
+  require(robot < self.size(), "there is no such robot");
   const auto found = self.particles(robot);
-  auto values = std::make_unique_for_overwrite<double[]>(found.size() * 4);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const Particle& it = found[i];
-    const double row[4] = {it.pose.x, it.pose.y, it.pose.yaw, it.weight};
-    std::copy_n(row, 4, values.get() + 4 * i);
-  }
+  std::vector<double> values;
+  for (const Particle& it : found) values.insert(values.end(), {it.pose.x, it.pose.y, it.pose.yaw, it.weight});
   return own(std::move(values), {found.size(), 4});
 }
 

@@ -27,4 +27,16 @@ std::vector<Row> copy(const Array& array) {
   return {found.begin(), found.end()};
 }
 
+/// A new array that owns its values.
+template <class T>
+nb::ndarray<nb::numpy, T> own(std::vector<T> values, std::initializer_list<std::size_t> shape) {
+  auto* const kept = new std::vector<T>(std::move(values));
+  const nb::capsule owner(kept, [](void* it) noexcept { delete static_cast<std::vector<T>*>(it); });
+  return nb::ndarray<nb::numpy, T>(kept->data(), shape.size(), shape.begin(), owner);
+}
+
+inline void require(bool holds, const char* what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
 }  // namespace mrpbench::bindings

@@ -28,13 +28,6 @@ using Critics = std::vector<std::tuple<std::string, double, Settings>>;
 static_assert(sizeof(Segment) == 4 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
 static_assert(sizeof(Twist) == 2 * sizeof(double) && sizeof(Point) == 2 * sizeof(double));
 
-/// A new array that owns its values.
-Output own(std::vector<double> values, std::initializer_list<std::size_t> shape) {
-  auto* const kept = new std::vector<double>(std::move(values));
-  nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
-  return Output(kept->data(), shape.size(), shape.begin(), owner);
-}
-
 Output points_array(const std::vector<Point>& points) {
   std::vector<double> values;
   for (const Point& p : points) values.insert(values.end(), {p.x, p.y});
@@ -44,10 +37,6 @@ Output points_array(const std::vector<Point>& points) {
 std::optional<Output> way_array(const std::optional<std::vector<Point>>& way) {
   if (!way) return std::nullopt;
   return points_array(*way);
-}
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
 }
 
 Path whole(const Matrix<2>& path) {
@@ -203,8 +192,8 @@ nb::dict explain(const Fleet& self, std::size_t robot) {
 std::tuple<Output, double, double, double> costmap(const Fleet& self, std::size_t robot) {
   const Costmap& map = self.costmap(robot);
   const Frame& frame = map.frame();
-  return {own({map.costs().begin(), map.costs().end()},
-              {static_cast<std::size_t>(frame.height), static_cast<std::size_t>(frame.width)}),
+  return {own<double>({map.costs().begin(), map.costs().end()},
+                      {static_cast<std::size_t>(frame.height), static_cast<std::size_t>(frame.width)}),
           frame.origin.x * frame.resolution, frame.origin.y * frame.resolution, map.inscribed()};
 }
 

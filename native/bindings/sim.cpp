@@ -20,29 +20,16 @@ using namespace mrpbench::sim;
 namespace {
 
 template <class T>
-using Output = nb::ndarray<nb::numpy, T, nb::ndim<2>>;
+using Output = nb::ndarray<nb::numpy, T>;
 
 static_assert(sizeof(Segment) == 4 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
 static_assert(sizeof(Twist) == 2 * sizeof(double) && sizeof(Point) == 2 * sizeof(double));
 
-/// A new array that owns its values.
-template <class T>
-Output<T> own(std::unique_ptr<T[]> values, std::size_t count, std::size_t columns) {
-  T* const data = values.release();
-  nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<T*>(p); });
-  return Output<T>(data, {count, columns}, owner);
-}
-
 template <class T, class Row>
 Output<T> copied(const std::vector<Row>& rows_of) {
   constexpr std::size_t columns = sizeof(Row) / sizeof(T);
-  auto values = std::make_unique<T[]>(rows_of.size() * columns);
-  std::copy_n(reinterpret_cast<const T*>(rows_of.data()), rows_of.size() * columns, values.get());
-  return own(std::move(values), rows_of.size(), columns);
-}
-
-void require(bool holds, const char* what) {
-  if (!holds) throw std::invalid_argument(what);
+  const auto* const first = reinterpret_cast<const T*>(rows_of.data());
+  return own<T>({first, first + rows_of.size() * columns}, {rows_of.size(), columns});
 }
 
 void construct_plane(Plane* self, const Matrix<4>& segments, const Vector<double>& radius, const Matrix<2>& limit,
@@ -73,16 +60,16 @@ Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, cons
   for (const std::int32_t robot : rows<std::int32_t>(robots)) {
     require(robot >= 0 && static_cast<std::size_t>(robot) < count, "there is no such robot");
   }
-  auto ranges = std::make_unique_for_overwrite<double[]>(robots.size() * beams);
+  std::vector<double> ranges(robots.size() * beams);
   {
     const nb::gil_scoped_release release;
     std::vector<Point> centres;
     for (const Pose& it : rows<Pose>(pose)) centres.push_back({it.x, it.y});
     for (const Point& it : rows<Point>(movers)) centres.push_back(it);
     self.scan(rows<std::int32_t>(robots), rows<Pose>(pose), centres, rows<double>(radius),
-              leaves ? rows<Segment>(*leaves) : std::span<const Segment>{}, {ranges.get(), robots.size() * beams});
+              leaves ? rows<Segment>(*leaves) : std::span<const Segment>{}, ranges);
   }
-  return own(std::move(ranges), robots.size(), beams);
+  return own(std::move(ranges), {robots.size(), beams});
 }
 
 }  // namespace

@@ -47,12 +47,12 @@ def test_particles_poses_and_covariances_have_their_shapes():
         ({"placements": np.full((1, 3), np.inf)}, "finite"),
     ],
 )
-def test_what_makes_no_sense_is_refused(changes, message):
+def test_invalid_parameters_are_refused(changes, message):
     with pytest.raises(ValueError, match=message):
         fleet(**changes)
 
 
-def test_scans_that_make_no_sense_are_refused():
+def test_invalid_scans_are_refused():
     it = fleet()
     it.begin(STILL)
     with pytest.raises(ValueError, match="one row of ranges"):

@@ -44,7 +44,7 @@ def test_a_robot_is_driven_along_its_path():
         ({"yaw": np.zeros(2)}, "one row of everything"),
     ],
 )
-def test_rows_that_make_no_sense_are_refused(changed, message):
+def test_invalid_rows_are_refused(changed, message):
     with pytest.raises(ValueError, match=message):
         command(fleet(), **changed)
 
@@ -62,7 +62,7 @@ def test_rows_that_make_no_sense_are_refused(changed, message):
         ({"inflation_radius": 99.0}, "inflation radius"),
     ],
 )
-def test_settings_that_make_no_sense_are_refused(settings, message):
+def test_invalid_settings_are_refused(settings, message):
     with pytest.raises(ValueError, match=message):
         fleet(settings)
 
@@ -81,7 +81,7 @@ def test_scans_of_no_robot_are_refused():
         fleet().see(0.0, np.zeros(1, np.int32), np.zeros((2, 3)), np.ones((1, 8)))
 
 
-def test_python_exceptions_of_scores_come_through():
+def test_exceptions_of_scores_are_raised():
     def score(robot, twist, pose):
         raise KeyError("mine")
 

@@ -50,7 +50,7 @@ def swap(**changes) -> dict:
     return problem
 
 
-def test_results_outlive_the_objects_they_came_from():
+def test_arrays_outlive_the_answer_that_owns_them():
     enter = mapf.solve(mapf.Instance(**swap()), "astar", {}, **LIMITS).enter
     assert enter.tolist() == [0, 0]
     assert not enter.flags.writeable
@@ -91,7 +91,7 @@ def test_unknown_algorithms_options_and_choices_are_refused(name, options):
         mapf.solve(mapf.Instance(**swap()), name, options, **LIMITS)
 
 
-def test_python_runs_on_while_a_solver_works():
+def test_python_threads_run_during_a_solve():
     slow = np.full((1, 2), 2, "i4")  # with moves of one tick it is soon proved that there is no plan
     instance = mapf.Instance(**swap(roadmap__duration=slow))
     limits = {"wall_s": 0.5, "memory_bytes": 1 << 31}

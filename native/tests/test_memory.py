@@ -30,7 +30,7 @@ LIMIT = 128 << 20
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="asks Linux for the peak of a process")
 @pytest.mark.skipif("libasan" in os.environ.get("LD_PRELOAD", ""), reason="a sanitizer takes memory of its own")
 @pytest.mark.parametrize("algorithm", sorted(ALGORITHMS))
-def test_a_process_grows_by_hardly_more_than_the_memory_limit(algorithm):
+def test_a_process_grows_little_beyond_the_memory_limit(algorithm):
     command = [sys.executable, "-c", CALL, algorithm, str(LIMIT)]
     status, counted, grown = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
     assert status == "out_of_memory"

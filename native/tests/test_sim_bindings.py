@@ -39,7 +39,7 @@ def caster(**changes):
     return sim.Caster(**{**arguments, **changes})
 
 
-def test_arrays_handed_out_are_copies():
+def test_returned_arrays_are_copies():
     it = plane(2)
     pose, twist, contacts = it.pose, it.twist, it.contacts
     it.step(np.full((2, 2), 0.2))
@@ -50,7 +50,7 @@ def test_arrays_handed_out_are_copies():
     assert contacts.dtype == np.int32
 
 
-def test_contacts_are_robot_and_what_it_touched():
+def test_contacts_are_pairs_of_indices():
     it = plane(2, radius=np.array([0.6, 0.6, 0.2]))
     it.step(np.zeros((2, 2)), np.array([[-0.7, 0.0]]))
     assert it.contacts.tolist() == [[0, -1], [0, 1]]
@@ -70,12 +70,12 @@ def test_contacts_are_robot_and_what_it_touched():
         ({"actuation": -0.1}, "actuation"),
     ],
 )
-def test_planes_that_make_no_sense_are_refused(changes, message):
+def test_invalid_planes_are_refused(changes, message):
     with pytest.raises(ValueError, match=message):
         plane(**changes)
 
 
-def test_steps_that_make_no_sense_are_refused():
+def test_invalid_steps_are_refused():
     it = plane(1, radius=np.array([0.1, 0.3]))
     with pytest.raises(ValueError, match="one twist for each robot"):
         it.step(np.zeros((2, 2)))
@@ -85,7 +85,7 @@ def test_steps_that_make_no_sense_are_refused():
         it.step(np.zeros((1, 2)), np.zeros((2, 2)))
 
 
-def test_scans_that_make_no_sense_are_refused():
+def test_invalid_scans_are_refused():
     with pytest.raises(ValueError, match="beam"):
         caster(beams=0)
     with pytest.raises(ValueError, match="range"):
@@ -103,7 +103,7 @@ def test_nothing_to_scan_gives_no_rows():
     assert caster().scan(np.empty(0, np.int32), np.zeros((1, 3)), NO_MOVERS, np.ones(1)).shape == (0, 8)
 
 
-def test_other_threads_run_meanwhile():
+def test_other_threads_run_during_a_scan():
     it = caster(beams=20_000)
     robots = np.arange(400, dtype=np.int32)
     pose = np.random.default_rng(0).uniform(0, 10, (400, 3))

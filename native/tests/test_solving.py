@@ -136,7 +136,7 @@ def test_every_algorithm_returns_paths_from_starts_to_goals(seed, algorithm):
         ({"roadmap": DirectedGraph(edges=[(0, 1)]), "starts": [5], "goals": [1]}, "starts: number 0 is 5"),
     ],
 )
-def test_mistakes_are_named(arguments, said):
+def test_mistakes_are_named_in_the_error(arguments, said):
     asked = {"roadmap": OPEN, "starts": [[0, 0]], "goals": [[1, 1]], "algorithm": "astar"} | arguments
     with pytest.raises(ValueError, match=said):
         solve(**asked)
@@ -206,7 +206,7 @@ def test_a_roadmap_larger_than_the_memory_is_out_of_memory(algorithm):
 
 
 @pytest.mark.parametrize("algorithm", sorted(ALGORITHMS))
-def test_every_algorithm_says_what_it_took_within_its_memory(algorithm):
+def test_every_algorithm_reports_memory_within_its_limit(algorithm):
     least = 4 * OPEN.size  # bytes of one table of distances
     asked = {"starts": [[0, 0], [3, 3]], "goals": [[3, 3], [0, 0]], "algorithm": algorithm, "time_limit": 0.2}
     solution = solve(OPEN, **asked)
@@ -249,7 +249,7 @@ def test_numbers_of_numpy_are_options_too():
 
 
 @pytest.mark.parametrize("algorithm", ["cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"])
-def test_robots_share_out_more_goals_than_there_are_robots(algorithm):
+def test_robots_choose_among_more_goals_than_robots(algorithm):
     goals = [[0, 1], [3, 2], [2, 0]]
     solution = solve(OPEN, [[0, 0], [3, 3]], [goals, goals[1:]], algorithm=algorithm)
     assert [path[-1].tolist() for path in solution.paths] == [[0, 1], [3, 2]]
@@ -257,6 +257,6 @@ def test_robots_share_out_more_goals_than_there_are_robots(algorithm):
     assert solution.statistics["assignments"] >= 1
 
 
-def test_nothing_else_of_mrpbench_is_imported():
+def test_no_other_package_of_mrpbench_is_imported():
     code = "import sys, mrpbench_native; sys.exit(any(name.startswith('mrpbench_core') for name in sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

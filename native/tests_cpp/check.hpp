@@ -1,4 +1,4 @@
-// A tiny test harness: TEST("what holds") { CHECK(condition); } and one main per file.
+// A small test harness: TEST("what holds") { CHECK(condition); } and one main per file.
 #pragma once
 
 #include <cstdio>

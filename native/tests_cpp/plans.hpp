@@ -9,7 +9,7 @@
 
 namespace mrpbench::mapf {
 
-/// Conflicts between all pairs of paths, and 1 more for each path that is no way from start to a goal.
+/// Conflicts between all pairs of paths, and 1 for each path that does not lead from start to a goal.
 inline int faults(const Instance& it, const Result& result) {
   Limits limits = unlimited();
   const Relations relations(it, limits);

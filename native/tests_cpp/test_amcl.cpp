@@ -75,7 +75,7 @@ TEST("noise has the variances of the odometry model") {
   CHECK(near(deviation(skewed, [](Pose p) { return p.yaw; }), std::sqrt(2.0) * 0.05, 0.001));
 }
 
-TEST("hits are as likely as their distance from anything solid says") {
+TEST("the likelihood of a hit depends on its distance from the nearest wall") {
   const Parameters parameters;
   const LikelihoodField field(kCorner, 0.05, parameters);
   Draws draws(3, 0, 0);
@@ -92,7 +92,7 @@ TEST("hits are as likely as their distance from anything solid says") {
   }
 }
 
-TEST("weights are those of the formula, of beams that count") {
+TEST("weights follow the formula for the beams that are used") {
   Parameters parameters;
   const double endless = std::numeric_limits<double>::infinity();
   const std::vector<double> ranges{1.9, endless, 0.05, 1.0};  // ahead, left, behind, right
@@ -109,7 +109,7 @@ TEST("weights are those of the formula, of beams that count") {
   CHECK(near(LikelihoodField(kCorner, 0.05, parameters).weigh(particles, ends), hit * miss, 1e-6));
 }
 
-TEST("many beams do not make the product of likelihoods vanish") {
+TEST("the product of likelihoods of many beams does not underflow") {
   Parameters parameters;
   parameters.independent_beams = true;
   parameters.max_beams = 4000;
@@ -132,7 +132,7 @@ TEST("the number of particles is the quantile of chi-square over twice the error
   CHECK(particles_for(101, parameters) == 500);
 }
 
-TEST("particles are drawn by weight, and as many as their spread asks for") {
+TEST("particles are drawn by weight, and their number depends on their spread") {
   Parameters parameters;
   Draws draws(4, 0, 0);
   const std::vector<Particle> two{{{0.1, 0.1, 0.1}, 0.25}, {{5, 5, 1}, 0.75}};
@@ -150,7 +150,7 @@ TEST("particles are drawn by weight, and as many as their spread asks for") {
   CHECK(near(static_cast<double>(elsewhere) / static_cast<double>(lost.size()), 0.5, 0.08));
 }
 
-TEST("the estimate is the mean of the heaviest cluster, across the seam of the circle too") {
+TEST("the estimate is the mean of the heaviest cluster, also where yaw wraps around") {
   std::vector<Particle> particles;
   for (int i = 0; i < 10; ++i) particles.push_back({{1.0 + 0.01 * i, 2.0, i % 2 ? kPi - 0.1 : -kPi + 0.1}, 0.06});
   for (int i = 0; i < 30; ++i) particles.push_back({{6.0, 2.0, 0.0}, 0.4 / 30});
@@ -161,14 +161,14 @@ TEST("the estimate is the mean of the heaviest cluster, across the seam of the c
   CHECK(near(found.covariance[0], 0.000825, 1e-9));
 }
 
-TEST("between updates the pose follows odometry in whatever frame") {
+TEST("between updates the pose follows odometry in any frame") {
   Fleet fleet({}, 0.05, {}, {{1, 2, kPi / 2}}, {}, 7);
   fleet.begin(std::vector<Pose>{{10, 10, 0}});
   const Pose found = fleet.pose(0, {10.5, 10, 0.1});
   CHECK(near(found.x, 1, 1e-9) && near(found.y, 2.5, 1e-9) && near(found.yaw, kPi / 2 + 0.1, 1e-9));
 }
 
-TEST("a standing robot's scans count once") {
+TEST("scans of a standing robot are used once") {
   Fleet fleet(kCorner, 0.05, {}, {{0, 0, 0}}, {}, 7);
   const std::vector<Pose> odometry{{0, 0, 0}};
   const std::vector<int> robots{0};
@@ -183,7 +183,7 @@ TEST("a standing robot's scans count once") {
   CHECK(once.x != fleet.pose(0, {0.3, 0, 0}).x);
 }
 
-TEST("what makes no sense is refused") {
+TEST("invalid parameters and data are refused") {
   Parameters wrong;
   wrong.max_particles = 10;
   const auto make = [&](const Parameters& parameters, Pose pose, double resolution) {

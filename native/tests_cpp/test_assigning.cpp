@@ -59,7 +59,7 @@ Cost by_enumeration(const Instance& it) {
 
 }  // namespace
 
-TEST("no assignment is better, with trees for each or one for all, within the bound or without") {
+TEST("no assignment is cheaper, with one tree per assignment or a single tree, optimal or within the bound") {
   Random random(7);
   int compared = 0;
   for (int round = 0; round < 60; ++round) {
@@ -84,7 +84,7 @@ TEST("no assignment is better, with trees for each or one for all, within the bo
   CHECK(compared > 30);
 }
 
-TEST("robots of any goals do not wait for one another's") {
+TEST("a robot that may take any goal does not wait for another one's goal") {
   // The one that has arrived stays in the way; it is cheaper to go on to the other goal.
   const Roadmap line = grid(6, 1);
   std::vector<Robot> robots{robot(0, 3), robot(1, 3)};

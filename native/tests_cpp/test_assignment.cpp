@@ -71,7 +71,7 @@ bool proves_itself(const Matrix& cost, const Assignment& it) {
 
 }  // namespace
 
-TEST("assignments are as cheap as possible, and their prices prove it") {
+TEST("assignments have the least cost, which their prices prove") {
   std::mt19937 random(1);
   for (int round = 0; round < 2000; ++round) {
     const int rows = 1 + static_cast<int>(random() % 4), columns = rows + static_cast<int>(random() % 3);
@@ -88,7 +88,7 @@ TEST("assignments are as cheap as possible, and their prices prove it") {
   }
 }
 
-TEST("assignments are repaired after costs have risen, again and again") {
+TEST("assignments stay the cheapest when they are repaired after rising costs") {
   std::mt19937 random(2);
   for (int round = 0; round < 1000; ++round) {
     const int rows = 1 + static_cast<int>(random() % 5), columns = rows + static_cast<int>(random() % 3);
@@ -110,7 +110,7 @@ TEST("assignments are repaired after costs have risen, again and again") {
   }
 }
 
-TEST("all assignments come once, the cheapest first") {
+TEST("ranking returns every assignment once, the cheapest first") {
   std::mt19937 random(3);
   for (int round = 0; round < 500; ++round) {
     const int rows = 1 + static_cast<int>(random() % 4), columns = rows + static_cast<int>(random() % 3);

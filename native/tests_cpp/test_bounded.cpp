@@ -59,7 +59,7 @@ TEST("plans are sound, their cost is within the bound, and the bound below the o
   CHECK(solved > 100);
 }
 
-TEST("priorities and pairs spare expansions") {
+TEST("prioritized conflicts and the pair heuristic save expansions") {
   Random random(3);
   std::int64_t all = 0, without_priorities = 0, without_pairs = 0;
   for (int k = 0; k < 10; ++k) {
@@ -71,7 +71,7 @@ TEST("priorities and pairs spare expansions") {
   CHECK(all < without_priorities && all < without_pairs);
 }
 
-TEST("two robots that cross an open field are told apart at once by its corners") {
+TEST("rectangle reasoning resolves a crossing in an open field in few expansions") {
   const Instance it = instance(grid(5, 5), {robot(5, 19), robot(1, 23)});  // rightwards and down, downwards and right
   CHECK(expansions(it, 1.0, {.heuristic = false}) < 5);
   CHECK(expansions(it, 1.0, {.heuristic = false, .rectangle = false}) > 5);

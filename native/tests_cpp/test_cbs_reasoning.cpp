@@ -37,8 +37,8 @@ TEST("a corridor makes one robot wait for its whole length") {
   }
 }
 
-TEST("robots that cross an open region are kept apart at its borders") {
-  // One from the left to the right, one from the top to the bottom; they meet wherever they cross.
+TEST("rectangle constraints are on the borders of the region that two robots cross") {
+  // One from the left to the right, one from the top to the bottom; all their paths meet.
   const Root root(instance(grid(5, 5), {robot(5, 19), robot(1, 23)}), {.corridor = false});
   bool rectangle = false;
   for (const Conflict& conflict : root.conflicts) {
@@ -50,7 +50,7 @@ TEST("robots that cross an open region are kept apart at its borders") {
   CHECK(rectangle);
 }
 
-TEST("a robot at its goal finishes later, or for good") {
+TEST("a robot at its goal finishes later, or stays there for good") {
   const Root root(instance(grid(5, 1), {robot(1, 2), robot(0, 4)}));
   bool target = false;
   for (const Conflict& conflict : root.conflicts) {
@@ -101,7 +101,7 @@ TEST("a robot that is under way may have left a resource before, so that no orde
   for (const Conflict& conflict : root.conflicts) CHECK(conflict.kind == Conflict::Kind::standard);
 }
 
-TEST("switched off, conflicts are resolved by the standard constraints") {
+TEST("without reasoning, conflicts are resolved by the standard constraints") {
   const CbsOptions off{.target = false, .corridor = false, .rectangle = false, .precedence = false};
   const Root root(instance(rooms(4, 1), {robot(1, 6), robot(5, 2)}), off);
   for (const Conflict& conflict : root.conflicts) CHECK(conflict.kind == Conflict::Kind::standard);
@@ -109,13 +109,13 @@ TEST("switched off, conflicts are resolved by the standard constraints") {
   for (const Conflict& conflict : other.conflicts) CHECK(conflict.kind == Conflict::Kind::standard);
 }
 
-TEST("pairs of robots say what a node still costs, or that it has no solution") {
+TEST("the pair heuristic returns what a node still costs, or that it has no solution") {
   Root root(instance(rooms(4, 1), {robot(1, 6), robot(5, 2)}));
   Dependencies dependencies(root.context);
   std::vector<const Conflict*> conflicts;
   for (const Conflict& conflict : root.conflicts) conflicts.push_back(&conflict);
   CHECK(dependencies.evaluate(root.state, conflicts) == 6);
-  // What one does no longer changes anything if the other must have finished before it can have passed.
+  // There is no solution if each robot must have finished before the other one can have passed.
   root.state.add({0, 6, {7, 7}, Constraint::Kind::length_at_most});
   root.state.add({1, 2, {7, 7}, Constraint::Kind::length_at_most});
   CHECK(dependencies.evaluate(root.state, conflicts) == Dependencies::kImpossible);

@@ -62,7 +62,7 @@ Instance two_rooms(int corridor, int empty, bool across) {
 
 }  // namespace
 
-TEST("where there is a plan no robot is beyond a chain, and on trees one is where there is none") {
+TEST("no robot with a plan is reported, and on trees every instance without a plan is") {
   Random random(1);
   int solvable = 0, unsolvable = 0, seen = 0;
   for (int k = 0; k < 3'000; ++k) {
@@ -87,7 +87,7 @@ TEST("two rooms exchange robots exactly if more vertices are empty than the corr
   }
 }
 
-TEST("long chains and large trees are seen through soon") {
+TEST("long chains and large trees are checked quickly") {
   CHECK(is_beyond_chain(two_rooms(100'000, 1'000, true)));
   Random random(2);
   CHECK(is_beyond_chain(random_tree(random, 200'000, 0, 199'990)));

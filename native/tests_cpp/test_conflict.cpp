@@ -54,7 +54,7 @@ TEST("vertex conflicts are split at one instant") {
   CHECK(other.range.first == 6 && other.range.last == 6);
 }
 
-TEST("swaps are conflicts; a train is none") {
+TEST("swaps are conflicts, following is none") {
   CHECK(conflict_of(on_line({{1, 0}, {2, 1}}, 1, {{2, 0}, {1, 1}}, 1)).count == 1);
   CHECK(conflict_of(on_line({{1, 0}, {2, 1}}, 1, {{0, 0}, {1, 1}}, 1)).count == 0);
 }
@@ -75,8 +75,8 @@ TEST("overtaking on one lane is a conflict, keeping the order is none") {
   CHECK(conflict_of(behind).count == 0);
 }
 
-TEST("whatever the two constraints of a split forbid is in conflict, move by move") {
-  // Each robot appears from afar on the lane between 1 and 2 and is gone after it: only the lane counts.
+TEST("all moves that the two constraints of a split forbid are in conflict") {
+  // Each robot exists only while it is on the lane between 1 and 2, so that only the lane matters.
   const Instance two = instance(grid(4, 1), {robot(0, 3), robot(3, 0)});
   const auto move = [&](int afar, int tail, int head, Tick depart, Tick ticks) {
     const int lane = 4 + edge_between(two.roadmap(), tail, head);
@@ -102,7 +102,7 @@ TEST("whatever the two constraints of a split forbid is in conflict, move by mov
   CHECK(conflicts > 40);
 }
 
-TEST("a robot that passes another one that stands is delayed until the stay ends or its passage has") {
+TEST("the split of a stay and a passage forbids all passages during the stay") {
   // Vertex 0 is near the lane from 2 to 3, nothing else is near anything.
   const int lane = 4 + edge_between(grid(4, 1), 2, 3);
   Exclusions exclusions{{0}, {lane, 0}, {0.5, 0.5}};

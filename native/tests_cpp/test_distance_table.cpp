@@ -6,7 +6,7 @@ using namespace mrpbench::mapf;
 
 namespace {
 
-/// Bellman-Ford, to compare with.
+/// Distances by Bellman-Ford.
 std::vector<Tick> distances(const Roadmap& roadmap, int profile, const std::vector<int>& goals) {
   std::vector<Tick> distance(roadmap.vertex_count(), kForever);
   for (const int goal : goals) distance[goal] = 0;
@@ -38,7 +38,7 @@ Roadmap random_graph(unsigned seed, Tick longest) {
 
 }  // namespace
 
-TEST("distances are those of Bellman-Ford, in whatever order they are asked for") {
+TEST("distances are those of Bellman-Ford, in any order of queries") {
   for (unsigned seed = 0; seed < 60; ++seed) {
     const Roadmap roadmap = random_graph(seed, seed % 2 == 0 ? 1 : 9);
     const std::vector<int> goals{static_cast<int>(seed % 40), static_cast<int>(seed * 7 % 40)};

@@ -79,7 +79,7 @@ int count(const Space& space, const AvoidanceTable& others, const FoundPath& pat
 
 }  // namespace
 
-TEST("paths are the cheapest, or within the bound those that meet the fewest others; in short searches and long ones") {
+TEST("paths are the cheapest, or have the fewest conflicts within the bound, in short and long searches") {
   std::mt19937 random(7);
   int found = 0, none = 0;
   for (int round = 0; round < 2000; ++round) {
@@ -150,7 +150,7 @@ TEST("paths are the cheapest, or within the bound those that meet the fewest oth
   CHECK(found > 300 && none > 10);
 }
 
-TEST("the queue returns what a sorted list would, although entries that are out of date stay in it") {
+TEST("the queue returns the same entries as a sorted list, apart from outdated ones") {
   std::mt19937 random(3);
   for (int round = 0; round < 200; ++round) {
     FocalQueue queue;
@@ -192,7 +192,7 @@ TEST("the queue returns what a sorted list would, although entries that are out 
   }
 }
 
-TEST("the state table forgets all values at once, and keeps them while it grows") {
+TEST("the state table keeps all values while it grows, until it is cleared") {
   Limits limits = unlimited();
   StateTable table(limits);
   for (int round = 0; round < 3; ++round) {

@@ -11,13 +11,13 @@ TEST("edges are indexed by both ends, self-loops left out") {
   CHECK(roadmap.in(0).size() == 1 && roadmap.in(0)[0] == 1);
 }
 
-TEST("what is no roadmap is refused") {
+TEST("invalid roadmaps are refused") {
   CHECK(check::throws<std::invalid_argument>([] { Roadmap(2, {0}, {2}, {1}); }));
   CHECK(check::throws<std::invalid_argument>([] { Roadmap(2, {0}, {1}, {0}); }));
   CHECK(check::throws<std::invalid_argument>([] { Roadmap(2, {0}, {1}, {1, 1, 1}, {{0, 0}}); }));
 }
 
-TEST("robots that make no sense are refused") {
+TEST("invalid robots are refused") {
   const auto refused = [](Robot it) {
     return check::throws<std::invalid_argument>([&] { instance(grid(2, 1), {it}); });
   };

@@ -13,7 +13,7 @@ Roadmap star() {
   return Roadmap(6, {0, 1, 0, 2, 0, 3, 0, 4, 2, 5}, {1, 0, 2, 0, 3, 0, 4, 0, 5, 2}, std::vector<Tick>(10, kLane));
 }
 
-/// Whatever touches excludes.
+/// Elements that touch exclude one another.
 Exclusions touching(const Roadmap& roadmap) {
   const int vertices = roadmap.vertex_count();
   const auto ends = [&](int element) {
@@ -69,9 +69,9 @@ TEST("of two robots that cross, the later one comes when the other has left the 
   CHECK(least_cost(root, 1, conflict.branch[1]) == 4 * kLane);
 }
 
-TEST("a robot that has waited on a junction is forbidden it at an instant by which it cannot have left") {
+TEST("a robot that waits on a junction is constrained at an instant by which it cannot have left") {
   Root root = on_star({large(1, 5, 20), large(3, 4, 35)});
-  // It could be gone at 40, but waits at the junction until 42, since it is not to finish before 62.
+  // It could leave at 40, but waits at the junction until 42, since it must not finish before 62.
   root.state.add({0, 5, {61, 61}, Constraint::Kind::length_above});
   const Space& space = root.context.space;
   FoundPath path;

@@ -40,7 +40,7 @@ TEST("costs follow Nav2's formula") {
   CHECK(inflated_cost(0.3, 0.1, 3) == static_cast<std::uint8_t>(252 * std::exp(-0.6)));
 }
 
-TEST("inflated costs are those of the distance to the nearest lethal cell, also beside solid blocks and the border") {
+TEST("inflated costs are those of the distance to the nearest lethal cell, also next to solid blocks and the border") {
   CostmapOptions plain = options(), inflated = options();
   plain.inflation_layer = false;
   Costmap marks(plain, nullptr), map(inflated, nullptr);
@@ -68,7 +68,7 @@ TEST("inflated costs are those of the distance to the nearest lethal cell, also 
   }
 }
 
-TEST("a scan marks where its beams end, and the next one clears what it sees through") {
+TEST("a scan marks where its beams end, and the next one clears the cells that its beams pass") {
   CostmapOptions plain = options();
   plain.inflation_layer = false;
   Costmap map(plain, nullptr);
@@ -91,7 +91,7 @@ TEST("a scan marks where its beams end, and the next one clears what it sees thr
   CHECK(count(map, 254) == 0);
 }
 
-TEST("beams without a return clear only where that is asked for") {
+TEST("beams without a return clear only if inf_is_valid is set") {
   CostmapOptions plain = options();
   plain.inflation_layer = false;
   plain.inf_is_valid = true;
@@ -103,7 +103,7 @@ TEST("beams without a return clear only where that is asked for") {
   CHECK(count(map, 254) == 0);
 }
 
-TEST("what is too far away is not marked") {
+TEST("returns beyond the range are not marked") {
   CostmapOptions plain = options();
   plain.inflation_layer = false;
   plain.obstacle_max_range = 0.9;
@@ -139,7 +139,7 @@ TEST("nothing is marked under the robot") {
   CHECK(count(map, 254) == 0);
 }
 
-TEST("the static layer draws the walls nearby") {
+TEST("the static layer contains the walls nearby") {
   CostmapOptions plain = options();
   plain.inflation_layer = false;
   plain.static_layer = true;

@@ -24,7 +24,7 @@ TEST("samples are those of Nav2: evenly spaced, with an exact zero between the s
   CHECK(window.size() == 3 && near(window[0], 0.05) && near(window[1], 0.1) && near(window[2], 0.15));
 }
 
-TEST("there are 419 trajectories, and standing still is none of them") {
+TEST("there are 419 trajectories, none of which stands still") {
   MotionOptions motion;
   motion.max_vel_x = motion.max_speed_xy = 0.22;
   Trajectories all(motion);
@@ -34,7 +34,7 @@ TEST("there are 419 trajectories, and standing still is none of them") {
   for (std::size_t i = 0; i < all.size(); ++i) CHECK(all.twist(i).ahead != 0 || all.twist(i).turn != 0);
 }
 
-TEST("ends are where walking a trajectory leads, from any state") {
+TEST("last poses are the same as by walking, from any state") {
   MotionOptions motion;
   Trajectories all(motion);
   for (const Twist current : {Twist{0, 0}, Twist{0.2, -0.7}, Twist{0.11, 0.9}}) {
@@ -55,7 +55,7 @@ TEST("ends are where walking a trajectory leads, from any state") {
   }
 }
 
-TEST("a straight trajectory at full speed is as long as speed and time say") {
+TEST("the length of a straight trajectory at full speed is speed times duration") {
   MotionOptions motion;
   motion.max_vel_x = motion.max_speed_xy = 0.2;
   Trajectories all(motion);

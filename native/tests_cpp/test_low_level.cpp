@@ -41,7 +41,7 @@ struct Alone {
 
 }  // namespace
 
-TEST("a robot waits or goes round as the constraints say") {
+TEST("a robot waits or takes a detour because of constraints") {
   Alone it(instance(grid(4, 1), {robot(0, 3)}));
   CHECK(it.cost() == 3);
   CHECK((it.path.at == std::vector<std::int32_t>{0, 1, 2, 3}));
@@ -51,7 +51,7 @@ TEST("a robot waits or goes round as the constraints say") {
   CHECK(it.cost() == 7);
 }
 
-TEST("a goal that is crossed later may not be taken before") {
+TEST("a robot does not finish at a goal that is forbidden later") {
   Alone it(instance(grid(3, 1), {robot(0, 2)}));
   it.table.add(avoid_vertex(0, 2, 9, 9));
   CHECK(it.cost() == 10);
@@ -70,7 +70,7 @@ TEST("no robot passes one that has finished for good") {
   CHECK(it.cost() == 2);
 }
 
-TEST("a goal that is cut off for good is given up in a large room too") {
+TEST("a search for a goal that is blocked for good ends quickly in a large room") {
   Alone it(instance(grid(60, 60), {robot(0, 3599)}));
   it.table.add(avoid_vertex(0, 3598, 0, kForever));
   it.table.add(avoid_vertex(0, 3539, 500, kForever));
@@ -79,7 +79,7 @@ TEST("a goal that is cut off for good is given up in a large room too") {
   CHECK(it.statistics.low_level_expansions < 10'000);
 }
 
-TEST("edges of many ticks are crossed whole") {
+TEST("edges of many ticks are crossed without a stop") {
   Alone it(instance(grid(3, 1, 5), {robot(0, 2)}));
   CHECK(!it.space.classical());
   CHECK(it.cost() == 10);
@@ -113,7 +113,7 @@ TEST("constraints narrow the diagram") {
   CHECK(mdd.always_at(1, 3));
 }
 
-TEST("robots in the way are counted, and forgotten") {
+TEST("conflicts with robots are counted until they are removed") {
   const Instance two = instance(grid(3, 1), {robot(0, 2), robot(2, 0)});
   Limits limits = unlimited();
   const Space space(two, limits);

@@ -51,7 +51,7 @@ Instance line(int vertices, bool closed, std::vector<Robot> robots) {
 
 }  // namespace
 
-TEST("few arrangements: what is called impossible is, and the rest has a plan") {
+TEST("with few arrangements, the check is exact") {
   Random random(1);
   int impossible = 0, possible = 0;
   for (int k = 0; k < 20'000; ++k) {
@@ -77,7 +77,7 @@ TEST("robots keep their cyclic order on a cycle") {
   CHECK(!misplaced(line(3, true, {robot(0, 1), robot(1, 2), robot(2, 0)})));
 }
 
-TEST("where following is forbidden, a full grid stands still and one with a hole keeps its parity") {
+TEST("where following is forbidden, no robot moves on a full grid, and parity holds with one empty vertex") {
   const auto board = [](int last, bool exchanged, bool following_forbidden) {
     std::vector<Robot> robots;
     for (int vertex = 0; vertex <= last; ++vertex) robots.push_back(robot(vertex, vertex));
@@ -91,7 +91,7 @@ TEST("where following is forbidden, a full grid stands still and one with a hole
   CHECK(!misplaced(board(398, true, false)));
 }
 
-TEST("a branch lets two robots change places, and what it does not know it leaves open") {
+TEST("two robots can change places at a branch, and cases that the check does not cover stay open") {
   CHECK(!misplaced(instance(grid(200, 2), {robot(0, 199), robot(199, 0)})));
   const Rules gone{.disappear_at_goal = true};
   CHECK(!misplaced(instance(grid(4, 1), {robot(0, 3), robot(3, 0)}, gone)));

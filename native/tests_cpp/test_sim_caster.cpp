@@ -17,7 +17,7 @@ struct Scene {
   std::vector<double> radius;
 };
 
-/// Boxes and discs thrown into a square; some of the discs are no robots.
+/// Boxes and discs at random in a square; some of the discs are movers.
 Scene scene(std::uint64_t seed, int boxes, int robots, int movers, double size) {
   Draws draws(seed, 0, 0);
   const auto within = [&](double low, double high) { return low + (high - low) * draws.uniform(); };
@@ -36,7 +36,7 @@ Scene scene(std::uint64_t seed, int boxes, int robots, int movers, double size) 
   return made;
 }
 
-/// Every beam against everything, one after another.
+/// Tests every beam against every object.
 double brute_force(const Scene& it, const Lidar& lidar, int robot, int beam) {
   const Pose pose = it.poses[static_cast<std::size_t>(robot)];
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw);
@@ -89,7 +89,7 @@ void compare(const Scene& it, const Lidar& lidar, int* returns) {
 
 }  // namespace
 
-TEST("scans are what every beam against everything gives") {
+TEST("scans are the same as by testing every beam against every object") {
   int returns = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     compare(scene(seed, 1 + static_cast<int>(seed), 6, 3, 6), {360, 3.5, 0.12, {-0.032, 0.01}}, &returns);
@@ -106,7 +106,7 @@ TEST("from a single beam to twenty thousand, and for long ranges") {
   CHECK(returns > 20'000);
 }
 
-TEST("in a square room every beam returns, also into the corners") {
+TEST("in a square room every beam returns, also from the corners") {
   const std::vector<Point> corners{{-1, -1}, {-1, 1}, {1, 1}, {1, -1}};  // clockwise: solid outside
   Scene room;
   for (std::size_t k = 0; k < 4; ++k) room.walls.push_back({corners[k], corners[(k + 1) % 4]});
@@ -117,7 +117,7 @@ TEST("in a square room every beam returns, also into the corners") {
   for (std::size_t i = 0; i < 8; ++i) CHECK(same(ranges[i], i % 2 ? std::numbers::sqrt2 : 1.0));
 }
 
-TEST("a mover around the sensor blinds it, and what is nowhere is not seen") {
+TEST("a mover around the sensor blinds it, and absent discs are not seen") {
   Scene it;
   const double infinity = std::numeric_limits<double>::infinity();
   it.poses = {{0, 0, 0}};
@@ -141,7 +141,7 @@ TEST("a scan does not depend on which others are taken with it") {
   }
 }
 
-TEST("lidars that make no sense are refused") {
+TEST("invalid lidars are refused") {
   CHECK(check::throws<std::invalid_argument>([] { Caster({}, {0, 3.5, 0.12, {}}); }));
   CHECK(check::throws<std::invalid_argument>([] { Caster({}, {360, 0, 0.12, {}}); }));
 }

@@ -25,7 +25,7 @@ std::vector<Segment> lines(std::uint64_t seed, int count, double size) {
 
 }  // namespace
 
-TEST("hashing finds everything in reach, once") {
+TEST("hashing finds every point in reach once") {
   for (const int count : {30, 100, 300, 1000}) {
     const std::vector<Point> points = scattered(5, count, 20);
     for (const double cell : {0.05, 0.3, 0.5, 1.0, 3.0}) {
@@ -43,7 +43,7 @@ TEST("hashing finds everything in reach, once") {
   }
 }
 
-TEST("what is nowhere is not hashed") {
+TEST("absent points are not hashed") {
   const double infinity = std::numeric_limits<double>::infinity();
   const std::vector<Point> points{{infinity, infinity}, {0, 0}, {std::nan(""), 0}, {1e30, 0}};
   DiscHash hash(1);
@@ -71,7 +71,7 @@ TEST("buckets hold every segment in reach, in order") {
   CHECK(SegmentBuckets({}, 1, 1).near({0, 0}).empty());
 }
 
-TEST("lists hold all that touches while discs wander") {
+TEST("lists contain all contacts while discs move") {
   const int robots = 60;
   std::vector<double> radius(robots, 0.2);
   radius.push_back(0.25);  // a mover

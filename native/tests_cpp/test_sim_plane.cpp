@@ -51,7 +51,7 @@ bool operator==(const Pose& a, const Pose& b) {
 
 }  // namespace
 
-TEST("a crowd in a small room overlaps nothing, and touches what it says") {
+TEST("many robots in a small room do not overlap, and all their contacts are reported") {
   const double half = 1.2;
   Plane crowd = plane(room(half), lattice(8, 0.27));
   std::size_t touches = 0;
@@ -76,7 +76,7 @@ TEST("a crowd in a small room overlaps nothing, and touches what it says") {
   CHECK(touches > 1000);
 }
 
-TEST("robots far apart do not change each other by a bit, nor does their number") {
+TEST("robots far apart do not influence each other, bit by bit, nor does their number") {
   std::vector<Pose> poses = lattice(3, 0.4);
   for (Chance chance : {Chance{}, Chance{0.05, 0.1, 42}}) {
     std::vector<Pose> more = poses;
@@ -90,7 +90,7 @@ TEST("robots far apart do not change each other by a bit, nor does their number"
   }
 }
 
-TEST("movers push, are not pushed, and are nowhere at first") {
+TEST("movers push, are not pushed, and are absent at first") {
   Plane it = plane({}, {{0, 0, 0}}, {0.3});
   it.step(std::vector<Twist>{{0, 0}}, {});
   CHECK(it.touches().empty() && it.poses()[0].x == 0);
@@ -101,7 +101,7 @@ TEST("movers push, are not pushed, and are nowhere at first") {
   CHECK(it.touches() == (std::vector<Touch>{{0, -1}}));
 }
 
-TEST("a push goes through a row of robots") {
+TEST("a push propagates through a row of robots") {
   Plane it = plane({}, {{0, 0, 0}, {0.3, 0, 0}, {0.6, 0, 0}}, {0.3});
   for (int period = 1; period <= 2500; ++period) {  // slowly: a fast push does not get through in one period
     it.step(std::vector<Twist>(3), std::vector<Point>{{-0.6 + 0.0002 * period, 0}});
@@ -113,21 +113,21 @@ TEST("a push goes through a row of robots") {
   CHECK(it.touches() == (std::vector<Touch>{{0, -1}, {0, 1}, {1, 2}}));
 }
 
-TEST("within one period a push goes on to those that did not overlap at first") {
+TEST("within one period a push propagates to robots that did not overlap at first") {
   Plane it = plane({}, {{0, 0, 0}, {0.22, 0, 0}, {0.465, 0, 0}});
   it.step(std::vector<Twist>(3), {});
   CHECK(it.touches() == (std::vector<Touch>{{0, 1}, {1, 2}}));
   CHECK(it.poses()[2].x > 0.467);
 }
 
-TEST("a robot that drives into a wall stands, and is as slow as it looks") {
+TEST("a robot that drives into a wall stops, and its twist is that over ground") {
   Plane it = plane(room(0.5), {{0, 0, 0}});
   for (int period = 0; period < 60; ++period) it.step(std::vector<Twist>{{0.4, 0}}, {});
   CHECK(std::abs(it.poses()[0].x - (0.5 - kRadius)) <= 1e-9);
   CHECK(std::abs(it.twists()[0].ahead) < 1e-9);
 }
 
-TEST("a robot on the spot of another one, or on a wall, gets off") {
+TEST("a robot in the same place as another one, or on a wall, is pushed away") {
   Plane two = plane({}, {{0, 0, 0}, {0, 0, 0}});
   two.step(std::vector<Twist>(2), {});
   CHECK(std::abs(two.poses()[1].x - two.poses()[0].x - 2 * kRadius) <= kTolerance);
@@ -136,7 +136,7 @@ TEST("a robot on the spot of another one, or on a wall, gets off") {
   CHECK(std::abs(one.poses()[0].x + kRadius) <= kTolerance);
 }
 
-TEST("slip costs its mean share of the way, and straight lines") {
+TEST("slip shortens paths by its mean and bends straight lines") {
   const Chance chance{0.1, 0, 5};
   std::vector<Pose> poses;
   for (int i = 0; i < 50; ++i) poses.push_back({0, 10.0 * i, 0});
@@ -180,7 +180,7 @@ TEST("draws are uniform, and those of different robots, periods and seeds differ
   CHECK(one != Draws(2, 2, 3).uniform() && one != Draws(1, 3, 3).uniform() && one != Draws(1, 2, 4).uniform());
 }
 
-TEST("data that make no sense are refused") {
+TEST("invalid data are refused") {
   const auto refused = [](double period, Chance chance, double radius, Drive drive) {
     return check::throws<std::invalid_argument>([&] { Plane({}, {radius}, {drive}, {{0, 0, 0}}, period, chance); });
   };

@@ -44,7 +44,7 @@ TEST("without obstacles the path is the shortest") {
   CHECK(outcome.path.back().end == kForeverHalf);
 }
 
-TEST("it waits for a gap, at ticks only") {
+TEST("the robot waits for a gap, at whole ticks") {
   const Instance it = instance(grid(3, 1), {robot(0, 2)});
   Listed obstacles;
   obstacles.vertex = 1;
@@ -56,7 +56,7 @@ TEST("it waits for a gap, at ticks only") {
   CHECK(outcome.path[2] == at_vertex(1, 4, 4));
 }
 
-TEST("forbidden departures are waited out, together with those that follow at once") {
+TEST("the robot waits until adjacent ranges of forbidden departures end") {
   const Instance it = instance(grid(2, 1), {robot(0, 1)});
   Listed obstacles;
   obstacles.edge = edge_between(it.roadmap(), 0, 1);
@@ -64,7 +64,7 @@ TEST("forbidden departures are waited out, together with those that follow at on
   CHECK(arrival(search(it, obstacles).path) == 6);
 }
 
-TEST("a robot does not stop at a goal it would have to leave again") {
+TEST("a robot does not finish at a goal that is blocked later") {
   const Instance stay = instance(grid(3, 1), {robot(0, 1)});
   Listed obstacles;
   obstacles.vertex = 1;
@@ -90,7 +90,7 @@ TEST("a robot that is at its goal never moves and costs nothing, ready or not") 
   CHECK(arrival(outcome.path) == 0);
 }
 
-TEST("of two ways that take equally long the one with fewer conflicts is taken") {
+TEST("of two paths of equal duration, the one with fewer conflicts is taken") {
   const Instance it = instance(grid(2, 2), {robot(0, 3), robot(1, 1), robot(2, 2)});
   Limits limits = unlimited();
   const Relations relations(it, limits);

@@ -30,7 +30,7 @@ TEST("two robots swap ends where there is a place to pass") {
   CHECK(prioritized(it).status == Status::solved);
 }
 
-TEST("robots alone take shortest paths whatever the heuristic") {
+TEST("every heuristic gives shortest paths") {
   const Instance it = instance(grid(5, 4, 3), {robot(0, 19), robot(19, 0)});
   for (const Heuristic heuristic :
        {Heuristic::exact, Heuristic::zero, Heuristic::manhattan, Heuristic::octile, Heuristic::euclidean}) {
@@ -42,7 +42,7 @@ TEST("robots alone take shortest paths whatever the heuristic") {
   }
 }
 
-TEST("what cannot be solved is said so at once") {
+TEST("unsolvable instances are detected at once") {
   CHECK(cbs(instance(Roadmap(2, {0}, {1}, {1}), {robot(1, 0)})).status == Status::unsolvable);
   CHECK(cbs(instance(grid(3, 1), {robot(0, 1), robot(2, 1)})).status == Status::unsolvable);
   CHECK(cbs(instance(grid(3, 1), {robot(0, 1), robot(0, 2)})).status == Status::unsolvable);
@@ -75,7 +75,7 @@ TEST("an endless search stops at its limits and keeps its lower bound") {
   CHECK(solve_cbs(instance(grid(200, 200), {robot(0, 39999)}), {}, none).status != Status::solved);
 }
 
-TEST("a priority order that fails is followed by others, or given up") {
+TEST("after a priority order that fails, others are tried up to the limit") {
   // Robot 0 would park in the corridor through which robot 1 has to pass.
   const Instance it = instance(grid(4, 1, 2), {robot(1, 2), robot(0, 3)});
   const Result one = prioritized(it, {.order = Order::index, .restarts = 0, .seed = 0});

@@ -49,7 +49,7 @@ TEST("a robot that comes back within the setup has not stopped using it") {
   CHECK(uses(line(1, 1, 1), path).size() == 2);
 }
 
-TEST("too many users are found in pairs, as many as there is room for are not") {
+TEST("conflicts are pairs of users beyond the capacity only") {
   const Instance one = line(3, 1, 0), two = line(3, 2, 0);
   const Path first = along(one.roadmap(), 0), second = along(one.roadmap(), 1), last = along(one.roadmap(), 9);
   const std::vector<std::span<const Occupation>> close{first, second, {}}, apart{first, {}, last};

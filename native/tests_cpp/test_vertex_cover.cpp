@@ -24,7 +24,7 @@ Cost by_enumeration(int vertices, const std::vector<WeightedEdge>& edges) {
 
 }  // namespace
 
-TEST("covers are as light as possible") {
+TEST("covers have the least weight") {
   std::mt19937 random(1);
   for (int round = 0; round < 300; ++round) {
     const int vertices = 2 + static_cast<int>(random() % 5);
@@ -39,7 +39,7 @@ TEST("covers are as light as possible") {
   }
 }
 
-TEST("a large dense part still has a bound") {
+TEST("a large dense part has a lower bound") {
   std::vector<WeightedEdge> edges;
   for (int one = 0; one < 60; ++one) {
     for (int other = 0; other < one; ++other) edges.push_back({one, other, 1 + (one * other) % 3});

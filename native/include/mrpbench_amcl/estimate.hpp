@@ -14,7 +14,7 @@ struct Estimate {
   std::array<double, 9> covariance{};
 };
 
-/// A cluster is what fills bins of the histogram that touch one another.
+/// A cluster is the set of particles in bins of the histogram that touch one another.
 Estimate estimate(std::span<const Particle> particles);
 
 }  // namespace mrpbench::amcl

@@ -22,17 +22,17 @@ struct Scans {
 
 class Fleet {
  public:
-  /// Throws std::invalid_argument for parameters that make no sense.
+  /// Throws std::invalid_argument for invalid parameters.
   Fleet(const std::vector<sim::Segment>& segments, double resolution, Places places, std::vector<Pose> placements,
         const Parameters& parameters, std::uint64_t seed);
 
-  /// Say what odometry, one pose for each robot, was at the placements; before anything else, once.
+  /// Set the odometry at the placements, one pose for each robot; call this once, before all other methods.
   void begin(std::span<const Pose> odometry);
 
-  /// Learn from scans taken when odometry was `odometry`. A robot's first scan counts, then only those after a way.
+  /// Update from scans taken at `odometry`. A robot's first scan is used, later ones only after it has moved.
   void sense(const Scans& scans, std::span<const Pose> odometry);
 
-  /// Where a robot is: its last estimate, and what odometry has added since.
+  /// The pose of a robot: its last estimate, moved by the odometry since then.
   Pose pose(std::size_t robot, Pose odometry) const;
   const Estimate& estimate(std::size_t robot) const { return filters_[robot].estimate; }
   std::span<const Particle> particles(std::size_t robot) const { return filters_[robot].particles; }

@@ -1,5 +1,5 @@
 // How likely a scan is: the likelihood field of S. Thrun, W. Burgard and D. Fox, "Probabilistic Robotics", MIT Press
-// 2005, section 6.4. What counts is how near to anything solid a beam ends; the way there is not looked at.
+// 2005, section 6.4. A likelihood depends on the distance from the end of a beam to the nearest wall, not on its path.
 #pragma once
 
 #include <span>
@@ -16,12 +16,12 @@ struct Ends {
   double anywhere = 0;
 };
 
-/// The ends of at most `max_beams` of a scan's beams; those that met nothing within the range are left out.
+/// The ends of at most `max_beams` of a scan's beams; those without a return within the range are left out.
 Ends ends_of(std::span<const double> ranges, double range, double min_range, Point mount, const Parameters& parameters);
 
 class LikelihoodField {
  public:
-  /// Squares of side `resolution`, as far as anything solid can be felt.
+  /// Squares of side `resolution`, up to the largest distance that matters from walls.
   LikelihoodField(const std::vector<sim::Segment>& segments, double resolution, const Parameters& parameters);
 
   /// Multiply each particle's weight by the likelihood of a scan; returns the sum of the weights.

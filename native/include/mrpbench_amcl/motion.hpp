@@ -1,5 +1,5 @@
-// How particles move when odometry does: the odometry motion model of S. Thrun, W. Burgard and D. Fox, "Probabilistic
-// Robotics", MIT Press 2005, section 5.4: a turn, a straight way and another turn, each with its error.
+// The motion of particles with odometry: the odometry motion model of S. Thrun, W. Burgard and D. Fox, "Probabilistic
+// Robotics", MIT Press 2005, section 5.4: a rotation, a translation and a second rotation, each with its error.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// One guess at where a robot is.
+// A particle: one hypothesis about the pose of a robot.
 #pragma once
 
 #include <cmath>
@@ -22,13 +22,13 @@ inline double wrapped(double angle) {
   return angle - 2 * std::numbers::pi * std::floor((angle + std::numbers::pi) / (2 * std::numbers::pi));
 }
 
-/// What `pose`, given in `frame`, is in the frame that `frame` is given in.
+/// `pose`, given in `frame`, in the parent frame of `frame`.
 inline Pose composed(Pose frame, Pose pose) {
   const double c = std::cos(frame.yaw), s = std::sin(frame.yaw);
   return {frame.x + c * pose.x - s * pose.y, frame.y + s * pose.x + c * pose.y, wrapped(frame.yaw + pose.yaw)};
 }
 
-/// Undoes `composed`.
+/// The inverse of `composed`.
 inline Pose relative(Pose frame, Pose pose) {
   const double c = std::cos(frame.yaw), s = std::sin(frame.yaw), x = pose.x - frame.x, y = pose.y - frame.y;
   return {c * x + s * y, c * y - s * x, wrapped(pose.yaw - frame.yaw)};

@@ -1,6 +1,7 @@
-// Draws as many particles as their spread asks for: D. Fox, "Adapting the sample size in particle filters through
-// KLD-sampling", International Journal of Robotics Research 22(12), 2003. Some may be placed anywhere, to recover from
-// a wrong estimate: J. Gutmann and D. Fox, "An experimental comparison of localization methods continued", IROS 2002.
+// Draws a number of particles that depends on their spread: D. Fox, "Adapting the sample size in particle filters
+// through KLD-sampling", International Journal of Robotics Research 22(12), 2003. Some may be placed anywhere, to
+// recover from a wrong estimate: J. Gutmann and D. Fox, "An experimental comparison of localization methods continued",
+// IROS 2002.
 #pragma once
 
 #include <span>
@@ -12,10 +13,10 @@
 
 namespace mrpbench::amcl {
 
-/// How many particles keep the error below `pf_err` when they fill `bins` of the histogram.
+/// The number of particles that keeps the error below `pf_err` if they fill `bins` of the histogram.
 int particles_for(std::size_t bins, const Parameters& parameters);
 
-/// Where a robot can be at all: centres of free squares.
+/// The places at which a robot can be: centres of free squares.
 struct Places {
   std::vector<Point> centres;
   double width = 0;

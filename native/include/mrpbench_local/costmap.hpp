@@ -1,4 +1,4 @@
-// A rolling costmap around a robot, with the layers of Nav2's local costmap: what lasers mark and clear, the static
+// A rolling costmap around a robot, with the layers of Nav2's local costmap: obstacles from scans, the static
 // map, inflation. Written from Nav2's documentation and parameters (navigation.ros.org, "Costmap 2D").
 #pragma once
 
@@ -44,7 +44,7 @@ class Costmap {
   void see(Pose pose, const Sensor& sensor, std::span<const double> ranges);
   /// Centre on the robot, apply the scan that is kept, inflate.
   void update(Pose pose);
-  /// Forget all marks.
+  /// Remove all marks.
   void clear();
 
   /// Tell whether it was ever updated.

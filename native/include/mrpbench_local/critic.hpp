@@ -1,4 +1,4 @@
-// What scores trajectories.
+// Critics score trajectories.
 #pragma once
 
 #include <map>
@@ -14,7 +14,7 @@
 
 namespace mrpbench::local {
 
-/// What a robot knows when it looks for a command.
+/// The input of critics: state of the robot, goal and costmap.
 struct Scene {
   double now = 0;
   Pose pose;
@@ -35,7 +35,7 @@ constexpr Reason kLegal = nullptr;
 /// How the poses of a trajectory make one score.
 enum class Aggregation { last, sum, product };
 
-/// Options by Nav2's names; a critic takes its own, and what is left is a mistake.
+/// Options by Nav2's names; a critic takes its own; the remaining ones are errors.
 class CriticOptions {
  public:
   explicit CriticOptions(std::map<std::string, double> values) : values_(std::move(values)) {}
@@ -58,15 +58,15 @@ class Critic {
  public:
   virtual ~Critic() = default;
 
-  /// There is a new path.
+  /// Start a new path.
   virtual void reset() {}
-  /// Get ready for a scene.
+  /// Prepare for a scene.
   virtual void prepare(const Scene&) {}
   /// Raw scores of all trajectories, lower is better, and why some are illegal; `why` comes full of `kLegal`.
   virtual void score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) = 0;
-  /// Look at one pose of a trajectory; asked only of those that could win.
+  /// Check one pose of a trajectory; called only for trajectories that could win.
   virtual Reason check(const Scene&, Pose) { return kLegal; }
-  /// Take note of the command that was chosen.
+  /// Record the command that was chosen.
   virtual void debrief(const Scene&, Twist) {}
   /// Factor of the scale.
   virtual double weight(const Scene&) const { return 1; }

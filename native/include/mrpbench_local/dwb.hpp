@@ -1,4 +1,4 @@
-// Nav2's DWB: the velocity whose trajectory its critics like best. Written from Nav2's documentation
+// Nav2's DWB: the velocity whose trajectory has the best score of its critics. Written from Nav2's documentation
 // (navigation.ros.org, "DWB Controller") and parameters.
 #pragma once
 
@@ -13,13 +13,13 @@ struct DwbOptions {
   MotionOptions motion;
   Pruning pruning;
   double min_x_velocity_threshold = 0.001, min_theta_velocity_threshold = 0.001;
-  /// Only trajectories that can win are looked at closely; else all, so that every reason is known.
+  /// Check only trajectories that can win pose by pose; if false check all, so that every reason is known.
   bool short_circuit = true;
   /// A robot turns on the spot to a new path from which it heads off by more radians than this; 0 = never.
   double rotate_to_path = 0;
 };
 
-/// A path in the plane, with what is wanted at its end.
+/// A path in the plane, with yaw and speed at its end.
 struct Path {
   Point first;
   std::span<const Point> rest;
@@ -33,7 +33,7 @@ class Dwb {
     double scale = 1;
     std::unique_ptr<Critic> critic;
   };
-  /// Scores that somebody else adds; infinity = illegal.
+  /// Scores that the caller adds; infinity = illegal.
   using Extra = std::function<void(const Trajectories&, std::span<double>)>;
 
   Dwb(const DwbOptions& options, std::vector<Weighted> critics);
@@ -42,9 +42,9 @@ class Dwb {
   std::optional<Twist> command(double now, Pose pose, Twist twist, const Path& path, const Costmap& costmap,
                                const Extra& extra = {});
 
-  // What the last command was chosen from.
+  // The trajectories from which the last command was chosen.
   const Trajectories& trajectories() const { return all_; }
-  /// Totals; of what is illegal, or was not looked at closely, as far as it is known.
+  /// Totals; those of trajectories that are illegal or were not fully checked are partial.
   const std::vector<double>& totals() const { return total_; }
   /// Why trajectories were dropped, and by which critic (-1 = by none); parallel to the trajectories.
   const std::vector<Reason>& reasons() const { return why_; }

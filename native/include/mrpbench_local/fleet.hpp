@@ -1,4 +1,4 @@
-// The local controllers of a fleet: a costmap and a DWB per robot, all asked in one call.
+// The local controllers of a fleet: a costmap and a DWB per robot, with one call for all.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,13 @@ struct RobotOptions {
   CostmapOptions costmap;
   DwbOptions dwb;
   Sensor sensor;
-  /// Collisions are looked up at the centre instead of along the outline.
+  /// Check collisions at the centre instead of along the outline.
   bool by_radius = true;
-  /// Metres from the path that a detour may lead.
+  /// Largest distance of a detour from the path, in metres.
   double max_detour = 0.5;
 };
 
-/// What is asked for one robot.
+/// The input of `command` for one robot.
 struct Request {
   std::size_t robot = 0;
   Pose pose;
@@ -26,7 +26,7 @@ struct Request {
   Path path;
 };
 
-/// Scores that somebody else adds for a robot.
+/// Scores that the caller adds for a robot.
 using Extra = std::function<void(std::size_t robot, const Trajectories&, std::span<double>)>;
 
 class Fleet {
@@ -39,7 +39,7 @@ class Fleet {
   void add(const RobotOptions& options, std::vector<Dwb::Weighted> critics);
   std::size_t size() const { return robots_.size(); }
 
-  /// Take note of scans: row i of `ranges` is of `robots[i]`, who is at `poses[robots[i]]`.
+  /// Keep scans for the next update: row i of `ranges` is from `robots[i]`, which is at `poses[robots[i]]`.
   void see(double now, std::span<const std::int32_t> robots, std::span<const Pose> poses,
            std::span<const double> ranges);
   /// Commands, NaN where none is admissible. `extra` is called in this thread only.

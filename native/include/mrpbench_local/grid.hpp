@@ -1,4 +1,4 @@
-// A square raster that is aligned with the cells of the whole plane, wherever it lies.
+// A raster of square cells that is aligned with a raster of the whole plane.
 #pragma once
 
 #include <cmath>
@@ -27,13 +27,13 @@ struct Cell {
   bool operator==(const Cell&) const = default;
 };
 
-/// The next whole number below; without a call of the library, which floor is on the baseline machine.
+/// The greatest integer that is not above; std::floor is a library call on the baseline machine.
 inline int whole_below(double value) {
   const int cut = static_cast<int>(value);
   return cut - (value < cut ? 1 : 0);
 }
 
-/// Where a raster of `width` x `height` cells lies.
+/// The place of a raster of `width` x `height` cells.
 struct Frame {
   int width = 0, height = 0;
   double resolution = 0.05;

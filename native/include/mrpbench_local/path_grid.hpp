@@ -8,12 +8,12 @@
 
 namespace mrpbench::local {
 
-/// Part of a path that a robot looks at.
+/// The part of a path that a robot uses.
 struct Pruning {
   double prune_distance = 1;
   bool shorten = true;
-  /// Metres by which the path goes on straight beyond its end, for distances to it only: a robot whose nose comes to
-  /// lie beyond the end is still on the path.
+  /// Metres by which the path goes on straight beyond its end, for distances to it only: a robot with its
+  /// front beyond the end is still on the path.
   double beyond_end = 0;
 };
 

@@ -10,7 +10,7 @@
 namespace mrpbench::local {
 
 /// Tell whether a robot of the costmap's footprint fits at a pose, as far as the costmap knows. A footprint given by a
-/// radius is looked up at its centre.
+/// radius is checked at its centre.
 bool is_free(const Costmap& costmap, Pose pose, bool by_radius);
 
 /// Points around what blocks a path, at most `farthest` metres (along rows and columns) from it, to a point of the path

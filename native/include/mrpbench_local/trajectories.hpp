@@ -1,4 +1,4 @@
-// Velocity samples within the dynamic window and what following each for a while leads to (D. Fox, W. Burgard and
+// Velocity samples within the dynamic window, and the trajectory of each (D. Fox, W. Burgard and
 // S. Thrun, "The Dynamic Window Approach to Collision Avoidance", IEEE Robotics & Automation Magazine 4, 1997), by the
 // rules and parameters of Nav2's DWB.
 #pragma once
@@ -32,8 +32,8 @@ inline double project(double speed, double acceleration, double deceleration, do
 std::vector<double> samples(double current, double lowest, double highest, double acceleration, double deceleration,
                             double time, int count);
 
-/// All trajectories from one state. What is asked of nearly all, their ends, is computed at once; poses on the way only
-/// for those that somebody walks.
+/// All trajectories from one state. The last poses, which are needed of nearly all, are computed at once; other poses
+/// only by `walk`.
 class Trajectories {
  public:
   explicit Trajectories(const MotionOptions& options) : options_(options) {}
@@ -98,7 +98,7 @@ class Trajectories {
   Turn own_;
 };
 
-/// The cells that hold the ends of trajectories, perhaps outside of the frame; found once for all critics that ask.
+/// The cells that hold the ends of trajectories, perhaps outside of the frame; computed once for all critics.
 class EndCells {
  public:
   EndCells(const Frame& frame, const Trajectories& all) : frame_(frame), all_(all) {}

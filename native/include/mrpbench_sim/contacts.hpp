@@ -22,7 +22,7 @@ class Contacts {
  public:
   Contacts(std::vector<Segment> segments, std::vector<double> radius, int robots);
 
-  /// What moves and is solid: doors.
+  /// Replace the door leaves, which are solid.
   void set_leaves(std::span<const Segment> leaves) { neighbours_.set_leaves(leaves); }
 
   /// Resolve overlaps of discs that moved from `before` to `centres`, in place; touches are appended, some repeatedly.

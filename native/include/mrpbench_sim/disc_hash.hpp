@@ -1,4 +1,4 @@
-// Spatial hashing of things that move.
+// Spatial hashing of moving discs.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace mrpbench::sim {
 
-/// Metres from the origin along either axis; what is farther is nowhere.
+/// Largest distance from the origin along either axis, in metres; discs beyond it are absent.
 constexpr double kFarthest = 1e9;
 
 inline bool somewhere(Point p) {
@@ -22,7 +22,7 @@ class DiscHash {
  public:
   explicit DiscHash(double cell) : cell_(cell) {}
 
-  /// Points that are nowhere are left out.
+  /// Absent points are left out.
   void build(std::span<const Point> points);
 
   /// Calls `visit(index)` once for every point within `reach` of `centre`, and for some that are farther.

@@ -1,4 +1,4 @@
-// A differential drive: how its speeds follow commands, and what wheels that slip make of them.
+// A differential drive: how its speeds follow commands, and how slip of its wheels changes them.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ inline double accelerate(double& speed, double wanted, double acceleration, doub
   return mean;
 }
 
-/// What is left of a twist over ground.
+/// The twist over ground with slip.
 inline Twist slipped(const Drive& drive, Twist twist, Slip slip) {
   if (slip.left == 0 && slip.right == 0) return twist;
   const double half = drive.wheel_separation / 2;

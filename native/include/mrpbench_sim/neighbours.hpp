@@ -16,10 +16,10 @@ class Neighbours {
   /// Discs with `radius`, of which the first `robots` are robots.
   Neighbours(std::vector<Segment> segments, std::vector<double> radius, int robots);
 
-  /// What is solid besides the segments given at first, from now on.
+  /// Replace the solid segments that may change, in addition to those of the constructor.
   void set_leaves(std::span<const Segment> leaves);
 
-  /// Make the lists hold for `centres`.
+  /// Update the lists for `centres`.
   void refresh(std::span<const Point> centres);
 
   /// Discs that may touch a robot, in ascending order.

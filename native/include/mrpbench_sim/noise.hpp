@@ -1,4 +1,4 @@
-// Random numbers that are functions of what they are for: nothing else a run does can change them.
+// Random numbers that are functions of seed, robot and period, so that nothing else in a run changes them.
 #pragma once
 
 #include <cmath>

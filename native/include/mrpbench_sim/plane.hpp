@@ -14,7 +14,7 @@ struct Pose {
   double x = 0, y = 0, yaw = 0;
 };
 
-/// What is random; all off at 0.
+/// Noise; 0 = none.
 struct Chance {
   /// Mean share of its travel that a wheel loses; drawn for each wheel and period, uniformly up to twice the mean.
   double slip = 0;
@@ -25,18 +25,18 @@ struct Chance {
 
 class Plane {
  public:
-  /// The first of the radii are the robots', the others the movers', which are nowhere until `step` says where.
-  /// Throws std::invalid_argument for sizes that do not fit and numbers that make no sense.
+  /// The first radii are those of the robots, the others those of the movers, which are absent until `step` places
+  /// them. Throws std::invalid_argument for sizes that do not match and invalid numbers.
   Plane(std::vector<Segment> segments, std::vector<double> radius, std::vector<Drive> drives, std::vector<Pose> poses,
         double period, Chance chance);
 
   /// Advance by one control period. `movers` may be empty, which leaves them where they are.
   void step(std::span<const Twist> commands, std::span<const Point> movers);
 
-  /// What moves and is solid besides the segments given at first: doors, where they are from now on.
+  /// Replace the door leaves, which are solid in addition to the segments of the constructor.
   void set_leaves(std::span<const Segment> leaves) { contacts_.set_leaves(leaves); }
 
-  /// Put a robot elsewhere, as it is: a lift has carried it to another level.
+  /// Move a robot with its yaw and speed, for example because a lift carried it to another level.
   void place(int robot, Point where);
 
   const std::vector<Pose>& poses() const { return poses_; }

@@ -62,12 +62,13 @@ CbsOptions eecbs() {
   return {.selection = Selection::explicit_estimation, .w = kW, .incumbent_after = 100'000, .order = kWeighted};
 }
 
-/// `heuristic` raises lower bounds, which a focal list hardly ever waits for; the fallback keeps to one assignment.
+/// Without `heuristic`, since focal search rarely needs higher lower bounds, and without the fallback, which supports
+/// one assignment only.
 CbsOptions assigning(GoalChoice goals) {
   return {.goals = goals, .selection = Selection::focal, .w = kW, .heuristic = false, .order = kWeighted};
 }
 
-/// The names of all variants but EECBS decide these, and `more`.
+/// The names of all variants except EECBS decide these options and `more`.
 Fixed fixed(Names more) {
   more.insert(more.end(),
               {"goal_choice", "selection", "flex", "incumbent_after", "distance_weight", "conflict_weight"});

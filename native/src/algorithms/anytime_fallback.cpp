@@ -6,7 +6,7 @@
 namespace mrpbench::mapf {
 
 namespace {
-constexpr std::int64_t kOverhead = 100;  // what a step takes besides, in expansions
+constexpr std::int64_t kOverhead = 100;  // of a step, besides its expansions, in expansions
 }  // namespace
 
 /// Repairs until there is a plan without conflicts, or LaCAM has found one; then improves it.
@@ -26,7 +26,7 @@ class AnytimeFallback::Search {
   }
 
   const std::vector<Path>& paths() const { return schedule_.paths(); }
-  /// There is nothing more to look for.
+  /// No better plan can be found.
   bool is_done() const { return is_done_; }
 
   /// Take a step; true if there is a better plan now.
@@ -84,7 +84,7 @@ void AnytimeFallback::begin() {
   effort_ = statistics.low_level_expansions - before;
 }
 
-/// Search on until this has taken `effort` in all.
+/// Continue until the search has taken `effort` in total.
 void AnytimeFallback::advance(std::int64_t effort) {
   while (!search_->is_done() && effort_ < effort) {
     const std::int64_t before = result_.statistics.low_level_expansions;

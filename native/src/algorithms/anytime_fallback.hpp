@@ -1,6 +1,6 @@
-// Large neighbourhood search (`lns/`) beside a constraint tree: its solution will do as soon as it costs at most w
-// times the lower bound that the tree has proved. Trees are good at lower bounds and local search at solutions; that a
-// bound of one may be met by the other is the idea of incumbents in branch and bound.
+// Large neighbourhood search (`lns/`) in addition to a constraint tree: its solution is returned as soon as it costs at
+// most w times the lower bound that the tree has proved. Trees raise lower bounds quickly, and local search finds
+// solutions quickly. The solution is an incumbent in the sense of branch and bound.
 #pragma once
 
 #include <memory>
@@ -16,8 +16,8 @@ class AnytimeFallback {
   AnytimeFallback(SearchContext& context, Result& result);
   ~AnytimeFallback();
 
-  /// Call before each expansion of the tree: once it has taken a while, searches half as long as it has. True if there
-  /// is a solution within the bound, which `result` then contains.
+  /// Call this before each expansion of the tree. After `incumbent_after` low-level expansions it searches half as long
+  /// as the tree. True if there is a solution within the bound, which `result` then contains.
   bool solve();
 
  private:

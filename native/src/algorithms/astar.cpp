@@ -60,7 +60,7 @@ class Astar {
     Tick g = kForever;
     Tick h = -1;  // -1: not computed yet
     std::int32_t edge = -1;
-    std::int32_t robot = -1;  // for whom the other values are
+    std::int32_t robot = -1;  // for which the other values hold
     bool goal = false;
   };
   struct Open {

@@ -13,7 +13,7 @@ namespace mrpbench::mapf {
 
 namespace {
 
-/// A node of the tree of priorities: its parent's with one more.
+/// A node of the tree of priorities: those of its parent and one more.
 struct Node {
   const Node* parent = nullptr;
   std::int32_t before = -1, after = -1;  // robots
@@ -49,14 +49,14 @@ class Pbs {
     root->paths.resize(robots_);
     gather(*root);
     for (int robot = 0; robot < robots_; ++robot) {
-      if (!plan(*root, robot)) return result_.no_plan_for(robot);  // what is certain alone stands in its way
+      if (!plan(*root, robot)) return result_.no_plan_for(robot);  // committed segments alone leave no path
     }
     depth_first(std::move(root));
   }
 
  private:
   void depth_first(std::unique_ptr<Node> root) {
-    // Parents stay below their children until these are done, for their priorities.
+    // Parents stay on the stack below their children, which refer to their priorities.
     std::vector<std::unique_ptr<Node>> open;
     std::vector<bool> expanded;
     const auto push = [&](std::unique_ptr<Node> node) {

@@ -74,7 +74,7 @@ class Prioritized {
     return std::nullopt;
   }
 
-  /// Give every robot in turn its earliest path around the others as they are: it has one, the one it had.
+  /// Replan every robot in turn around the present paths of the others; its old path is one solution.
   void hurry(const Priorities& order) {
     try {
       for (const int robot : order) {
@@ -84,7 +84,7 @@ class Prioritized {
         }
         sipp_.search(robot, tables_[robot], Others(reservations_, robot), paths_[robot]);
       }
-    } catch (const LimitReached&) {  // there is a plan; some robots stay late
+    } catch (const LimitReached&) {  // the plan stays as it is
     }
   }
 
@@ -117,14 +117,14 @@ void solve(const Instance& instance, const PrioritizedOptions& options, Limits& 
   }
   std::set<Priorities> tried;
   while (const auto failed = search.plan(order, delays)) {
-    // Only what is certain can be in the way of the first.
+    // Only committed segments of others can block the first robot.
     if (*failed == order.front() && delays[*failed] == 0) return result.no_plan_for(*failed);
     statistics.failed_robot = *failed;
     if (statistics.restarts == options.restarts) return;
     ++statistics.restarts;
     tried.insert(order);
     reorder(order, *failed, tried, random);
-    // Robots that park in one another's way can be planned in no order, unless one lets the other pass before it
+    // Robots whose goals block one another have no order that succeeds, unless one lets the other pass before it
     // starts.
     if (statistics.restarts > kPunctual) draw(delays, 2 * longest, random);
   }

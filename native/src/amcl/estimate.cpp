@@ -9,7 +9,7 @@ namespace {
 
 /// The cluster of each particle, by numbers in the order of their first particles.
 std::vector<int> clusters(std::span<const Particle> particles, int& count) {
-  std::unordered_map<Bin, int, BinHash> cluster;  // -1 = not known yet
+  std::unordered_map<Bin, int, BinHash> cluster;  // -1 = not assigned yet
   for (const Particle& it : particles) cluster.emplace(Bin::of(it.pose), -1);
   std::vector<int> of_particle;
   std::vector<Bin> frontier;

@@ -29,7 +29,7 @@ const Parameters& sound(const Parameters& p, double resolution) {
   return p;
 }
 
-/// Make the weights' sum one; where all are zero, make them equal.
+/// Scale the weights so that their sum is one; if all are zero, make them equal.
 void normalise(std::span<Particle> particles) {
   double sum = 0;
   for (const Particle& it : particles) sum += it.weight;
@@ -101,7 +101,7 @@ void Fleet::update(Filter& filter, std::size_t robot, Pose odometry, const Ends&
   move(filter.particles, relative(filter.odometry, odometry), parameters_, draws);
   const double total = field_.weigh(filter.particles, ends);
   normalise(filter.particles);
-  // How well scans fit, on average over long and over short: where the short falls behind, the robot is lost.
+  // Long and short averages of the likelihoods of scans: if the short one is lower, the robot may be lost.
   const bool first = filter.slow == 0;
   filter.slow = first ? total : filter.slow + parameters_.recovery_alpha_slow * (total - filter.slow);
   filter.fast = first ? total : filter.fast + parameters_.recovery_alpha_fast * (total - filter.fast);

@@ -99,7 +99,7 @@ double LikelihoodField::multiply(std::span<Particle> particles, const Ends& ends
   std::vector<double> logarithms;
   logarithms.reserve(particles.size());
   for (const Particle& it : particles) {
-    double sum = 0, product = 1;  // a logarithm for every eight beams is enough to keep the product in range
+    double sum = 0, product = 1;  // one logarithm for eight beams keeps the product in range
     std::size_t count = 0;
     each(it.pose, ends, [&](double one) {
       product *= one;

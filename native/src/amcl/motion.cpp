@@ -6,10 +6,10 @@ namespace mrpbench::amcl {
 
 namespace {
 
-/// Metres; the direction of a shorter way says nothing.
+/// Metres; the direction of a shorter motion is not significant.
 constexpr double kShort = 0.01;
 
-/// How much a robot really turns to face a way, which it may also drive backwards.
+/// The turn towards the direction of a motion, which may also be backwards.
 double turned(double angle) {
   return std::min(std::abs(wrapped(angle)), std::abs(wrapped(angle - std::numbers::pi)));
 }

@@ -55,8 +55,8 @@ std::vector<int> line_up(const Roadmap& roadmap, const std::vector<int>& part) {
   return line;
 }
 
-/// The robot at which the order of the goals along a cycle first differs from that of the starts, -1 = nowhere. Any
-/// turn of it is the same order.
+/// The robot at which the order of the goals along a cycle first differs from that of the starts, -1 = it does not
+/// differ. All rotations of a cycle are one order.
 int find_disorder(const Instance& instance, const std::vector<int>& cycle) {
   std::vector<int> robot_at(instance.roadmap().vertex_count(), -1), place(instance.roadmap().vertex_count());
   for (std::size_t k = 0; k < cycle.size(); ++k) place[cycle[k]] = static_cast<int>(k);
@@ -109,7 +109,7 @@ bool has_wrong_parity(const Instance& instance, const Part& part) {
   return odd != (colour[before] != colour[after]);
 }
 
-/// All arrangements of robots on a few vertices that can be reached.
+/// All reachable arrangements of robots on a few vertices.
 class Arrangements {
  public:
   static constexpr std::int64_t kMost = 20'000;

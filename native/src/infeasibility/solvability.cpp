@@ -49,10 +49,10 @@ class Matching {
   const Instance& instance_;
   Limits& limits_;
   std::vector<int> owner_;     // robot by goal, -1 = free
-  std::vector<int> asked_by_;  // the newcomer for whom this goal was last tried
+  std::vector<int> asked_by_;  // the robot for which this goal was last tried
 };
 
-/// A robot that is left without a goal of its own, though it would have to stay there.
+/// A robot that gets no goal of its own although it has to stay at one.
 std::optional<int> find_missing_goal(const Instance& instance, Limits& limits) {
   if (instance.rules().disappear_at_goal) return std::nullopt;
   Matching matching(instance, limits);
@@ -62,7 +62,7 @@ std::optional<int> find_missing_goal(const Instance& instance, Limits& limits) {
   return std::nullopt;
 }
 
-/// A robot too many at the start in a resource, or for good at the end.
+/// A robot by which a resource has more users at the start, or for good at the end, than it holds.
 std::optional<int> find_crowded(const Instance& instance) {
   for (std::size_t resource = 0; resource < instance.resources().size(); ++resource) {
     const auto inside = [&](int vertex) {

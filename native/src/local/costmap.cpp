@@ -163,7 +163,7 @@ void Costmap::roll(Pose pose) {
   frame_.origin = origin;
 }
 
-/// Clear along the beams, then mark where they end.
+/// Clear the cells along the beams, then mark the cells in which they end.
 void Costmap::trace() {
   if (!scan_.fresh) return;
   scan_.fresh = false;
@@ -196,7 +196,7 @@ void Costmap::trace() {
     }
     range = std::min(range, options_.raytrace_max_range);
     const Point ahead = direction(i);
-    // Up to the last cell inside the frame.
+    // Up to the last cell within the frame.
     if (ahead.x > 0) range = std::min(range, (right - origin.x) / ahead.x);
     if (ahead.x < 0) range = std::min(range, (left - origin.x) / ahead.x);
     if (ahead.y > 0) range = std::min(range, (top - origin.y) / ahead.y);
@@ -252,7 +252,7 @@ void Costmap::draw_walls(std::vector<std::uint8_t>& cells) const {
   const double right = left + frame_.width * frame_.resolution, top = bottom + frame_.height * frame_.resolution;
   for (const std::int32_t index : walls_->buckets.near(centre_)) {
     const Segment& wall = walls_->segments[static_cast<std::size_t>(index)];
-    // Only the part inside the frame (Y.-D. Liang and B. A. Barsky, ACM Transactions on Graphics 3, 1984).
+    // Only the part within the frame (Y.-D. Liang and B. A. Barsky, ACM Transactions on Graphics 3, 1984).
     double from = 0, to = 1;
     const auto clip = [&](double start, double along, double low, double high) {
       if (along == 0) return start >= low && start <= high;
@@ -270,8 +270,8 @@ void Costmap::draw_walls(std::vector<std::uint8_t>& cells) const {
   }
 }
 
-/// Around each cell that is lethal the costs of what is near it. The nearest lethal cell to one that is not has a side
-/// towards it, so that those without a free side change nothing.
+/// Write the costs around each lethal cell. The lethal cell that is nearest to a free one has a free side, so cells
+/// without a free side can be skipped.
 void Costmap::inflate() {
   const auto width = static_cast<std::size_t>(frame_.width), height = static_cast<std::size_t>(frame_.height);
   const auto reach = static_cast<std::size_t>(reach_), stride = width + 2 * reach + kBlock, side = 2 * reach + 1;

@@ -1,4 +1,4 @@
-// What trajectories cost on the costmap: of the robot's centre, or of the outline of its footprint.
+// Costs of trajectories on the costmap: those of the robot's centre, or of the outline of its footprint.
 #include <algorithm>
 
 #include "mrpbench_local/critics.hpp"

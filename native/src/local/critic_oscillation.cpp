@@ -1,4 +1,4 @@
-// A robot that turned back must go on that way for a while before it may turn back again.
+// A robot that has reversed must keep its direction for a while before it may reverse again.
 #include <cmath>
 #include <numbers>
 
@@ -8,11 +8,11 @@ namespace mrpbench::local {
 
 namespace {
 
-/// The way along one axis.
+/// The direction along one axis.
 class Trend {
  public:
   void reset() { *this = Trend(); }
-  /// Take note of a speed; tells whether it reversed the way.
+  /// Record a speed; tells whether it reverses the direction.
   bool update(double speed) {
     bool reversed = false;
     if (speed < 0) {

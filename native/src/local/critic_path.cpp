@@ -1,5 +1,5 @@
-// How far trajectories end from the path, and from where its part within the costmap ends: counted in cells along rows
-// and columns. The two that align measure it at a point ahead of the robot.
+// The distance from the end of a trajectory to the path, or to the end of its part within the costmap, counted in cells
+// along rows and columns. The two alignment critics measure it at a point ahead of the robot.
 #include <cmath>
 
 #include "mrpbench_local/critics.hpp"
@@ -13,7 +13,7 @@ constexpr Reason kUnreachable = "Unreachable";
 /// Nav2 scales these critics by half the resolution.
 constexpr double kHalf = 0.5;
 
-/// Metres along the heading at which a pose is looked at.
+/// Distance of that point along the heading, in metres.
 double forward_point_distance(CriticOptions& options) {
   return options.take("forward_point_distance", 0.325);
 }
@@ -31,14 +31,14 @@ class Distance : public Critic {
     const Point away{scene.goal.x - scene.pose.x, scene.goal.y - scene.pose.y};
     near_goal_ = nose_ > 0 && sim::length(away) <= nose_;
     if (to_path || nose_ == 0) return;
-    // The end is shifted as the poses are: towards the goal.
+    // The end is shifted towards the goal, as the poses are.
     const double yaw = std::atan2(away.y, away.x);
     const Cell shifted = frame.cell(scene.path->last() + Point{std::cos(yaw), std::sin(yaw)} * nose_);
     goal_ = frame.holds(shifted) ? shifted : scene.path->before_end();
   }
 
   double weight(const Scene& scene) const override {
-    if (to_path && near_goal_) return 0;  // beside the goal the nose is beyond it
+    if (to_path && near_goal_) return 0;  // near the goal the point ahead of the robot is beyond it
     return scene.costmap->frame().resolution * kHalf;
   }
 
@@ -70,7 +70,7 @@ class Distance : public Critic {
     return frame.cell({pose.x + nose_ * std::cos(pose.yaw), pose.y + nose_ * std::sin(pose.yaw)});
   }
 
-  /// Negative off the map.
+  /// Negative outside of the map.
   double cells(const Scene& scene, Cell c) const {
     const Frame& frame = scene.costmap->frame();
     if (!frame.holds(c)) return -1;
@@ -78,7 +78,7 @@ class Distance : public Critic {
     return std::abs(c.x - goal_.x) + std::abs(c.y - goal_.y);
   }
 
-  /// Where no part of the path is on the map, all cells are equally far.
+  /// If no part of the path is on the map, all cells have the same distance.
   void fail(std::size_t i, std::span<double> raw, std::span<Reason> why, const Frame& frame) const {
     raw[i] = static_cast<double>(frame.size() + 1);
     if (nose_ == 0) why[i] = kUnreachable;

@@ -1,4 +1,4 @@
-// What is preferred of commands wherever they lead.
+// Preferences for commands that do not depend on the path.
 #include <cmath>
 
 #include "mrpbench_local/critics.hpp"

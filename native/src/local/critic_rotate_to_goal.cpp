@@ -1,4 +1,4 @@
-// Near the goal a robot first slows down, and once it is slow only turns to the yaw that is wanted there.
+// Near the goal a robot first slows down; once it is slow, it only turns to the yaw of the goal.
 #include <cmath>
 #include <numbers>
 
@@ -19,7 +19,7 @@ class RotateToGoal : public Critic {
   void reset() override { in_window_ = rotating_ = false; }
 
   void prepare(const Scene& scene) override {
-    if (std::isnan(scene.goal.yaw)) return reset();  // any yaw will do
+    if (std::isnan(scene.goal.yaw)) return reset();  // the goal has no yaw
     // A robot that stopped farther away than its navigator accepts would never arrive.
     const double tolerance = std::min(xy_goal_tolerance_, scene.tolerance);
     const Point away{scene.pose.x - scene.goal.x, scene.pose.y - scene.goal.y};

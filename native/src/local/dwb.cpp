@@ -10,7 +10,7 @@ namespace mrpbench::local {
 
 namespace {
 
-/// Whether a path leads somewhere else than the one before.
+/// Whether a path leads to another place than the one before.
 bool is_new(const std::optional<Pose>& before, const Pose& goal) {
   if (!before || before->x != goal.x || before->y != goal.y) return true;
   return before->yaw != goal.yaw && !(std::isnan(before->yaw) && std::isnan(goal.yaw));
@@ -20,10 +20,10 @@ double thresholded(double speed, double threshold) {
   return std::abs(speed) < threshold ? 0 : speed;
 }
 
-/// Metres along a path at which a robot looks where it leads.
+/// Distance along a path, in metres, at which its direction is measured.
 constexpr double kAhead = 0.3;
 
-/// Radians by which a robot heads off a path.
+/// Angle in radians between the heading of a robot and its path.
 double off(Pose pose, const Path& path) {
   Point at = path.first;
   double left = kAhead;
@@ -37,7 +37,7 @@ double off(Pose pose, const Path& path) {
     at = next;
   }
   const Point away = at - Point{pose.x, pose.y};
-  if (sim::length(away) < kAhead / 3) return 0;  // who is nearly there need not turn
+  if (sim::length(away) < kAhead / 3) return 0;  // a robot that has nearly arrived need not turn
   return std::remainder(std::atan2(away.y, away.x) - pose.yaw, 2 * std::numbers::pi);
 }
 
@@ -87,7 +87,7 @@ std::optional<Twist> Dwb::command(double now, Pose pose, Twist twist, const Path
   return command;
 }
 
-/// As Nav2's rotation shim: a controller that drives while it turns would swing out.
+/// As Nav2's rotation shim does: a controller that drives while it turns would leave the path.
 std::optional<Twist> Dwb::turn_first(Pose pose, const Path& path, const Costmap& costmap) {
   if (!turning_) return std::nullopt;
   const double left = off(pose, path);
@@ -98,7 +98,7 @@ std::optional<Twist> Dwb::turn_first(Pose pose, const Path& path, const Costmap&
   return Twist{0, std::copysign(rate, left)};
 }
 
-/// Totals of all trajectories, as far as their ends tell.
+/// Totals of all trajectories, from critics that need only their last poses.
 void Dwb::score(const Scene& scene, const Extra& extra) {
   const std::size_t count = all_.size();
   total_.assign(count, 0);
@@ -129,7 +129,7 @@ void Dwb::score(const Scene& scene, const Extra& extra) {
   if (extra) extra(all_, total_);
 }
 
-/// Look at all poses of a trajectory.
+/// Check all poses of a trajectory.
 bool Dwb::passes(const Scene& scene, std::size_t i) {
   return all_.walk(i, [&](Pose pose) {
     for (std::size_t c = 0; c < critics_.size(); ++c) {
@@ -144,8 +144,8 @@ bool Dwb::passes(const Scene& scene, std::size_t i) {
   });
 }
 
-/// The lowest total, of equal ones the first. What loses by its total is not looked at closely: that is DWB's
-/// short-circuit evaluation carried to its end.
+/// The trajectory with the lowest total, of equal ones the first. Trajectories that cannot win by their totals are not
+/// checked pose by pose: DWB's short-circuit evaluation, applied to whole trajectories.
 std::optional<std::size_t> Dwb::best(const Scene& scene) {
   order_.clear();
   std::size_t first = 0;

@@ -15,7 +15,7 @@ void Fleet::add(const RobotOptions& options, std::vector<Dwb::Weighted> critics)
       std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), Dwb(options.dwb, std::move(critics)), options}));
 }
 
-/// Do `work(i)` for every i below `count`; each is done by one thread alone.
+/// Call `work(i)` once for every i below `count`, in several threads.
 template <class Work>
 void Fleet::share(std::size_t count, Work&& work) const {
   const std::size_t threads = std::min(static_cast<std::size_t>(threads_), count);

@@ -6,7 +6,7 @@ namespace mrpbench::local {
 
 namespace {
 
-/// Farther than any cell of the largest frame is, and small enough to count on from there.
+/// Greater than any distance within the largest frame, and small enough that additions do not overflow.
 constexpr std::int16_t kFar = 20000;
 
 }  // namespace
@@ -18,7 +18,7 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
   last_ = first;
   const double extent = std::max(frame.width, frame.height) * frame.resolution / 2;
   const double limit = pruning.shorten ? std::min(extent, pruning.prune_distance) : extent;
-  // Poses as dense as cells, from the first one near enough.
+  // Poses one cell apart, from the first one that is near enough.
   const auto add = [&](Point p) {
     if (sim::length(p - robot) > limit) return cells_.empty();
     const Cell c = frame.cell(p);

@@ -10,12 +10,12 @@ namespace mrpbench::local {
 
 namespace {
 
-/// Cost of a step of one cell: through higher cost is like going farther, as in Nav2's global planner.
+/// Cost of a step of one cell: a cell of higher cost counts as a longer way, as in Nav2's global planner.
 double step_cost(std::uint8_t cost) {
   return 1 + cost / 64.0;
 }
 
-/// Where a robot can be: where its costmap shows nothing, within the outlines of the static map, seen or not.
+/// Where a robot can be: cells that are free in its costmap and not on the outlines of the static map, seen or not.
 class Ground {
  public:
   explicit Ground(const Costmap& costmap) : costmap_(costmap), walls_(costmap.frame().size(), kFree) {
@@ -24,7 +24,7 @@ class Ground {
   const Frame& frame() const { return costmap_.frame(); }
   std::uint8_t at(Cell c) const { return std::max(costmap_.at(c), walls_[frame().index(c)]); }
   bool is_passable(Cell c) const { return frame().holds(c) && at(c) < kInscribed; }
-  /// Tell whether a robot may go from one cell to the next: one that came too near to something may get away from it.
+  /// Tell whether a robot may go from one cell to the next; a robot that is too near to an obstacle may leave it.
   bool is_open(Cell here, Cell next) const {
     return is_passable(next) || (frame().holds(next) && at(next) < kLethal && !is_passable(here));
   }
@@ -32,7 +32,7 @@ class Ground {
   bool sees(Cell a, Cell b) const {
     return line(a, b, [&](Cell c) { return frame().holds(c) && at(c) < kLethal; });
   }
-  /// Tell whether there is room for a robot that stops a cell beside `c`.
+  /// Tell whether there is room for a robot that stops in a neighbouring cell of `c`.
   bool is_roomy(Cell c) const {
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dx = -1; dx <= 1; ++dx) {
@@ -94,7 +94,7 @@ class Ways {
   std::vector<Cell> from_;
 };
 
-/// Corners of a way between which there is a free line that costs no more than the way's dearest cell.
+/// Corners of a way between which there is a free line that costs no more than the most expensive cell of the way.
 std::vector<Cell> straightened(const Ground& ground, const std::vector<Cell>& way) {
   std::vector<Cell> result;
   for (std::size_t at = 0; at + 1 < way.size();) {
@@ -136,7 +136,7 @@ std::vector<Point> points_to(const Ground& ground, const Ways& ways, Cell c) {
   return points;
 }
 
-/// The rest of a path on the map, whatever of it the controller looks at.
+/// The rest of a path on the map, beyond the part that the controller uses too.
 PathGrid whole_path(const Frame& frame, Point robot, Point first, std::span<const Point> rest) {
   PathGrid path;
   path.take(frame, robot, first, rest, {.prune_distance = 0, .shorten = false});

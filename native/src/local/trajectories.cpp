@@ -42,7 +42,7 @@ void Trajectories::generate(Pose start, Twist current, double fastest) {
   size_ = 0;
   twist_.resize(ahead.size() * turns.size());
   for (auto* it : {&end_x_, &end_y_, &end_yaw_, &heading_x_, &heading_y_}) it->resize(twist_.size());
-  // Nearly all samples of a turn rate have as many steps as the rate alone asks for, so they share its headings.
+  // Nearly all samples of one turn rate have the same number of steps, so they share headings.
   turns_.resize(turns.size());
   for (std::size_t i = 0; i < turns.size(); ++i) turn(turns[i], steps({0, turns[i]}), turns_[i]);
   const double slack = std::numeric_limits<float>::epsilon();
@@ -61,7 +61,7 @@ void Trajectories::generate(Pose start, Twist current, double fastest) {
   }
 }
 
-/// Once the turn rate is what is wanted, each heading is the last one turned by the same angle.
+/// Once the wanted turn rate is reached, each heading is the last one turned by the same angle.
 void Trajectories::turn(double rate, int count, Turn& result) const {
   const double dt = options_.sim_time / count;
   double yaw = start_.yaw, now = options_.limited ? rate : current_.turn;

@@ -16,7 +16,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 /// Radians by which `rough_angle` may be wrong, rounded up.
 constexpr double kRough = 2e-5;
 
-/// The angle of a direction, nearly (M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions, 4.4.49).
+/// The approximate angle of a direction (M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions, 4.4.49).
 double rough_angle(Point p) {
   const double x = std::abs(p.x), y = std::abs(p.y), larger = std::max(x, y);
   const double q = larger > 0 ? std::min(x, y) / larger : 0.0, s = q * q;
@@ -26,12 +26,12 @@ double rough_angle(Point p) {
   return p.y < 0 ? -angle : angle;
 }
 
-/// In the frame of someone who looks along `facing`, a unit vector.
+/// In the frame whose x axis is `facing`, a unit vector.
 Point turned(Point p, Point facing) {
   return {p.x * facing.x + p.y * facing.y, p.y * facing.x - p.x * facing.y};
 }
 
-/// Buckets that keep the lists short and their number small, whatever the range.
+/// Buckets that keep the lists short and their number small for any range.
 double bucket_size(double reach) {
   return std::max(1.0, reach / 4);
 }
@@ -78,7 +78,7 @@ void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, st
     const Point facing{std::cos(pose.yaw), std::sin(pose.yaw)};
     const Point origin = Point{pose.x, pose.y} + Point{facing.x * lidar_.mount.x - facing.y * lidar_.mount.y,
                                                        facing.y * lidar_.mount.x + facing.x * lidar_.mount.y};
-    // Meanwhile the row holds what is nearest as 1 / distance, which is linear along a wall: no division in the loops.
+    // Until the end, the row holds 1 / distance, which is linear along a wall, so that the loops need no division.
     double* const nearness = ranges.data() + row * beams;
     std::fill_n(nearness, beams, 0.0);
     for (const std::int32_t wall : buckets_.near(origin)) {
@@ -100,7 +100,7 @@ void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, st
 void Caster::see_wall(const Wall& wall, Point origin, Point facing, double* nearness) const {
   const Point offset = wall.start - origin;
   const double area = wall.along.x * offset.y - wall.along.y * offset.x;
-  if (!(area > 0) || area * area > wall.reach) return;  // seen from behind, or too far away
+  if (!(area > 0) || area * area > wall.reach) return;  // the beam comes from behind, or the wall is out of range
   const Point start = turned(offset, facing), along = turned(wall.along, facing);
   const Span span = between(start + along * (1 + kSeam), start - along * kSeam);
   const double a = along.x / area, b = along.y / area;
@@ -114,7 +114,7 @@ void Caster::see_wall(const Wall& wall, Point origin, Point facing, double* near
   const long sides = std::min(edge_, span.count);
   for (long k = 0; k < sides; ++k) test(beam(span.first + k));
   for (long k = std::max(span.count - edge_, sides); k < span.count; ++k) test(beam(span.first + k));
-  // All beams in between meet the wall for certain.
+  // All beams in between hit the wall.
   long left = span.count - 2 * edge_;
   if (left <= 0) return;
   std::size_t i = beam(span.first + edge_);
@@ -143,14 +143,14 @@ void Caster::see_disc(Point offset, double radius, Point facing, double* nearnes
     const double beside = centre.x * sine_[i] - centre.y * cosine_[i];
     const double depth = radius * radius - beside * beside;
     if (depth < 0) continue;
-    // A beam enters at ahead - depth and leaves at ahead + depth, whose product is the power of the point.
+    // A beam enters at ahead - depth and leaves at ahead + depth, the product of which is the power of the point.
     const double ahead = centre.x * cosine_[i] + centre.y * sine_[i];
     nearness[i] = std::max(nearness[i], (ahead + std::sqrt(depth)) / power);
   }
 }
 
-/// Beams from one direction counter-clockwise to another less than half a turn away, and at each end perhaps a few
-/// more.
+/// Beams from one direction counter-clockwise to another that is less than half a turn away, and up to a few more at
+/// each end.
 Caster::Span Caster::between(Point right, Point left) const {
   const double from = rough_angle(right);
   double width = rough_angle(left) - from;

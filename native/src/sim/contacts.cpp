@@ -43,7 +43,7 @@ void Contacts::separate(std::span<const Point> before, std::span<Point> centres,
   take_back(before, centres);
 }
 
-/// After the first round only what was pushed, and what is near it, can overlap.
+/// After the first round, only discs that were pushed and their neighbours can overlap.
 void Contacts::activate(bool all) {
   active_.clear();
   if (all) {
@@ -64,12 +64,13 @@ void Contacts::activate(bool all) {
   }
 }
 
-/// Whether a robot overlaps anything, and where that pushes it: robots share the way, movers and walls do not yield.
+/// Whether a robot overlaps anything, and where that pushes it: two robots share the displacement, movers and walls do
+/// not move.
 bool Contacts::push(int robot, std::span<const Point> centres, Point& shift, std::vector<Touch>& touches) const {
   bool pushed = false;
   const Point centre = centres[static_cast<std::size_t>(robot)];
   for (const int other : neighbours_.discs(robot)) {
-    // Always seen from the lower index, so that both robots of a pair find the same to the last bit.
+    // Computed from the lower index, so that both robots of a pair get bit-identical results.
     const int low = std::min(robot, other), high = std::max(robot, other);
     const Point offset = centres[static_cast<std::size_t>(high)] - centres[static_cast<std::size_t>(low)];
     const double spacing = neighbours_.radius(low) + neighbours_.radius(high);
@@ -83,7 +84,7 @@ bool Contacts::push(int robot, std::span<const Point> centres, Point& shift, std
     const double way = (spacing - distance) * (both ? 0.5 : 1.0);
     shift = robot == low ? shift - direction * way : shift + direction * way;
   }
-  // Of all walls a robot is in, it is pushed out of the one it is deepest in; rounds see to the others.
+  // A robot is pushed out of the wall that it overlaps most; later rounds handle the others.
   double deepest = kTouch;
   int wall = -1;
   for (const int it : neighbours_.walls(robot)) {
@@ -98,7 +99,7 @@ bool Contacts::push(int robot, std::span<const Point> centres, Point& shift, std
   return true;
 }
 
-/// Undo the motion of robots that still overlap by too much, and of those that this leaves no room for.
+/// Undo the motion of robots that still overlap too much, and of robots that overlap those after that.
 void Contacts::take_back(std::span<const Point> before, std::span<Point> centres) {
   std::fill(is_back_.begin(), is_back_.end(), 0);
   do {

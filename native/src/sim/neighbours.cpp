@@ -10,7 +10,7 @@ double largest_of(const std::vector<double>& values) {
   return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
 }
 
-/// Long enough that lists last for several steps, short enough that few discs are in them.
+/// Large enough that lists last for several steps, small enough that they contain few discs.
 double skin_of(double largest) {
   return std::max(largest, 0.02);
 }
@@ -32,7 +32,7 @@ bool Neighbours::hold(std::span<const Point> centres) const {
   const double limit = skin_ * skin_ / 4;
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const Point moved = centres[i] - built_for_[i];
-    if (!(dot(moved, moved) <= limit) && centres[i] != built_for_[i]) return false;  // what is nowhere may stay there
+    if (!(dot(moved, moved) <= limit) && centres[i] != built_for_[i]) return false;  // an absent disc may stay absent
   }
   return true;
 }

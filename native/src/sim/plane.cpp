@@ -59,7 +59,7 @@ Plane::Plane(std::vector<Segment> segments, std::vector<double> radius, std::vec
       contacts_((require_sound(radius, drives_, poses_, period, chance), std::move(segments)), radius,
                 static_cast<int>(poses_.size())) {
   for (std::size_t i = 0; i < poses_.size(); ++i) centres_[i] = {poses_[i].x, poses_[i].y};
-  // In a sub-step nothing moves farther than a quarter of the smallest radius: nothing passes through anything.
+  // In a sub-step nothing moves farther than a quarter of the smallest radius, so that nothing passes through anything.
   double smallest = 1, fastest = 0;
   for (const double it : radius) smallest = std::min(smallest, it);
   for (const Drive& it : drives_) fastest = std::max(fastest, it.limit.ahead);
@@ -90,7 +90,7 @@ void Plane::place(int robot, Point where) {
   poses_[at].y = where.y;
 }
 
-/// What the drives make of commands in this period.
+/// The speeds to which the drives change in this period.
 void Plane::command(std::span<const Twist> commands) {
   const bool random = chance_.slip > 0 || chance_.actuation > 0;
   for (std::size_t i = 0; i < commands.size(); ++i) {
@@ -129,7 +129,7 @@ void Plane::advance(double dt) {
     poses_[i].x = centres_[i].x;
     poses_[i].y = centres_[i].y;
     if (centres_[i] == free_[i]) continue;
-    // What was pushed is as fast as it really went.
+    // The speed of a robot that was pushed is that of its real displacement.
     driven_[i].ahead = twists_[i].ahead = dot(centres_[i] - before_[i], heading_[i]) / dt;
   }
 }

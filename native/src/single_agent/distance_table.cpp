@@ -77,7 +77,7 @@ void DistanceTable::advance_heap() {
     std::ranges::push_heap(heap_, std::greater{});
   }
   limits_.charge_growth(counted_, heap_.capacity() * sizeof(Entry));
-  // What was found on the way is at least one edge farther than `entry`, and nothing nearer can still turn up.
+  // Everything found later is at least one edge farther than `entry`, so nothing nearer can follow.
   final_ = std::min(kForever, entry.distance + shortest_);
 }
 

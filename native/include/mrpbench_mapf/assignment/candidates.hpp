@@ -1,4 +1,4 @@
-// Which robot may go where, and how early it is there if it is alone.
+// The goals that each robot may take, and its earliest arrival there without other robots.
 #pragma once
 
 #include <algorithm>

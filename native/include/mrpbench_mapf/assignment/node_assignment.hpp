@@ -1,9 +1,9 @@
-// Which robot goes where in a node of a constraint tree: the cheapest assignment under the constraints of the node,
+// The assignment in a node of a constraint tree: the cheapest one assignment under the constraints of the node,
 // from that of its parent. Costs are lower bounds until a path is planned; a path that costs more changes the
 // assignment.
 //   Tang, Ren, Li and Sycara, "Solving multi-agent target assignment and path finding with a single constraint tree",
-//     MRS 2023. There the costs of a robot to all its goals are planned anew for every constraint; here only of goals
-//     that it is sent to.
+//     MRS 2023. There the costs of a robot to all its goals are planned for every constraint; here only those of
+//     goals that are assigned to it.
 #pragma once
 
 #include "mrpbench_mapf/assignment/candidates.hpp"
@@ -42,7 +42,7 @@ class NodeAssignment {
     return true;
   }
   const Record* keep();
-  /// Take up the assignment of a node; `goal(robot)` is where it sends them.
+  /// Restore the assignment of a node; `goal(robot)` are its goals.
   template <class Goal>
   void restore(const Record& record, Goal goal) {
     copy(record);

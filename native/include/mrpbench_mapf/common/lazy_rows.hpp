@@ -28,7 +28,7 @@ class LazyRows {
   void forget() {
     items_.clear();
     if (++search_ > 0) return;
-    std::ranges::fill(slots_, Slot{});  // wrapped round: old numbers would look new
+    std::ranges::fill(slots_, Slot{});  // after an overflow old numbers would look new
     search_ = 1;
   }
   /// The row of `place`; if it is not known, `make(items)` appends its items.

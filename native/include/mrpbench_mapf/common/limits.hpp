@@ -1,4 +1,4 @@
-// A deadline and a memory limit that every loop of a solver asks.
+// A deadline and a memory limit that every loop of a solver checks.
 #pragma once
 
 #include <chrono>
@@ -29,7 +29,7 @@ class Limits {
   /// Wall seconds since the clock started.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
 
-  /// Call once per step of a loop whose steps take microseconds at most; reads the clock every 64th time.
+  /// Call this once per step of a loop with steps of microseconds; it reads the clock every 64th time.
   void check() {
     if ((++calls_ & 63) == 0) check_clock();
   }

@@ -1,4 +1,4 @@
-// The options of an algorithm by name. Each option is one row beside the struct that holds it; ranges, error messages,
+// The options of an algorithm by name. Each option is one row in the struct that holds it; ranges, error messages,
 // the Python interface and the options of planners follow from the row.
 #pragma once
 
@@ -28,7 +28,7 @@ inline ValueRange within(double least, double most) {
   return {least, most};
 }
 
-/// What a row says about an option, whatever struct holds it.
+/// The description of an option, without the struct that holds it.
 struct OptionInfo {
   enum class Type { boolean, integer, real, choice };
 

@@ -1,4 +1,4 @@
-// What a solver is asked: robots on a roadmap, with goals, released prefixes and rules.
+// The input of a solver: robots on a roadmap, with goals, released prefixes and rules.
 #pragma once
 
 #include <span>
@@ -44,7 +44,7 @@ struct Resource {
   std::vector<int> elements;
 };
 
-/// What a robot does for certain: its committed segments, then standing where they end until it may move.
+/// What is fixed of a path: the committed segments of a robot, then the stay where they end until it may move.
 struct Beginning {
   std::vector<Occupation> occupied;  // the last one is the stay at `vertex`, from arrival to `free_at`
   int vertex;
@@ -53,7 +53,7 @@ struct Beginning {
 
 class Instance {
  public:
-  /// Throws std::invalid_argument naming the robot whose data make no sense.
+  /// Throws std::invalid_argument naming the robot with invalid data.
   Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Exclusions exclusions,
            std::vector<Resource> resources = {});
 
@@ -69,7 +69,7 @@ class Instance {
   }
   const Beginning& beginning(int robot) const { return beginnings_[robot]; }
   int size() const { return static_cast<int>(robots_.size()); }
-  /// What it takes in memory, but for what robots have.
+  /// Memory in bytes, without the robots.
   std::size_t bytes() const;
   bool footprints() const { return !exclusions_.first.empty(); }
   /// Two elements closer than this exclude the two robots from one another.

@@ -39,11 +39,11 @@ struct Result {
   double lower_bound = std::numeric_limits<double>::quiet_NaN();
   Statistics statistics;
 
-  /// Add a point to the history; one that comes right after another takes its place, the first one stays.
+  /// Add a point to the history; a point shortly after another one replaces it, except the first.
   void note(double seconds, double cost, double bound);
-  /// It is proved that there is no plan, because of `robot` (-1 = no single robot).
+  /// Set the status to unsolvable because of `robot` (-1 = no single robot).
   void no_plan_for(int robot);
-  /// A limit ended the solver: a plan that it has is one nevertheless, half a plan is none.
+  /// A limit ended the solver: keep a complete plan, drop an incomplete one.
   void stop(Status limit);
 };
 
@@ -52,7 +52,7 @@ inline Tick arrival(std::span<const Occupation> path) {
   return path.back().begin / 2;
 }
 
-/// The timed path of `robot` as segments, beginning with its committed ones literally.
+/// The timed path of `robot` as segments, beginning with its committed ones unchanged.
 std::vector<Segment> segments(const Instance& instance, int robot, const Path& path);
 
 /// Call `body()`; a limit that it reaches ends the search for `result`.

@@ -16,7 +16,7 @@ struct Point {
 class Roadmap {
  public:
   /// `duration` has one row of `tail.size()` ticks per profile, -1 = forbidden. `position` (metres) may be empty; then
-  /// only heuristics without geometry work. Throws std::invalid_argument for data that is no roadmap.
+  /// only heuristics without geometry work. Throws std::invalid_argument for invalid data.
   Roadmap(int vertex_count, std::vector<int> tail, std::vector<int> head, std::vector<Tick> duration,
           std::vector<Point> position = {});
 
@@ -35,7 +35,7 @@ class Roadmap {
     return {duration_.data() + static_cast<std::size_t>(profile) * tail_.size(), tail_.size()};
   }
   std::span<const Point> position() const { return position_; }
-  /// What it takes in memory.
+  /// Memory in bytes.
   std::size_t bytes() const;
 
  private:

@@ -34,7 +34,8 @@ Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, 
   while (!queue_.empty() && !found) {
     limits_.check();
     if (!exact && nodes_.size() > patience_) {
-      // States that cost less than the cheapest path lead nowhere, and perhaps there is no path: find its cost first.
+      // States that cost less than the cheapest path are expanded in vain, and there may be no path: find its cost
+      // first.
       exact = true;
       const Tick cost = intervals_.least_cost(table, distance);
       if (cost == kForever) return kForever;
@@ -62,7 +63,7 @@ Tick FocalSearch::search(const ConstraintTable& table, DistanceTable& distance, 
   return found ? least : kForever;
 }
 
-/// With nothing but the beginning; no path costs less than `least`.
+/// Start from the beginning of the robot; no path costs less than `least`.
 void FocalSearch::begin(Tick least) {
   const Beginning& beginning = space_.instance().beginning(table_->robot());
   const Tick since = enter_tick(beginning.occupied.back());
@@ -81,7 +82,7 @@ void FocalSearch::expand(std::int32_t node) {
   const ConstraintTable& table = *table_;
   const int robot = table.robot();
   const bool constrained = table.constrains(from.vertex);
-  // Once nothing changes, to wait costs more and can only avoid conflicts.
+  // Once constraints no longer change, waiting costs more and can only avoid conflicts.
   const bool may_wait = from.tick < table.settled() || bound_(from.f) > from.f;
   if (may_wait && !(constrained && table.forbids_waiting(from.vertex, from.tick))) {
     reach(from.vertex, from.tick + 1, node, -1, from.conflicts + others_->waiting(robot, from.vertex, from.tick));
@@ -106,17 +107,17 @@ void FocalSearch::reach(std::int32_t vertex, Tick tick, std::int32_t parent, std
   if (edge >= 0 ? tick >= earliest : tick == earliest) finish(static_cast<std::int32_t>(nodes_.size()) - 1, tick);
 }
 
-/// Let the path to `node` end there.
+/// Add the state in which the path to `node` ends.
 void FocalSearch::finish(std::int32_t node, Tick cost) {
   const Node& from = nodes_[node];
   const Tick f = std::max(cost, least_);
-  // If the bound allows no other cost, all paths meet the same robots that come by later.
+  // If the bound allows only one cost, all paths have the same conflicts at the goal.
   const bool counts = !space_.instance().rules().disappear_at_goal && bound_(f) > f;
   const int passing = counts ? others_->staying(table_->robot(), from.vertex, from.tick) : 0;
   push({from.vertex + vertices_, from.tick, node, -1, from.conflicts + passing, f}, 0);
 }
 
-/// False if the state is known with no more conflicts.
+/// False if the state was reached before with as few conflicts.
 bool FocalSearch::push(const Node& node, Tick h) {
   std::int32_t& fewest = known_(node.vertex, node.tick);
   if (fewest <= node.conflicts) return false;

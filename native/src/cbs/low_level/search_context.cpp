@@ -8,7 +8,7 @@ namespace mrpbench::mapf {
 
 namespace {
 
-constexpr std::int64_t kMddBytes = 256 << 20;  // diagrams are quickly made anew
+constexpr std::int64_t kMddBytes = 256 << 20;  // diagrams are quickly rebuilt
 
 }  // namespace
 

@@ -170,7 +170,7 @@ Tick Corridors::length(int robot, std::size_t from, std::size_t to) const {
   return sum;
 }
 
-/// The earliest tick at which `robot` can be at `vertex`, kForever if not by tick `latest`.
+/// The earliest tick at which `robot` can be at `vertex`, kForever if it cannot by tick `latest`.
 Tick Corridors::earliest(const NodeState& state, int robot, int vertex, Tick latest) {
   state.load(robot, context_.table);
   return context_.intervals.earliest(context_.table, context_.distance_to(robot, vertex), vertex, latest);

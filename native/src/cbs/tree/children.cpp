@@ -4,7 +4,7 @@
 
 namespace mrpbench::mapf {
 
-/// Plan all robots whose present paths break `constraints` anew.
+/// Replan all robots whose present paths break `constraints`.
 void ConstraintTree::plan_child(std::span<const Constraint> constraints, Child& child) {
   child.constraints = constraints;
   child.sums = node_->sums;
@@ -20,7 +20,8 @@ void ConstraintTree::plan_child(std::span<const Constraint> constraints, Child& 
   restore_assignment(*node_);
 }
 
-/// New paths for the robots in `pending_`, and for those that get other goals by that; false if one has none.
+/// New paths for the robots in `pending_`, and for robots that get other goals because of them; false if a robot has
+/// none.
 bool ConstraintTree::replan(Child& child) {
   for (std::size_t k = 0; k < pending_.size(); ++k) {
     const int robot = failed_ = pending_[k];
@@ -48,9 +49,9 @@ bool ConstraintTree::replan(Child& child) {
   return true;
 }
 
-/// Write a path of `robot` to `goal` that keeps to what binds it in `state` and to `more` into `path_`. The result is a
-/// lower bound on the cost of all such paths, at least `known`, which must be one; kForever: there is none. The other
-/// robots, which have `others` in sum, are in `present_`.
+/// Write a path of `robot` to `goal` under its constraints in `state` and `more` into `path_`. Returns a lower bound on
+/// the cost of all such paths, at least `known`, which must be one, or kForever if there is none. `others` are the sums
+/// over the other robots, which are in `present_`.
 Tick ConstraintTree::plan(const NodeState& state, int robot, int goal, std::span<const Constraint> more, Tick known,
                           const Sums& others) {
   state.load(robot, goal, context_.table);
@@ -73,7 +74,7 @@ int ConstraintTree::goal_of(int robot) const {
   return path.empty() ? root_goals_[robot] : path.goal;
 }
 
-/// Is there nothing to be done, though its goal may have changed meanwhile?
+/// Does the robot already have a path to `goal` that keeps the constraints of `child`?
 bool ConstraintTree::is_settled(int robot, int goal, const Child& child) const {
   const TimedPath& path = state_.path(robot);
   if (path.empty() || path.goal != goal) return false;
@@ -81,13 +82,13 @@ bool ConstraintTree::is_settled(int robot, int goal, const Child& child) const {
   return changed || !breaks(context_.space, robot, path, child.constraints);
 }
 
-/// Let `robot` be among the pending ones from number `asked` on.
+/// Append `robot` to the pending ones, unless it is among those from number `asked` on.
 void ConstraintTree::ask_for(int robot, std::size_t asked) {
   const auto ahead = std::span(pending_).subspan(asked);
   if (std::ranges::find(ahead, robot) == ahead.end()) pending_.push_back(robot);
 }
 
-/// Give a robot a new path in the node being made.
+/// Give a robot a new path in the new node.
 void ConstraintTree::keep(Child& child, const RobotPlan& plan) {
   const RobotPlan old = plan_of(plan.robot);
   const auto place = std::ranges::find(child.plans, plan.robot, &RobotPlan::robot);
@@ -102,8 +103,7 @@ void ConstraintTree::keep(Child& child, const RobotPlan& plan) {
   child.sums.least += plan.least - old.least;
 }
 
-/// Find the conflicts of the node being made, whose paths are present: the new ones, then those of `inherited` that are
-/// left.
+/// List the conflicts of the new node, whose paths are present: the new ones, then the remaining ones of `inherited`.
 void ConstraintTree::list_conflicts(std::span<Conflict* const> inherited, Child& child) {
   found_.clear();
   present_.refresh();

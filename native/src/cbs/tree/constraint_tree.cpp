@@ -92,7 +92,8 @@ void ConstraintTree::replace(const RobotPlan& plan) {
   state_.set_path(plan.robot, plan.path, plan.least);
 }
 
-/// Find out what pairs of robots add to the lower bound of the node at hand; is it then out of turn, or no good at all?
+/// Add what pairs of robots still have to pay to the lower bound of the node at hand. True if another node then comes
+/// first, or if the node has no solution.
 bool ConstraintTree::postpone() {
   Node& node = *node_;
   if (dependencies_ == nullptr || node.evaluated || !open_.popped_for_its_bound()) return false;
@@ -110,7 +111,7 @@ bool ConstraintTree::postpone() {
   return true;
 }
 
-/// Of the conflicts of the node at hand the one that raises the lower bound most surely, or just the first.
+/// The conflict of the node at hand whose branches raise the lower bound most surely, or just the first one.
 Conflict& ConstraintTree::choose() {
   if (!options_.prioritize) {
     Conflict& conflict = **std::ranges::min_element(node_->conflicts, {}, &Conflict::time);
@@ -132,7 +133,8 @@ void ConstraintTree::examine(Conflict& conflict) {
   reasoning_.examine(state_, conflict);
 }
 
-/// Let the node at hand know what the cheapest path of `robot` costs; unless the robot might then go elsewhere.
+/// Raise the lower bound of the node at hand to the cost of the cheapest path of `robot`, unless assignments may
+/// change.
 void ConstraintTree::tighten(int robot) {
   if (assignment_) return;
   const Tick least = context_.least_cost(state_, robot);
@@ -155,8 +157,9 @@ bool ConstraintTree::resolve(const Conflict& conflict) {
   return false;
 }
 
-/// Are the paths of `child` good enough for the node at hand? Where moves take many ticks they must not cost more: dear
-/// detours would use the bound up long before the last conflict is gone. Another assignment has another lower bound.
+/// May the node at hand take over the paths of `child`? Where moves take many ticks they must not cost more, because
+/// expensive detours would use up the bound before the last conflict is resolved. Another assignment has another lower
+/// bound.
 bool ConstraintTree::allows_bypass(const Child& child) const {
   if (!child.possible || child.conflicts.size() >= node_->conflicts.size()) return false;
   if (static_cast<double>(child.sums.cost) > options_.w * static_cast<double>(node_->sums.least)) return false;
@@ -167,8 +170,8 @@ bool ConstraintTree::allows_bypass(const Child& child) const {
   });
 }
 
-/// Let the node at hand have the paths of a child with fewer conflicts. Its lower bounds stay what they are, since the
-/// constraints of the child are not its own.
+/// Give the node at hand the paths of a child with fewer conflicts. Its lower bounds do not change, since the
+/// constraints of the child do not hold for it.
 bool ConstraintTree::bypass(const Child& child) {
   if (!allows_bypass(child)) return false;
   before_ = child.plans;
@@ -205,7 +208,7 @@ void ConstraintTree::branch() {
   }
 }
 
-/// Make the assignment that of `node`, whose paths are present.
+/// Restore the assignment of `node`, whose paths are present.
 void ConstraintTree::restore_assignment(const Node& node) {
   if (!assignment_) return;
   assignment_->restore(*node.assignment, [&](int robot) { return state_.path(robot).goal; });

@@ -94,7 +94,7 @@ void ConstraintTree::make_ranked_root() {
   announce_root(made ? static_cast<std::int32_t>(children_[0].conflicts.size()) : 0);
 }
 
-/// Let the root for the next goals be made when its turn comes.
+/// Announce the root for the next goals; it is made when it is taken out of the open list.
 void ConstraintTree::announce_root(std::int32_t conflicts) {
   next_root_ = ranked_->next();
   if (!next_root_) return;

@@ -45,7 +45,7 @@ class AvoidanceTable {
   int vertices_;
   std::optional<PathTable> ticks_;
   std::optional<Reservations> reservations_;
-  std::vector<TimedPath> paths_;  // by robot; only beside reservations
+  std::vector<TimedPath> paths_;  // by robot; only with reservations
   bool stale_ = false;            // `reservations_` differs from `paths_`
 };
 

@@ -15,7 +15,7 @@ struct Constraint {
     length_at_most,  // the last move ends at the vertex `element` at tick `range.first` at the latest, and no other
                      // robot is in the way of a robot that stands there from that tick on
     resource,        // does not use the resource `element` at the half-ticks `range`
-    junction,        // is nowhere on the junction at the vertex `element` at the half-ticks `range`
+    junction,        // is not on the junction at the vertex `element` at the half-ticks `range`
   };
   std::int32_t robot;
   std::int32_t element;
@@ -30,13 +30,13 @@ inline Constraint avoid_vertex(int robot, int vertex, Tick first, Tick last) {
   return {robot, vertex, {2 * first, last >= kForever ? kForeverHalf : 2 * last}};
 }
 
-/// `robot` must be nowhere on the junction at `vertex` at the half-tick `instant`.
+/// `robot` must not be on the junction at `vertex` (the vertex and its edges) at the half-tick `instant`.
 inline Constraint junction_constraint(int robot, int vertex, Half instant) {
   return {robot, vertex, {instant, instant}, Constraint::Kind::junction};
 }
 
-/// Two constraints, one for each robot, at least one of which every solution keeps: whatever the one forbids conflicts
-/// with whatever the other forbids. Both forbid what the robots now do.
+/// Two constraints, one for each robot, at least one of which every solution keeps: everything that one forbids
+/// conflicts with everything that the other forbids. Both forbid the present paths.
 ///
 /// The ranges of departures are those of Andreychuk et al., "Multi-agent pathfinding with continuous time", AIJ 2022,
 /// in integer time; standing is constrained by instants, so that no wait without an end has to be reasoned about.

@@ -10,7 +10,7 @@ class ConstraintTable {
  public:
   ConstraintTable(const Space& space, Limits& limits);
 
-  /// Begin anew for `robot`, which is to end at `goal`, bound only by what the others do for certain.
+  /// Start over for `robot`, which goes to `goal`, with no constraints but the committed segments of the others.
   void reset(int robot, int goal = TimedPath::kAnyGoal);
   /// A constraint of this robot, or a `length_at_most` of another one; others are ignored.
   void add(const Constraint& constraint);

@@ -1,4 +1,4 @@
-// What the robots do in one node of a constraint tree, and by what they are bound there.
+// Paths and constraints of the robots in one node of a constraint tree.
 #pragma once
 
 #include "mrpbench_mapf/cbs/constraints/constraint_table.hpp"

@@ -1,5 +1,5 @@
-// Which robot is where at which tick in classical instances: the conflicts of a step are found without looking at
-// robots that are elsewhere.
+// Which robot is where at which tick in classical instances: the conflicts of a step are found without checking
+// other robots.
 #pragma once
 
 #include <algorithm>

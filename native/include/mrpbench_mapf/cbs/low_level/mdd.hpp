@@ -32,9 +32,9 @@ class Mdd {
   }
   /// Node of `vertex` at `tick`, -1 = none.
   int find(int vertex, Tick tick) const;
-  /// Is every one of the paths at `vertex` at `tick` (classical instances)?
+  /// Are all paths at `vertex` at `tick` (classical instances)?
   bool always_at(int vertex, Tick tick) const;
-  /// Does none of the paths keep all `constraints` (those of its robot, and `length_at_most` of others)?
+  /// Does every path break one of `constraints` (those of its robot, and `length_at_most` of others)?
   bool blocked_by(std::span<const Constraint> constraints, ConstraintTable& scratch) const;
   std::size_t bytes() const;
 
@@ -62,7 +62,7 @@ class MddBuilder {
   Mdd build(const ConstraintTable& table, DistanceTable& distance, Tick cost);
 
  private:
-  /// A way on to (vertex, tick), which may lead nowhere.
+  /// A move or wait to (vertex, tick), from which the goal may be out of reach.
   struct Way {
     std::int32_t vertex;
     std::int32_t edge;
@@ -83,7 +83,7 @@ class MddBuilder {
   std::vector<std::vector<std::int32_t>> levels_;      // vertices by tick
   std::vector<std::int32_t> level_first_, way_first_;  // nodes by tick, ways by node
   std::vector<Way> ways_;
-  std::vector<std::int32_t> number_;  // by node, -1 = leads nowhere
+  std::vector<std::int32_t> number_;  // by node, -1 = cannot reach the goal
   std::size_t counted_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Decision diagrams by robot, constraints and cost, so that the many nodes in which a robot is bound alike share one.
+// Decision diagrams by robot, constraints and cost, shared by all nodes in which a robot has the same constraints.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,10 @@ namespace mrpbench::mapf {
 
 class MddCache {
  public:
-  /// When the diagrams exceed `bytes` in all, every one is forgotten.
+  /// When the diagrams exceed `bytes` in total, all are removed.
   MddCache(Limits& limits, std::size_t bytes) : limits_(limits), room_(bytes) {}
 
-  /// The diagram named by `robot`, `key` and `cost`, made by `make()` if it is new. Valid until it is forgotten.
+  /// The diagram named by `robot`, `key` and `cost`, made by `make()` if it is new. Valid until it is removed.
   template <class Make>
   std::shared_ptr<const Mdd> get(int robot, Key key, Tick cost, Make make) {
     const Name name{robot, cost, key};

@@ -1,5 +1,5 @@
-// What the cheapest path of one robot costs under the constraints of a node, without the path: a search over vertices
-// and the intervals in which no constraint forbids them, of which there are few, however long the robot has to wait.
+// The cost of the cheapest path of one robot under the constraints of a node, without the path: a search over vertices
+// and the intervals in which no constraint forbids them. Their number does not depend on how long the robot waits.
 // Phillips and Likhachev, "SIPP: Safe interval path planning for dynamic environments", ICRA 2011.
 #pragma once
 

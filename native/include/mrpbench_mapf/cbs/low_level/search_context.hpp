@@ -1,4 +1,4 @@
-// What all nodes of a constraint tree, and the trees for pairs of robots inside it, work with.
+// What all nodes of a constraint tree, and the trees for pairs of robots, share.
 #pragma once
 
 #include "mrpbench_mapf/assignment/candidates.hpp"
@@ -14,9 +14,9 @@ class SearchContext {
  public:
   SearchContext(const Instance& instance, const CbsOptions& options, Limits& limits, Statistics& statistics);
 
-  /// What the cheapest path of `robot` to its goal costs, whatever it costs in `state`; kForever if it has none.
+  /// Cost of the cheapest path of `robot` to its goal under its constraints in `state`; kForever if it has none.
   Tick least_cost(const NodeState& state, int robot);
-  /// All its cheapest paths to the goal; it must have one.
+  /// All its cheapest paths to the goal, of which there must be one.
   std::shared_ptr<const Mdd> mdd(const NodeState& state, int robot);
   /// Would every one of its cheapest paths break `constraints`?
   bool costs_more(const NodeState& state, int robot, std::span<const Constraint> constraints);

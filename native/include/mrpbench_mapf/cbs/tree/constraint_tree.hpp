@@ -2,10 +2,10 @@
 // optimal multi-agent pathfinding", AIJ 2015) and of its bounded-suboptimal variants: an open list chooses the node to
 // expand, a focal search plans the path of one robot. With w = 1 and the least cost first, the tree is that of CBS.
 //
-// Robots go to any of their goals; or each root of a forest sends them elsewhere (CBS-TA and ECBS-TA: Hoenig, Kiesel,
-// Tinka, Durham and Ayanian, "Conflict-based search with optimal task assignment", AAMAS 2018); or each node does
-// (ITA-CBS: Tang, Ren, Li and Sycara, MRS 2023, see `NodeAssignment`; ITA-ECBS: Tang, Koenig and Li, "ITA-ECBS: a
-// bounded-suboptimal algorithm for the combined target-assignment and path-finding problem", SoCS 2024).
+// Robots go to any of their goals; or each root of a forest has another assignment (CBS-TA and ECBS-TA: Hoenig, Kiesel,
+// Tinka, Durham and Ayanian, "Conflict-based search with optimal task assignment", AAMAS 2018); or each node has
+// its own (ITA-CBS: Tang, Ren, Li and Sycara, MRS 2023, see `NodeAssignment`; ITA-ECBS: Tang, Koenig and Li, "ITA-ECBS:
+// a bounded-suboptimal algorithm for the combined target-assignment and path-finding problem", SoCS 2024).
 #pragma once
 
 #include <optional>

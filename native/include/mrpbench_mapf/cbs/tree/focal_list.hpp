@@ -15,8 +15,8 @@
 
 namespace mrpbench::mapf {
 
-/// How much dearer a node's solutions are than the node, learned from the steps that were taken so far: the global
-/// error model of Thayer, Dionne and Ruml, "Learning inadmissible heuristics during search", ICAPS 2011.
+/// By how much the solutions below a node cost more than the node, learned from previous expansions: the global error
+/// model of Thayer, Dionne and Ruml, "Learning inadmissible heuristics during search", ICAPS 2011.
 class OnlineErrors {
  public:
   void observe(const Candidate& node, const Candidate& better_child);
