@@ -100,7 +100,7 @@ def test_every_algorithm_returns_paths_from_starts_to_goals(seed, algorithm):
         ),
         (
             {"algorithm": "eecbs", "selection": "best"},
-            "selection must be one of focal, explicit_estimation, not 'best'",
+            "selection must be one of best_first, focal, explicit_estimation, not 'best'",
         ),
         ({"algorithm": "lacam", "iterations": -1}, "iterations must be a whole number of at least 0, or none, not -1"),
         ({"algorithm": "lacam", "seed": -1}, "lacam: seed must be a whole number of at least 0, not -1"),

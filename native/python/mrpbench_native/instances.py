@@ -1,4 +1,4 @@
-"""Problems as the solvers take them. What a caller leaves out has its simplest value."""
+"""The input of the solvers. Values that a caller omits have the simplest defaults."""
 
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple

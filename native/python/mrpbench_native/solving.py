@@ -1,4 +1,4 @@
-"""The solvers in one call, without anything else of mrpbench: NumPy in, NumPy out."""
+"""The solvers in one call, without other packages of mrpbench: NumPy in, NumPy out."""
 
 import numbers
 import time
