@@ -10,7 +10,8 @@ FocalSearch::FocalSearch(const Space& space, SafeIntervals& intervals, Limits& l
       intervals_(intervals),
       limits_(limits),
       statistics_(statistics),
-      patience_(space.classical() ? patience : 0),  // where moves take many ticks, all searches are long
+      // In small maps the cost is quickly computed; where moves take many ticks, all searches are long.
+      patience_(space.classical() ? std::min<std::size_t>(patience, 4 * space.vertex_count()) : 0),
       vertices_(space.vertex_count()),
       known_(limits) {}
 
