@@ -7,6 +7,7 @@
 #include "lacam/timed_step.hpp"
 #include "lacam/timetable.hpp"
 #include "mrpbench_mapf/infeasibility/solvability.hpp"
+#include "mrpbench_mapf/single_agent/reservations.hpp"
 
 namespace mrpbench::mapf::lacam {
 
@@ -27,7 +28,7 @@ bool has_unit_steps(const Instance& instance) {
 }  // namespace
 
 ConfigurationSpace::ConfigurationSpace(const Instance& instance, Limits& limits)
-    : instance_(instance), moves_(instance, limits) {
+    : instance_(instance), limits_(limits), moves_(instance, limits) {
   if (has_unit_steps(instance)) return;
   relations_.emplace(instance, limits);
   joint_.emplace(instance, *relations_, moves_, limits);
@@ -40,8 +41,22 @@ bool ConfigurationSpace::misses_no_plan() const {
 std::optional<std::vector<std::int32_t>> ConfigurationSpace::start() {
   std::vector<std::int32_t> at;
   for (int robot = 0; robot < instance_.size(); ++robot) at.push_back(instance_.beginning(robot).vertex);
-  if (joint_ && !joint_->is_allowed(at.data())) return std::nullopt;
+  if (joint_ && (!joint_->is_allowed(at.data()) || !beginnings_agree())) return std::nullopt;
   return at;
+}
+
+bool ConfigurationSpace::beginnings_agree() const {
+  if (std::ranges::all_of(instance_.robots(), [](const Robot& robot) { return robot.committed.empty(); })) return true;
+  Reservations reservations(instance_, *relations_, limits_);
+  for (int robot = 0; robot < instance_.size(); ++robot) {
+    std::vector<Occupation> path = instance_.beginning(robot).occupied;
+    path.back().end = kForeverHalf;
+    for (const Occupation& occupation : path) {
+      if (reservations.count(robot, occupation) > 0) return false;
+    }
+    reservations.add(robot, path);
+  }
+  return true;
 }
 
 std::unique_ptr<ConfigurationGenerator> ConfigurationSpace::generator(DistanceTables& tables, const GuidePaths* guides,

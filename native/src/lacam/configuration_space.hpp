@@ -22,7 +22,8 @@ class ConfigurationSpace {
   /// Where there is a plan, there is a sequence of configurations. False also if robots would block one another once
   /// they have done what they are committed to.
   bool misses_no_plan() const;
-  /// Where robots are free to go; nothing if not all can be there at one time.
+  /// Where robots are free to go; nothing if not all can be there at one time, or if one of them would be in the way of
+  /// what another one is committed to until it goes.
   std::optional<std::vector<std::int32_t>> start();
   std::unique_ptr<ConfigurationGenerator> generator(DistanceTables& tables, const GuidePaths* guides, bool swap,
                                                     std::uint64_t seed, Limits& limits);
@@ -32,8 +33,11 @@ class ConfigurationSpace {
 
  private:
   std::vector<Path> unit_paths_of(const std::vector<Configuration>& sequence) const;
+  /// Can all robots do what they are committed to, and then stay?
+  bool beginnings_agree() const;
 
   const Instance& instance_;
+  Limits& limits_;
   Moves moves_;
   std::optional<Relations> relations_;  // none where all is unit
   std::optional<JointMoves> joint_;

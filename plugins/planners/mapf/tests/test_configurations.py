@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from mrpbench_planners_mapf.bounded import Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
@@ -74,6 +74,7 @@ def test_robots_rotate_on_a_cycle_where_a_mutex_elsewhere_forbids_unit_steps():
 
 @settings(max_examples=40, deadline=None)
 @given(seed=seeds)
+@example(seed=1073)  # a robot stands where another one is committed to go
 def test_pibt_goes_on_from_released_segments(seed):
     random = np.random.default_rng(seed)
     asked = with_releases(random, random_corridor_problem(random, 3, 3, radius=0.3))
