@@ -17,7 +17,9 @@ from mrpbench_core.model.common.arrays import equal_arrays
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
-_PLAIN = (bool, int, float, str)
+_PLAIN = (int, float, str)
+_ATOMS = frozenset({bool, int, float, str, type(None)})
+_KNOWN_FIELDS: dict[type, tuple[tuple[str, str], ...]] = {}
 
 
 def own(value: T) -> T:
@@ -32,19 +34,32 @@ def own(value: T) -> T:
 
 def _own(value: Any, known: dict[int, Any]) -> Any:
     kind = type(value)
-    if isinstance(value, np.ndarray):
-        array = np.array(value, copy=True, subok=False)
-        array.setflags(write=False)
+    if kind is np.ndarray:  # the usual cases in every control period come first
+        array = value.copy()
+        array.flags.writeable = False
         return array
-    if attrs.has(kind) and not isinstance(value, type):
+    if kind in _ATOMS:
+        return value
+    if kind is tuple:
+        return tuple([_own(item, known) for item in value]) if value else value
+    if kind is dict:
+        return {key: _own(item, known) for key, item in value.items()}
+    if kind in _KNOWN_FIELDS or attrs.has(kind):
         if id(value) not in known:
             known[id(value)] = value, _own_object(value, known)  # the original is kept, so that its id stays its own
         return known[id(value)][1]
-    if isinstance(value, enum.Enum | np.generic) or value is None:
+    return _own_other(value, known)
+
+
+def _own_other(value: Any, known: dict[int, Any]) -> Any:
+    kind = type(value)
+    if isinstance(value, np.ndarray):
+        return _own(np.array(value, subok=False), known)
+    if isinstance(value, enum.Enum | np.generic | type):
         return value
     for plain in _PLAIN:
         if isinstance(value, plain):
-            return value if kind is plain else plain(value)
+            return plain(value)
     if isinstance(value, tuple | list | frozenset):
         items = [_own(item, known) for item in value]
         return kind(*items) if hasattr(kind, "_fields") else kind(items)
@@ -59,9 +74,6 @@ def _own_object(value: Any, known: dict[int, Any]) -> Any:
         base = next((cls.__name__ for cls in kind.__mro__ if cls.__module__.startswith("mrpbench_core.model.")), "it")
         raise BrokenContractError(f"a component returned the class {kind.__name__} instead of {base} itself")
     return kind(**{alias: _own(getattr(value, name), known) for alias, name in _fields(kind)})
-
-
-_KNOWN_FIELDS: dict[type, tuple[tuple[str, str], ...]] = {}
 
 
 def _fields(kind: type) -> tuple[tuple[str, str], ...]:

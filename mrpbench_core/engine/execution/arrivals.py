@@ -28,6 +28,14 @@ class Arrivals:
         self._tolerance = tolerance
         self._rests_since = np.full(len(routes), np.inf)
         self._recorded: Int32 = np.zeros(len(routes), np.int32)
+        self.away: Float = np.full(len(routes), np.inf)
+        """f8[n] metres from the goal, inf on another level or before any robot is reported to be there."""
+        self.claimed: Bool = np.zeros(len(routes), bool)
+        """bool[n]: the robot is reported to have arrived."""
+        self.arrived: Bool = self.claimed
+        """bool[n]: the robot is reported to have arrived, is at its goal, and rests."""
+        self.mistaken: Bool = self.claimed
+        """bool[n]: the robot is reported to have arrived, and stands elsewhere."""
         self.adopt(routes)
 
     def adopt(self, routes: Sequence[Route]) -> None:
@@ -38,20 +46,22 @@ class Arrivals:
 
     def update(self, now: float, state: State, motion: Motion) -> Motion:
         """Compare a report at `now` with the true state; return the report with confirmed arrivals only."""
+        finished = motion.reached >= self._last
+        if not finished.any():
+            self.claimed = self.arrived = self.mistaken = finished
+            self._rests_since[:] = np.inf
+            self._recorded = motion.reached
+            return motion
         speed = np.abs(state.twist)
         resting = (speed[:, 0] < REST[0]) & (speed[:, 1] < REST[1])
         self._rests_since = np.where(resting, np.minimum(self._rests_since, now), np.inf)
-        self.away: Float = np.hypot(*(state.pose[:, :2] - self._goal).T)
-        """f8[n] metres from the goal, inf on another level."""
+        self.away = np.hypot(*(state.pose[:, :2] - self._goal).T)
         self.away[state.level != self._level] = np.inf
         near = self.away <= self._tolerance
-        self.claimed: Bool = (motion.reached >= self._last) & (motion.mode == Mode.WAITING)
-        """bool[n]: the robot is reported to have arrived."""
-        self.arrived: Bool = self.claimed & near & resting
-        """bool[n]: the robot is reported to have arrived, is at its goal, and rests."""
-        self.mistaken: Bool = self.claimed & ~near & (now - self._rests_since >= SETTLING_S)
-        """bool[n]: the robot is reported to have arrived, and stands elsewhere."""
-        early = (motion.reached >= self._last) & ~near & (self._last > 0)
+        self.claimed = finished & (motion.mode == Mode.WAITING)
+        self.arrived = self.claimed & near & resting
+        self.mistaken = self.claimed & ~near & (now - self._rests_since >= SETTLING_S)
+        early = finished & ~near & (self._last > 0)
         if not early.any():
             self._recorded = motion.reached
             return motion
