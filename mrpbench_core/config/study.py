@@ -14,7 +14,7 @@ from mrpbench_core.config.matrix import Matrix, Point, parse_matrix
 from mrpbench_core.config.overrides import parse_overrides
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.structure import Structure, structure
-from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order
+from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order, read_all
 from mrpbench_core.files.yaml import load
 
 NAMED_POINTS = 5
@@ -83,17 +83,7 @@ def load_study(source: Path | str | Mapping[str, Any], overrides: Sequence[str] 
 
 def load_studies(files: Iterable[Path | str], overrides: Sequence[str] = ()) -> list[Study]:
     """Read several configurations; raise the errors of all of them together."""
-    studies, errors = [], []
-    for file in files:
-        try:
-            studies.append(load_study(file, overrides))
-        except InputError as error:
-            errors.append(error)
-        except InputErrors as several:
-            errors += several.errors
-    if errors:
-        raise InputErrors(*{str(error): error for error in errors}.values())
-    return studies
+    return read_all(lambda file: load_study(file, overrides), files)
 
 
 def unpack(parcel: Mapping[str, Any], *, verify: bool = True) -> RunConfig:

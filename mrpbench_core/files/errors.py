@@ -1,7 +1,11 @@
 """The exception for errors of the user: what is wrong, where, and what to do."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import TypeVar
+
+Source = TypeVar("Source")
+Content = TypeVar("Content")
 
 
 class InputError(Exception):
@@ -52,6 +56,25 @@ def in_reading_order(errors: Iterable[InputError]) -> list[InputError]:
     """Return each error once, by file, line and column; errors without a location come first."""
     once = {str(error): error for error in errors}
     return sorted(once.values(), key=lambda error: (str(error.file or ""), error.line or 0, error.column or 0))
+
+
+def read_all(read: Callable[[Source], Content], sources: Iterable[Source]) -> list[Content]:
+    """Return what `read` returns for each source.
+
+    Raises:
+        InputErrors: the errors of all sources together, each once.
+    """
+    contents, errors = [], []
+    for source in sources:
+        try:
+            contents.append(read(source))
+        except InputError as error:
+            errors.append(error)
+        except InputErrors as several:
+            errors += several.errors
+    if errors:
+        raise InputErrors(*{str(error): error for error in errors}.values())
+    return contents
 
 
 def one_line(error: BaseException) -> str:

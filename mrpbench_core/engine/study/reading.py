@@ -13,7 +13,7 @@ from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.engine.loading.runs import StudyRuns, unpack_error, unpack_study
 from mrpbench_core.engine.processes.child import WorkerDied
 from mrpbench_core.engine.processes.slots import ask_in_slot
-from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.errors import InputError, InputErrors, read_all
 
 READING_S = 3600.0
 """Wall seconds that reading may take."""
@@ -50,14 +50,4 @@ def read_study(slots: str, source: Path | str | Mapping[str, Any], overrides: Se
 
 def read_studies(slots: str, files: Iterable[Path | str], overrides: Sequence[str] = ()) -> list[StudyRuns]:
     """Read several configurations; raise the errors of all of them together."""
-    studies, errors = [], []
-    for file in files:
-        try:
-            studies.append(read_study(slots, file, overrides))
-        except InputError as error:
-            errors.append(error)
-        except InputErrors as several:
-            errors += several.errors
-    if errors:
-        raise InputErrors(*{str(error): error for error in errors}.values())
-    return studies
+    return read_all(lambda file: read_study(slots, file, overrides), files)
