@@ -12,6 +12,7 @@ from mrpbench_core.model.runs.run import FinishedRun
 Value = float | int | bool | None
 """None means that the run does not allow the measurement; `unmeasured` in its record gives the reason."""
 
+Better = Literal["lower", "higher", "neither"]
 ColumnStage = Literal["planning", "execution"]
 Drawn = Literal["interval", "profile", "cactus"]
 
@@ -27,7 +28,7 @@ class Column:
     """Name within the metric; in records and reports `<metric>.<column>`."""
     unit: str
     """SI unit, or '' for a count or ratio."""
-    better: Literal["lower", "higher", "neither"]
+    better: Better
     description: str
     source: str = ""
     """Paper or standard that defines it."""

@@ -5,8 +5,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from mrpbench_core.cli.input.run_reference import HELP, find_run
-from mrpbench_core.cli.output.replays import replay_file, write_replay
+from mrpbench_core.cli.output.replays import write_replay
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.printing import file_name
 from mrpbench_core.report.replay.pair import write_pair
 from mrpbench_core.store.recording import Recording
 
@@ -28,7 +29,7 @@ def run(arguments: argparse.Namespace) -> int:
         return _view_pair(arguments)
     results, record = find_run(arguments.run)
     run_id = record["run_id"]
-    page = Path(arguments.out) if arguments.out else replay_file(results, run_id)
+    page = Path(arguments.out) if arguments.out else results.folder.replay(run_id)
     recording = Recording(results.folder.run(run_id).recording)
     try:
         write_replay(recording, results, record, page)
@@ -47,7 +48,7 @@ def _view_pair(arguments: argparse.Namespace) -> int:
         raise InputError("--png and --gif show one run", hint="leave out the second run")
     runs = [find_run(run) for run in (arguments.run, arguments.other)]
     names = [record["run_id"][:12] for _, record in runs]
-    out = Path(arguments.out) if arguments.out else runs[0][0].folder.path / f"replay-{'-'.join(names)}.html"
+    out = Path(arguments.out) if arguments.out else runs[0][0].folder.replay(*names)
     with TemporaryDirectory() as folder:
         pages = [Path(folder) / f"{number}.html" for number in range(len(runs))]
         for (results, record), page in zip(runs, pages, strict=True):
@@ -68,7 +69,7 @@ def _draw(recording: Recording, file: Path) -> None:
     context = recording.context()
     _, levels = read_levels(recording)
     for index, (level, truth) in enumerate(sorted(levels.items())):
-        name = context.world.levels[level].name or level
+        name = file_name(context.world.levels[level].name) or level
         drawn = file.with_name(f"{file.stem}-{name}{file.suffix}") if index else file
         draw_world(
             context.world,

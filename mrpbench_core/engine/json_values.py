@@ -22,12 +22,6 @@ def jsonable(value: Any) -> Any:
     return _storable(str(value))
 
 
-def printable(text: str) -> str:
-    """Return text in one line that is safe to print: control characters are escaped."""
-    line = " ".join(text.split())
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line)
-
-
 def _storable(text: str) -> str:
     """Escape unpaired surrogates, which no file can hold."""
     return text.encode(errors="backslashreplace").decode()

@@ -9,7 +9,6 @@ import numpy as np
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution.replanning import replanning_fault
 from mrpbench_core.engine.execution.routes import Router, speed_limits
-from mrpbench_core.engine.json_values import printable
 from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.record import RunError, RunRecord
@@ -21,6 +20,7 @@ from mrpbench_core.engine.stages.measure import measure, measure_recording
 from mrpbench_core.engine.stages.plan import LATE_S, STATUS, budget_of, call_planner
 from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance, require_free_doorways
 from mrpbench_core.engine.stages.problem_building import build_problem
+from mrpbench_core.files.printing import printable
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.runs.run import FinishedRun, RunContext

@@ -4,6 +4,8 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TypeVar
 
+from mrpbench_core.files.printing import escaped
+
 Source = TypeVar("Source")
 Content = TypeVar("Content")
 
@@ -37,7 +39,7 @@ class InputError(Exception):
     def __str__(self) -> str:
         parts = [str(part) for part in (self.file, self.line, self.column) if part is not None]
         where = ":".join(parts) + ": " if parts else ""
-        return where + self.message + (f" ({self.hint})" if self.hint else "")
+        return escaped(where + self.message + (f" ({self.hint})" if self.hint else ""))
 
 
 class InputErrors(Exception):  # noqa: N818 - it is several of them

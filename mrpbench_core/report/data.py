@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.printing import csv_cell
 from mrpbench_core.report.estimation.comparison import Comparison
 from mrpbench_core.report.report import Report
 from mrpbench_core.report.statistics.estimate import IntervalEstimate
@@ -87,12 +88,12 @@ def write_estimates(report: Report, file: Path) -> None:
 
 
 def write_rows(file: Path, rows: Iterable[Mapping[str, Any]], columns: list[str]) -> None:
-    """Write a CSV file; missing values stay empty."""
+    """Write a CSV file; missing values stay empty, and text is never a formula."""
     try:
         with file.open("w", newline="", encoding="utf-8") as stream:
-            writer = csv.DictWriter(stream, columns, restval="")
-            writer.writeheader()
-            writer.writerows(rows)
+            writer = csv.writer(stream)
+            writer.writerow(map(csv_cell, columns))
+            writer.writerows([csv_cell(row.get(column)) for column in columns] for row in rows)
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror}", file=file) from error
 

@@ -17,6 +17,7 @@ from pathlib import Path
 import attrs
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.printing import file_name
 from mrpbench_core.store.paths import RunPaths
 
 PARTS = ("invocations", "runs", "recordings", "exports", "logs")
@@ -51,11 +52,16 @@ class ResultsFolder:
 
     def run(self, run_id: str) -> RunPaths:
         """Files of a run."""
-        return RunPaths(recording=self.path / "recordings" / f"{run_id}.zip", exports=self.path / "exports" / run_id)
+        name = file_name(run_id)
+        return RunPaths(recording=self.path / "recordings" / f"{name}.zip", exports=self.path / "exports" / name)
 
     def log(self, run_id: str) -> Path:
         """The log file of a run, with the output of its plugins."""
-        return self.path / "logs" / f"{run_id}.txt"
+        return self.path / "logs" / f"{file_name(run_id)}.txt"
+
+    def replay(self, *run_ids: str) -> Path:
+        """The page with the replay of a run, or of several side by side."""
+        return self.path / f"replay-{'-'.join(file_name(run_id[:12]) for run_id in run_ids)}.html"
 
     def create(self) -> None:
         """Make the folder and its parts.

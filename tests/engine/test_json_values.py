@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 
-from mrpbench_core.engine.json_values import jsonable, printable
+from mrpbench_core.engine.json_values import jsonable
 
 
 class Colour(enum.StrEnum):
@@ -40,7 +40,3 @@ def test_text_that_no_file_can_hold_is_escaped():
     found = jsonable({"\ud800": "Größe \udcff\n"})
     assert found == {"\\ud800": "Größe \\udcff\n"}
     json.dumps(found, ensure_ascii=False).encode()
-
-
-def test_a_message_is_one_line_that_does_nothing_to_a_terminal():
-    assert printable("Größe\n is \x1b[31mred\x00 \ud800") == "Größe is \\x1b[31mred\\x00 \\ud800"

@@ -6,9 +6,11 @@ import time
 from collections import Counter
 from typing import Any
 
+from mrpbench_core.cli.output.terminal import ERASE_LINE, unescaped
 from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.engine.study.selection import Selection
+from mrpbench_core.files.printing import printable
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.report.reading.axes import word
@@ -79,7 +81,8 @@ class Printed(StudyProgress):
     def close(self) -> None:
         """Remove the live line."""
         if self._live:
-            print("\r\x1b[K", end="", flush=True)
+            self._erase()
+            sys.stdout.flush()
 
     def _end(self, point: StudyRun, status: str, message: str) -> None:
         self._going.pop(point.run_id)
@@ -103,7 +106,12 @@ class Printed(StudyProgress):
         return f"{name}: {simulated} of {limit} simulated, {arrived} of {robots} arrived"
 
     def _say(self, line: str) -> None:
-        print(("\r\x1b[K" if self._live else "") + line, flush=True)
+        self._erase()
+        print(printable(line), flush=True)
+
+    def _erase(self) -> None:
+        if self._live:
+            unescaped().write(ERASE_LINE)
 
     def _draw(self) -> None:
         now = time.monotonic()
@@ -117,7 +125,8 @@ class Printed(StudyProgress):
         going = " ".join(self._far(run_id) for run_id in self._going)
         line = f"[{done}/{self._total}] {counts}{eta} · {going}"
         width = shutil.get_terminal_size().columns - 1  # a wrapped line cannot be erased
-        print("\r\x1b[K" + line[:width], end="", flush=True)
+        self._erase()
+        print(printable(line)[:width], end="", flush=True)
 
 
 def _clock(seconds: float) -> str:

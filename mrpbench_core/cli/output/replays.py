@@ -4,6 +4,7 @@ import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote
 
 import attrs
 
@@ -16,15 +17,10 @@ from mrpbench_core.plugins.local import is_local
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.reading.columns import Columns, describe_columns
 from mrpbench_core.report.replay.facts import numbers_of
-from mrpbench_core.report.replay.page import write_page
+from mrpbench_core.report.replay.page import template, write_page
 from mrpbench_core.report.report import Report
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
-
-
-def replay_file(results: Results, run_id: str) -> Path:
-    """Return the default path of the replay of a run."""
-    return results.folder.path / f"replay-{run_id[:12]}.html"
 
 
 def write_replay(recording: Recording, results: Results, record: dict[str, Any], page: Path) -> None:
@@ -65,15 +61,16 @@ def _planner(block: Any) -> str:
 def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
     """Write replays of up to `most` runs without one; return the addresses of all replays, relative to `page`.
 
-    Failed runs come first, and every configuration gets one before another gets a second one.
+    Failed runs come first, and every configuration gets one before another gets a second one. A page that may run
+    other scripts than those of this version counts as none.
     """
     found: dict[str, str] = {}
     lacking: list[tuple[Results, str, Path]] = []
     for index in _order(report):
         run_id = report.runs.run_id[index]
         results = report.folders[report.runs.folder[index]]
-        file = replay_file(results, run_id)
-        if file.is_file():
+        file = results.folder.replay(run_id)
+        if template().wrote(file):
             found[run_id] = _address(file, page)
         elif len(lacking) < most and results.folder.run(run_id).recording.is_file():
             lacking.append((results, run_id, file))
@@ -105,4 +102,4 @@ def _order(report: Report) -> Sequence[int]:
 
 
 def _address(file: Path, page: Path) -> str:
-    return Path(os.path.relpath(file, page.resolve().parent)).as_posix()
+    return quote(Path(os.path.relpath(file, page.resolve().parent)).as_posix())  # also a colon, else of a scheme

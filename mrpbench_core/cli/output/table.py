@@ -6,6 +6,9 @@ import sys
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from mrpbench_core.cli.output.terminal import unescaped
+from mrpbench_core.files.printing import printable
+
 if TYPE_CHECKING:
     from mrpbench_core.report.tables.table import Table
 
@@ -15,14 +18,15 @@ GAP = 2
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "") -> None:
     """Print rows of cells; None is shown as a dash. Columns of numbers are flush right."""
-    cells = [["–" if cell is None else str(cell) for cell in row] for row in rows]
+    columns = list(map(printable, columns))
+    cells = [["–" if cell is None else printable(str(cell)) for cell in row] for row in rows]
     right = [all(_is_number(row[index]) for row in cells) for index in range(len(columns))]
     if sys.stdout.isatty():
         _print_rich(columns, cells, right, title)
         return
     if title:
         print(title)
-    lines = [list(columns), *cells]
+    lines = [columns, *cells]
     widths = [max(len(line[index]) for line in lines) for index in range(len(columns))]
     for line in lines:
         parts = (
@@ -68,13 +72,13 @@ def _print_rich(columns: Sequence[str], cells: Sequence[Sequence[str]], right: S
     from rich.markup import escape
     from rich.table import Table
 
-    table = Table(title=title or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    table = Table(title=escape(printable(title)) or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     for name, flush in zip(columns, right, strict=True):  # broken between words where the terminal is narrow
         heading = escape(name.replace("_", " ").replace(".", " "))
         table.add_column(heading, justify="right" if flush else "left", overflow="fold")
     for row in cells:
         table.add_row(*map(escape, row))
-    Console().print(table)
+    Console(file=unescaped()).print(table)
 
 
 def _is_number(cell: str) -> bool:
@@ -83,4 +87,5 @@ def _is_number(cell: str) -> bool:
 
 def print_json(value: Any) -> None:
     """Print a value as JSON."""
-    print(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False))
+    text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
+    print("".join(c if c.isprintable() or c == "\n" else json.dumps(c)[1:-1] for c in text))

@@ -17,7 +17,7 @@ import psutil
 
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import unpack
-from mrpbench_core.engine.json_values import jsonable, printable
+from mrpbench_core.engine.json_values import jsonable
 from mrpbench_core.engine.loading.runs import loaded
 from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.pipeline import execute
@@ -25,6 +25,7 @@ from mrpbench_core.engine.processes.channel import KEY_BYTES, Channel
 from mrpbench_core.engine.processes.output import flush, redirect
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.printing import printable
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.plugins.importing import tell_imports

@@ -40,7 +40,8 @@ def _invocations(invocations: Iterable[dict[str, Any]]) -> str:
     for entry in invocations:
         machine = entry.get("machine") or {}
         words = " ".join(map(str, entry.get("overrides") or ()))
-        memory = f"{machine.get('memory_bytes', 0) / 2**30:.0f} GiB"
+        size = machine.get("memory_bytes")
+        memory = f"{size / 2**30:.0f} GiB" if isinstance(size, int | float) else "memory unknown"
         cells = (
             entry.get("started"),
             machine.get("node"),

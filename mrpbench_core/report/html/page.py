@@ -1,12 +1,11 @@
 """Writes the page of a report."""
 
-import re
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from html import escape
 from importlib import resources
 from pathlib import Path
 
-from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.comparison import SIGNIFICANT, Comparison
@@ -16,6 +15,7 @@ from mrpbench_core.report.html.origin import origin
 from mrpbench_core.report.report import Report
 from mrpbench_core.report.rules import RULES
 from mrpbench_core.report.tables.table import Shown, Table, p_value, text
+from mrpbench_core.report.template import PageTemplate
 
 FINDINGS = 12
 """Number of differences in the summary."""
@@ -34,44 +34,44 @@ def write_report(report: Report, file: Path, replays: Mapping[str, str] | None =
     """
     folder = resources.files(__package__) / "template"
     title = " and ".join(dict.fromkeys(results.folder.path.name for results in report.folders))
+    counts = _counts(report)
+    widths = (f".part:nth-child({place}) {{ flex-grow: {count}; }}\n" for place, (_, count) in enumerate(counts, 1))
+    code = {
+        "style": (folder / "style.css").read_text(encoding="utf-8") + "".join(widths),
+        "script": (folder / "runs.js").read_text(encoding="utf-8"),
+    }
     parts = {
         "title": escape(title),
-        "style": (folder / "style.css").read_text(encoding="utf-8"),
-        "summary": _summary(report),
+        "summary": _summary(report, counts),
         "tables": "".join(_table(table) for table in report.tables()),
         "figures": figures(report),
         "origin": origin(report),
         "rules": "".join(f"<dt>{escape(name)}</dt><dd>{escape(words)}</dd>" for name, words in RULES),
         "data": packed_runs(report, replays or {}),
-        "script": (folder / "runs.js").read_text(encoding="utf-8"),
     }
-    page = (folder / "index.html").read_text(encoding="utf-8")
-    page = re.sub(r"<!--(\w+)-->", lambda mark: parts[mark[1]], page)  # at once: what is filled in may look like a mark
-    try:
-        file.write_text(page, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"cannot be written: {error.strerror or error}", file=file) from None
+    PageTemplate(folder / "index.html", code).write(file, f"{title} · mrpbench report", parts)
 
 
-def _summary(report: Report) -> str:
+def _counts(report: Report) -> list[tuple[str, int]]:
+    """Number of runs of each status: succeeded, failures, those that do not count."""
+    counts = Counter(report.runs.status)
+    return sorted(counts.items(), key=lambda item: (item[0] != RunStatus.SUCCEEDED, item[0] in LEFT_OUT, -item[1]))
+
+
+def _summary(report: Report, counts: Sequence[tuple[str, int]]) -> str:
     runs = report.runs
     total, groups = len(runs), sum(len(setting.groups) for setting in report.settings)
-    counts: dict[str, int] = {}
-    for status in runs.status:
-        counts[status] = counts.get(status, 0) + 1
-    ordered = sorted(counts.items(), key=lambda item: (item[0] != RunStatus.SUCCEEDED, item[0] in LEFT_OUT, -item[1]))
     bar = "".join(
-        f'<span class="part {tone(status)}" style="flex-grow:{count}" title="{count} {status}"></span>'
-        for status, count in ordered
+        f'<span class="part {tone(status)}" title="{escape(f"{count} {status}")}"></span>' for status, count in counts
     )
     words = "".join(
-        f'<li class="{tone(status)}"><b>{count}</b> {status.replace("_", " ")}</li>' for status, count in ordered
+        f'<li class="{tone(status)}"><b>{count}</b> {escape(status.replace("_", " "))}</li>' for status, count in counts
     )
     scenarios = len(set(runs.scenario[runs.scenario >= 0].tolist()))
     return (
         f'<p class="lead">{counted(total, "run")} of {counted(groups, "configuration")} on'
         f" {counted(scenarios, 'scenario')}.</p>"
-        f'<div class="bar" role="img" aria-label="{escape(", ".join(f"{n} {s}" for s, n in ordered))}">{bar}</div>'
+        f'<div class="bar" role="img" aria-label="{escape(", ".join(f"{n} {s}" for s, n in counts))}">{bar}</div>'
         f'<ul class="counts">{words}</ul>{_findings(report.comparisons)}'
     )
 

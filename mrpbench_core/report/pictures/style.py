@@ -22,5 +22,7 @@ def own_style() -> AbstractContextManager[None]:
         import matplotlib
     except ImportError:
         raise InputError("pictures need matplotlib", hint="pip install 'mrpbench-core[figures]'") from None
-    style: AbstractContextManager[None] = matplotlib.rc_context({"font.family": "sans-serif", "font.size": 7})
+    style: AbstractContextManager[None] = matplotlib.rc_context(
+        {"font.family": "sans-serif", "font.size": 7, "text.parse_math": False}
+    )
     return style

@@ -5,7 +5,7 @@ from typing import Any, get_args
 
 import attrs
 
-from mrpbench_core.api.metric import Column, ColumnStage, Drawn, Metric
+from mrpbench_core.api.metric import Better, Column, ColumnStage, Drawn, Metric
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.reading.invocations import read_invocations
@@ -83,15 +83,16 @@ def _column(name: str, declared: Any, installed: Column | None) -> Column:
     column = installed or Column(name, *_timing(name), "")
     if not isinstance(declared, dict):
         return column
+    aliases = declared.get("aliases")
     return attrs.evolve(
         column,
-        unit=declared.get("unit") or "",
-        better=declared.get("better") or "neither",
-        description=declared.get("description") or "",
+        unit=str(declared.get("unit") or ""),
+        better=_one_of(Better, declared.get("better"), "neither"),
+        description=str(declared.get("description") or ""),
         primary=bool(declared.get("primary", column.primary)),
         stage=_one_of(ColumnStage, declared.get("stage"), column.stage),
         drawn=_one_of(Drawn, declared.get("drawn"), column.drawn),
-        aliases=tuple(map(str, declared.get("aliases", column.aliases))),
+        aliases=tuple(map(str, aliases)) if isinstance(aliases, list) else column.aliases,
     )
 
 

@@ -1,4 +1,7 @@
-"""Reads the invocations in results folders: versions, machines and configurations of their runs."""
+"""Reads the invocations in results folders: versions, machines and configurations of their runs.
+
+The documents may come from others: parts of another type than `mrpbench run` writes are left out.
+"""
 
 from collections.abc import Iterable
 from typing import Any
@@ -7,6 +10,8 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import load
 from mrpbench_core.store.results import Results
 
+_TYPES = {"machine": dict, "versions": dict, "columns": dict, "overrides": list}
+
 
 def read_invocations(folders: Iterable[Results]) -> list[dict[str, Any]]:
     """Return the documents of all invocations, oldest first; skip unreadable ones, as in a half-copied folder."""
@@ -14,11 +19,11 @@ def read_invocations(folders: Iterable[Results]) -> list[dict[str, Any]]:
     for results in folders:
         for file in sorted((results.folder.path / "invocations").glob("*.yaml")):
             try:
-                data = load(file).data
+                data = load(file).data if file.is_file() else None
             except InputError:
                 continue
             if isinstance(data, dict):
-                found.append(data)
+                found.append({key: value for key, value in data.items() if isinstance(value, _TYPES.get(key, object))})
     return found
 
 

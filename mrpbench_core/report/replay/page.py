@@ -4,6 +4,8 @@ import base64
 import html
 import json
 from collections.abc import Mapping
+from functools import cache
+from importlib import resources
 from pathlib import Path
 from typing import Any
 
@@ -17,9 +19,11 @@ from mrpbench_core.report.replay.plans import read_plans, shown_plans
 from mrpbench_core.report.replay.scans import pack_scans
 from mrpbench_core.report.replay.scene import pack_resources, pack_robots, pack_world
 from mrpbench_core.report.replay.schedule import pack_schedule
-from mrpbench_core.report.replay.template import FOLDER, write_template
 from mrpbench_core.report.replay.waits import pack_waits
+from mrpbench_core.report.template import PageTemplate
 from mrpbench_core.store.recording import Recording
+
+FOLDER = resources.files(__package__) / "page"
 
 
 def write_page(
@@ -61,24 +65,27 @@ def write_page(
         "scans": thinned,
     }
     title = f"{context.world.name}: {record['run_id'][:12]}"
-    write_template("index.html", title, _parts(data, {"motion": motion, "scans": scans}), file)
+    template().write(file, title, {"data": _data(data, {"motion": motion, "scans": scans})})
 
 
-def _parts(data: Mapping[str, Any], packings: Mapping[str, Packing]) -> dict[str, str]:
-    """Return what fills the marks of the template; an import map of `data:` addresses connects the modules."""
+@cache
+def template() -> PageTemplate:
+    """The template of replays; an import map of `data:` addresses connects the modules."""
     modules = {entry.name: entry.read_text(encoding="utf-8") for entry in FOLDER.iterdir() if entry.name.endswith("js")}
     imports = {f"replay/{name}": _address(name, modules[name]) for name in sorted(modules)}
+    style = (FOLDER / "style.css").read_text(encoding="utf-8")
+    return PageTemplate(FOLDER / "index.html", {"style": style, "imports": _json({"imports": imports})})
+
+
+def _data(data: Mapping[str, Any], packings: Mapping[str, Packing]) -> str:
+    """Return the elements that hold the data."""
     blobs = [
         f'<script type="application/octet-stream" id="{name}" data-layout="{html.escape(json.dumps(packing.layout))}">'
         f"{packing.text()}</script>"
         for name, packing in packings.items()
         if packing.layout
     ]
-    return {
-        "style": (FOLDER / "style.css").read_text(encoding="utf-8"),
-        "imports": _json({"imports": imports}),
-        "data": f'<script type="application/json" id="run">{_json(data)}</script>\n' + "\n".join(blobs),
-    }
+    return f'<script type="application/json" id="run">{_json(data)}</script>\n' + "\n".join(blobs)
 
 
 def _address(name: str, code: str) -> str:

@@ -4,7 +4,8 @@ import html
 from collections.abc import Sequence
 from pathlib import Path
 
-from mrpbench_core.report.replay.template import write_template
+from mrpbench_core.report.replay.page import FOLDER, template
+from mrpbench_core.report.template import PageTemplate
 
 
 def write_pair(replays: Sequence[Path], titles: Sequence[str], file: Path) -> None:
@@ -22,4 +23,5 @@ def write_pair(replays: Sequence[Path], titles: Sequence[str], file: Path) -> No
         f'<iframe title="{html.escape(title)}" srcdoc="{html.escape(page.read_text(encoding="utf-8"))}"></iframe>'
         for page, title in zip(replays, titles, strict=True)
     ]
-    write_template("pair.html", " and ".join(titles), {"frames": "\n".join(frames)}, file)
+    page = PageTemplate(FOLDER / "pair.html", frames=template())  # frames are subject to the policy of their page too
+    page.write(file, " and ".join(titles), {"frames": "\n".join(frames)})

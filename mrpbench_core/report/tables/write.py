@@ -1,8 +1,10 @@
 """Tables as Markdown and LaTeX."""
 
+import re
 from collections.abc import Sequence
 
-from mrpbench_core.report.tables.table import Table, text
+from mrpbench_core.files.printing import printable
+from mrpbench_core.report.tables.table import Cell, Table, text
 
 _LATEX = {
     "\\": r"\textbackslash{}",
@@ -14,15 +16,16 @@ _LATEX = {
     "–": "--",
     "·": r"$\cdot$",
 }
+_MARKDOWN = re.compile(r"[\\`*{}\[\]<>|~&$]|(?<!\w)_|_(?!\w)")
 
 
 def markdown(tables: Sequence[Table]) -> str:
     """Pipe tables under headings."""
     parts = []
     for table in tables:
-        rows = [[_pipe(text(cell)) for cell in row] for row in table.rows]
+        rows = [[_markdown(cell) for cell in row] for row in table.rows]
         lines = [f"## {table.title}", ""]
-        lines += [f"| {' | '.join(map(_pipe, table.headings))} |"]
+        lines += [f"| {' | '.join(map(_markdown, table.headings))} |"]
         lines += ["|" + "|".join("---" if index < table.keys else "---:" for index in range(len(table.headings))) + "|"]
         lines += [f"| {' | '.join(row)} |" for row in rows]
         parts.append("\n".join([*lines, "", table.note, ""]))
@@ -41,7 +44,7 @@ def latex(tables: Sequence[Table]) -> str:
                     rf"\begin{{table}}\centering\caption{{{_tex(table.title)}. {_tex(table.note)}}}",
                     rf"\begin{{tabular}}{{{layout}}}\toprule",
                     " & ".join(map(_tex, table.headings)) + r" \\ \midrule",
-                    *rows,
+                    *(f"{{}}{row}" if row.startswith(("[", "*")) else row for row in rows),  # no options of \\
                     r"\bottomrule\end{tabular}\end{table}",
                     "",
                 ]
@@ -50,9 +53,10 @@ def latex(tables: Sequence[Table]) -> str:
     return "\n".join([r"% needs \usepackage{booktabs}", *parts])
 
 
-def _pipe(words: str) -> str:
-    return words.replace("|", "\\|").replace("\n", " ")
+def _markdown(cell: Cell) -> str:
+    """The text of a cell; text of records is escaped, so that it is neither markup nor HTML."""
+    return _MARKDOWN.sub(r"\\\g<0>", printable(cell)) if isinstance(cell, str) else text(cell)
 
 
 def _tex(words: str) -> str:
-    return "".join(_LATEX.get(letter, letter) for letter in words)
+    return "".join(_LATEX.get(letter, letter) for letter in printable(words))

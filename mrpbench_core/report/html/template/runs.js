@@ -86,7 +86,7 @@ function list(runs) {
       made.append(link, document.createElement("br"));
     }
     const command = document.createElement("code");
-    command.textContent = `mrpbench view '${folder}:${runs.id[i]}'`;
+    command.textContent = `mrpbench view '${`${folder}:${runs.id[i]}`.replaceAll("'", "'\\''")}'`; // for a POSIX shell
     made.append(replay ? "Made by " : "Its replay, if its recording was kept: ", command);
   }
 

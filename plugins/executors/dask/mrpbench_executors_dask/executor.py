@@ -36,7 +36,7 @@ class Dask(ExecutorSource):
         """Connect to the scheduler."""
         try:
             client = Client(self.scheduler, timeout=self.timeout, set_as_default=False)
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, TypeError, RuntimeError) as error:  # the last two of TLS
             reason = " ".join(str(error).split())
             raise InputError(f"executor.scheduler: no Dask scheduler answers at {self.scheduler}: {reason}") from None
         return Cluster(client)
