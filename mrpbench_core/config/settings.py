@@ -26,6 +26,7 @@ from mrpbench_core.api import (
 from mrpbench_core.files.robot import robot_file, robot_reads
 
 ROBOT = "turtlebot3_burger"
+_COUNTED = validators.and_(validators.ge(0), validators.le(2**63 - 1))
 
 
 def block(plugin: Any = attrs.NOTHING, *, help: str, validator: Any = None) -> Any:
@@ -203,13 +204,11 @@ class RunConfig:
     recording: RecordingOptions = option(RecordingOptions(), help="settings of recordings")
     limits: Limits = option(Limits(), help="limits of time and memory")
     replanning: Replanning = option(Replanning(), help="calls of the planner during execution")
-    seed: int = option(
-        0, help="of the scenario, the planner's random choices and the noise", validator=validators.ge(0)
-    )
+    seed: int = option(0, help="of the scenario, the planner's random choices and the noise", validator=_COUNTED)
     repeat: int = option(
         0,
         help="the same scenario again with other noise and other random choices of the planner",
-        validator=validators.ge(0),
+        validator=_COUNTED,
     )
 
 

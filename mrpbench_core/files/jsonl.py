@@ -1,31 +1,11 @@
-"""JSON lines: one object per line; a crash loses at most the line that is being written."""
+"""Write JSON lines: one object per line; a crash loses at most the line that is being written."""
 
 import json
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
-from typing import Any, NoReturn, Self
-
-from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.text import read_bytes
-
-
-def read(path: Path | str) -> list[dict[str, Any]]:
-    """Return the objects of a file; an unterminated last line, cut off by a crash, is skipped."""
-    return [value for _, value in numbered(path)]
-
-
-def numbered(path: Path | str) -> Iterator[tuple[int, dict[str, Any]]]:
-    """Yield line number (from 1) and object of every finished line.
-
-    Raises:
-        InputError: the file cannot be read, or a finished line is not one JSON object of finite numbers.
-    """
-    lines = read_bytes(path).split(b"\n")
-    for number, line in enumerate(lines[:-1], start=1):
-        if line.strip():
-            yield number, _parse(line, path, number)
+from typing import Any, Self
 
 
 def line(value: Mapping[str, Any]) -> str:
@@ -72,21 +52,3 @@ class Writer:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self.close()
-
-
-def _parse(content: bytes, path: Path | str, number: int) -> dict[str, Any]:
-    try:
-        value = json.loads(content.decode(), parse_constant=_refuse_constant)
-    except UnicodeDecodeError:
-        raise InputError("is not UTF-8 text", file=path, line=number) from None
-    except json.JSONDecodeError as error:
-        raise InputError(f"is not JSON: {error.msg}", file=path, line=number, column=error.colno) from None
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"is not JSON: {error}", file=path, line=number) from None
-    if not isinstance(value, dict):
-        raise InputError("is not a JSON object", file=path, line=number)
-    return value
-
-
-def _refuse_constant(name: str) -> NoReturn:
-    raise ValueError(f"{name} is not a JSON number")

@@ -1,13 +1,68 @@
-"""Reads files of records line by line: they may be larger than memory."""
+"""Reads files of records line by line: they may be larger than memory, and any line may be damaged."""
 
-import json
+import functools
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, BinaryIO
+
+import msgspec
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.runs.status import RunStatus
+
+LINE_LIMIT = 16 * 2**20
+"""Bytes of a record."""
+DEPTH_LIMIT = 8
+"""Nested arrays and objects in a value of a record."""
 
 _ADVICE = "left out, its run counts as not done: `mrpbench run` does it again; delete the line to hear no more of it"
+
+
+class _Limits(msgspec.Struct):
+    planning: float | None = None
+
+
+class _Config(msgspec.Struct):
+    limits: _Limits | None = None
+
+
+class _Error(msgspec.Struct):
+    stage: str | None = None
+    message: str | None = None
+
+
+class _Analysis(msgspec.Struct):
+    planned: bool = True
+
+
+class _Record(msgspec.Struct):
+    """The types of the keys that the framework reads; a record may have others."""
+
+    run_id: Annotated[str, msgspec.Meta(pattern=r"^[0-9A-Za-z_-]+\Z", max_length=64)]  # part of file names
+    status: RunStatus
+    config: _Config
+    scenario_id: str | None = None
+    attempt: Annotated[int, msgspec.Meta(ge=0, le=2**31 - 1)] = 1
+    seed: Annotated[int, msgspec.Meta(ge=0)] | None = None
+    repeat: Annotated[int, msgspec.Meta(ge=0)] | None = None
+    reassigned: Annotated[int, msgspec.Meta(ge=0)] | None = None
+    metrics: dict[str, Any] | None = None
+    timing: dict[str, Any] | None = None
+    provenance: dict[str, Any] | None = None
+    error: _Error | None = None
+    unmeasured: dict[str, str] | None = None
+    unexported: dict[str, str] | None = None
+    analysis: _Analysis | None = None
+
+
+@functools.cache
+def _decoder() -> msgspec.json.Decoder[dict[str, Any]]:
+    """Decodes objects whose integers have 64 bits and whose depth is limited; 15 ms to build."""
+    scalar: Any = bool | Annotated[int, msgspec.Meta(ge=-(2**63), le=2**63 - 1)] | float | str | None
+    value: Any = scalar
+    for _ in range(DEPTH_LIMIT):
+        value = scalar | list[value] | dict[str, value]
+    return msgspec.json.Decoder(dict[str, value])
 
 
 def read_shard(path: Path, damaged: list[InputError] | None = None) -> Iterator[tuple[int, dict[str, Any]]]:
@@ -17,34 +72,56 @@ def read_shard(path: Path, damaged: list[InputError] | None = None) -> Iterator[
 
     Args:
         path: the file.
-        damaged: receives what is wrong with each such line.
+        damaged: receives what is wrong with each such line, or with the file.
     """
-    with path.open("rb") as stream:
-        offset = 0
-        for number, line in enumerate(stream, start=1):
-            if line.endswith(b"\n") and line.strip():
+    try:
+        with path.open("rb") as stream:
+            offset, number = 0, 0
+            while line := stream.readline(LINE_LIMIT):
+                number += 1
                 try:
-                    record = _record(line, path, number)
+                    if not line.endswith(b"\n"):
+                        if not _skip_line(stream):
+                            return
+                        raise _fault(f"it is longer than {LINE_LIMIT // 2**20} MiB", path, number)
+                    if line.strip():
+                        yield offset, _record(line, path, number)
                 except InputError as error:
                     if damaged is not None:
                         damaged.append(error)
-                else:
-                    yield offset, record
-            offset += len(line)
+                offset = stream.tell()
+    except OSError as error:
+        if damaged is not None:
+            damaged.append(InputError(f"cannot be read: {error.strerror or error}", file=path))
 
 
 def read_at(path: Path, offset: int) -> dict[str, Any]:
-    """The record that begins at a byte offset."""
+    """The record that begins at a byte offset.
+
+    Raises:
+        InputError: it was damaged since its offset was found.
+    """
     with path.open("rb") as stream:
         stream.seek(offset)
-        return _record(stream.readline(), path, None)
+        return _record(stream.readline(LINE_LIMIT), path, None)
+
+
+def _skip_line(stream: BinaryIO) -> bool:
+    """Read to the end of a line, in parts; tell whether it is finished."""
+    while part := stream.readline(LINE_LIMIT):
+        if part.endswith(b"\n"):
+            return True
+    return False
 
 
 def _record(line: bytes, path: Path, number: int | None) -> dict[str, Any]:
     try:
-        record = json.loads(line)
-    except (ValueError, RecursionError) as error:
-        raise InputError(f"is not a record: {error}", file=path, line=number, hint=_ADVICE) from None
-    if not isinstance(record, dict) or not isinstance(record.get("run_id"), str) or "status" not in record:
-        raise InputError("is not a record: no run_id or status", file=path, line=number, hint=_ADVICE)
+        record: dict[str, Any] = _decoder().decode(line)
+        msgspec.convert(record, _Record)
+    except (msgspec.MsgspecError, UnicodeDecodeError) as error:
+        raise _fault(str(error), path, number) from None
     return record
+
+
+def _fault(reason: str, path: Path, number: int | None) -> InputError:
+    return InputError(f"is not a record: {reason}", file=path, line=number, hint=_ADVICE)

@@ -21,6 +21,7 @@ def test_everything_becomes_json():
         "n": (float("inf"), -float("inf"), None, True),
         "e": Colour.RED,
         "o": Ellipsis,
+        "w": [2**63 - 1, 2**63, -(10**400)],
         "d": {"x": frozenset()},
     }
     expected = {
@@ -31,6 +32,7 @@ def test_everything_becomes_json():
         "n": [None, None, None, True],
         "e": "red",
         "o": "Ellipsis",
+        "w": [2**63 - 1, None, None],
         "d": {"x": "frozenset()"},
     }
     assert json.loads(json.dumps(jsonable(value), allow_nan=False)) == expected

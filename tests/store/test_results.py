@@ -61,6 +61,68 @@ def test_a_damaged_line_is_named_and_costs_only_its_own_run(folder, caplog):
     assert "`mrpbench run` does it again" in said[0]
 
 
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ('"run_id":"../../aa"', "run_id"),
+        ('"run_id":"bb\\n"', "run_id"),
+        ('"status":"fine"', "status"),
+        ('"attempt":"1"', "attempt"),
+        ('"attempt":4294967296', "attempt"),
+        ('"seed":9223372036854775808', "9223372036854775807"),
+        ('"seed":1e400', "out of range"),
+        ('"metrics":{"a.b":1' + 400 * "0" + "}", "9223372036854775807"),
+        ('"metrics":[1]', "metrics"),
+        ('"config":{"limits":{"planning":"60 s"}}', "planning"),
+        ('"config":{"a":NaN}', "malformed"),
+        ('"config":{"a":' + 2000 * "[" + 2000 * "]" + "}", "got `array`"),
+        ('"new":"\\ud800"', "truncated"),
+        ('"new":"\xff"', "decode"),
+        ('"error":"no"', "error"),
+    ],
+)
+def test_a_value_of_a_wrong_type_or_range_makes_a_line_no_record(folder, change, reason):
+    bad = json.dumps(record("bb"))[:-1].encode() + b"," + change.encode("latin-1") + b"}\n"
+    folder.shard("1").write_bytes(json.dumps(record("aa")).encode() + b"\n" + bad)
+    results = load(folder.path)
+    assert [entry["run_id"] for entry in results] == ["aa"]
+    (error,) = results.damaged
+    assert (error.file, error.line) == (folder.shard("1"), 2)
+    assert reason in error.message
+
+
+def test_wherever_one_bit_is_wrong_the_other_records_remain(folder):
+    lines = [json.dumps(record(name, seed=3, metrics={"a.b": 1.5})).encode() + b"\n" for name in ("aa", "bb", "cc")]
+    for place in range(8 * len(lines[1])):
+        middle = bytearray(lines[1])
+        middle[place // 8] ^= 1 << place % 8
+        folder.shard("1").write_bytes(lines[0] + middle + lines[2])
+        results = load(folder.path)
+        rest = [entry["run_id"] for entry in results]
+        assert "aa" in rest
+        assert "cc" in rest or place // 8 == len(lines[1]) - 1  # without its end, the line continues with the next one
+        assert len(rest) + len(results.damaged) >= (3 if "cc" in rest else 2)
+
+
+def test_a_line_longer_than_the_limit_is_passed_over(folder, monkeypatch):
+    monkeypatch.setattr("mrpbench_core.store.shards.LINE_LIMIT", 200)
+    long = json.dumps(record("bb", timing={"note": 500 * "x"}))
+    lines = [json.dumps(record("aa")), long, json.dumps(record("cc")), long]
+    folder.shard("1").write_text("\n".join(lines))
+    results = load(folder.path)
+    assert [entry["run_id"] for entry in results] == ["aa", "cc"]
+    assert [error.line for error in results.damaged] == [2]
+    assert results["cc"]["run_id"] == "cc"
+
+
+def test_a_folder_in_the_place_of_a_file_of_records_is_named(folder):
+    store(folder, "1", record("aa"))
+    folder.shard("2").mkdir()
+    results = load(folder.path)
+    assert [entry["run_id"] for entry in results] == ["aa"]
+    assert "cannot be read" in results.damaged[0].message
+
+
 def test_copying_files_merges_folders_and_the_same_run_counts_once(folder, tmp_path):
     other = ResultsFolder(tmp_path / "other")
     other.create()

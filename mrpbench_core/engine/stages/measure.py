@@ -43,6 +43,8 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
                 reasons[key], value = reason, None
             elif not isinstance(value, NUMBER | None):
                 reasons[key], value = f"the metric returned {type(value).__name__} instead of a number", None
+            elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+                reasons[key], value = "the metric returned an integer of more than 64 bits", None
             values[key] = None if isinstance(value, float) and value != value else value
     return values, reasons
 

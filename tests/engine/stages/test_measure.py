@@ -103,6 +103,18 @@ def test_values_that_are_not_numbers_are_null_with_the_reason(run_context):
     values, reasons = measure(text, run)
     assert values == {"broken.length_s": None, "broken.odd": 1}
     assert reasons == {"broken.length_s": "the metric returned str instead of a number"}
+
+
+def test_an_integer_that_records_do_not_hold_is_null(run_context):
+    @attrs.frozen(kw_only=True)
+    class Vast(Length):
+        def measure(self, run):
+            return {"length_s": 10**400, "odd": -(2**63)}
+
+    run = FinishedRun(context=run_context, executed=True, channels={"time": lambda: np.arange(3.0)})
+    values, reasons = measure({"vast": Vast()}, run)
+    assert values == {"vast.length_s": None, "vast.odd": -(2**63)}
+    assert reasons == {"vast.length_s": "the metric returned an integer of more than 64 bits"}
     _, reasons = measure({"broken": Broken(returns=[1])}, run)
     assert reasons == {"broken": "the metric returned list instead of a mapping"}
 

@@ -33,7 +33,8 @@ def results(tmp_path):
     folder.create()
     with Writer(folder.shard("1")) as writer:
         for run_id, status in (("good", "succeeded"), ("bad", "crashed")):
-            writer.write({"run_id": run_id, "attempt": 4, "status": status, "provenance": {"versions": "old"}})
+            provenance = {"versions": "old"}
+            writer.write({"run_id": run_id, "attempt": 4, "status": status, "config": {}, "provenance": provenance})
     return Results(folder)
 
 
