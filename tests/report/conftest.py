@@ -1,6 +1,7 @@
 """Results folders made of records that tests write by hand."""
 
 import json
+import re
 import shutil
 from html.parser import HTMLParser
 
@@ -38,7 +39,9 @@ def made(planner="cbs", seed=0, status="succeeded", *, repeat=0, cost=None, took
     } | more.pop("config", {})
     planned = status in ("succeeded", "goals_missed", "execution_aborted")
     return {
-        "run_id": f"{planner}-{seed}-{repeat}-{config['scenario']['robots']}-{more.pop('tag', '')}",
+        "run_id": re.sub(
+            r"[^\w-]", "", f"{planner}-{seed}-{repeat}-{config['scenario']['robots']}-{more.pop('tag', '')}"
+        ),
         "scenario_id": more.pop("scenario", f"scenario-{seed}"),
         "attempt": 1,
         "config": config,
