@@ -56,7 +56,8 @@ class ContractChecks:
         ):
             _refuse(kind, "contacts that name no robot, or a robot twice")
         if self._before is not None:
-            moved = np.hypot(*(state.pose[:, :2] - self._before.pose[:, :2]).T)
+            shift = state.pose - self._before.pose
+            moved = np.hypot(shift[:, 0], shift[:, 1])
             self._no_robot(kind, "a position that it cannot have reached in one control period", moved > self._reach)
         self._before = state
         return state
@@ -67,11 +68,11 @@ class ContractChecks:
             self._is("the simulator", batch, ScanBatch)
             if batch.robot.ndim != 1 or batch.ranges.ndim != 2 or len(batch.robot) != len(batch.ranges):
                 _refuse("the simulator", f"ranges of shape {batch.ranges.shape} for robots {batch.robot.tolist()}")
-            if ((batch.robot < 0) | (batch.robot >= self._robots)).any():
+            if np.count_nonzero((batch.robot < 0) | (batch.robot >= self._robots)):
                 _refuse("the simulator", "a scan of a robot that does not exist")
-            if not (batch.ranges >= 0).all():
+            if np.count_nonzero(batch.ranges >= 0) < batch.ranges.size:
                 _refuse("the simulator", "ranges that are negative or no numbers")
-        return own(batches)
+        return batches
 
     def estimate(self, estimate: Estimate) -> Estimate:
         """Check the estimate that a localizer returns."""
@@ -116,7 +117,7 @@ class ContractChecks:
     def _finite(self, kind: str, name: str, values: NDArray[Any]) -> None:
         if len(values) != self._robots:
             _refuse(kind, f"{name} of {len(values)} robots instead of {self._robots}")
-        if not np.isfinite(values).all():
+        if np.count_nonzero(np.isfinite(values)) < values.size:  # several times as fast as `all`, here and below
             robot = int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])
             _refuse(kind, f"for robot {robot} the {name} {values[robot].tolist()}, which is not finite")
 
@@ -125,7 +126,7 @@ class ContractChecks:
             _refuse(kind, f"{name} of shape {values.shape} for {self._robots} robots")
 
     def _no_robot(self, kind: str, what: str, bad: NDArray[np.bool_]) -> None:
-        if bad.any():
+        if np.count_nonzero(bad):
             _refuse(kind, f"for robot {int(bad.argmax())}: {what}")
 
 

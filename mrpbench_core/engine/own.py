@@ -6,6 +6,7 @@ changing them on purpose.
 
 import enum
 from collections.abc import Mapping
+from types import MemberDescriptorType
 from typing import Any, Generic, TypeVar
 
 import attrs
@@ -13,13 +14,14 @@ import numpy as np
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.model.common.arrays import equal_arrays
+from mrpbench_core.model.common.arrays import ARRAY, equal_arrays
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
 _PLAIN = (int, float, str)
 _ATOMS = frozenset({bool, int, float, str, type(None)})
 _KNOWN_FIELDS: dict[type, tuple[tuple[str, str], ...]] = {}
+_SLOTS: dict[type, tuple[tuple[Any, ...], ...] | None] = {}
 
 
 def own(value: T) -> T:
@@ -44,7 +46,7 @@ def _own(value: Any, known: dict[int, Any]) -> Any:
         return tuple([_own(item, known) for item in value]) if value else value
     if kind is dict:
         return {key: _own(item, known) for key, item in value.items()}
-    if kind in _KNOWN_FIELDS or attrs.has(kind):
+    if kind in _SLOTS or attrs.has(kind):
         if id(value) not in known:
             known[id(value)] = value, _own_object(value, known)  # the original is kept, so that its id stays its own
         return known[id(value)][1]
@@ -70,10 +72,51 @@ def _own_other(value: Any, known: dict[int, Any]) -> Any:
 
 def _own_object(value: Any, known: dict[int, Any]) -> Any:
     kind = type(value)
+    if kind not in _SLOTS:
+        _SLOTS[kind] = _slots(kind)
+    slots = _SLOTS[kind]
+    if slots is None:
+        return kind(**{alias: _own(getattr(value, name), known) for alias, name in _fields(kind)})
+    copied = kind.__new__(kind)  # `__init__` would take three times as long, in every control period
+    for read, write, dtype, tail, convert in slots:
+        item = read(value)
+        if type(item) is np.ndarray and item.dtype is dtype and (tail is None or item.shape[1:] == tail):
+            item = item.copy()
+            item.setflags(write=False)
+        elif type(item) not in _ATOMS or convert is not None:
+            item = _own(item, known)
+            if convert is not None:
+                item = convert(item)
+        write(copied, item)
+    return copied
+
+
+def _slots(kind: type) -> tuple[tuple[Any, ...], ...] | None:
+    """How each field is read, written, and converted, None if only `__init__` can make an object.
+
+    Raises:
+        BrokenContractError: the class is not one of the model.
+    """
     if not kind.__module__.startswith("mrpbench_core.model."):
         base = next((cls.__name__ for cls in kind.__mro__ if cls.__module__.startswith("mrpbench_core.model.")), "it")
         raise BrokenContractError(f"a component returned the class {kind.__name__} instead of {base} itself")
-    return kind(**{alias: _own(getattr(value, name), known) for alias, name in _fields(kind)})
+    fields = attrs.fields(kind)
+    slots = [getattr(kind, field.name, None) for field in fields]
+    if (
+        hasattr(kind, "__attrs_post_init__")
+        or hasattr(kind, "_attrs_cached_hash")
+        or not all(
+            isinstance(slot, MemberDescriptorType) and field.init and field.validator is None
+            for slot, field in zip(slots, fields, strict=True)
+        )
+    ):
+        return None
+    return tuple(_access(slot, field) for slot, field in zip(slots, fields, strict=True))
+
+
+def _access(slot: Any, field: Any) -> tuple[Any, ...]:
+    dtype, columns = field.metadata.get(ARRAY, (None, None))
+    return slot.__get__, slot.__set__, dtype, columns and (columns,), field.converter
 
 
 def _fields(kind: type) -> tuple[tuple[str, str], ...]:

@@ -11,7 +11,7 @@ import numpy as np
 from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
 from mrpbench_core.builtin.dispatchers.dependency_graph import REACHED, DependencyGraph
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.common.arrays import Int32, frozen_array
+from mrpbench_core.model.common.arrays import Int, Int32, frozen_array
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -59,8 +59,6 @@ class AdgSession(DispatcherSession):
         self.seen = np.zeros((2, len(problem)), np.int64)
         self.released: Int32 = np.zeros(len(problem), np.int32)
         self.plan = plan
-        self.last_view: FleetView | None = None
-        self.orders = Orders(released=self.released)
         self.adopt(problem, plan)
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
@@ -79,21 +77,19 @@ class AdgSession(DispatcherSession):
         graph.update(self.seen, np.arange(len(problem)))
         graph.commit(committed)
         self.plan, self.graph = plan, graph
-        self.last_view = None
+        self.orders: Orders | None = None
         self.released = committed
         self._release()
 
     def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - only the order counts
         """Release the moves that no longer wait for anything, given the progress of the robots."""
-        before, self.last_view = self.last_view, view
-        unchanged = before is not None and view.reached is before.reached and view.cleared is before.cleared
-        if not unchanged or self.graph.requests:
-            self.orders = self._orders(view)
-        return self.orders
-
-    def _orders(self, view: FleetView) -> Orders:
         seen = np.maximum(self.seen, (view.reached, view.cleared))
         changed = (seen != self.seen).any(axis=0).nonzero()[0]
+        if self.orders is None or len(changed) or self.graph.requests:
+            self.orders = self._orders(view, seen, changed)
+        return self.orders
+
+    def _orders(self, view: FleetView, seen: Int, changed: Int) -> Orders:
         if len(changed):
             self.seen = seen
             self.graph.update(seen, changed)

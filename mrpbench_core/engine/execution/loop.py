@@ -152,7 +152,7 @@ class ExecutionLoop:
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
         self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
         self._given_routes = given.routes
-        self._orders = Orders(released=np.zeros(robots, "i4"))
+        self._returned = self._orders = self._given_orders = Orders(released=np.zeros(robots, "i4"))
         self._motion = Motion(
             twist=np.zeros((robots, 2)),
             reached=np.zeros(robots, "i4"),
@@ -170,7 +170,7 @@ class ExecutionLoop:
         while True:
             observation = self._sense()
             self._dispatch(observation)
-            self._drive(observation)
+            self._drive()
             result = self._result()
             self._record(observation, last=result is not None)
             if result is not None:
@@ -184,7 +184,9 @@ class ExecutionLoop:
         odometry = inputs.noise.odometry(state)
         scans = inputs.noise.scans(self._checks.scans(inputs.simulation.scans()))
         truth = state.pose.copy() if inputs.components.needs_truth else None
-        estimate = self._checks.estimate(self._localizer.update(self._now, own(odometry), own(scans), truth))
+        measured, seen = own(odometry), own(scans)
+        estimate = self._checks.estimate(self._localizer.update(self._now, measured, seen, truth))
+        self._given = FleetObservation(estimate=own(estimate), odometry=measured, level=state.level.copy(), scans=seen)
         return FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
 
     def _dispatch(self, observation: FleetObservation) -> None:
@@ -203,13 +205,21 @@ class ExecutionLoop:
         )
         view = self._facility_manager.with_grants(view, self._state)
         if replanner.pending is None:
-            self._orders = self._checks.orders(self._dispatcher.update(now, own(view)))
+            self._ask_dispatcher(view)
             if reason := replanner.reason(now, view, self._orders.replan):
                 replanner.request(now, reason, view, self._orders.released)
         if (revision := replanner.take_due(now)) and self._adopt(revision):
             view = attrs.evolve(view, revision=self._revision)
-            self._orders = self._checks.orders(self._dispatcher.update(now, own(view)))
+            self._ask_dispatcher(view)
         self._facility_manager.assign(self._orders)
+
+    def _ask_dispatcher(self, view: FleetView) -> None:
+        """Get new orders; a dispatcher that has none returns the same object again."""
+        returned = self._dispatcher.update(self._now, own(view))
+        if returned is not self._returned:
+            self._returned = returned
+            self._orders = self._checks.orders(returned)
+            self._given_orders = own(self._orders)
 
     def _adopt(self, new: Revision) -> bool:
         """Put a new plan in force; tell whether there is one and the dispatcher accepts it."""
@@ -234,12 +244,12 @@ class ExecutionLoop:
         self._inputs.recorder.events((Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}"),))
         return False
 
-    def _drive(self, observation: FleetObservation) -> None:
+    def _drive(self) -> None:
         """Command the robots; nothing is released to a robot that has not started yet."""
-        orders, late = self._orders, self._now < self._inputs.noise.start_delay
+        orders, late = self._given_orders, self._now < self._inputs.noise.start_delay
         if late.any():
             orders = attrs.evolve(orders, released=np.where(late, 0, orders.released))
-        self._motion = self._checks.motion(self._navigator.step(self._now, own(observation), own(orders)))
+        self._motion = self._checks.motion(self._navigator.step(self._now, self._given, orders))
         self._causes |= {event.robot: event.detail for event in self._motion.events if event.kind == "aborted"}
 
     def _result(self) -> ExecutionResult | None:
@@ -279,7 +289,7 @@ class ExecutionLoop:
         )
         recorder.sample(self._step, sample, last)
         if self._inputs.stepped is not None:
-            self._inputs.stepped(now=now, state=own(state), observation=own(observation), routes=self._given_routes)
+            self._inputs.stepped(now=now, state=own(state), observation=self._given, routes=self._given_routes)
 
     def _simulate(self) -> None:
         """Let one control period pass."""

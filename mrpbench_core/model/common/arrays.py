@@ -13,6 +13,9 @@ Int16 = NDArray[np.int16]
 Byte = NDArray[np.uint8]
 Bool = NDArray[np.bool_]
 
+ARRAY = "array"
+"""Key of the metadata of a field declared by `array`: its dtype, and its columns or None."""
+
 
 def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None) -> NDArray[Any]:
     """Return a read-only copy of `values` as `dtype`; `columns` shapes an empty list as (0, columns).
@@ -65,6 +68,7 @@ def array(dtype: DTypeLike, columns: int | None = None, **arguments: Any) -> Any
 
     return attrs.field(
         converter=convert,
+        metadata={ARRAY: (wanted, columns)},
         eq=attrs.cmp_using(eq=equal_arrays),
         **arguments,
     )

@@ -128,10 +128,10 @@ void Costmap::update(Pose pose) {
 /// than the inscribed radius.
 double Costmap::clearance(Point p) const {
   double nearest = inscribed_;
-  const Cell at = frame_.cell(p);
-  const int reach = 1 + static_cast<int>(std::ceil(inscribed_ / frame_.resolution));
-  for (int y = std::max(0, at.y - reach); y <= std::min(frame_.height - 1, at.y + reach); ++y) {
-    for (int x = std::max(0, at.x - reach); x <= std::min(frame_.width - 1, at.x + reach); ++x) {
+  const Point reach{inscribed_, inscribed_};
+  const Cell low = frame_.cell(p - reach), high = frame_.cell(p + reach);
+  for (int y = std::max(0, low.y); y <= std::min(frame_.height - 1, high.y); ++y) {
+    for (int x = std::max(0, low.x); x <= std::min(frame_.width - 1, high.x); ++x) {
       const Cell c{x, y};
       const std::size_t i = frame_.index(c);
       if (cost_[i] != kLethal) continue;
