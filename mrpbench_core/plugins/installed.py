@@ -2,6 +2,7 @@
 
 import functools
 import importlib
+import re
 import sys
 from collections.abc import Iterable
 from email.message import Message
@@ -11,13 +12,13 @@ from typing import Any, cast
 import attrs
 from packaging.markers import UndefinedEnvironmentName
 from packaging.requirements import InvalidRequirement, Requirement
-from packaging.utils import canonicalize_name
 
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.plugins.importing import watched
 from mrpbench_core.plugins.kinds import PREFIX, kind_of
 
 CORE = "mrpbench-core"
+_NAMES_CORE = re.compile(r"\s*mrpbench[-_.]+core(?![\w.-]*\w)", re.IGNORECASE).match
 
 
 @attrs.frozen
@@ -94,9 +95,15 @@ def _path() -> tuple[str, ...]:
 @functools.lru_cache(maxsize=4)
 def _scan(_: tuple[str, ...]) -> dict[str, tuple[Provider, ...]]:
     found: dict[str, set[Provider]] = {}
+    owners: dict[int, dict[str, Any]] = {}
     for entry in entry_points():
-        if entry.dist is not None:
-            found.setdefault(entry.group, set()).add(_provider(entry, entry.dist))
+        if (owner := entry.dist) is not None:
+            if id(owner) not in owners:  # a distribution may offer many plugins
+                owners[id(owner)] = _facts(owner)
+            provider = Provider(
+                name=entry.name, kind=kind_of(entry.group), group=entry.group, value=entry.value, **owners[id(owner)]
+            )
+            found.setdefault(entry.group, set()).add(provider)
 
     def order(provider: Provider) -> tuple[str, str, str]:
         return provider.name, provider.distribution, provider.value
@@ -104,28 +111,27 @@ def _scan(_: tuple[str, ...]) -> dict[str, tuple[Provider, ...]]:
     return {group: tuple(sorted(offers, key=order)) for group, offers in found.items()}
 
 
-def _provider(entry: metadata.EntryPoint, owner: metadata.Distribution) -> Provider:
+def _facts(owner: metadata.Distribution) -> dict[str, Any]:
+    """What the plugins of one distribution have in common, as fields of `Provider`."""
     facts = cast("Message", owner.metadata)  # the declared type is a protocol
-    return Provider(
-        name=entry.name,
-        kind=kind_of(entry.group),
-        group=entry.group,
-        distribution=facts.get("Name") or "unknown",
-        version=facts.get("Version") or "unknown",
-        value=entry.value,
-        problem=incompatibility(owner.requires or ()),
-    )
+    return {
+        "distribution": facts.get("Name") or "unknown",
+        "version": facts.get("Version") or "unknown",
+        "problem": incompatibility(owner.requires or ()),
+    }
 
 
 def incompatibility(requires: Iterable[str]) -> str | None:
     """Return why a distribution with these requirements does not work with this core, or None."""
     for text in requires:
+        if not _NAMES_CORE(text):  # to parse all requirements of all distributions takes longer than the rest
+            continue
         try:
             requirement = Requirement(text)
             applies = requirement.marker is None or requirement.marker.evaluate({"extra": ""})
         except (InvalidRequirement, UndefinedEnvironmentName):
             continue  # concerns another package, or pip would have refused it
-        if applies and canonicalize_name(requirement.name) == CORE:
+        if applies:
             version = metadata.version(CORE)
             if not requirement.specifier.contains(version, prereleases=True):
                 return f"needs {CORE}{requirement.specifier}, this is {version}"

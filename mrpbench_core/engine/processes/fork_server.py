@@ -6,6 +6,7 @@ Each run starts from the same state: what the plugins did when they were importe
 import functools
 import gc
 import importlib
+import itertools
 import os
 import signal
 import socket
@@ -109,7 +110,7 @@ def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], 
             connection.close()
             os.close(imported)
             os.set_inheritable(writer, False)
-            execute(socket.socket(fileno=descriptors[0]), hooks, functools.partial(_tell, writer, set(sys.modules)))
+            execute(socket.socket(fileno=descriptors[0]), hooks, functools.partial(_tell, writer, len(sys.modules)))
             os._exit(0)
         os.close(descriptors[0])
         os.close(writer)
@@ -120,10 +121,12 @@ def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], 
         os.close(imported)
 
 
-def _tell(descriptor: int, before: set[str]) -> None:
-    """Write the names of the modules that this process has imported since."""
+def _tell(descriptor: int, before: int) -> None:
+    """Write the names of the modules that this process has imported since there were `before`."""
+    if len(sys.modules) == before:  # the usual case: to read the names would copy the pages on which they are
+        return
     with suppress(OSError):  # a plugin closed it
-        os.write(descriptor, " ".join(sorted(set(sys.modules) - before)).encode()[:_NAMES])
+        os.write(descriptor, " ".join(itertools.islice(sys.modules, before, None)).encode()[:_NAMES])
 
 
 def _import(descriptor: int) -> None:

@@ -7,6 +7,7 @@ import os
 import sys
 from pathlib import Path
 
+_LIBC = ctypes.CDLL(None)
 LARGEST = 16 * 2**20
 """Bytes of a log that are kept."""
 
@@ -28,7 +29,7 @@ def flush() -> None:
     for stream in (sys.stdout, sys.stderr):
         with contextlib.suppress(ValueError, OSError):  # a plugin closed it
             stream.flush()
-    ctypes.CDLL(None).fflush(None)
+    _LIBC.fflush(None)
 
 
 def cut(log: Path) -> None:

@@ -47,9 +47,14 @@ def descendants(pid: int, spared: Collection[int] = ()) -> Iterator[int]:
 def resident_bytes(pid: int) -> int:
     """Resident memory of a process, 0 if it has ended."""
     try:
-        return int(Path(f"/proc/{pid}/statm").read_text().split()[1]) * _PAGE
+        return int(_read(f"/proc/{pid}/statm").split()[1]) * _PAGE
     except OSError:
         return 0
+
+
+def address_space() -> int:
+    """Bytes of address space of this process."""
+    return int(_read("/proc/self/statm").split()[0]) * _PAGE
 
 
 def kill_descendants(spared: Collection[int] = ()) -> bool:
@@ -84,10 +89,19 @@ def _children(pid: int) -> list[int]:
         if not _LISTED:
             return [child.pid for child in psutil.Process(pid).children()]
         for thread in os.listdir(f"/proc/{pid}/task"):  # noqa: PTH208 - called for every run
-            found += map(int, Path(f"/proc/{pid}/task/{thread}/children").read_text().split())
+            found += map(int, _read(f"/proc/{pid}/task/{thread}/children").split())
     except (OSError, psutil.Error):  # it has just ended
         pass
     return found
+
+
+def _read(file: str) -> bytes:
+    """The content of a file of `/proc`, many times for each run: `Path` takes twice as long."""
+    descriptor = os.open(file, os.O_RDONLY | os.O_CLOEXEC)
+    try:
+        return os.read(descriptor, 1 << 16)
+    finally:
+        os.close(descriptor)
 
 
 def _prctl(option: int, value: int) -> None:

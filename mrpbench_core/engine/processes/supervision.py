@@ -25,6 +25,8 @@ Message = dict[str, Any]
 
 SAMPLING_S = 0.05
 """Seconds between two measurements of memory and log, which messages do not delay."""
+ENDING_S = 0.05
+"""Seconds that a process may take to end after its answer, before it is killed."""
 CLOSING_S = 1.0
 """Seconds from the end of a connection to the end of its process."""
 OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
@@ -51,7 +53,7 @@ class Supervision:
         self._oom_before = oom_kills()
         self._connection, theirs = socket.socketpair()
         self._closing: float | None = None
-        self._forked = False
+        self._forked = self._progressed = False
         key = new_key()
         self._channel = Channel(self._connection, key)
         self._poll = select.poll()
@@ -86,6 +88,8 @@ class Supervision:
             if not self._forked:  # the server imports plugins without end, or has ended
                 self._server.kill()
                 serves = False
+            if answer is not None and status is None and serves:
+                status, serves = self._heed(ENDING_S)  # most processes end by themselves
             kill_descendants(self._servers)
             while status is None and serves:
                 status, serves = self._heed()
@@ -118,9 +122,12 @@ class Supervision:
         """Take one message; return the answer that it is."""
         if "progress" in message:
             self._invoker.send(message)
+            self._progressed = True
         elif "stage" in message:
             self._monitor.enter(Stage(message["stage"]), message.get("limit_s"), message.get("scenario_id"))
-            self._invoker.send({"progress": None})
+            if self._progressed:
+                self._invoker.send({"progress": None})
+            self._progressed = False
         elif "importing" in message:
             self._monitor.importing(message["importing"])
         elif "status" in message:
@@ -131,13 +138,14 @@ class Supervision:
             return message
         return None
 
-    def _heed(self) -> tuple[int | None, bool]:
+    def _heed(self, timeout_s: float | None = None) -> tuple[int | None, bool]:
         """Wait for a message of the fork server: the wait status of the process if it ended, and whether it serves."""
         try:
-            message = self._server.receive()
+            message = self._server.receive(timeout_s)
         except ClosedError:
             return None, False
-        assert message is not None
+        if message is None:
+            return None, True
         if "importing" in message:
             self._monitor.importing(message["importing"])
         self._forked = self._forked or "importing" not in message

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import psutil
 
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import unpack
@@ -23,6 +22,7 @@ from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.processes.channel import KEY_BYTES, Channel
 from mrpbench_core.engine.processes.output import flush, redirect
+from mrpbench_core.engine.processes.process_tree import address_space
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.files.printing import printable
@@ -112,6 +112,6 @@ def _backstop(memory_bytes: int) -> None:
 
     Far above the limit: address space is much more than memory where threads and mapped files are.
     """
-    limit = psutil.Process().memory_info().vms + 4 * memory_bytes + 8 * 2**30
+    limit = address_space() + 4 * memory_bytes + 8 * 2**30
     hard = resource.getrlimit(resource.RLIMIT_AS)[1]
     resource.setrlimit(resource.RLIMIT_AS, (limit if hard == resource.RLIM_INFINITY else min(limit, hard), hard))
