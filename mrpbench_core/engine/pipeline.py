@@ -7,6 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.execution.loop import granted_localizer
 from mrpbench_core.engine.execution.replanning import replanning_fault
 from mrpbench_core.engine.execution.routes import Router, speed_limits
 from mrpbench_core.engine.observers import Observers
@@ -14,6 +15,7 @@ from mrpbench_core.engine.own import own
 from mrpbench_core.engine.record import RunError, RunRecord
 from mrpbench_core.engine.stage import Announce, RunEnded, RunInputs
 from mrpbench_core.engine.stages.assign import assign, tasks_of_plan
+from mrpbench_core.engine.stages.claims import claims_of
 from mrpbench_core.engine.stages.execute import execute_plan
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.measure import measure, measure_recording
@@ -65,12 +67,13 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
     if assigned is not None and config.scenario.gives_goals:
         record.reassigned = sum(task != robot for robot, task in enumerate(assigned))
     problem = build_problem(instance, assigned, config.assigner)
-    result, failure = _plan(inputs, problem)
+    result, failure = _plan(inputs, problem, record)
     if assigned is None:
         assigned = (-1,) * len(problem) if result.plan is None else tasks_of_plan(instance, problem, result.plan)
     router = _router(config, instance, assigned, problem)
     context = _context(inputs, record.run_id, instance, router, result, assigned)
     if failure is None and config.simulator is not None:
+        record.true_poses = granted_localizer(config)
         failure, record.unexported = execute_plan(inputs, context, router)
         inputs.announce(Stage.METRICS, {})
         record.executed = True
@@ -85,21 +88,22 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
         raise failure
 
 
-def _plan(inputs: RunInputs, problem: Problem) -> tuple[PlanResult, RunEnded | None]:
+def _plan(inputs: RunInputs, problem: Problem, record: RunRecord) -> tuple[PlanResult, RunEnded | None]:
     """Plan and judge; the second value says how the run ended if there is no plan to execute.
 
     Raises:
         RunEnded: the planner does not support the problem.
     """
     config = inputs.config
-    if reason := config.planner.skip(problem) or replanning_fault(config):
+    if reason := replanning_fault(config):
         raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, reason)
-    inputs.announce(Stage.PLANNING, {"limit_s": config.limits.planning})
+    inputs.announce(Stage.PLANNING, {"limit_s": config.limits.planning, "scenario_id": record.scenario_id})
     promises = Promises.of(config.planner)
     result, timing = call_planner(config.planner, problem, budget_of(config))
     inputs.timing.update(timing)
     inputs.announce(Stage.CHECKING, {})  # which is no part of the planner's time
     result, fault = judge(promises, problem, result)
+    record.plan = {} if fault else claims_of(promises, problem, result)
     inputs.observers.planned(problem=own(problem), result=own(result))
     if fault is not None:
         return attrs.evolve(result, plan=None), RunEnded(RunStatus.PLAN_INVALID, Stage.PLANNING, fault)

@@ -34,6 +34,10 @@ class RunRecord:
     """The reason why an export failed, by the name of the exporter."""
     reassigned: int = 0
     """The number of robots whose goal is not the one that the scenario gives them."""
+    plan: dict[str, Any] = attrs.field(factory=dict)
+    """What the planner claims of its problem, which reports compare across runs; see `engine.stages.claims`."""
+    true_poses: str | None = None
+    """The localizer that `grant_truth` gave the true poses."""
     timing: dict[str, Any] = attrs.field(factory=dict)
     """Wall and CPU seconds, bytes, and what depends on them."""
 
@@ -85,6 +89,9 @@ class StoredRecord:
             "unmeasured": run.unmeasured,
             "unexported": run.unexported,
             "error": error,
+            "plan": run.plan,
+            "reassigned": run.reassigned,
+            "true_poses": run.true_poses,
             "analysis": self.analysis,
         }
         always = {"unmeasured"} if self.analysis else set()

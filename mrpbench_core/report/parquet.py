@@ -6,7 +6,8 @@ from typing import Any
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import line
-from mrpbench_core.report.reading.runs import each_once
+from mrpbench_core.model.runs.status import RunStatus, Stage
+from mrpbench_core.report.reading.runs import each_once, read_runs
 from mrpbench_core.store.results import Results, flatten
 
 _AT_ONCE = 2000
@@ -24,9 +25,10 @@ def write_parquet(folders: Sequence[Results], file: Path) -> None:
         import pyarrow.parquet as pq
     except ImportError:
         raise InputError("--parquet needs pyarrow", hint="pip install 'mrpbench-core[parquet]'") from None
+    refuted = _refuted(folders)
     kinds: dict[str, set[type]] = {}
     for _, record in each_once(folders):
-        for key, value in _row(record).items():
+        for key, value in _row(record | refuted.get(record["run_id"], {})).items():
             kinds.setdefault(key, set()).add(type(value))
     schema = pa.schema([(key, _arrow(pa, found - {type(None)})) for key, found in kinds.items()])
     text = {field.name for field in schema if field.type == pa.string()}
@@ -34,7 +36,7 @@ def write_parquet(folders: Sequence[Results], file: Path) -> None:
         with pq.ParquetWriter(file, schema, compression="zstd") as writer:
             rows: list[dict[str, Any]] = []
             for _, record in each_once(folders):
-                row = _row(record)
+                row = _row(record | refuted.get(record["run_id"], {}))
                 rows.append({key: _text(value) if key in text else value for key, value in row.items()})
                 if len(rows) == _AT_ONCE:
                     writer.write_table(pa.Table.from_pylist(rows, schema))
@@ -42,6 +44,16 @@ def write_parquet(folders: Sequence[Results], file: Path) -> None:
             writer.write_table(pa.Table.from_pylist(rows, schema))
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror or error}", file=file) from error
+
+
+def _refuted(folders: Sequence[Results]) -> dict[str, dict[str, Any]]:
+    """Return status and error of each run whose promise other runs refute."""
+    runs = read_runs(folders, ())
+    return {
+        run_id: {"status": str(status), "error": {"stage": str(Stage.CHECKING), "message": message}}
+        for run_id, status, message in zip(runs.run_id, runs.status, runs.message, strict=True)
+        if status == RunStatus.PROMISE_BROKEN
+    }
 
 
 def _row(record: dict[str, Any]) -> dict[str, Any]:

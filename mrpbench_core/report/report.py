@@ -14,7 +14,14 @@ from mrpbench_core.report.estimation.groups import Setting, find_settings, group
 from mrpbench_core.report.reading.columns import Columns, direction, primary_columns
 from mrpbench_core.report.reading.folders import read_folders
 from mrpbench_core.report.reading.runs import Runs
-from mrpbench_core.report.tables.build import RATES, common_table, means_table, outcome_table, pairs_table
+from mrpbench_core.report.tables.build import (
+    RATES,
+    common_table,
+    means_table,
+    outcome_table,
+    pairs_table,
+    promises_table,
+)
 from mrpbench_core.report.tables.table import Table
 from mrpbench_core.store.results import Results
 
@@ -40,6 +47,7 @@ class Report:
         common = common_table(self.settings, self.numbers, self.columns, self.runs)
         found = (
             outcome_table(self.runs, self.settings, self.numbers),
+            promises_table(self.runs),
             means,
             common,
             pairs_table(self.comparisons, brief=brief),

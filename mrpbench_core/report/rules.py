@@ -1,6 +1,6 @@
 """The rules behind the numbers, for readers of tables: printed wherever the numbers are."""
 
-from mrpbench_core.model.runs.status import LEFT_OUT
+from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.comparison import SIGNIFICANT
 from mrpbench_core.report.reading.outcome import PENALTY
 from mrpbench_core.report.reading.runs import PAR2
@@ -12,6 +12,10 @@ _TEXT = f"""
 What counts: All runs count, except those with the status {" or ".join(sorted(LEFT_OUT))}. These say nothing about the
 method; tables list them, and no denominator includes them. Crashes, timeouts and all other failures count as failures.
 
+Promises: A valid plan without conflicts of one run refutes what the planner of another run of the same problem claims:
+a cost that is optimal or bounded, a lower bound, a proof that no plan exists. Such a run has the status
+{RunStatus.PROMISE_BROKEN} here, counts as a failure without a plan, and none of its other values counts.
+
 Samples: The scenario (the same starts and goals) is the sample. Its runs (repeats) are averaged first, so that a
 repetition does not count as further evidence. If all runs have one scenario, the run is the sample, and the intervals
 are valid for that scenario only.
@@ -22,7 +26,8 @@ Means: Bootstrap intervals (BCa, {100 * LEVEL:.0f} %, {RESAMPLES} resamples, see
 samples). There is no interval below {LEAST} samples.
 
 Censoring: A run without a plan has no planning time. timing.planning_s is over runs with a plan; {PAR2} counts each
-run without a plan, for any reason, as {PENALTY:g} times the planning limit (PAR2). A column of a metric is over the
+run without a plan, or whose planning time is lost because the run crashed or exceeded a limit, as {PENALTY:g} times the
+planning limit (PAR2). A column of a metric is over the
 runs that have a value; durations, for example, exist only for runs in which all robots arrived. The other runs are
 failures in the success rate.
 

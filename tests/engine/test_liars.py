@@ -255,7 +255,9 @@ def test_inputs_that_a_component_changes_in_every_period_change_nothing_that_is_
 def test_true_poses_are_given_only_where_the_configuration_grants_them(record):
     with pytest.raises(Exception, match=r"localizer: LyingLocalizer needs the true poses .*grant_truth: true"):
         record(localizer=liar("Localizer"))
-    assert record(localizer=liar("Localizer"), grant_truth=True)["status"] == "succeeded"
+    granted = record(localizer=liar("Localizer"), grant_truth=True)
+    assert granted["status"] == "succeeded"
+    assert granted["true_poses"].endswith(":LyingLocalizer")
 
 
 def test_a_metric_that_changes_the_run_has_no_value_and_changes_no_other_metric(record):

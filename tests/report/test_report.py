@@ -134,6 +134,17 @@ def test_a_reviewer_recomputes_the_numbers_from_the_lines(results, record, tmp_p
     assert cost.found.p == pytest.approx(p)
 
 
+def test_localizers_that_were_given_true_poses_are_marked_in_every_table(results, record):
+    def run(localizer, seed, **more):
+        config = {"localizer": {"plugin": localizer}, "grant_truth": True}
+        return record(seed=seed, config=config, tag=localizer, cost=1.0, **more)
+
+    records = [run("amcl", seed) for seed in range(2)] + [run("seer", seed, true_poses="seer") for seed in range(2)]
+    outcome, means, *_ = make_report([results(records)], ["planning.cost"]).tables()
+    assert [row[0] for row in outcome.rows] == [row[0] for row in means.rows] == ["amcl", "seer (true poses)"]
+    assert outcome.note.endswith("True poses were given (grant_truth) to the localizer seer in 2 of 4 runs.")
+
+
 def test_the_heading_says_where_an_assigner_changed_given_goals(results, record):
     kept = make_report([results([record(seed=seed) for seed in range(3)], "kept")]).tables()[0]
     assert kept.title == "How the runs ended"

@@ -28,8 +28,10 @@ from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.plugins.provenance import origin
 
 ABORTED = int(Mode.ABORTED)
+GROUND_TRUTH = "mrpbench_core.builtin.localizers.ground_truth"
 
 
 @attrs.frozen(kw_only=True)
@@ -54,7 +56,7 @@ class LoopComponents:
             if chosen[field.name] is None:
                 raise InputError(f"{field.name}: cannot be 'none' when there is a simulator")
         found = cls(**chosen)
-        if found.needs_truth and not config.grant_truth and not _is_ground_truth(found.localizer):
+        if granted_localizer(config) is not None and not config.grant_truth:
             raise InputError(
                 f"localizer: {type(found.localizer).__name__} needs the true poses",
                 hint="`grant_truth: true` grants them",
@@ -67,9 +69,15 @@ class LoopComponents:
         return bool(self.localizer.needs_truth)
 
 
-def _is_ground_truth(localizer: Localizer) -> bool:
-    """Tell whether a localizer is the one of the core, which says by its name what it is given."""
-    return type(localizer).__module__ == "mrpbench_core.builtin.localizers.ground_truth"
+def granted_localizer(config: RunConfig) -> str | None:
+    """Return the name of the localizer that needs `grant_truth`, or None.
+
+    The localizer `ground_truth` of the core does not need it, because its name says what it is given.
+    """
+    localizer = config.localizer
+    if localizer is None or not localizer.needs_truth or type(localizer).__module__ == GROUND_TRUTH:
+        return None
+    return str(origin(type(localizer))["name"])
 
 
 @attrs.frozen(kw_only=True)

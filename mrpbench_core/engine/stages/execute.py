@@ -79,10 +79,12 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
     promises = Promises.of(config.planner)
 
     def ask(problem: Problem) -> tuple[PlanResult, str | None]:
-        if reason := config.planner.skip(problem):
-            return PlanResult(status=PlanStatus.GAVE_UP), f"the planner {reason}"
         inputs.announce(Stage.REPLANNING, {"limit_s": config.limits.planning})
-        result, spent = call_planner(config.planner, problem, budget_of(config))
+        try:
+            result, spent = call_planner(config.planner, problem, budget_of(config))
+        except RunEnded as skipped:
+            inputs.announce(Stage.EXECUTION, {})
+            return PlanResult(status=PlanStatus.GAVE_UP), f"the planner {skipped}"
         inputs.announce(Stage.EXECUTION, {})
         timing["replanning_s"] = timing.get("replanning_s", 0.0) + spent["planning_s"]
         timing["clock_bound"] = timing.get("clock_bound", False) or spent["clock_bound"]

@@ -13,10 +13,11 @@ from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.own import Handed, own
 from mrpbench_core.engine.seeds import seed_of
+from mrpbench_core.engine.stage import RunEnded
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.model.runs.status import RunStatus
+from mrpbench_core.model.runs.status import RunStatus, Stage
 
 STATUS = {
     PlanStatus.TIMEOUT: RunStatus.PLAN_TIMEOUT,
@@ -34,16 +35,21 @@ LATE_S = 0.1
 def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[PlanResult, dict[str, Any]]:
     """The result of the planner, valid or not, and the timing of the call alone.
 
-    CPU time counts programs that the planner ran to their end; peak memory is that of this process alone. A plan that
-    comes more than `LATE_S` after the limit is dropped: the planner timed out.
+    The time of `Planner.skip` counts, because a planner could plan there. CPU time counts programs that the planner ran
+    to their end; peak memory is that of this process alone. A plan that comes more than `LATE_S` after the limit is
+    dropped: the planner timed out.
 
     Raises:
         BrokenContractError: the planner changed the problem.
+        RunEnded: the planner skips the problem.
     """
     handed = Handed(problem, "the problem")
     _reset_peak()
     before = _resident()
     began, cpu = perf_counter(), _cpu_s()
+    if reason := planner.skip(handed.given):
+        handed.check(planner)
+        raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, str(reason))
     try:
         result = planner.plan(handed.given, budget)
     except InputError as error:  # no mistake of the user's any more: the problem was sound

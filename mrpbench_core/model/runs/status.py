@@ -21,6 +21,9 @@ class RunStatus(StrEnum):
     """An incomplete planner found no plan, which proves nothing."""
     PLAN_INVALID = "plan_invalid"
     """The plan breaks a promise of its planner."""
+    PROMISE_BROKEN = "promise_broken"
+    """Other runs of the same problem show that the planner's plan, bound or proof is not what it promises. Reports find
+    this; records keep the status with which the run ended."""
     ASSIGNMENT_FAILED = "assignment_failed"
     """No assignment exists, or the assigner returned a wrong one."""
     SCENARIO_INFEASIBLE = "scenario_infeasible"

@@ -11,9 +11,8 @@ import numpy as np
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.reading.columns import heading
 from mrpbench_core.report.report import Report
+from mrpbench_core.report.tables.build import SHORT
 
-SHORT = 12
-"""Characters of a run id; enough to name one."""
 FIGURES = 6
 
 

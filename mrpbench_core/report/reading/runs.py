@@ -12,6 +12,7 @@ from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.reading.axes import NO_AXES, Axes, find_axes
 from mrpbench_core.report.reading.outcome import PENALTY, has_plan
+from mrpbench_core.report.reading.promises import Claims
 from mrpbench_core.store.results import Results
 
 PAR2 = "timing.planning_par2_s"
@@ -46,6 +47,8 @@ class Runs:
     runs with a plan only."""
     flags: frozenset[str]
     """Names of the columns that are yes or no."""
+    true_poses: dict[str, int]
+    """The number of runs in which each localizer was given the true poses by `grant_truth`."""
 
     def __len__(self) -> int:
         return len(self.run_id)
@@ -107,6 +110,8 @@ class _Reader:
             name: array("q") for name in ("folder", "seed", "repeat", "scenario", "config", "reassigned")
         }
         self._planned = array("d")
+        self._claims = Claims()
+        self._true_poses: dict[str, int] = {}
         self._limits = array("d")
         self._scenarios: dict[str, int] = {}
         self._configs: dict[str, int] = {}
@@ -116,16 +121,19 @@ class _Reader:
         """Columns with a value that is not yes or no."""
 
     def add(self, folder: int, record: dict[str, Any]) -> None:
-        scenario = record.get("scenario_id")
+        scenario, true_poses = record.get("scenario_id"), record.get("true_poses")
         self._limits.append(float((record["config"].get("limits") or {}).get("planning", np.nan)))
         facts = {
             "folder": folder,
             "seed": int(record.get("seed") or 0),
             "repeat": int(record.get("repeat") or 0),
             "scenario": -1 if scenario is None else self._scenarios.setdefault(scenario, len(self._scenarios)),
-            "config": self._number(record["config"]),
+            "config": self._number(record["config"], true_poses),
             "reassigned": int(record.get("reassigned") or 0),
         }
+        self._claims.add(record)
+        if true_poses is not None:
+            self._true_poses[true_poses] = self._true_poses.get(true_poses, 0) + 1
         planned = has_plan(record)
         self._planned.append(np.nan if planned is None else planned)
         for name, value in facts.items():
@@ -143,9 +151,14 @@ class _Reader:
             if len(column) < len(self._run_id):
                 column.append(np.nan)
 
-    def _number(self, config: dict[str, Any]) -> int:
-        """Return the number of the configuration, regardless of seed and repeat."""
+    def _number(self, config: dict[str, Any], true_poses: str | None) -> int:
+        """Return the number of the configuration, regardless of seed and repeat.
+
+        The localizer that was given the true poses is marked, in every table that names it.
+        """
         own = {key: value for key, value in config.items() if key not in NO_AXES}
+        if true_poses is not None:
+            own["localizer"] = (own.get("localizer") or {}) | {"plugin": f"{true_poses} (true poses)"}
         if "limits" in own:
             own["limits"] = {key: value for key, value in own["limits"].items() if key != "wall"}
         number = self._configs.setdefault(line(own), len(self._configs))
@@ -162,11 +175,17 @@ class _Reader:
         integers = {name: np.array(column, np.int64) for name, column in self._integers.items()}
         planned = np.array(self._planned, float)
         values = {key: np.array(column, float) for key, column in self._values.items()}
+        broken = self._claims.broken(self._run_id)
+        for index, message in broken.items():
+            self._status[index], self._message[index], planned[index] = RunStatus.PROMISE_BROKEN, message, 0
+        for column in values.values():
+            column[list(broken)] = np.nan
         for key, column in values.items():
             if key.startswith(_PLANNING):
                 column[planned != 1] = np.nan
         if "timing.planning_s" in values:
-            penalised = np.where(planned == 1, values["timing.planning_s"], PENALTY * np.array(self._limits, float))
+            measured = (planned == 1) & np.isfinite(values["timing.planning_s"])
+            penalised = np.where(measured, values["timing.planning_s"], PENALTY * np.array(self._limits, float))
             if self._wanted is None or PAR2 in self._wanted:
                 values = _after(values, "timing.planning_s", {PAR2: penalised})
             if self._wanted is not None and "timing.planning_s" not in self._wanted:
@@ -182,6 +201,7 @@ class _Reader:
             counted=np.array([status not in LEFT_OUT for status in self._status], bool),
             configs=self._examples,
             values=outcome | values,
+            true_poses=self._true_poses,
             flags=frozenset(outcome) | (frozenset(values) - self._numbers - {PAR2}),
             **integers,
         )

@@ -17,6 +17,10 @@ from mrpbench_core.report.tables.spans import spans
 from mrpbench_core.report.tables.table import Cell, Shown, Table, p_value
 
 RATES = ("succeeded", "planned")
+MOST_BROKEN = 20
+"""Runs that the table of broken promises names."""
+SHORT = 12
+"""Characters of a run id; enough to name one."""
 
 
 def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]]) -> Table:
@@ -52,7 +56,7 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
         note=(
             "Rates: Wilson intervals, 95 %. Infeasible, skipped and unknown runs do not count in the denominator;"
             " the last column lists them. "
-            f"Seeds: {spans(runs.seed)}; repeats: {spans(runs.repeat)}."
+            f"Seeds: {spans(runs.seed)}; repeats: {spans(runs.repeat)}.{_true_poses(runs)}"
         ),
     )
 
@@ -61,6 +65,40 @@ def _reassigned(runs: Runs) -> str:
     """Return the part of a title that says in how many runs an assigner changed the goals of the scenario."""
     count = np.count_nonzero(runs.reassigned)
     return f" (the assigner changed the scenario's goals in {count} of {len(runs)} runs)" if count else ""
+
+
+def _true_poses(runs: Runs) -> str:
+    """Return a sentence that names the localizers that were given the true poses."""
+    given = ", ".join(f"{name} in {count} of {len(runs)} runs" for name, count in sorted(runs.true_poses.items()))
+    return f" True poses were given (grant_truth) to the localizer {given}." if given else ""
+
+
+def promises_table(runs: Runs) -> Table | None:
+    """Build the table of the runs whose planners break promises as other runs show; None if there is none."""
+    broken = [index for index, status in enumerate(runs.status) if status == RunStatus.PROMISE_BROKEN]
+    if not broken:
+        return None
+    more = f" {len(broken) - MOST_BROKEN} more are in the list of runs." if len(broken) > MOST_BROKEN else ""
+    return Table(
+        key="promises",
+        title="Promises that other runs of the same problem refute",
+        headings=("run", "planner", "seed", "repeat", "the planner"),
+        rows=tuple(
+            (
+                runs.run_id[index][:SHORT],
+                word(runs.configs[runs.config[index]].get("planner")),
+                int(runs.seed[index]),
+                int(runs.repeat[index]),
+                runs.message[index],
+            )
+            for index in broken[:MOST_BROKEN]
+        ),
+        keys=5,
+        note=(
+            f"{len(broken)} runs have the status promise_broken: they count as failures, and none of their other values"
+            f" counts. Costs are in ticks.{more}"
+        ),
+    )
 
 
 def means_table(

@@ -2,12 +2,14 @@
 
 import subprocess
 import sys
+import time
 from typing import ClassVar
 
 import attrs
 import pytest
 
 from mrpbench_core.api import Planner, Promise
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
@@ -132,6 +134,29 @@ def test_timing_is_that_of_the_call(run_context):
     _, timing = call_planner(Careful(result=run_context.result), run_context.problem, BUDGET)
     assert timing["planning_s"] < 1
     assert timing["planning_peak_bytes"] >= 0
+
+
+def test_time_that_a_planner_spends_before_it_plans_counts(run_context):
+    @attrs.frozen(kw_only=True)
+    class Early(Fixed):
+        def skip(self, problem):
+            time.sleep(BUDGET.wall_s + 0.2)
+
+    result, timing = call_planner(Early(result=run_context.result), run_context.problem, BUDGET)
+    assert timing["planning_s"] > BUDGET.wall_s
+    assert (result.status, result.plan) == (PlanStatus.TIMEOUT, None)
+
+
+@pytest.mark.parametrize("answer", [None, "does not like it"])
+def test_a_planner_that_changes_the_problem_before_it_plans_breaks_its_contract(run_context, answer):
+    @attrs.frozen(kw_only=True)
+    class Early(Fixed):
+        def skip(self, problem):
+            object.__setattr__(problem, "goals", ())
+            return answer
+
+    with pytest.raises(BrokenContractError, match=r"changed the problem\.goals"):
+        call_planner(Early(result=run_context.result), run_context.problem, BUDGET)
 
 
 def test_cpu_time_counts_the_programs_that_a_planner_runs(run_context):

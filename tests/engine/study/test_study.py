@@ -118,7 +118,7 @@ def test_hooks_watch_the_invoking_process_and_cannot_write_into_records(study, m
 def test_records_survive_a_round_trip_through_json_and_are_complete(study):
     (record,) = run(study, out="out")
     assert json.loads(json.dumps(record, allow_nan=False)) == record
-    keys = "run_id scenario_id attempt config seed repeat status metrics timing provenance error"
+    keys = "run_id scenario_id attempt config seed repeat status metrics timing provenance error plan"
     assert list(record) == keys.split()
     assert set(record["provenance"]) == {"components", "versions", "machine", "live"}
 

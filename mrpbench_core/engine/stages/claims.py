@@ -1,0 +1,70 @@
+"""What a planner claims of a problem, for the record: reports compare the claims of all runs that had this problem."""
+
+import hashlib
+import math
+from enum import Enum
+from typing import Any
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.planner import Promise
+from mrpbench_core.engine.stages.judge import Promises
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Feature, Problem
+
+UNCHECKED = frozenset({Feature.HEADINGS})
+"""Features that `check_plan` does not check: a plan for such a problem refutes no claim."""
+
+
+def claims_of(promises: Promises, problem: Problem, result: PlanResult) -> dict[str, Any]:
+    """Return the entry `plan` of the record; see `docs/results-folder.md`.
+
+    Args:
+        promises: of the planner.
+        problem: the first problem of the run.
+        result: the answer, which breaks no promise within this run.
+    """
+    if problem.features & UNCHECKED:
+        return {}
+    setting = fingerprint(attrs.evolve(problem, goals=(), features=problem.features & {Feature.FOOTPRINTS}))
+    sound = result.plan is not None and not result.statistics.get("conflicts")
+    bounds = bool({Promise.OPTIMAL, Promise.BOUNDED} & promises.kept) and not result.clock_bound
+    return {
+        "setting": setting,
+        "problem": fingerprint((setting, problem.goals)),
+        "assigns": promises.assigns,
+        "cost": result.plan.sum_of_costs if sound and result.plan is not None else None,
+        "lower_bound": float(result.lower_bound) if math.isfinite(result.lower_bound) else None,
+        "factor": promises.factor if bounds and result.plan is not None else None,
+        "unsolvable": result.status == PlanStatus.UNSOLVABLE,
+    }
+
+
+def fingerprint(value: Any) -> str:
+    """Return 32 hexadecimal digits that are the same for equal values of the model (BLAKE2b, RFC 7693)."""
+    return _digest(value, {}).hex()
+
+
+def _digest(value: Any, known: dict[int, bytes]) -> bytes:
+    """The digest of a value; `known` holds those of containers by `id`, because robots share large goal sets."""
+    if id(value) in known:
+        return known[id(value)]
+    found = hashlib.blake2b(type(value).__name__.encode(), digest_size=16)
+    if isinstance(value, np.ndarray):
+        found.update(f"{value.dtype} {value.shape}".encode() + np.ascontiguousarray(value).tobytes())
+        return found.digest()
+    if isinstance(value, tuple) and value and all(type(item) is int for item in value):
+        found.update(np.array(value, np.int64).tobytes())
+    elif isinstance(value, tuple):
+        found.update(b"".join([_digest(item, known) for item in value]))
+    elif attrs.has(type(value)):
+        names = [field.name for field in attrs.fields(type(value)) if field.name != "notes"]
+        found.update(b"".join([_digest(getattr(value, name), known) for name in names]))
+    elif isinstance(value, frozenset):
+        found.update(repr(sorted(map(str, value))).encode())
+    else:
+        found.update((str(value) if isinstance(value, Enum) else repr(value)).encode())
+        return found.digest()
+    known[id(value)] = found.digest()
+    return known[id(value)]
