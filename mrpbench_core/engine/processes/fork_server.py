@@ -12,7 +12,7 @@ import signal
 import socket
 import sys
 import traceback
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any, NoReturn, Self
 
@@ -36,12 +36,16 @@ class ForkServer:
 
     def __init__(self, pid: int, connection: socket.socket, key: bytes) -> None:
         self.pid = pid
-        self._connection = connection
+        self.connection = connection
         self._channel = Channel(connection, key)
 
     @classmethod
-    def start(cls, job: Mapping[str, Any], execute: Execute, inherited: tuple[socket.socket, ...]) -> Self:
-        """Start a server for jobs with the plugins of `job`; it closes the sockets that it inherits."""
+    def start(cls, job: Mapping[str, Any], execute: Execute, inherited: Sequence[socket.socket]) -> Self:
+        """Start a server for jobs with the plugins of `job`; it closes the sockets that it inherits.
+
+        These must be all of this process, also those of other servers: a server ends when its connection has no other
+        end, and a plugin must not write to the connection of another server.
+        """
         ours, theirs = socket.socketpair()
         parent, key = os.getpid(), new_key()
         pid = os.fork()
@@ -59,12 +63,12 @@ class ForkServer:
 
     def fileno(self) -> int:
         """Readable when there is a message, or the server has ended."""
-        return self._connection.fileno()
+        return self.connection.fileno()
 
     def fork(self, connection: socket.socket) -> None:
         """Fork a process that executes the job of `connection`."""
         with suppress(OSError):  # it has ended, which `receive` tells
-            socket.send_fds(self._connection, [b"f"], [connection.fileno()])
+            socket.send_fds(self.connection, [b"f"], [connection.fileno()])
 
     def receive(self, timeout_s: float | None = None) -> dict[str, Any] | None:
         """The next message: `importing`, a plugin or None; `forked`; or `ended`, the wait status of the forked process.
@@ -83,7 +87,7 @@ class ForkServer:
 
     def wait(self) -> int:
         """The wait status of the server itself, which has ended or ends now."""
-        self._connection.close()
+        self.connection.close()
         return os.waitpid(self.pid, 0)[1]
 
 

@@ -74,7 +74,8 @@ class Supervisor:
         if plugins not in self._servers:
             while len(self._servers) >= SERVERS:
                 self._servers.popitem(last=False)[1].wait()
-            self._servers[plugins] = ForkServer.start(job, execute_job, (self._connection,))
+            inherited = [self._connection, *(server.connection for server in self._servers.values())]
+            self._servers[plugins] = ForkServer.start(job, execute_job, inherited)
         self._servers.move_to_end(plugins)
         return plugins, self._servers[plugins]
 

@@ -6,6 +6,7 @@ import psutil
 import pytest
 
 from mrpbench_core import load, run
+from mrpbench_core.engine.processes.supervisor import SERVERS
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.files.errors import InputErrors
 
@@ -55,6 +56,13 @@ def test_a_run_that_exceeds_the_wall_limit_is_ended_in_any_stage(study):
     record = outcomes(study, ["hang_with_gil"])["hang_with_gil"]
     assert record["status"] == "wall_timeout"
     assert record["error"]["stage"] == "planning"
+
+
+def test_a_worker_executes_runs_of_more_sets_of_plugins_than_it_keeps_servers_for(study):
+    planners = ["example", "astar", "cbs", "pibt", "prioritized", "pbs"]
+    assert len(planners) > SERVERS
+    records = run(study | {"matrix": {"planner": planners}}, out="out", workers=1)
+    assert [record["status"] for record in records] == ["succeeded"] * len(planners)
 
 
 def test_output_of_plugins_goes_to_the_log_of_their_run(study, capfd):
