@@ -35,6 +35,16 @@ class _Analysis(msgspec.Struct):
     planned: bool = True
 
 
+class _Plan(msgspec.Struct):
+    setting: str | None = None
+    problem: str | None = None
+    assigns: bool = False
+    cost: float | None = None
+    lower_bound: float | None = None
+    factor: float | None = None
+    unsolvable: bool = False
+
+
 class _Record(msgspec.Struct):
     """The types of the keys that the framework reads; a record may have others."""
 
@@ -53,6 +63,8 @@ class _Record(msgspec.Struct):
     unmeasured: dict[str, str] | None = None
     unexported: dict[str, str] | None = None
     analysis: _Analysis | None = None
+    plan: _Plan | None = None
+    true_poses: str | None = None
 
 
 @functools.cache

@@ -14,8 +14,6 @@ from mrpbench_core.model.common.arrays import Float, Int
 
 SLACK = 1e-6
 """Relative error of bounds that are computed in floating point."""
-LARGEST = 1e300
-"""Numbers above are none that a planner claims."""
 _NUMBERS = ("cost", "lower_bound", "factor")
 
 
@@ -30,15 +28,14 @@ class Claims:
 
     def add(self, record: Mapping[str, Any]) -> None:
         """Add the claims of the next run, if its record has any."""
-        claims = record.get("plan")
-        claims = claims if isinstance(claims, Mapping) else {}
+        claims = record.get("plan") or {}
         where = {"setting": (record.get("scenario_id"), claims.get("setting")), "problem": claims.get("problem")}
         for name, column in self._places.items():
-            known = isinstance(claims.get(name), str)
+            known = claims.get(name) is not None
             column.append(self._problems.setdefault(repr(where[name]), len(self._problems)) if known else -1)
         for name, numbers in self._columns.items():
             value = claims.get(name)
-            numbers.append(float(value) if isinstance(value, int | float) and abs(value) < LARGEST else math.nan)
+            numbers.append(math.nan if value is None else float(value))
         for name, flags in self._flags.items():
             flags.append(bool(claims.get(name)))
 

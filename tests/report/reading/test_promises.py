@@ -67,10 +67,16 @@ def test_a_plan_whose_cost_is_not_known_to_be_valid_refutes_nothing(results, cla
     assert runs.status == ["succeeded"] * 2
 
 
-@pytest.mark.parametrize("plan", [None, 3, {"cost": "low"}, {"problem": [1], "cost": 10**400}, {"problem": "p"}])
-def test_claims_that_are_none_are_passed_over(results, claiming, record, plan):
+@pytest.mark.parametrize("plan", [{}, {"problem": "p"}, {"cost": 12, "factor": 1.0}])
+def test_records_without_claims_break_no_promise(results, claiming, record, plan):
     runs = read_runs([results([record("a", plan=plan), claiming("b", cost=10)])])
     assert runs.status == ["succeeded"] * 2
+
+
+@pytest.mark.parametrize("plan", [3, {"cost": "low"}, {"problem": [1]}, {"cost": 10**400}])
+def test_a_line_whose_claims_have_wrong_types_is_no_record(results, claiming, record, plan):
+    found = results([record("a", plan=plan), claiming("b", cost=10)])
+    assert len(found) == len(found.damaged) == 1
 
 
 def test_a_run_that_breaks_a_promise_counts_as_a_failure_in_every_number(results, claiming):
