@@ -79,13 +79,13 @@ def _why(name: str) -> str:
 
 def _show(results: Results) -> None:
     record = next(iter(results))
-    paths = results.folder.run(record["run_id"])
+    paths = results.paths(record["run_id"])
     if "error" in record:
         print(f"{record['status']} in {record['error']['stage']}: {record['error']['message']}")
     print(f"results    {_near(results.folder.path)}")
     if paths.recording.is_file():
         print(f"recording  {_near(paths.recording)}")
-        recording = Recording(paths.recording)
+        recording = results.recording(record["run_id"])
         replay = results.folder.path / "replay.html"
         write_replay(recording, results, record, replay)
         print(f"replay     {_near(replay)}")

@@ -8,7 +8,6 @@ from mrpbench_core.cli.input.arguments import read_options
 from mrpbench_core.cli.input.run_reference import HELP, find_run
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
-from mrpbench_core.store.recording import Recording
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -26,9 +25,10 @@ def run(arguments: argparse.Namespace) -> int:
     results, record = find_run(arguments.run)
     block = from_data({"plugin": arguments.to, **read_options(arguments.option, "--option")}, Location())
     exporter = structure_component(Exporter, block, "--to", Path.cwd())  # type: ignore[type-abstract]
-    paths = results.folder.run(record["run_id"])
-    recording = Recording(paths.recording)
-    destination = paths.exports / arguments.to if arguments.out is None else Path(arguments.out)
+    recording = results.recording(record["run_id"])
+    destination = (
+        results.paths(record["run_id"]).exports / arguments.to if arguments.out is None else Path(arguments.out)
+    )
     destination.parent.mkdir(parents=True, exist_ok=True)
     session = exporter.open(recording.first_context(), destination)
     for chunk in recording.chunks():

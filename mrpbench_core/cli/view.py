@@ -30,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     results, record = find_run(arguments.run)
     run_id = record["run_id"]
     page = Path(arguments.out) if arguments.out else results.folder.replay(run_id)
-    recording = Recording(results.folder.run(run_id).recording)
+    recording = results.recording(run_id)
     try:
         write_replay(recording, results, record, page)
         print(f"wrote {page}")
@@ -52,7 +52,7 @@ def _view_pair(arguments: argparse.Namespace) -> int:
     with TemporaryDirectory() as folder:
         pages = [Path(folder) / f"{number}.html" for number in range(len(runs))]
         for (results, record), page in zip(runs, pages, strict=True):
-            recording = Recording(results.folder.run(record["run_id"]).recording)
+            recording = results.recording(record["run_id"])
             try:
                 write_replay(recording, results, record, page)
             finally:

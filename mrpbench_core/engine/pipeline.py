@@ -1,6 +1,7 @@
 """One run from its configuration to its record, in this process."""
 
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import attrs
@@ -28,6 +29,7 @@ from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.runs.run import FinishedRun, RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.run_files import seal
 
 
 def execute(
@@ -77,8 +79,12 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
         failure, record.unexported = execute_plan(inputs, context, router)
         inputs.announce(Stage.METRICS, {})
         record.executed = True
-        record.metrics, record.unmeasured = measure_recording(config.metrics, inputs.paths.recording)
-        if config.recording.keep == "none" or (config.recording.keep == "failed" and failure is None):
+        kept = config.recording.keep == "all" or (config.recording.keep == "failed" and failure is not None)
+        with ThreadPoolExecutor(1) as disk:  # which is as slow as the metrics
+            sealed = disk.submit(seal, inputs.paths, recording=kept)
+            record.metrics, record.unmeasured = measure_recording(config.metrics, inputs.paths.recording)
+            record.files = sealed.result()
+        if not kept:
             inputs.paths.recording.unlink()
     else:
         inputs.announce(Stage.METRICS, {})

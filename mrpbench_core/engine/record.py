@@ -38,6 +38,8 @@ class RunRecord:
     """What the planner claims of its problem, which reports compare across runs; see `engine.stages.claims`."""
     true_poses: str | None = None
     """The localizer that `grant_truth` gave the true poses."""
+    files: list[str] = attrs.field(factory=list)
+    """SHA-256 and name of the recording and of each exported file; see `mrpbench_core.store.run_files.seal`."""
     timing: dict[str, Any] = attrs.field(factory=dict)
     """Wall and CPU seconds, bytes, and what depends on them."""
 
@@ -65,9 +67,11 @@ class StoredRecord:
     seed: int
     repeat: int
     provenance: dict[str, Any]
-    """Components, versions, machine, and whether something outside the process took part."""
+    """Components, versions, machine, and whether something outside the process took part; `document` adds `files`."""
     analysis: dict[str, Any] | None = None
     """Of recordings that `mrpbench analyze` measured: sources and notes."""
+    invocation: str = ""
+    """SHA-256 and name of the document of the invocation, as in `RunRecord.files`."""
 
     def document(self) -> dict[str, Any]:
         """The record as one JSON object; empty parts are left out."""
@@ -82,7 +86,7 @@ class StoredRecord:
             "status": run.status.value,
             "metrics": run.metrics,
             "timing": run.timing,
-            "provenance": self.provenance,
+            "provenance": {**self.provenance, "files": [*run.files, *filter(None, [self.invocation])]},
         }
         error = run.error and {"stage": run.error.stage.value, "message": run.error.message}
         further = {

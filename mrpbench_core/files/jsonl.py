@@ -27,14 +27,16 @@ class Writer:
     def __init__(self, path: Path | str, *, exclusive: bool = False) -> None:
         """Open `path`; with `exclusive`, it must not exist yet (FileExistsError)."""
         self.path = Path(path)
-        self._descriptor = os.open(self.path, os.O_RDWR | os.O_CREAT | (os.O_EXCL if exclusive else 0), 0o644)
+        self._descriptor = os.open(
+            self.path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | (os.O_EXCL if exclusive else 0), 0o644
+        )
         content = b"" if exclusive else self.path.read_bytes()
         os.ftruncate(self._descriptor, content.rfind(b"\n") + 1)
         os.lseek(self._descriptor, 0, os.SEEK_END)
 
-    def write(self, value: Mapping[str, Any]) -> None:
-        """Append one object."""
-        content = (line(value) + "\n").encode()
+    def write(self, *values: Mapping[str, Any]) -> None:
+        """Append objects."""
+        content = "".join(f"{line(value)}\n" for value in values).encode()
         while content:
             content = content[os.write(self._descriptor, content) :]
         os.fsync(self._descriptor)

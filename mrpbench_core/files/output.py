@@ -4,8 +4,32 @@ import os
 import stat
 from contextlib import suppress
 from pathlib import Path
+from typing import BinaryIO
 
 from mrpbench_core.files.errors import InputError
+
+
+def create_file(file: Path) -> BinaryIO:
+    """Create a file for reading and writing; what has its name is removed, so that no symbolic link is followed.
+
+    Raises:
+        OSError: it cannot be created.
+    """
+    file.unlink(missing_ok=True)
+    return os.fdopen(os.open(file, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o644), "w+b")
+
+
+def sync_folder(folder: Path) -> None:
+    """Return when the names in a folder are on disk.
+
+    Raises:
+        OSError: they cannot be written.
+    """
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
 
 
 def replace_file(file: Path, content: bytes, *, sync: bool = False) -> None:
@@ -20,14 +44,15 @@ def replace_file(file: Path, content: bytes, *, sync: bool = False) -> None:
         OSError: it cannot be written; the old file is as it was.
     """
     partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
-    partial.unlink(missing_ok=True)
     try:
-        with os.fdopen(os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o644), "wb") as stream:
+        with create_file(partial) as stream:
             stream.write(content)
             if sync:
                 stream.flush()
                 os.fsync(stream.fileno())
         partial.replace(file)
+        if sync:
+            sync_folder(file.parent)
     except BaseException:
         with suppress(OSError):
             partial.unlink(missing_ok=True)

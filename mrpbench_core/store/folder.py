@@ -6,6 +6,9 @@ invocations/<id>.yaml         configuration, versions, machine and metric column
 runs/<id>.jsonl               records, one file per invocation
 recordings/<run_id>.zip       exports/<run_id>/      logs/<run_id>.txt
 ```
+The files of attempt k above 1 are `recordings/<run_id>-<k>.zip` and `exports/<run_id>-<k>/`, so that the files of an
+attempt stay until the record of the next one is on disk.
+
 Merging two folders is copying the files of one into the other.
 """
 
@@ -20,6 +23,8 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import file_name
 from mrpbench_core.store.paths import RunPaths
 
+_ATTEMPTS = 100
+"""Earlier attempts whose files are looked for."""
 PARTS = ("invocations", "runs", "recordings", "exports", "logs")
 
 
@@ -50,9 +55,9 @@ class ResultsFolder:
         """All files of records, oldest first."""
         return sorted((self.path / "runs").glob("*.jsonl"))
 
-    def run(self, run_id: str) -> RunPaths:
-        """Files of a run."""
-        name = file_name(run_id)
+    def run(self, run_id: str, attempt: int = 1) -> RunPaths:
+        """Files of an attempt of a run."""
+        name = file_name(run_id) if attempt == 1 else f"{file_name(run_id)}-{attempt}"
         return RunPaths(recording=self.path / "recordings" / f"{name}.zip", exports=self.path / "exports" / name)
 
     def log(self, run_id: str) -> Path:
@@ -79,20 +84,41 @@ class ResultsFolder:
         except OSError as error:
             raise InputError(f"cannot be made: {error.strerror}", file=error.filename or self.path) from error
 
-    def forget(self, run_id: str) -> None:
-        """Remove the recording and exports of an earlier attempt, which would pass for those of the last one."""
-        paths = self.run(run_id)
+    def forget(self, run_id: str, attempt: int) -> None:
+        """Remove the recording and the exports of an attempt, finished or not.
+
+        Raises:
+            OSError: something else is in their place, such as a folder where a file should be.
+        """
+        paths = self.run(run_id, attempt)
+        paths.partial.unlink(missing_ok=True)
         paths.recording.unlink(missing_ok=True)
-        shutil.rmtree(paths.exports, ignore_errors=True)
+        if paths.exports.exists():
+            shutil.rmtree(paths.exports)
 
     def sweep(self) -> None:
-        """Remove unfinished files of an invocation that was killed; only under the lock."""
+        """Remove unfinished files of an invocation that was killed; only under the lock.
+
+        Raises:
+            OSError: one cannot be removed.
+        """
+        unfinished = [*self.path.glob(".*.partial"), *self.path.glob("invocations/.*.partial")]
         for part in ("recordings", "exports"):
-            for partial in (self.path / part).rglob(".*.partial"):
-                if partial.is_dir():
-                    shutil.rmtree(partial)
-                else:
-                    partial.unlink(missing_ok=True)
+            unfinished += (self.path / part).rglob(".*.partial")
+        for partial in unfinished:
+            if partial.is_dir() and not partial.is_symlink():
+                shutil.rmtree(partial)
+            else:
+                partial.unlink(missing_ok=True)
+
+    def forget_before(self, run_id: str, attempt: int) -> None:
+        """Remove the files of the attempts before one whose record is on disk.
+
+        Raises:
+            OSError: one cannot be removed.
+        """
+        for earlier in range(max(1, attempt - _ATTEMPTS), attempt):
+            self.forget(run_id, earlier)
 
 
 def new_invocation() -> str:

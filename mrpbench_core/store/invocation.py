@@ -1,12 +1,13 @@
 """The document of an invocation: configuration, versions and machine, stored with its records."""
 
-import os
 from collections.abc import Mapping
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 import yaml
 
+from mrpbench_core.files.output import replace_file
 from mrpbench_core.files.yaml import plain_scalar
 
 
@@ -33,8 +34,8 @@ def dumps(data: Any) -> str:
     return yaml.dump(data, Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=120)
 
 
-def write_document(file: Path, data: Mapping[str, Any]) -> None:
-    """Write a YAML file at once: a reader sees the old one or the new one, never half."""
-    partial = file.with_name(f".{file.name}.{os.getpid()}.partial")
-    partial.write_text(dumps(data), encoding="utf-8")
-    partial.replace(file)
+def write_document(file: Path, data: Mapping[str, Any]) -> str:
+    """Write a YAML file at once, and return its SHA-256 when it is on disk."""
+    content = dumps(data).encode()
+    replace_file(file, content, sync=True)
+    return sha256(content).hexdigest()

@@ -2,6 +2,7 @@
 
 import fcntl
 import os
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -17,10 +18,17 @@ def locked(folder: Path) -> Iterator[None]:
     it would let two invocations lock two different files of that name.
 
     Raises:
-        InputError: another process holds it.
+        InputError: another process holds it, or there can be none: a symbolic link, a folder or a FIFO is in its place,
+            or the disk is read-only.
     """
-    descriptor = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
+    file = folder / ".lock"
     try:
+        descriptor = os.open(file, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o644)
+    except OSError as error:
+        raise InputError(f"cannot be locked: {error.strerror}", file=file) from None
+    try:
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            raise InputError("is not a file, so the folder cannot be locked", file=file, hint="remove it")
         try:
             fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.output import create_file
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext, with_latest_routes
 
@@ -28,7 +29,8 @@ class RecordingWriter:
         self.file = file
         self.temporary = file.with_name(f".{file.name}.partial")
         file.parent.mkdir(parents=True, exist_ok=True)
-        self._zip = zipfile.ZipFile(self.temporary, "w")
+        self._stream = create_file(self.temporary)
+        self._zip = zipfile.ZipFile(self._stream, "w")
         self._chunks = 0
         self._arrays = 0
         data = encode(context, self._keep)
@@ -51,13 +53,15 @@ class RecordingWriter:
         self._chunks += 1
 
     def close(self) -> None:
-        """Finish the file and give it its name."""
+        """Finish the file and give it its name; `seal` brings it to disk."""
         self._zip.close()
+        self._stream.close()
         self.temporary.replace(self.file)
 
     def discard(self) -> None:
         """Delete the unfinished file."""
         self._zip.close()
+        self._stream.close()
         self.temporary.unlink(missing_ok=True)
 
 

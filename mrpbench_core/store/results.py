@@ -1,6 +1,7 @@
 """The records of a results folder: for each run, the one of its highest attempt."""
 
 import logging
+import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -10,8 +11,12 @@ import attrs
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import line
 from mrpbench_core.store.folder import ResultsFolder
+from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.recording import Recording
+from mrpbench_core.store.run_files import check_recording, names_files
 from mrpbench_core.store.shards import read_at, read_shard
 
+_ATTEMPT = re.compile(r"(?P<run_id>.+)-(?P<attempt>[1-9]\d{0,9})")
 _LOG = logging.getLogger(__name__)
 
 
@@ -25,6 +30,8 @@ class Entry:
     """Versions and source hashes of the run's code, as one text."""
     shard: Path
     offset: int
+    names_files: bool
+    """False for records of older versions, whose files have the names of the first attempt."""
 
 
 class Results:
@@ -49,7 +56,7 @@ class Results:
                     continue
                 text = origin(record.get("provenance") or {})
                 text = origins.setdefault(text, text)
-                self._entries[run_id] = Entry(attempt, record["status"], text, shard, offset)
+                self._entries[run_id] = Entry(attempt, record["status"], text, shard, offset, names_files(record))
 
     def __len__(self) -> int:
         return len(self._entries)
@@ -82,6 +89,39 @@ class Results:
     def entry(self, run_id: str) -> Entry | None:
         """Facts about a run's record without reading it, or None."""
         return self._entries.get(run_id)
+
+    def paths(self, run_id: str) -> RunPaths:
+        """The files of a run that has a record."""
+        entry = self._entries[run_id]
+        return self.folder.run(run_id, entry.attempt if entry.names_files else 1)
+
+    def recording(self, run_id: str) -> Recording:
+        """Open the recording of a run that has a record.
+
+        Raises:
+            InputError: there is none, it is damaged, or it is another one than the record names.
+        """
+        file = self.paths(run_id).recording
+        check_recording(self[run_id], file)
+        return Recording(file)
+
+    def remove_superseded(self) -> None:
+        """Remove files of other attempts than the recorded ones, which a killed invocation left; only under the lock.
+
+        Raises:
+            OSError: one cannot be removed.
+        """
+        for part in ("recordings", "exports"):
+            for file in (self.folder.path / part).iterdir():
+                found = _ATTEMPT.fullmatch(file.name.removesuffix(".zip"))
+                if found is None or found[0] in self._entries:
+                    continue
+                entry = self._entries.get(found["run_id"])
+                if entry is not None and entry.names_files and entry.attempt != int(found["attempt"]):
+                    self.folder.forget(found["run_id"], int(found["attempt"]))
+        for run_id, entry in self._entries.items():
+            if entry.names_files and entry.attempt > 1:
+                self.folder.forget(run_id, 1)
 
     def statuses(self) -> dict[str, int]:
         """The number of runs by status."""

@@ -87,6 +87,8 @@ def read_shard(path: Path, damaged: list[InputError] | None = None) -> Iterator[
         damaged: receives what is wrong with each such line, or with the file.
     """
     try:
+        if not path.is_file():
+            raise OSError(None, "it is not a file")  # a FIFO would be read without end
         with path.open("rb") as stream:
             offset, number = 0, 0
             while line := stream.readline(LINE_LIMIT):

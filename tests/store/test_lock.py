@@ -1,5 +1,7 @@
 """One invocation at a time."""
 
+import errno
+import os
 import signal
 import subprocess
 import sys
@@ -28,4 +30,23 @@ def test_the_lock_is_free_again_after_an_error(tmp_path):
     with pytest.raises(ZeroDivisionError), locked(tmp_path):
         raise ZeroDivisionError
     with locked(tmp_path):
+        pass
+
+
+@pytest.mark.parametrize("thing", ["link", "folder", "fifo"])
+def test_what_is_in_the_place_of_the_lock_is_named_and_left_alone(tmp_path, thing):
+    lock, precious = tmp_path / ".lock", tmp_path / "precious.txt"
+    precious.write_text("precious")
+    {"link": lambda: lock.symlink_to(precious), "folder": lock.mkdir, "fifo": lambda: os.mkfifo(lock)}[thing]()
+    with pytest.raises(InputError, match=r"\.lock: .*cannot be locked"), locked(tmp_path):
+        pass
+    assert precious.read_text() == "precious"
+
+
+def test_a_read_only_disk_is_one_line(tmp_path, monkeypatch):
+    def refuse(*_):
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+    monkeypatch.setattr(os, "open", refuse)
+    with pytest.raises(InputError, match=r"\.lock: cannot be locked: Read-only file system"), locked(tmp_path):
         pass

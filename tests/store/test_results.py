@@ -158,6 +158,16 @@ def test_a_folder_of_something_else_is_refused(tmp_path):
         ResultsFolder(tmp_path).create()
 
 
+def test_links_to_unfinished_files_are_removed_and_not_followed(folder, tmp_path):
+    precious = tmp_path / "precious"
+    precious.mkdir()
+    for part in ("recordings", "exports", "invocations", "."):
+        (folder.path / part / ".x.partial").symlink_to(precious)
+    folder.sweep()
+    assert precious.is_dir()
+    assert not list(folder.path.rglob(".x.partial"))
+
+
 def test_unfinished_files_are_swept_and_finished_ones_kept(folder):
     unfinished = folder.run("aa").recording.with_name(".aa.zip.partial")
     unfinished.write_bytes(b"half")

@@ -72,11 +72,11 @@ def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
         file = results.folder.replay(run_id)
         if template().wrote(file):
             found[run_id] = _address(file, page)
-        elif len(lacking) < most and results.folder.run(run_id).recording.is_file():
+        elif len(lacking) < most and results.paths(run_id).recording.is_file():
             lacking.append((results, run_id, file))
     for results, run_id, file in lacking:
         try:
-            recording = Recording(results.folder.run(run_id).recording)
+            recording = results.recording(run_id)
             try:
                 write_replay(recording, results, results[run_id], file)
             finally:

@@ -35,6 +35,7 @@ from mrpbench_core.store.invocation import write_document
 from mrpbench_core.store.lock import locked
 from mrpbench_core.store.recording import RecordingWriter
 from mrpbench_core.store.results import Results
+from mrpbench_core.store.run_files import seal, sync_names
 
 BLOCK = 2**20
 UNIDENTIFYING = ("name", "metrics", "simulator")
@@ -214,18 +215,25 @@ def _keep(analysis: Analysis, found: ObservedRun, record: StoredRecord) -> Store
         folder.sweep()
         run_id = record.run.run_id
         before = Results(folder, only=[run_id]).entry(run_id)
-        record = attrs.evolve(record, attempt=1 if before is None else before.attempt + 1)
+        attempt = 1 if before is None else before.attempt + 1
+        record = attrs.evolve(record, attempt=attempt)
         invocation = new_invocation()
-        writer = RecordingWriter(folder.run(run_id).recording, found.context)
+        folder.forget(run_id, attempt)
+        paths = folder.run(run_id, attempt)
+        writer = RecordingWriter(paths.recording, found.context)
         try:
             writer.write(found.channels)
         except BaseException:
             writer.discard()
             raise
         writer.close()
-        write_document(folder.invocation(invocation), _facts(analysis, record, invocation))
+        record.run.files = seal(paths)
+        sync_names(folder.path)
+        digest = write_document(folder.invocation(invocation), _facts(analysis, record, invocation))
+        record = attrs.evolve(record, invocation=f"{digest}  invocations/{invocation}.yaml")
         with Writer(folder.shard(invocation), exclusive=True) as shard:
             shard.write(record.document())
+        folder.forget_before(run_id, attempt)
     return record
 
 

@@ -7,7 +7,7 @@ from mrpbench_core.engine.record import RunError, RunRecord, StoredRecord
 from mrpbench_core.model.runs.status import RunStatus, Stage
 
 
-def complete_record(point: StudyRun, attempt: int, outcome: JobOutcome, workers: int) -> StoredRecord:
+def complete_record(point: StudyRun, attempt: int, outcome: JobOutcome, workers: int, invocation: str) -> StoredRecord:
     """The record to store of an outcome that is a record or a failure."""
     run = outcome.record or _of_failure(point.run_id, outcome.failure)
     run.timing["concurrent_workers"] = workers
@@ -18,6 +18,7 @@ def complete_record(point: StudyRun, attempt: int, outcome: JobOutcome, workers:
         seed=point.canonical["seed"],
         repeat=point.canonical["repeat"],
         provenance={**point.code, "machine": outcome.machine or machine(), "live": point.live},
+        invocation=invocation,
     )
 
 

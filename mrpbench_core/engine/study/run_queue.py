@@ -1,9 +1,10 @@
-"""Distributes the runs of one invocation to workers, and stores each record as soon as it arrives."""
+"""Distributes the runs of one invocation to workers, and has each record stored as soon as it arrives."""
 
 from collections import Counter, deque
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, wait
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
+from typing import Any
 
 import attrs
 
@@ -11,10 +12,8 @@ from mrpbench_core.api.executor import RemoteExecutor, WorkerLost
 from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.engine.processes.job import Failure, Job, JobOutcome
 from mrpbench_core.engine.processes.slots import close_slots, progress_in_slots, run_in_slot
+from mrpbench_core.engine.study.commits import Commits, EndedRun
 from mrpbench_core.engine.study.progress import StudyProgress
-from mrpbench_core.engine.study.record import complete_record
-from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.jsonl import Writer
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.store.folder import ResultsFolder
@@ -33,7 +32,7 @@ class RunQueue:
     """Runs with their attempts."""
     workers: int
     folder: ResultsFolder
-    shard: Writer
+    commits: Commits
     hooks: Hooks
     progress: StudyProgress
     mistakes: dict[str, str] = attrs.field(factory=dict)
@@ -44,25 +43,28 @@ class RunQueue:
     def run_all(self, executor: Executor) -> None:
         """Execute all runs, at most as many at once as there are workers, so that memory does not grow with the study.
 
-        When anything, Ctrl-C included, ends it early, the runs in flight are ended too.
+        When anything, Ctrl-C included, ends it early, the runs in flight are ended too; those that finished are stored.
         """
-        with self._ending(executor):
-            while self._hand_out(executor):
-                done = wait(self._going, self.progress.interval_s, FIRST_COMPLETED).done
+        with closing(self.commits), self._ending(executor):
+            while self._hand_out(executor) or self.commits.going is not None:
+                pending: set[Future[Any]] = {*self._going, *filter(None, [self.commits.going])}
+                done = wait(pending, self.progress.interval_s, FIRST_COMPLETED).done
                 if not done:
                     self.progress.going(progress_in_slots(self.slots))
-                    continue
-                ended = [(*self._going.pop(future), future) for future in done]
-                self._hand_out(executor)  # before storing, so that no worker waits for the disk
-                for point, attempt, future in ended:
-                    failed = future.exception()
-                    if isinstance(failed, WorkerLost):
-                        self._take(point, attempt, _lost(point, failed))
-                    elif failed is None:
-                        self._take(point, attempt, future.result())
+                if self.commits.going in done:
+                    self._tell()
+                ended = [(*self._going.pop(future), future) for future in done & self._going.keys()]
+                self._hand_out(executor)  # before storing, so that no worker waits
+                self.commits.add([run for run in (self._take(*entry) for entry in ended) if run is not None])
                 for _, _, future in ended:  # an executor's own failure ends the study, after the others were stored
                     if not isinstance(future.exception(), WorkerLost):
                         future.result()
+
+    def _tell(self) -> None:
+        """Tell hooks and progress which records were stored."""
+        for ended, record in self.commits.stored():
+            self.hooks.call("mrpbench_run_finished", record=record)
+            self.progress.finished(ended.point, record)
 
     def _hand_out(self, executor: Executor) -> bool:
         """Give runs to idle workers; tell whether any run is being executed."""
@@ -71,35 +73,40 @@ class RunQueue:
             self.hooks.enable()
             self.hooks.call("mrpbench_run_started", run_id=point.run_id, config=point.canonical)
             self.progress.started(point)
-            self._going[executor.submit(run_in_slot, self.slots, self._job(point))] = point, attempt
+            try:
+                self.folder.forget(point.run_id, attempt)  # what a killed invocation left
+            except OSError as error:
+                self._refuse(point, f"{error.filename}: is in the way of a file of a run: {error.strerror} (remove it)")
+                continue
+            self._going[executor.submit(run_in_slot, self.slots, self._job(point, attempt))] = point, attempt
         return bool(self._going)
 
-    def _take(self, point: StudyRun, attempt: int, outcome: JobOutcome) -> None:
+    def _take(self, point: StudyRun, attempt: int, future: Future[JobOutcome]) -> EndedRun | None:
+        """Return the run if it is to be stored."""
+        failed = future.exception()
+        if failed is not None and not isinstance(failed, WorkerLost):
+            return None
+        outcome = future.result() if failed is None else _lost(point, failed)
         if outcome.failure is not None and outcome.failure.lost:
             self._losses[point.run_id] += 1
             if self._losses[point.run_id] < LOSSES:  # else it was perhaps the run itself
                 self.progress.lost(point, outcome.failure.message)
                 self.waiting.append((point, attempt + 1))
-                return
+                return None
         if outcome.mistake is not None:
-            self.mistakes[point.run_id] = outcome.mistake
-            self.progress.refused(point, outcome.mistake)
-            return
-        record = complete_record(point, attempt, outcome, self.workers).document()
-        try:
-            if not _left_a_recording(outcome):
-                self.folder.forget(point.run_id)
-            self.shard.write(record)
-        except OSError as error:
-            raise InputError(f"cannot be written: {error.strerror}", file=self.shard.path) from error
-        self.hooks.call("mrpbench_run_finished", record=record)
-        self.progress.finished(point, record)
+            self._refuse(point, outcome.mistake)
+            return None
+        return EndedRun(point=point, attempt=attempt, outcome=outcome)
 
-    def _job(self, point: StudyRun) -> Job:
+    def _refuse(self, point: StudyRun, mistake: str) -> None:
+        self.mistakes[point.run_id] = mistake
+        self.progress.refused(point, mistake)
+
+    def _job(self, point: StudyRun, attempt: int) -> Job:
         return Job(
             run_id=point.run_id,
             parcel=point.parcel,
-            paths=self.folder.run(point.run_id),
+            paths=self.folder.run(point.run_id, attempt),
             log=self.folder.log(point.run_id),
             wall_s=point.wall_s,
             memory_bytes=point.memory_bytes,
@@ -122,10 +129,3 @@ def _lost(point: StudyRun, loss: WorkerLost) -> JobOutcome:
     """The outcome of a run whose remote worker was lost."""
     failure = Failure(status=RunStatus.CRASHED, stage=Stage.WORKER, message=str(loss), seconds=0.0, lost=True)
     return JobOutcome(run_id=point.run_id, failure=failure)
-
-
-def _left_a_recording(outcome: JobOutcome) -> bool:
-    """Tell whether the run was executed to its end; also where a metric failed afterwards."""
-    if outcome.record is None:
-        return outcome.failure is not None and outcome.failure.stage == Stage.METRICS
-    return outcome.record.executed

@@ -12,11 +12,13 @@ import attrs
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
 from mrpbench_core.engine.processes.machine import machine
+from mrpbench_core.engine.study.commits import Commits
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.engine.study.run_queue import RunQueue
 from mrpbench_core.engine.study.selection import Rerun, Selection, select
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import Writer
+from mrpbench_core.files.output import sync_folder
 from mrpbench_core.plugins.hooks import load_hooks
 from mrpbench_core.store.folder import ResultsFolder, new_invocation
 from mrpbench_core.store.invocation import write_document
@@ -74,8 +76,12 @@ def run_study(study: StudyRuns, request: Request) -> StudyOutcome:
     folder = ResultsFolder(request.out)
     folder.create()
     with locked(folder.path):
-        folder.sweep()
         selection, results = choose(study, request)
+        try:
+            folder.sweep()
+            results.remove_superseded()
+        except OSError as error:
+            raise InputError(f"cannot be removed: {error.strerror}", file=error.filename or folder.path) from error
         request.progress.selected(selection, results)
         mistakes = _do(study, request, folder, selection) if selection.todo else {}
         return StudyOutcome(results=Results(folder, only=selection.chosen), mistakes=mistakes)
@@ -87,9 +93,10 @@ def _do(study: StudyRuns, request: Request, folder: ResultsFolder, selection: Se
     hooks = load_hooks()
     hooks.check()
     try:
-        write_document(folder.invocation(invocation), _facts(study, request, invocation))
+        digest = write_document(folder.invocation(invocation), _facts(study, request, invocation))
         write_document(folder.study, study.document)
         shard = Writer(folder.shard(invocation), exclusive=True)
+        sync_folder(shard.path.parent)
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror}", file=error.filename or folder.path) from error
     with closing(shard), request.executor.open(request.workers) as executor:
@@ -98,7 +105,12 @@ def _do(study: StudyRuns, request: Request, folder: ResultsFolder, selection: Se
             waiting=deque(selection.todo),
             workers=request.workers,
             folder=folder,
-            shard=shard,
+            commits=Commits(
+                folder=folder,
+                shard=shard,
+                invocation=f"{digest}  invocations/{invocation}.yaml",
+                workers=request.workers,
+            ),
             hooks=hooks,
             progress=request.progress,
         )

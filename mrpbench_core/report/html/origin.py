@@ -1,9 +1,7 @@
 """The section that says how to reproduce the results: versions, machines, configurations, files."""
 
-import hashlib
 from collections.abc import Iterable, Sequence
 from html import escape
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,9 +12,8 @@ from mrpbench_core.report.report import Report
 from mrpbench_core.report.statistics.means import RESAMPLES, SEED
 from mrpbench_core.report.tables.spans import spans
 from mrpbench_core.store.invocation import dumps
+from mrpbench_core.store.run_files import digest
 from mrpbench_core.version import __version__
-
-_BLOCK = 2**20
 
 
 def origin(report: Report) -> str:
@@ -70,7 +67,7 @@ def _studies(invocations: Sequence[dict[str, Any]]) -> str:
 
 def _shards(report: Report) -> str:
     rows = [
-        f"<tr><td>{escape(str(shard))}</td><td><code>{_digest(shard)}</code></td></tr>"
+        f"<tr><td>{escape(str(shard))}</td><td><code>{digest(shard)}</code></td></tr>"
         for results in report.folders
         for shard in results.folder.shards()
     ]
@@ -80,11 +77,3 @@ def _shards(report: Report) -> str:
         f"<details><summary>{counted(len(rows), 'file')} of records, with SHA-256</summary>"
         f'<div class="wide"><table><tbody>{"".join(rows)}</tbody></table></div></details>{warning}'
     )
-
-
-def _digest(file: Path) -> str:
-    found = hashlib.sha256()
-    with file.open("rb") as stream:
-        while block := stream.read(_BLOCK):
-            found.update(block)
-    return found.hexdigest()

@@ -1,6 +1,7 @@
 """The runs that a study repeats, and those that it keeps."""
 
 import json
+import os
 import shutil
 import types
 from pathlib import Path
@@ -62,6 +63,20 @@ def test_the_recording_of_an_earlier_attempt_does_not_pass_for_that_of_the_last(
     assert not any(file.exists() for file in stale)
 
 
+def test_a_folder_in_the_place_of_a_file_costs_its_own_run_only(study):
+    study["matrix"] = {"seed": "0..1"}
+    first, second = (record["run_id"] for record in run(study, out="first"))
+    in_the_way = Path(f"out/recordings/{first}.zip/precious")
+    in_the_way.mkdir(parents=True)
+    Path("out/runs").mkdir()
+    os.mkfifo("out/runs/1.jsonl")
+    os.mkfifo(f"out/recordings/{second}.zip")
+    with pytest.raises(InputErrors, match=f"{first}.zip: is in the way of a file of a run: Is a directory"):
+        run(study, out="out")
+    assert [record["run_id"] for record in load("out")] == [second]
+    assert in_the_way.exists()
+
+
 def test_a_changed_local_source_is_noticed(study):
     study["planner"]["does"] = "nothing"
     run(study, out="out")
@@ -120,7 +135,7 @@ def test_records_survive_a_round_trip_through_json_and_are_complete(study):
     assert json.loads(json.dumps(record, allow_nan=False)) == record
     keys = "run_id scenario_id attempt config seed repeat status metrics timing provenance error plan"
     assert list(record) == keys.split()
-    assert set(record["provenance"]) == {"components", "versions", "machine", "live"}
+    assert set(record["provenance"]) == {"components", "versions", "machine", "live", "files"}
 
 
 @pytest.mark.parametrize(

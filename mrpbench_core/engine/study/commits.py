@@ -1,0 +1,98 @@
+"""Stores finished runs: the files of a run are on disk before its record, and earlier attempts are kept until then.
+
+A disk takes milliseconds to confirm, so a thread of its own stores records: as many at once as came in the meantime.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any
+
+import attrs
+
+from mrpbench_core.engine.loading.runs import StudyRun
+from mrpbench_core.engine.processes.job import JobOutcome
+from mrpbench_core.engine.study.record import complete_record
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.jsonl import Writer
+from mrpbench_core.model.runs.status import Stage
+from mrpbench_core.store.folder import ResultsFolder
+from mrpbench_core.store.run_files import seal, sync_names
+
+
+@attrs.frozen(kw_only=True)
+class EndedRun:
+    """A run that ended with a record or a failure."""
+
+    point: StudyRun
+    attempt: int
+    outcome: JobOutcome
+
+
+@attrs.define(kw_only=True)
+class Commits:
+    """Finished runs on their way to disk."""
+
+    folder: ResultsFolder
+    shard: Writer
+    invocation: str
+    """SHA-256 and name of the document of the invocation."""
+    workers: int
+    going: "Future[list[tuple[EndedRun, dict[str, Any]]]] | None" = attrs.field(default=None, init=False)
+    """Done when records are on disk, which `stored` returns."""
+    _waiting: list[EndedRun] = attrs.field(factory=list, init=False)
+    _disk: ThreadPoolExecutor = attrs.field(factory=lambda: ThreadPoolExecutor(1), init=False)
+
+    def add(self, ended: Sequence[EndedRun]) -> None:
+        """Begin to store runs, or do so when the earlier ones are stored."""
+        self._waiting += ended
+        if self.going is None and self._waiting:
+            batch, self._waiting = self._waiting, []
+            self.going = self._disk.submit(self._store, batch)
+
+    def stored(self) -> list[tuple[EndedRun, dict[str, Any]]]:
+        """Wait for the records that are being stored, return them, and begin to store those that wait.
+
+        Raises:
+            InputError: they cannot be written.
+        """
+        assert self.going is not None
+        going, self.going = self.going, None
+        found = going.result()
+        self.add(())
+        return found
+
+    def close(self) -> None:
+        """Store what is left.
+
+        Raises:
+            InputError: it cannot be written.
+        """
+        try:
+            while self.going is not None:
+                self.stored()
+        finally:
+            self._disk.shutdown()
+
+    def _store(self, batch: Sequence[EndedRun]) -> list[tuple[EndedRun, dict[str, Any]]]:
+        try:
+            records = [self._complete(ended) for ended in batch]
+            if any(len(record["provenance"]["files"]) > 1 for record in records):
+                sync_names(self.folder.path)
+            self.shard.write(*records)
+            for ended in batch:
+                self.folder.forget_before(ended.point.run_id, ended.attempt)
+        except OSError as error:
+            file = error.filename or self.shard.path
+            raise InputError(f"cannot be written: {error.strerror}", file=file) from error
+        return list(zip(batch, records, strict=True))
+
+    def _complete(self, ended: EndedRun) -> dict[str, Any]:
+        point, attempt, outcome = ended.point, ended.attempt, ended.outcome
+        if outcome.record is None or not outcome.record.executed:
+            recorded = outcome.failure is not None and outcome.failure.stage == Stage.METRICS
+            if not recorded:  # it was not executed to its end
+                self.folder.forget(point.run_id, attempt)
+        record = complete_record(point, attempt, outcome, self.workers, self.invocation)
+        if outcome.record is None:
+            record.run.files = seal(self.folder.run(point.run_id, attempt))
+        return record.document()

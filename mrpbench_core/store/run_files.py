@@ -1,0 +1,86 @@
+"""The files of a run on disk, and their SHA-256 in its record."""
+
+import os
+import stat
+from collections.abc import Iterator, Mapping
+from hashlib import file_digest
+from pathlib import Path
+from typing import Any
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.output import sync_folder
+from mrpbench_core.store.paths import RunPaths
+
+
+def seal(paths: RunPaths, *, recording: bool = True) -> list[str]:
+    """Bring the exports of a run to disk, and its recording unless it is not kept.
+
+    Returns:
+        SHA-256 and name in the results folder of each file, as `sha256sum` writes and checks them.
+
+    Raises:
+        OSError: a file cannot be read or written.
+    """
+    kept = [paths.recording] if recording and paths.recording.is_file() else []
+    exported, folders = _tree(paths.exports)
+    lines = [f"{_sealed(file)}  recordings/{file.name}" for file in kept]
+    lines += [f"{_sealed(file)}  exports/{file.relative_to(paths.exports.parent)}" for file in exported]
+    for folder in folders:
+        sync_folder(folder)
+    return lines
+
+
+def sync_names(folder: Path) -> None:
+    """Bring the names of recordings and exports in a results folder to disk.
+
+    Raises:
+        OSError: they cannot be written.
+    """
+    for part in ("recordings", "exports"):
+        sync_folder(folder / part)
+
+
+def digest(file: Path) -> str:
+    """Return the SHA-256 of a file."""
+    with file.open("rb") as stream:
+        return file_digest(stream, "sha256").hexdigest()
+
+
+def names_files(record: Mapping[str, Any]) -> bool:
+    """Tell whether a record names its files; without it, they have the names of the first attempt."""
+    return isinstance((record.get("provenance") or {}).get("files"), list)
+
+
+def check_recording(record: Mapping[str, Any], file: Path) -> None:
+    """Check that a recording is the one that a record names; records of older versions name none.
+
+    Raises:
+        InputError: it is another one, or was changed.
+    """
+    expected = [line for line in _named(record) if line.endswith(f"  recordings/{file.name}")]
+    if expected and file.is_file() and not expected[-1].startswith(digest(file)):
+        raise InputError(
+            "differs from the recording of the run: its SHA-256 is not the one in the record",
+            file=file,
+            hint="restore it, or repeat the run with --rerun all",
+        )
+
+
+def _named(record: Mapping[str, Any]) -> Iterator[str]:
+    if names_files(record):
+        yield from (line for line in record["provenance"]["files"] if isinstance(line, str))
+
+
+def _tree(folder: Path) -> tuple[list[Path], list[Path]]:
+    """All files and folders from a folder on, without symbolic links and whatever else a plugin left there."""
+    files, folders = [], []
+    for name, _, inside in os.walk(folder):
+        folders.append(Path(name))
+        files += [Path(name, file) for file in inside if stat.S_ISREG(Path(name, file).lstat().st_mode)]
+    return sorted(files), folders
+
+
+def _sealed(file: Path) -> str:
+    with file.open("rb") as stream:
+        os.fsync(stream.fileno())
+        return file_digest(stream, "sha256").hexdigest()
