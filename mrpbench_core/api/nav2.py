@@ -45,7 +45,7 @@ def settle(
         if block is not None:
             name = prefix + field.name
             value = block.take(name, _kind(field.type), value)
-            _validate(options, field, value, block, name)
+            check_parameter(field, value, block, name)
         given = getattr(options, field.name)
         values[field.name] = value if given is None else given
     return values
@@ -58,10 +58,11 @@ def _kind(declared: Any) -> type:
     return str if origin is Literal else origin or kind
 
 
-def _validate(options: Any, field: Any, value: Any, block: Nav2Block, name: str) -> None:
+def check_parameter(field: Any, value: Any, block: Nav2Block, name: str) -> None:
+    """Raise an InputError if the validator of an attrs field refuses the value of the parameter `name`."""
     if field.validator is None or value is None:
         return
     try:
-        field.validator(options, field, value)
+        field.validator(None, field, value)
     except ValueError as error:
         raise block.error(str(error.args[0]), name) from None

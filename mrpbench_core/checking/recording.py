@@ -1,23 +1,56 @@
 """Validates a recording; `mrpbench_core.model.runs.recording` says what its channels mean."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
+import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.runs.recording import PERIODIC
 
-WIDTH = {"truth": 3, "truth_twist": 2, "estimate": 3, "odometry": 5, "command": 2}
+ROBOTS, ANY = -1, -2
+"""Sizes of rows that depend on the fleet, or on something else."""
+
+
+@attrs.frozen
+class Layout:
+    """How the rows of a channel are stored."""
+
+    kinds: str
+    """Kinds of NumPy types: f, i, u, U."""
+    axis: str
+    """The channel with the time of each row."""
+    row: tuple[int, ...] = ()
+    """Shape of a row."""
+
+
+_FLOAT = {"truth": 3, "truth_twist": 2, "estimate": 3, "odometry": 5, "command": 2}
 """Numbers for each robot and sample; other periodic channels have one."""
-TIMES = {
-    "contact_time": ("contact",),
-    "scan_time": ("scan_robot", "scan_ranges"),
-    "route_time": ("route_revision", "route_robot", "route_waypoint", "route_level", "route_speed"),
-    "event_time": ("event_kind", "event_robot", "event_detail"),
+LAYOUTS: Mapping[str, Layout] = {
+    "time": Layout("f", "time"),
+    **{name: Layout("f", "time", (ROBOTS, width)) for name, width in _FLOAT.items()},
+    **{name: Layout("iu", "time", (ROBOTS,)) for name in PERIODIC if name not in _FLOAT},
+    "facility": Layout("f", "time", (ANY,)),
+    "contact_time": Layout("f", "contact_time"),
+    "contact": Layout("i", "contact_time", (2,)),
+    "scan_time": Layout("f", "scan_time"),
+    "scan_robot": Layout("iu", "scan_time"),
+    "scan_ranges": Layout("f", "scan_time", (ANY,)),
+    "route_time": Layout("f", "route_time"),
+    **{f"route_{name}": Layout("iu", "route_time") for name in ("revision", "robot", "level", "edge", "leave")},
+    "route_waypoint": Layout("f", "route_time", (3,)),
+    "route_speed": Layout("f", "route_time"),
+    "event_time": Layout("f", "event_time"),
+    "event_kind": Layout("U", "event_time"),
+    "event_robot": Layout("i", "event_time"),
+    "event_detail": Layout("U", "event_time"),
 }
-"""Channels with a time axis of their own."""
+OPTIONAL = frozenset({"route_edge", "route_leave"})
+"""Channels that older recordings lack beside the others with their time axis."""
+LARGEST = 1e9
+"""Bound of positions (metres), angles, speeds and times (seconds)."""
 SLACK = 1.5
 """Factor by which a robot may exceed its speed limit: physics pushes robots, and drops them into place."""
 NUDGE = 0.02
@@ -33,43 +66,80 @@ def check_recording(channels: Channels, fleet: Fleet) -> list[str]:
     `reached` and `cleared` never decrease; a robot reaches only segments that are released, and clears the start of a
     segment only after it has reached that vertex; no robot moves faster than its speed limit allows.
     """
-    if "time" not in channels:
-        return ["has no channel time"]
-    faults = [*_shapes(channels, len(fleet)), *_axes(channels)]
+    faults = check_names(channels) if "time" in channels else ["has no channel time"]
     if not faults:
-        faults += [*_finite(channels), *_order(channels), *_indices(channels, len(fleet))]
+        faults = [
+            fault
+            for name, rows in channels.items()
+            if (fault := check_channel(name, rows, channels[axis_of(name)], len(fleet))) is not None
+        ]
+    if not faults:
+        faults += [*_finite(channels), *_order(channels)]
     if not faults:
         faults += _jumps(channels, fleet)
     return faults
 
 
-def _shapes(channels: Channels, robots: int) -> Iterator[str]:
-    samples = len(channels["time"])
-    for name in PERIODIC:
-        width = (WIDTH[name],) if name in WIDTH else ()
-        if name in channels and channels[name].shape != (samples, robots, *width):
-            yield f"{name} has shape {channels[name].shape} instead of {(samples, robots, *width)}"
-    for time, companions in TIMES.items():
-        for name in companions:
-            if (name in channels) != (time in channels):
-                yield f"has {name if name in channels else time} without {time if name in channels else name}"
-            elif name in channels and len(channels[name]) != len(channels[time]):
-                yield f"{name} has {len(channels[name])} rows instead of {len(channels[time])}"
+def check_names(names: Collection[str]) -> list[str]:
+    """Name the channels that lack others which belong to them."""
+    axes = {layout.axis for name, layout in LAYOUTS.items() if name in names}
+    return [
+        f"has no channel {name}"
+        for name, layout in LAYOUTS.items()
+        if layout.axis in axes - {"time"} and name not in names and name not in OPTIONAL
+    ]
 
 
-def _axes(channels: Channels) -> Iterator[str]:
-    for name in ("time", *TIMES):
-        values = channels.get(name, np.empty(0))
-        if not np.isfinite(values).all():
-            yield f"{name} is not finite"
-        elif name == "time" and (np.diff(values) <= 0).any():
-            yield f"time does not increase after {values[int((np.diff(values) <= 0).argmax())]:g} s"
-        elif (np.diff(values) < 0).any():
-            yield f"{name} decreases after {values[int((np.diff(values) < 0).argmax())]:g} s"
+def axis_of(name: str) -> str:
+    """Return the channel with the time of each row of a channel; of an unknown channel, itself."""
+    return LAYOUTS[name].axis if name in LAYOUTS else name
+
+
+def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int) -> str | None:
+    """Return what is wrong with the type, shape or numbers of a channel, as a sentence, or None.
+
+    Args:
+        name: of the channel; nothing is known of others than those of `LAYOUTS`.
+        rows: the channel.
+        time: the channel `axis_of(name)`.
+        robots: number of robots.
+    """
+    layout = LAYOUTS.get(name)
+    if layout is None:
+        return None
+    wanted = (len(time), *(robots if size == ROBOTS else size for size in layout.row)) if time.ndim else ()
+    if rows.dtype.kind not in layout.kinds or (rows.dtype.kind != "U" and rows.dtype.itemsize > 8):
+        return f"{name} has the type {rows.dtype}"
+    if rows.ndim != len(wanted) or any(b not in (a, ANY) for a, b in zip(rows.shape, wanted, strict=True)):
+        return f"{name} has shape {rows.shape} instead of {wanted}"
+    if name == layout.axis:
+        return _axis(name, rows)
+    if name == "contact":
+        one, other = rows[:, 0], rows[:, 1]
+        if ((one < 0) | (one >= robots) | (other < -1) | (other >= robots) | (one == other)).any():
+            return "contact names a robot that does not exist, or a robot touching itself"
+    least = {"scan_robot": 0, "event_robot": -1, "route_robot": 0}.get(name)
+    if least is not None and ((rows < least) | (rows >= robots)).any():
+        return f"{name} names a robot that does not exist"
+    if name in ("released", "reached", "cleared", "level", "route_level", "route_revision") and (rows < 0).any():
+        return f"{name} is negative"
+    if name in (*_FLOAT, "facility", "route_waypoint") and (np.abs(rows) > LARGEST).any():
+        return f"{name} is not finite"
+    return None
+
+
+def _axis(name: str, values: NDArray[Any]) -> str | None:
+    if not (np.abs(values) <= LARGEST).all():
+        return f"{name} is not finite"
+    late = np.diff(values) <= 0 if name == "time" else np.diff(values) < 0
+    if late.any():
+        verb = "does not increase" if name == "time" else "decreases"
+        return f"{name} {verb} after {values[int(late.argmax())]:g} s"
+    return None
 
 
 def _finite(channels: Channels) -> Iterator[str]:
-    for name in WIDTH:
+    for name in _FLOAT:
         if name in channels:
             bad = np.logical_not(np.isfinite(channels[name]).all(axis=2))
             yield from _first(bad, channels["time"], f"robot {{robot}} has no finite {name} at {{time:g}} s")
@@ -88,18 +158,6 @@ def _order(channels: Channels) -> Iterator[str]:
     if "reached" in channels and "cleared" in channels:
         early = channels["cleared"] > channels["reached"] + 1
         yield from _first(early, time, "robot {robot} cleared a segment at {time:g} s that it had not reached")
-
-
-def _indices(channels: Channels, robots: int) -> Iterator[str]:
-    if "contact" in channels:
-        contact = channels["contact"].reshape(-1, 2)
-        one, other = contact[:, 0], contact[:, 1]
-        if ((one < 0) | (one >= robots) | (other < -1) | (other >= robots) | (one == other)).any():
-            yield "contact names a robot that does not exist, or a robot touching itself"
-    for name, least in (("scan_robot", 0), ("event_robot", -1), ("route_robot", 0)):
-        values = channels.get(name, np.empty(0))
-        if ((values < least) | (values >= robots)).any():
-            yield f"{name} names a robot that does not exist"
 
 
 def _jumps(channels: Channels, fleet: Fleet) -> Iterator[str]:

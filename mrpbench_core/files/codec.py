@@ -36,11 +36,28 @@ def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
 
 
 def decode(data: Any, kind: type[Kept], fetch: Callable[[str], NDArray[Any]]) -> Kept:
-    """Return the object of class `kind` that `encode` turned into `data`; `fetch` loads an array by name."""
+    """Return the object of class `kind` that `encode` turned into `data`; `fetch` loads an array by name.
+
+    Raises:
+        ValueError: something in `data` is missing, or has another type or range; whatever `fetch` raises passes.
+    """
     converter = cattrs.Converter()
     converter.register_structure_hook_func(
         lambda wanted: cast(Any, get_origin(wanted)) is np.ndarray,
         lambda entry, _: fetch(entry["array"]),
     )
-    converter.register_structure_hook(float, lambda number, _: float(number))
-    return converter.structure(data, kind)
+    converter.register_structure_hook(float, lambda number, _: float(_plain(number, int | float)))
+    # The hooks of cattrs for these would convert whatever is there.
+    converter.register_structure_hook_func(lambda wanted: wanted in (bool, int, str), _plain)
+    try:
+        return converter.structure(data, kind)
+    except (cattrs.BaseValidationError, cattrs.StructureHandlerNotFoundError) as error:
+        raise ValueError("; ".join(cattrs.transform_error(error)[:3])) from None
+
+
+def _plain(value: Any, kind: Any) -> Any:
+    if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
+        raise ValueError(f"{value!r:.40} is no {getattr(kind, '__name__', 'number')}")
+    if isinstance(value, int) and not -(2**63) <= value < 2**63:
+        raise ValueError("the integer has more than 64 bits")
+    return value

@@ -50,9 +50,21 @@ class Nav2Block:
         if kind is tuple and isinstance(value, list):
             value = tuple(value)
         right = isinstance(value, kind) and not (kind is int and isinstance(value, bool))
+        right = right and not (type(value) is int and abs(value) >= 2**63)
         if not right or (kind is float and not math.isfinite(value)):
             raise self.error(f"expected {_WORDS[kind]}, got {value!r}", name)
         return value
+
+    def take_names(self, name: str) -> tuple[str, ...]:
+        """Return a parameter that is a list of names, or () if it is not given.
+
+        Raises:
+            InputError: it is not.
+        """
+        names = self.take(name, tuple, ())
+        if not all(isinstance(entry, str) for entry in names):
+            raise self.error(f"expected a list of names, got {list(names)!r}", name)
+        return names  # type: ignore[no-any-return]
 
     def ignore(self, *names: str) -> None:
         """Accept these parameters, and all below them, although they have no effect."""

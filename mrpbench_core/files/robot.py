@@ -17,6 +17,7 @@ from mrpbench_core.model.common.fleet import Lidar, RobotModel, Urdf
 
 _ROBOTS = Path(str(resources.files("mrpbench_core"))) / "robots"
 _MAY_BE_ZERO = {"min_range"}
+_MOST_BEAMS = 100_000
 
 
 def robot_names() -> tuple[str, ...]:
@@ -114,8 +115,8 @@ def _lidar(document: Document) -> Lidar:
         raise document.error("must be three numbers: x, y, z in metres", ("lidar", "mount"))
     if "mount" in values:
         values["mount"] = tuple(float(value) for value in mount)
-    if not isinstance(values.get("beams", 1), int):
-        raise document.error("must be a whole number", ("lidar", "beams"))
+    if not isinstance(values.get("beams", 1), int) or values.get("beams", 1) > _MOST_BEAMS:
+        raise document.error(f"must be a whole number up to {_MOST_BEAMS}", ("lidar", "beams"))
     lidar = Lidar(**values)
     if lidar.min_range >= lidar.range:
         raise document.error("must be less than the range", ("lidar", "min_range"))

@@ -8,6 +8,7 @@ and nothing recurses, so that no input can exhaust stack or memory.
 
 import math
 import re
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -100,17 +101,20 @@ def plain_scalar(text: str) -> Any:
     """Return the value of a plain (unquoted) scalar.
 
     Raises:
-        ValueError: a number that Python cannot hold.
+        ValueError: a number that a float of 64 bits cannot hold.
     """
     if text in _NAMED:
         return _NAMED[text]
     if _INT.fullmatch(text):
-        return int(text, {"0o": 8, "0x": 16}.get(text[:2], 10))
-    if _FLOAT.fullmatch(text):
-        number = float(text)
-        if math.isinf(number):
+        number = int(text, {"0o": 8, "0x": 16}.get(text[:2], 10))
+        if abs(number) > sys.float_info.max:  # no option is that large, and `float` would fail
             raise ValueError(text)
         return number
+    if _FLOAT.fullmatch(text):
+        real = float(text)
+        if math.isinf(real):
+            raise ValueError(text)
+        return real
     return text
 
 

@@ -4,22 +4,33 @@ import json
 import zipfile
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping
-from functools import partial
+from contextlib import contextmanager
+from functools import cached_property, partial
 from io import BytesIO
 from pathlib import Path
 from typing import Any
 
+import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_core.checking.context import check_context, check_rows
+from mrpbench_core.checking.recording import axis_of, check_names
 from mrpbench_core.files.codec import decode, encode
-from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.files.output import create_file
 from mrpbench_core.model.runs.recording import Chunk
-from mrpbench_core.model.runs.run import RunContext, with_latest_routes
+from mrpbench_core.model.runs.run import RunContext, all_routes
 
 FORMAT = 1
 """Raised when a reader of the old format would misread the new one."""
+RATIO = 200
+"""Largest size of a recording in memory, as a multiple of its file. Robots that stand are compressed most."""
+UNBOUNDED = 256 * 2**20
+"""Bytes in memory that every recording may take."""
+CHANNEL_LIMIT = 4 * 2**30
+"""Bytes of a channel: 1,000 robots for five hours at 10 Hz."""
+_ADVICE = "delete it; `mrpbench run --rerun all` records the run again"
 
 
 class RecordingWriter:
@@ -72,44 +83,118 @@ def _npy(array: NDArray[Any]) -> bytes:
 
 
 class Recording:
-    """A stored recording, read channel by channel."""
+    """A stored recording, read channel by channel, each of which is checked.
+
+    The file may be damaged or come from others. Whatever is wrong with it is an `InputError` that names it, here or in
+    any method. Nothing is decompressed beyond the size that the file declares, which is bounded.
+    """
 
     def __init__(self, file: Path) -> None:
         if not file.is_file():
             raise InputError("no recording here", file=file, hint="the run kept none, or was not executed")
-        try:
+        self.file = file
+        with self._naming("is not a recording"):
             self._zip = zipfile.ZipFile(file)
-            header = json.loads(self._zip.read("context.json"))
-        except (zipfile.BadZipFile, KeyError, json.JSONDecodeError) as error:
-            raise InputError(f"not a recording: {error}", file=file) from error
-        if header.get("format") != FORMAT:
-            raise InputError(f"recording of format {header.get('format')}, this version reads {FORMAT}", file=file)
-        self._context = header["context"]
-        self._parts: dict[str, list[str]] = defaultdict(list)
-        for name in sorted(self._zip.namelist()):
-            channel, _, part = name.rpartition("/")
-            if part and channel not in ("", "context"):
-                self._parts[channel].append(name)
+        try:
+            self._bound()
+            with self._naming("is not a recording"):
+                header = json.loads(self._read("context.json"))
+                self._context, found = header["context"], header["format"]
+            if found != FORMAT:
+                raise InputError(f"recording of format {found!r:.40}, this version reads {FORMAT}", file=file)
+            parts: dict[str, list[str]] = defaultdict(list)
+            for name in sorted(set(self._zip.namelist())):
+                channel, _, part = name.rpartition("/")
+                if part and channel not in ("", "context"):
+                    parts[channel].append(name)
+            self._parts = dict(parts)
+            if faults := check_names(self._parts):
+                raise self._fault(faults[0])
+        except BaseException:
+            self._zip.close()
+            raise
+
+    @contextmanager
+    def _naming(self, what: str) -> Iterator[None]:
+        """Turn any exception into an InputError: zip, zlib, NumPy, JSON and cattrs have no common class of errors."""
+        try:
+            yield
+        except InputError:
+            raise
+        except Exception as error:
+            raise InputError(f"{what}: {one_line(error)}", file=self.file, hint=_ADVICE) from error
+
+    def _fault(self, fault: str) -> InputError:
+        return InputError(f"is damaged: {fault}", file=self.file, hint=_ADVICE)
+
+    def _bound(self) -> None:
+        """Refuse a file that would take much more memory than it has bytes."""
+        sizes: dict[str, int] = defaultdict(int)
+        for entry in self._zip.infolist():
+            sizes[entry.filename.rpartition("/")[0]] += entry.file_size
+        most = max(RATIO * self.file.stat().st_size, UNBOUNDED)
+        if sum(sizes.values()) > most or max(sizes.values(), default=0) > CHANNEL_LIMIT:
+            raise InputError(
+                f"would take {sum(sizes.values()) / 2**30:.1f} GiB: a recording takes at most {RATIO} times its size, "
+                f"and a channel of it {CHANNEL_LIMIT // 2**30} GiB",
+                file=self.file,
+                hint=_ADVICE,
+            )
+
+    def _read(self, name: str) -> bytes:
+        entry = self._zip.getinfo(name)
+        if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):  # others decompress without a bound
+            raise ValueError(f"{name} is compressed by the method {entry.compress_type}")
+        with self._zip.open(entry) as stream:
+            return stream.read(entry.file_size)
 
     def _load(self, name: str) -> NDArray[Any]:
-        array: NDArray[Any] = np.load(BytesIO(self._zip.read(name)), allow_pickle=False)
-        return array
+        with self._naming(f"is damaged: {name!r:.60}"):
+            array: NDArray[Any] = np.lib.format.read_array(BytesIO(self._read(name)), allow_pickle=False)
+            return array
 
     def first_context(self) -> RunContext:
         """The context before execution began, as exporters receive it; new plans are in the channels `route_...`."""
-        return decode(self._context, RunContext, self._load)
+        return self._first_context
+
+    @cached_property
+    def _first_context(self) -> RunContext:
+        with self._naming("is damaged: its context"):
+            context = decode(self._context, RunContext, self._load)
+            fault = check_context(context)
+        if fault is not None:
+            raise self._fault(f"its context: {fault}")
+        return context
 
     def context(self) -> RunContext:
         """The context with the routes of the last plan, to which `reached` and `cleared` refer."""
-        return with_latest_routes(self.first_context(), self.channels)
+        with self._naming("is damaged: its routes"):
+            plans = all_routes(self.first_context().routes, self.channels)
+        if not all(len(route.waypoint) for _, routes in plans for route in routes):
+            raise self._fault("its routes: a plan has none for a robot")
+        return attrs.evolve(self.first_context(), routes=plans[-1][1])
 
     def channel(self, name: str) -> NDArray[Any]:
         """All rows of a channel; scans are as wide as the widest lidar's, filled with NaN."""
+        with self._naming(f"is damaged: {name!r:.60}"):
+            rows = self._joined(name)
+            time = rows if name == axis_of(name) else self._joined(axis_of(name))
+            self._check(name, rows, time)
+            return rows
+
+    def _joined(self, name: str) -> NDArray[Any]:
+        if name not in self._parts:
+            raise self._fault(f"has no channel {name}")
         parts = [self._load(part) for part in self._parts[name]]
         if name == "scan_ranges":
             width = max(part.shape[1] for part in parts)
             parts = [np.pad(part, ((0, 0), (0, width - part.shape[1])), constant_values=np.nan) for part in parts]
         return np.concatenate(parts)
+
+    def _check(self, name: str, rows: NDArray[Any], time: NDArray[Any]) -> None:
+        fault = check_rows(name, rows, time, self.first_context())
+        if fault is not None:
+            raise self._fault(fault)
 
     @property
     def channels(self) -> Mapping[str, Callable[[], NDArray[Any]]]:
@@ -120,11 +205,16 @@ class Recording:
         """The chunks as they were written."""
         numbers = sorted({part.rpartition("/")[2] for parts in self._parts.values() for part in parts})
         for number in numbers:
-            yield {
+            chunk = {
                 channel: self._load(f"{channel}/{number}")
                 for channel, parts in self._parts.items()
                 if f"{channel}/{number}" in parts
             }
+            for name, rows in chunk.items():
+                if (axis := axis_of(name)) not in chunk:
+                    raise self._fault(f"{name}/{number} has no times")
+                self._check(name, rows, chunk[axis])
+            yield chunk
 
     def close(self) -> None:
         """Release the file."""

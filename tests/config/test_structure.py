@@ -51,7 +51,6 @@ def test_options_are_read_by_their_type(study, option, value):
         ("w: {a: 1}", "w: expected a number, got a block"),
         ("w: ", "w: expected a number, got nothing"),
         ("w: 0.5", "w: 'w' must be >= 1: 0.5"),
-        ("w: 1" + 400 * "0", "is too large"),
         ("heuristic: wdg", "heuristic: 'wdg' is not one of zero, cg"),
         ("heuristic: zeor", "(did you mean 'zero'?)"),
         ("heuristic: [zero]", "heuristic: a list is not one of zero, cg"),

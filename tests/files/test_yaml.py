@@ -92,6 +92,7 @@ def test_keys_are_text_as_written():
         ("%YAML 1.1\n---\na: 1", (1, 1), "YAML 1.2"),
         ("a: 1e999", (1, 4), "too large"),
         ("a: " + 5000 * "9", (1, 4), "too large"),
+        ("a: -" + 400 * "9", (1, 4), "too large"),
         ("a: b\x00c", (1, 5), r"U\+0000"),
         ("a: b\ud800c", (1, 5), r"U\+D800"),
         ("a:\n\t- b", (2, 1), "cannot start any token"),

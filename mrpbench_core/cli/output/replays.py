@@ -1,5 +1,6 @@
 """Writes replays, for `mrpbench view` and for the links of a report."""
 
+import logging
 import os
 from collections.abc import Sequence
 from pathlib import Path
@@ -21,6 +22,8 @@ from mrpbench_core.report.replay.page import template, write_page
 from mrpbench_core.report.report import Report
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
+
+_LOG = logging.getLogger(__name__)
 
 
 def write_replay(recording: Recording, results: Results, record: dict[str, Any], page: Path) -> None:
@@ -81,7 +84,8 @@ def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
                 write_replay(recording, results, results[run_id], file)
             finally:
                 recording.close()
-        except InputError:  # a damaged recording costs its replay, not the report
+        except InputError as error:  # a damaged recording costs its replay, not the report
+            _LOG.warning("%s", error)
             continue
         found[run_id] = _address(file, page)
     return found

@@ -1,3 +1,4 @@
+import attrs
 import numpy as np
 import pytest
 
@@ -41,11 +42,13 @@ def test_a_folder_that_does_not_exist_is_named(store, chunk, tmp_path):
         write_gif(store(first(chunk, 3)), tmp_path / "no" / "a.gif")
 
 
-def test_robots_elsewhere_or_unknown_are_left_out(store, chunk, tmp_path):
+def test_robots_elsewhere_or_unknown_are_left_out(store, chunk, tmp_path, run_context):
     truth, level = chunk["truth"].copy(), chunk["level"].copy()
     truth[:, 0] = np.nan
     level[:, 1] = 1
-    world_without_robots = store(first(chunk | {"truth": truth, "level": level}, 3))
+    world = attrs.evolve(run_context.world, levels=run_context.world.levels * 2)
+    context = attrs.evolve(run_context, world=world)
+    world_without_robots = store(first(chunk | {"truth": truth, "level": level}, 3), context=context)
     write_gif(world_without_robots, tmp_path / "a.gif")
     with images.open(tmp_path / "a.gif") as movie:
         assert not count(movie, COLOURS[0]).any()

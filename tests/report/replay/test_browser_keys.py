@@ -38,6 +38,12 @@ def test_robots_of_the_same_colour_have_different_rims(show, chunk, ask, run_con
     fleet = attrs.evolve(run_context.fleet, robots=run_context.fleet.robots[:1] * robots)
     route = run_context.routes[:1] * robots
     context = attrs.evolve(run_context, fleet=fleet, routes=route, goal=run_context.goal[:1] * robots)
+    start = np.repeat(run_context.scenario.start[:1], robots, axis=0)
+    scenario = attrs.evolve(run_context.scenario, start=start, start_level=np.zeros(robots, "i2"), start_names=())
+    each = {name: getattr(run_context.problem, name)[:1] for name in ("profile", "radius", "start", "ready")}
+    repeated = {name: np.repeat(values, robots) for name, values in each.items()}
+    problem = attrs.evolve(run_context.problem, **repeated, goals=run_context.problem.goals[:1] * robots)
+    context = attrs.evolve(context, scenario=scenario, problem=problem)
     context = attrs.evolve(context, result=attrs.evolve(context.result, plan=None), assigned=())
     show({"time": chunk["time"]} | many, context=context)
     looks = ask("[...document.querySelectorAll('.robot .swatch')].map((it) => it.style.background + it.dataset.rim)")

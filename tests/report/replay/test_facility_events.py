@@ -1,15 +1,17 @@
+import attrs
 import numpy as np
 
 from mrpbench_core.report.replay.facility_events import read_facility_events
 from mrpbench_core.testing.fixtures.building import building
 
 
-def test_doors_open_and_close_and_lifts_leave_and_arrive(store):
+def test_doors_open_and_close_and_lifts_leave_and_arrive(store, run_context):
     time = np.arange(11.0)
     door = np.interp(time, [1, 2, 6, 7], [0, 1, 1, 0])
     cabin = np.interp(time, [2, 5], [0, 3])
     facility = np.stack([door, np.ones(11), cabin], axis=1)
-    events = read_facility_events(store({"time": time, "facility": facility}), building())
+    context = attrs.evolve(run_context, world=building())
+    events = read_facility_events(store({"time": time, "facility": facility}, context=context), building())
     assert events == [
         [1.0, "door_opens", -1, "door"],
         [6.0, "door_closes", -1, "door"],

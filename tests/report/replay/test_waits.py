@@ -6,7 +6,7 @@ import pytest
 
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.roadmap import Resource, Roadmap
 from mrpbench_core.report.replay.dependencies import Dependencies
 from mrpbench_core.report.replay.plans import read_plans
 from mrpbench_core.report.replay.waits import Reason, explain_waits
@@ -47,10 +47,13 @@ def test_the_robot_that_passes_first_is_named_until_it_has_passed(store, rows):
     assert second == [(Reason.NONE, -1)] * SAMPLES
 
 
-def test_a_resource_that_was_requested_is_the_reason(store, rows):
+def test_a_resource_that_was_requested_is_the_reason(store, rows, run_context):
     waits_for = np.full((SAMPLES, 2), -1, "i4")
-    waits_for[:2, 0] = 5
-    assert explained(store(rows | {"waits_for": waits_for}))[0][:3] == [(Reason.RESOURCE, 5)] * 2 + [(Reason.ROBOT, 1)]
+    waits_for[:2, 0] = 1
+    doors = tuple(Resource(name=name, kind="door") for name in ("front", "back"))
+    problem = attrs.evolve(run_context.problem, roadmap=attrs.evolve(run_context.problem.roadmap, resources=doors))
+    recording = store(rows | {"waits_for": waits_for}, context=attrs.evolve(run_context, problem=problem))
+    assert explained(recording)[0][:3] == [(Reason.RESOURCE, 1)] * 2 + [(Reason.ROBOT, 1)]
 
 
 def test_a_recovery_is_the_reason(store, rows):

@@ -96,7 +96,7 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
         inflation, observation = settle(self, of=InflationLayer), settle(self, of=ObservationSource)
         polygon = self._polygon(robot, block)
         if block is not None:
-            named = {name: _kind(block, name) for name in block.take("plugins", tuple, ())}
+            named = {name: _kind(block, name) for name in block.take_names("plugins")}
             layers = self.plugins or tuple(named.values()) or layers
             for name, kind in named.items():
                 if kind == "inflation_layer":
@@ -136,9 +136,9 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
             return None
         try:
             polygon = np.array(json.loads(text), float)
-        except ValueError:
+        except (ValueError, TypeError, RecursionError, OverflowError):
             polygon = np.empty(0)
-        if polygon.ndim != 2 or polygon.shape[1] != 2 or len(polygon) < 3:
+        if polygon.ndim != 2 or polygon.shape[1] != 2 or len(polygon) < 3 or not np.isfinite(polygon).all():
             raise block.error("must be a string with a list of at least three points [x, y]", "footprint")
         return polygon
 

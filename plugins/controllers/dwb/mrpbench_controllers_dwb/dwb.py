@@ -121,11 +121,18 @@ class Dwb(Controller):
         return FleetOfOne(self.start_fleet((robot,), world, period))
 
     def start_fleet(self, robots: Sequence[RobotModel], world: World, period: float) -> FleetControllerSession:
-        """Begin to control a fleet, all robots in one call."""
+        """Begin to control a fleet, all robots in one call.
+
+        Raises:
+            InputError: options contradict each other, or the costmap has too many cells.
+        """
         from mrpbench_controllers_dwb.session import DwbSession
 
         settings = [(robot, self.settings(robot, period)) for robot in robots]
-        return DwbSession(settings, self.goal_options(), world, self.threads)
+        try:
+            return DwbSession(settings, self.goal_options(), world, self.threads)
+        except ValueError as error:
+            raise InputError(f"controller: dwb: {error}", file=self.nav2) from None
 
     def settings(self, robot: RobotModel, period: float) -> RobotSettings:
         """Return the settings of one robot for the native part.
@@ -189,7 +196,7 @@ class Dwb(Controller):
     def _critics(self, block: Nav2Block | None) -> tuple[Critic, ...]:
         if block is None:
             return self.critics or DEFAULT
-        names = block.take("critics", tuple, ())
+        names = block.take_names("critics")
         found: list[Critic] = []
         for name in names:
             if name not in NATIVE:

@@ -7,6 +7,7 @@ from attrs.validators import ge
 
 from mrpbench_controllers_dwb.critic import Critic, CriticSession
 from mrpbench_core.api import option
+from mrpbench_core.api.nav2 import check_parameter
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.worlds.world import World
@@ -48,6 +49,7 @@ class NativeCritic(Critic):
             value = block.take(f"{name}.{field.name}", kind, field.default)
             if field.name == "aggregation_type" and value not in get_args(Aggregation):
                 raise block.error(f"expected one of {', '.join(get_args(Aggregation))}", f"{name}.{field.name}")
+            check_parameter(field, value, block, f"{name}.{field.name}")
             values[field.name] = value
         block.ignore(f"{name}.class")
         return cls(**values)
