@@ -18,6 +18,8 @@ class Assigner(Component):
     group: ClassVar[str] = "mrpbench.assigners"
     reads_costs: ClassVar[bool] = True
     """False if the assigner ignores the cost matrix, which is then not computed."""
+    optimal: ClassVar[bool] = False
+    """True if it promises the least value of its objective, the sum of costs or what its option `objective` says."""
 
     cost: Cost = option(
         "euclidean",
@@ -26,10 +28,10 @@ class Assigner(Component):
 
     @abstractmethod
     def assign(self, problem: AssignmentProblem) -> Assignment:
-        """Return an assignment of min(n, m) tasks that is optimal in the assigner's objective.
+        """Return an assignment of min(n, m) tasks, no pair of which has a forbidden (infinite) cost.
 
         Raises:
-            AssignmentError: no assignment avoids the forbidden (infinite) costs.
+            AssignmentError: there is none, or the assigner found none.
         """
 
 

@@ -41,6 +41,11 @@ class Component(ABC):
     live: ClassVar[bool] = False
     """True if something outside with a clock of its own takes part; such runs are marked and are not repeatable."""
 
+    suite: ClassVar[str | None] = None
+    """The conformance suite of a kind that a plugin defines, as `package.module:Class`; the class of the kind sets it.
+
+    It derives from `mrpbench_core.testing.ComponentConformance` and is imported for `mrpbench check` only."""
+
     def reads(self) -> tuple[Path, ...]:
         """Return files that the component reads besides those of its options, e.g. because one of these names them.
 

@@ -38,4 +38,4 @@ class Recovery(Component):
 
     @abstractmethod
     def start(self, robot: RobotModel, surroundings: Surroundings, period: float) -> RecoverySession:
-        """Begin an attempt; `period` is the control period in simulated seconds."""
+        """Begin an attempt, which must end also if the robot cannot move; `period` is in simulated seconds."""

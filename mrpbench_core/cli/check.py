@@ -1,22 +1,38 @@
 """`mrpbench check NAME [OPTION=VALUE…]`: run the conformance suite of a plugin without pytest."""
 
 import argparse
-import contextlib
+import os
 import sys
+import tempfile
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
+
+import attrs
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.cli.input.arguments import read_options
-from mrpbench_core.cli.input.plugin_name import resolve
+from mrpbench_core.cli.input.plugin_name import hook_named, resolve
 from mrpbench_core.cli.output.table import print_json
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
-from mrpbench_core.plugins.kinds import kind_of
+from mrpbench_core.engine.processes.child import WorkerDied
+from mrpbench_core.engine.processes.slot import Slot
+from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.model.runs.status import RunStatus
+from mrpbench_core.plugins.installed import load
+from mrpbench_core.plugins.kinds import HOOKS, kind_of
+
+LIMIT_S = 120.0
+"""Wall seconds that one check may take by default."""
+MEMORY = 4 * 2**30
+"""Bytes that the processes of one check may hold."""
+OUTCOMES = ("ok", "failed", "skipped")
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
-    parser.usage = "mrpbench check [-h] [--json] NAME [OPTION=VALUE …]"
+    parser.usage = "mrpbench check [-h] [--json] [--limit SECONDS] NAME [OPTION=VALUE …]"
     parser.add_argument(
         "words",
         nargs="+",
@@ -24,32 +40,115 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="an installed plugin (NAME or KIND:NAME), ./file.py:Class or package.module:Class; then its options",
     )
     parser.add_argument("--json", action="store_true", help="print as JSON")
+    parser.add_argument(
+        "--limit", type=float, default=LIMIT_S, metavar="SECONDS", help="time of one check (default: %(default)g)"
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print one line for each check and return 1 if any failed."""
+    """Print one line for each check and return 1 if any failed; each check has a process of its own."""
     name, *words = arguments.words
-    component = make(name, words)
-    from mrpbench_core.testing import run_checks, suite_for  # after the user's errors: the kit takes long to import
-
-    kind = kind_of(component.group)
-    outcomes = []
-    checks = run_checks(suite_for(component))
-    while True:
-        with contextlib.redirect_stdout(sys.stderr):  # a plugin's output is not part of ours
-            check = next(checks, None)
-        if check is None:
-            break
-        outcomes.append(check)
-        if not arguments.json:
-            print(f"{check.outcome:<7}  {check.name}{': ' if check.reason else ''}{check.reason}", flush=True)
-    counts = {outcome: sum(check.outcome == outcome for check in outcomes) for outcome in ("ok", "failed", "skipped")}
+    slot = Slot()
+    try:
+        facts = _ask(slot, "listed", [name, words], arguments.limit)
+        if "failure" in facts:
+            raise InputError(f"{name} cannot be checked: {facts['failure']}")
+        if "errors" in facts:
+            raise InputErrors(*map(InputError, facts["errors"]))
+        outcomes = []
+        for check in _checks(slot, facts["checks"], name, words, arguments.limit):
+            outcomes.append(check)
+            if not arguments.json:
+                reason = f": {check['reason']}" if check["reason"] else ""
+                print(f"{check['outcome']:<7}  {check['check']}{reason}", flush=True)
+    finally:
+        slot.close()
+    counts = {outcome: sum(check["outcome"] == outcome for check in outcomes) for outcome in OUTCOMES}
+    about = {"kind": facts["kind"], "name": name, "component": facts["component"]}
     if arguments.json:
-        lines = [{"check": check.name, "outcome": check.outcome, "reason": check.reason} for check in outcomes]
-        print_json({"kind": kind, "name": name, "component": repr(component), **counts, "checks": lines})
+        print_json({**about, **counts, "checks": outcomes})
     else:
-        print(f"{kind} {name}: {', '.join(f'{count} {outcome}' for outcome, count in counts.items())}")
+        print(f"{facts['kind']} {name}: {', '.join(f'{count} {outcome}' for outcome, count in counts.items())}")
     return 1 if counts["failed"] else 0
+
+
+def _checks(
+    slot: Slot, methods: Mapping[str, str], name: str, words: list[str], limit_s: float
+) -> Iterator[dict[str, str]]:
+    """Run the checks one after another."""
+    for method, expected in methods.items():
+        answer = _ask(slot, "checked", [name, words, method], limit_s)
+        failed = {"check": expected, "outcome": "failed", "reason": answer.get("failure", "")}
+        yield failed if "failure" in answer else answer
+
+
+def _ask(slot: Slot, function: str, arguments: list[Any], limit_s: float) -> dict[str, Any]:
+    """Call a function of this module in a process of its own; its answer, or why there is none as `failure`."""
+    with tempfile.TemporaryDirectory(prefix="mrpbench-") as folder:
+        log = Path(folder, "log.txt")
+        call = {"call": f"{__name__}:{function}", "arguments": arguments, "folder": os.getcwd()}  # noqa: PTH109
+        try:
+            answer = slot.ask({**call, "log": str(log), "wall_s": limit_s, "memory_bytes": MEMORY})
+        except WorkerDied as death:
+            answer = {"failure": {"status": RunStatus.CRASHED, "message": str(death)}}
+        if log.exists():  # a plugin's output is not part of ours
+            sys.stderr.write(log.read_text(errors="replace"))
+    if "failure" not in answer:
+        returned: dict[str, Any] = answer["returned"]
+        return returned
+    message = str(answer["failure"]["message"])
+    if answer["failure"]["status"] == RunStatus.WALL_TIMEOUT:
+        message = f"did not end within {limit_s:g} s and was ended; `--limit` gives it more time"
+    return {"failure": message.replace("limits.memory allows", "a check may hold")}
+
+
+def listed(name: str, words: list[str]) -> dict[str, Any]:
+    """In a worker process: the kind and the checks of a plugin, or its errors."""
+    from mrpbench_core.testing.checks import methods
+    from mrpbench_core.testing.checks import words as said
+
+    try:
+        kind, component, suite = _suite(name, words)
+    except InputErrors as several:
+        return {"errors": [str(error) for error in several.errors]}
+    except InputError as error:
+        return {"errors": [str(error)]}
+    return {
+        "kind": kind,
+        "component": component,
+        "checks": {method: said(method) for method in methods(type(suite))},
+    }
+
+
+def checked(name: str, words: list[str], method: str) -> dict[str, str]:
+    """In a worker process: the outcome of one check."""
+    from mrpbench_core.testing.checks import run_check
+
+    found = attrs.asdict(run_check(_suite(name, words)[2], method))
+    return {"check": found["name"], "outcome": found["outcome"], "reason": found["reason"]}
+
+
+def _suite(name: str, words: list[str]) -> tuple[str, str, object]:
+    """The kind of a plugin, how it prints, and its suite.
+
+    Raises:
+        InputError, InputErrors: there is no such plugin, or its options are wrong or missing.
+    """
+    from mrpbench_core.testing.suites import suite_for
+    from mrpbench_core.testing.suites.hook import HookConformance
+
+    if provider := hook_named(name):
+        if words:
+            raise InputError(f"{name}: hooks have no options")
+        plugin = load(provider)
+
+        class Suite(HookConformance):
+            def make(self) -> object:
+                return plugin
+
+        return kind_of(HOOKS), provider.value, Suite()
+    component = make(name, words)
+    return kind_of(component.group), repr(component), suite_for(component)
 
 
 def make(name: str, words: list[str]) -> Component:

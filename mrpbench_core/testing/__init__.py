@@ -18,7 +18,7 @@ In pytest, subclass the suite and return your component from `make`:
 - `fixtures`: worlds, robots and finished runs.
 """
 
-from mrpbench_core.testing.checks import Check, failed_checks, run_checks
+from mrpbench_core.testing.checks import Check, failed_checks, run_check, run_checks
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.suites import SUITES, suite_for
 from mrpbench_core.testing.suites.assigner import AssignerConformance
@@ -28,12 +28,14 @@ from mrpbench_core.testing.suites.crowd import CrowdConformance
 from mrpbench_core.testing.suites.dispatcher import DispatcherConformance
 from mrpbench_core.testing.suites.executor import ExecutorConformance
 from mrpbench_core.testing.suites.exporter import ExporterConformance
+from mrpbench_core.testing.suites.hook import HookConformance
 from mrpbench_core.testing.suites.importer import ImporterConformance
 from mrpbench_core.testing.suites.localizer import LocalizerConformance
 from mrpbench_core.testing.suites.metric import MetricConformance
 from mrpbench_core.testing.suites.navigator import NavigatorConformance
 from mrpbench_core.testing.suites.plan_filter import PlanFilterConformance
 from mrpbench_core.testing.suites.planner import PlannerConformance
+from mrpbench_core.testing.suites.recovery import RecoveryConformance
 from mrpbench_core.testing.suites.roadmap import RoadmapConformance
 from mrpbench_core.testing.suites.scenario import ScenarioConformance
 from mrpbench_core.testing.suites.simulator import SimulatorConformance
@@ -50,12 +52,14 @@ __all__ = [
     "ExecutorConformance",
     "ExporterConformance",
     "Fault",
+    "HookConformance",
     "ImporterConformance",
     "LocalizerConformance",
     "MetricConformance",
     "NavigatorConformance",
     "PlanFilterConformance",
     "PlannerConformance",
+    "RecoveryConformance",
     "RoadmapConformance",
     "ScenarioConformance",
     "SimulatorConformance",
@@ -63,6 +67,7 @@ __all__ = [
     "WorldConformance",
     "failed_checks",
     "require",
+    "run_check",
     "run_checks",
     "suite_for",
 ]

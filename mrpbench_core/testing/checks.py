@@ -8,7 +8,6 @@ import attrs
 
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.testing.faults import Fault, Skip
-from mrpbench_core.testing.suites.component import ComponentConformance
 
 
 @attrs.frozen
@@ -21,29 +20,38 @@ class Check:
     reason: str = ""
 
 
-def run_checks(suite: ComponentConformance) -> Iterator[Check]:
+def run_checks(suite: object) -> Iterator[Check]:
     """Run every check of a suite in the order of the source, beginning with the checks of all kinds."""
     for method in methods(type(suite)):
-        name = method.removeprefix("test_").replace("_", " ")
-        try:
-            getattr(suite, method)()
-        except Skip as skip:
-            yield Check(name, "skipped", str(skip))
-        except (Fault, InputError) as fault:
-            yield Check(name, "failed", str(fault))
-        except (Exception, SystemExit) as error:  # noqa: BLE001 - any exception of a plugin is a fault
-            last = traceback.extract_tb(error.__traceback__)[-1]
-            yield Check(name, "failed", f"raises {one_line(error)} ({last.filename}:{last.lineno})")
-        else:
-            yield Check(name, "ok")
+        yield run_check(suite, method)
 
 
-def failed_checks(suite: ComponentConformance) -> dict[str, str]:
+def run_check(suite: object, method: str) -> Check:
+    """Run one check of a suite."""
+    name = words(method)
+    try:
+        getattr(suite, method)()
+    except Skip as skip:
+        return Check(name, "skipped", str(skip))
+    except (Fault, InputError) as fault:
+        return Check(name, "failed", str(fault))
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - any exception of a plugin is a fault
+        last = traceback.extract_tb(error.__traceback__)[-1]
+        return Check(name, "failed", f"raises {one_line(error)} ({last.filename}:{last.lineno})")
+    return Check(name, "ok")
+
+
+def words(method: str) -> str:
+    """What a check expects, from the name of its method."""
+    return method.removeprefix("test_").replace("_", " ")
+
+
+def failed_checks(suite: object) -> dict[str, str]:
     """The reason for each failed check, by name; empty if none failed."""
     return {check.name: check.reason for check in run_checks(suite) if check.outcome == "failed"}
 
 
-def methods(suite: type[ComponentConformance]) -> list[str]:
+def methods(suite: type[object]) -> list[str]:
     """The names of a suite's checks."""
     found = [name for owner in reversed(suite.__mro__) for name in vars(owner) if name.startswith("test_")]
     return [name for name in dict.fromkeys(found) if callable(getattr(suite, name))]

@@ -7,8 +7,9 @@ import pytest
 from mrpbench_core.api import KINDS
 from mrpbench_core.builtin.worlds.shipped import FOLDER
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.installed import installed
-from mrpbench_core.plugins.registry import Registry
+from mrpbench_core.plugins.installed import installed, load
+from mrpbench_core.plugins.kinds import HOOKS
+from mrpbench_core.plugins.provenance import kind_class
 from mrpbench_core.testing import SUITES, run_checks, suite_for
 from mrpbench_core.testing.fixtures.office import office
 
@@ -47,7 +48,7 @@ with open(out, "w") as file:
         for robot, path in enumerate(paths):
             file.write(f"Agent {{robot}}: " + "".join(f"({{r}},{{c}})->" for r, c in path) + "\\n")
 """
-COMPONENTS = [provider for provider in installed() if provider.kind in KINDS]
+COMPONENTS = [provider for provider in installed() if provider.group != HOOKS]
 
 NEEDS_A_CLUSTER = {("executor", "dask")}
 """Its own tests start one."""
@@ -82,7 +83,7 @@ def test_keeps_the_contract_of_its_kind(provider, tmp_path, monkeypatch, frozen_
     monkeypatch.chdir(tmp_path)
     frozen_scenario(tmp_path / "frozen.yaml")
     try:
-        cls = Registry(KINDS[provider.kind]).get(f"{provider.name}@{provider.distribution}")
+        cls = load(provider)
         if cls.live:
             pytest.skip("is driven from outside, and nobody is there")
         component = cls(**required(provider.kind, provider.name, tmp_path))
@@ -95,4 +96,6 @@ def test_keeps_the_contract_of_its_kind(provider, tmp_path, monkeypatch, frozen_
 
 
 def test_every_kind_has_a_suite():
-    assert SUITES.keys() == KINDS.keys()
+    assert SUITES.keys() == {*KINDS, "recovery"}
+    own = {kind_class(load(provider)) for provider in COMPONENTS if provider.kind not in SUITES}
+    assert all(kind.suite for kind in own)

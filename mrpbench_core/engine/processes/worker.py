@@ -3,6 +3,7 @@
 Plugins run here. What they print, in Python or in native code, goes to the run's log.
 """
 
+import importlib
 import os
 import resource
 import socket
@@ -41,9 +42,13 @@ def execute_job(connection: socket.socket, hooks: Hooks, executed: Callable[[], 
     assert job is not None
     redirect(job["log"])
     tell_imports(lambda plugin: channel.send({"importing": plugin}))
-    if "study" in job:
+    if "folder" in job:
         os.chdir(job["folder"])
+    if "study" in job:
         found = {"study": loaded(job["study"], job["overrides"])}
+    elif "call" in job:
+        module, _, name = job["call"].partition(":")
+        found = {"returned": getattr(importlib.import_module(module), name)(*job["arguments"])}
     else:
         found = _run(job, channel, hooks)
     flush()

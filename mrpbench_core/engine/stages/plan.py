@@ -46,7 +46,7 @@ def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[Pl
     handed = Handed(problem, "the problem")
     _reset_peak()
     before = _resident()
-    began, cpu = perf_counter(), _cpu_s()
+    began, cpu = perf_counter(), cpu_s()
     if reason := planner.skip(handed.given):
         handed.check(planner)
         raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, str(reason))
@@ -57,7 +57,7 @@ def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[Pl
     seconds = perf_counter() - began
     timing: dict[str, Any] = {
         "planning_s": seconds,
-        "planning_cpu_s": _cpu_s() - cpu,
+        "planning_cpu_s": cpu_s() - cpu,
         "planning_peak_bytes": max(0, _peak() - before),
     }
     handed.check(planner)
@@ -98,8 +98,8 @@ def budget_of(config: RunConfig) -> Budget:
     )
 
 
-def _cpu_s() -> float:
-    """Of this process and of the programs that it has run."""
+def cpu_s() -> float:
+    """CPU seconds of this process and of the programs that it has run."""
     programs = resource.getrusage(resource.RUSAGE_CHILDREN)
     return process_time() + programs.ru_utime + programs.ru_stime
 

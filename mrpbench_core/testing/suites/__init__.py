@@ -1,7 +1,11 @@
 """The suite of each kind."""
 
+import importlib
+
 from mrpbench_core.api.component import Component
+from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.plugins.kinds import kind_of
+from mrpbench_core.plugins.provenance import kind_class
 from mrpbench_core.testing.suites.assigner import AssignerConformance
 from mrpbench_core.testing.suites.component import ComponentConformance
 from mrpbench_core.testing.suites.controller import ControllerConformance
@@ -15,6 +19,7 @@ from mrpbench_core.testing.suites.metric import MetricConformance
 from mrpbench_core.testing.suites.navigator import NavigatorConformance
 from mrpbench_core.testing.suites.plan_filter import PlanFilterConformance
 from mrpbench_core.testing.suites.planner import PlannerConformance
+from mrpbench_core.testing.suites.recovery import RecoveryConformance
 from mrpbench_core.testing.suites.roadmap import RoadmapConformance
 from mrpbench_core.testing.suites.scenario import ScenarioConformance
 from mrpbench_core.testing.suites.simulator import SimulatorConformance
@@ -37,14 +42,34 @@ SUITES: dict[str, type[ComponentConformance]] = {
     "exporter": ExporterConformance,
     "importer": ImporterConformance,
     "executor": ExecutorConformance,
+    "recovery": RecoveryConformance,
 }
 
 
 def suite_for(component: Component) -> ComponentConformance:
-    """The suite for a component; one of a kind that a plugin defines gets the checks of every component."""
+    """The suite for a component; see `Component.suite` for kinds that plugins define.
 
-    class Suite(SUITES.get(kind_of(component.group), ComponentConformance)):  # type: ignore[misc]
+    Raises:
+        InputError: the suite that a kind names cannot be imported.
+    """
+
+    class Suite(suite_class(component)):  # type: ignore[misc]
         def make(self) -> Component:
             return component
 
     return Suite()
+
+
+def suite_class(component: Component) -> type[ComponentConformance]:
+    """The class of the suite for a component; that of all components if its kind has none."""
+    kind, named = kind_of(component.group), kind_class(type(component)).suite
+    if kind in SUITES or named is None:
+        return SUITES.get(kind, ComponentConformance)
+    module, _, name = named.partition(":")
+    try:
+        found = getattr(importlib.import_module(module), name)
+    except (Exception, SystemExit) as error:
+        raise InputError(f"the suite {named} of the kind {kind} cannot be imported: {one_line(error)}") from error
+    if not isinstance(found, type) or not issubclass(found, ComponentConformance):
+        raise InputError(f"the suite {named} of the kind {kind} does not derive from ComponentConformance")
+    return found

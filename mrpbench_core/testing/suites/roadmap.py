@@ -31,7 +31,7 @@ class RoadmapConformance(ComponentConformance):
     def test_arrays_fit_together(self) -> None:
         roadmap = self.build()
         vertices, edges = len(roadmap.position), len(roadmap.edges)
-        require(vertices and edges, f"has {vertices} vertices and {edges} edges")
+        require(vertices and edges, f"has {vertices} vertices and {edges} edges: raise InputError if nothing is left")
         require(np.isfinite(roadmap.position).all(), "a vertex has a position that is not finite")
         require(len(roadmap.level) == vertices == len(roadmap.heading), "position, level and heading differ in length")
         require(
@@ -49,7 +49,7 @@ class RoadmapConformance(ComponentConformance):
         )
 
     def test_builds_the_same_roadmap_again(self) -> None:
-        require(self.build() == self.build(), "builds another roadmap the second time")
+        require(self.build() == self.build(), "builds another roadmap the second time: use no random numbers, no sets")
 
     def test_robots_keep_clear_of_walls(self) -> None:
         roadmap, level = self.build(), self.world().levels[0]
@@ -61,11 +61,10 @@ class RoadmapConformance(ComponentConformance):
             not len(hits), f"{len(hits)} edges pass a wall closer than the radius {ROBOT.radius:.3f} m, e.g. {where}"
         )
 
-    def test_most_places_can_be_reached(self) -> None:
-        roadmap = self.build()
-        _, sizes = np.unique(round_trips(roadmap, 0), return_counts=True)
-        share = sizes.max() / len(roadmap.position)
+    def test_robots_can_go_somewhere_and_back(self) -> None:
+        _, sizes = np.unique(round_trips(self.build(), 0), return_counts=True)
         require(
-            share > 0.5,
-            f"the largest strongly connected part has {100 * share:.0f} % of the vertices",
+            sizes.max() > 1,
+            "no two vertices can be reached from one another: a two-way lane is two edges, and a duration of -1 forbids"
+            " an edge to a robot",
         )

@@ -28,11 +28,21 @@ class Greedy(Assigner):
         return Assignment(task=task, cost=problem.costs[rows, task[rows]].sum())
 
 
-def test_an_assigner_that_is_greedy():
-    found = failed_checks(suite_for(Greedy()))
-    assert "is optimal" in found
-    assert "gives each task to one robot" not in found
-    assert "raises an assignment error when nothing is feasible" not in found
+def test_an_assigner_that_is_greedy_keeps_its_contract():
+    assert failed_checks(suite_for(Greedy())) == {}
+
+
+def test_an_assigner_that_promises_to_be_optimal_and_is_greedy():
+    found = failed_checks(suite_for(variant(Greedy, optimal=True)()))
+    assert found.keys() == {"is optimal", "avoids forbidden pairs"}
+    assert "must not declare `optimal`" in found["is optimal"]
+
+
+def test_an_assigner_that_names_another_cost():
+    def assign(self, problem):
+        return attrs.evolve(Greedy().assign(problem), cost=0.0)
+
+    assert failed_checks(suite_for(variant(Greedy, assign=assign)())).keys() == {"says what its assignment costs"}
 
 
 def test_an_assigner_that_gives_all_the_first_task():
@@ -42,7 +52,7 @@ def test_an_assigner_that_gives_all_the_first_task():
     found = failed_checks(suite_for(variant(Greedy, assign=assign)()))
     assert {
         "gives each task to one robot",
-        "is optimal",
+        "says what its assignment costs",
         "avoids forbidden pairs",
         "raises an assignment error when nothing is feasible",
     } <= found.keys()

@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Callable
-from typing import Literal
+from typing import ClassVar, Literal
 
 import attrs
 import numpy as np
@@ -18,6 +18,8 @@ Pair = tuple[int, int]
 @attrs.frozen(kw_only=True)
 class Pairing(Assigner):
     """An assigner that finds a set of pairs with the least sum or the least largest cost."""
+
+    optimal: ClassVar[bool] = True
 
     objective: Literal["sum", "bottleneck"] = option(
         "sum", help="objective: the sum of costs, or the largest cost and then the sum"

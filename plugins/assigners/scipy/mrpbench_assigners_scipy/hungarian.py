@@ -5,7 +5,7 @@ Sum: Crouse, "On implementing 2D rectangular assignment algorithms", IEEE Trans.
 problem", RAND P-1630, 1959), found by bisection with matchings of Hopcroft & Karp, SIAM J. Comput. 1973.
 """
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 import attrs
 import numpy as np
@@ -18,6 +18,8 @@ from mrpbench_core.model.planning.assignment import Assignment, AssignmentProble
 @attrs.frozen(kw_only=True)
 class Hungarian(Assigner):
     """The exact polynomial method, by SciPy."""
+
+    optimal: ClassVar[bool] = True
 
     objective: Literal["sum", "bottleneck"] = option(
         "sum", help="objective: the sum of costs, or the largest cost and then the sum"

@@ -38,6 +38,7 @@ class Critic(Component):
     """Scores trajectories; DWB sums the scores of all critics, each multiplied by its scale."""
 
     group: ClassVar[str] = "mrpbench.critics"
+    suite: ClassVar[str | None] = "mrpbench_controllers_dwb.testing:CriticConformance"
 
     scale: float = option(1.0, help="weight among the other critics; 0 = off", validator=attrs.validators.ge(0))
 
