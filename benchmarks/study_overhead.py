@@ -10,7 +10,7 @@ from pathlib import Path
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.processes.slots import slots_of_this_process
-from mrpbench_core.engine.study.invoke import prepare
+from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.store.paths import RunPaths
@@ -36,10 +36,10 @@ def main() -> None:
         with slots_of_this_process() as slots:
             began = time.perf_counter()
             study = read_study(slots, described)
-            run_study(study, prepare(study.name, slots, out=folder / "warm-up", shard=f"0/{RUNS}"))
+            run_study(study, StudyOptions(out=folder / "warm-up", shard=f"0/{RUNS}"), slots)
             start = time.perf_counter() - began
             began = time.perf_counter()
-            run_study(study, prepare(study.name, slots, out=folder / "out"))
+            run_study(study, StudyOptions(out=folder / "out"), slots)
             studied = (time.perf_counter() - began) / RUNS
         paths = RunPaths(recording=folder / "none.zip", exports=folder / "none")
         points = load_study(described).runs

@@ -9,7 +9,7 @@ from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.cli.output.replays import write_replay
 from mrpbench_core.cli.output.summary import plugins_line, print_summary
 from mrpbench_core.engine.processes.slots import slots_of_this_process
-from mrpbench_core.engine.study.invoke import prepare
+from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.files.errors import InputError
@@ -40,9 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
     with slots_of_this_process() as slots:
         study = read_study(slots, _configuration())
         print(plugins_line([study]), flush=True)
-        progress = Printed()
-        done = run_study(study, prepare(study.name, slots, out=arguments.out, rerun="all", progress=progress))
-        progress.close()
+        done = run_study(study, StudyOptions(out=arguments.out, rerun="all", progress=Printed()), slots)
     if done.mistakes:
         raise InputError(next(iter(done.mistakes.values())))
     print_summary(done.results)

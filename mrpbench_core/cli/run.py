@@ -5,7 +5,8 @@ import signal
 import sys
 from collections import Counter
 from collections.abc import Sequence
-from contextlib import closing, redirect_stdout
+from contextlib import nullcontext, redirect_stdout
+from pathlib import Path
 from typing import Any
 
 from mrpbench_core.cli.input.arguments import add_configuration, read_options, split_words
@@ -14,9 +15,9 @@ from mrpbench_core.cli.output.summary import plugins_line, print_summary
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.engine.loading.runs import StudyRuns
 from mrpbench_core.engine.processes.slots import slots_of_this_process
-from mrpbench_core.engine.study.invoke import prepare
+from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.reading import read_studies
-from mrpbench_core.engine.study.study import Request, StudyOutcome, choose, run_study
+from mrpbench_core.engine.study.study import choose, run_study
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.report.reading.axes import word
@@ -61,75 +62,59 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Do the runs."""
     files, overrides = split_words(arguments.words)
-    options = read_options(arguments.executor_option, "--executor-option")
+    options = StudyOptions(
+        overrides=overrides,
+        out=arguments.out,
+        workers=arguments.workers,
+        executor={"plugin": arguments.executor} | read_options(arguments.executor_option, "--executor-option"),
+        shard=arguments.shard,
+        rerun=arguments.rerun,
+        progress=Printed(),
+    )
     with slots_of_this_process() as slots:
-        if not arguments.json or arguments.dry_run:
-            return _work(slots, arguments, files, overrides, options)[0]
-        with redirect_stdout(sys.stderr):
-            code, done = _work(slots, arguments, files, overrides, options)
-    print_json([_outcome(request, results) for request, results in done])
-    return code
-
-
-def _work(
-    slots: str, arguments: argparse.Namespace, files: Sequence[str], overrides: Sequence[str], options: dict[str, Any]
-) -> tuple[int, list[tuple[Request, Results]]]:
-    """Do the runs, or list them; return the exit code and the results of each finished study."""
-    studies = read_studies(slots, files, overrides)
-    progress = Printed()
-    requests = [
-        prepare(
-            study.name,
-            slots,
-            overrides,
-            out=arguments.out,
-            workers=arguments.workers,
-            executor=arguments.executor,
-            executor_options=options,
-            shard=arguments.shard,
-            rerun=arguments.rerun,
-            progress=progress,
+        studies = read_studies(slots, files, overrides)
+        for error in (error for study in studies for error in study.errors):
+            sys.stderr.write(f"{error}\n")
+        if arguments.dry_run:
+            _list(studies, options, arguments.json)
+            return int(any(study.errors for study in studies))
+        with redirect_stdout(sys.stderr) if arguments.json else nullcontext():
+            print(plugins_line(studies), flush=True)
+            signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs with SIGTERM
+            done = [_run_one(study, options, slots) for study in studies]
+    if arguments.json:
+        print_json(
+            [
+                {"out": str(options.folder_of(study.name)), "runs": len(results), "statuses": results.statuses()}
+                for study, (_, results) in zip(studies, done, strict=True)
+            ]
         )
-        for study in studies
-    ]
-    for error in (error for study in studies for error in study.errors):
-        sys.stderr.write(f"{error}\n")
-    if arguments.dry_run:
-        _list(studies, requests, arguments.json)
-        return int(any(study.errors for study in studies)), []
-    print(plugins_line(studies), flush=True)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs with SIGTERM
-    ended = [_run_one(study, request, progress) for study, request in zip(studies, requests, strict=True)]
-    done = [(request, results) for request, (_, results) in zip(requests, ended, strict=True)]
-    return max(code for code, _ in ended), done
+    return max(code for code, _ in done)
 
 
-def _outcome(request: Request, results: Results) -> dict[str, Any]:
-    return {"out": str(request.out), "runs": len(results), "statuses": results.statuses()}
-
-
-def _run_one(study: StudyRuns, request: Request, progress: Printed) -> tuple[int, Results]:
+def _run_one(study: StudyRuns, options: StudyOptions, slots: str) -> tuple[int, Results]:
+    """Do the runs of one study; return the exit code and the results."""
+    folder = options.folder_of(study.name)
     try:
-        with closing(progress):
-            done = run_study(study, request)
+        done = run_study(study, options, slots)
     except KeyboardInterrupt:
-        sys.stderr.write(f"interrupted; finished runs are in {request.out}, and the same command continues\n")
+        sys.stderr.write(f"interrupted; finished runs are in {folder}, and the same command continues\n")
         raise SystemExit(130) from None
     for mistake, runs in Counter(line for text in done.mistakes.values() for line in text.splitlines()).items():
         sys.stderr.write(f"{mistake}\n" if runs == 1 else f"{mistake} ({runs} runs)\n")
     if done.mistakes and not len(done.results):
         return 2, done.results
-    _summarize(done, request)
+    _summarize(done.results, folder)
     return int(RunStatus.CRASHED in done.results.statuses() or bool(done.mistakes or study.errors)), done.results
 
 
-def _list(studies: Sequence[StudyRuns], requests: Sequence[Request], as_json: bool) -> None:
+def _list(studies: Sequence[StudyRuns], options: StudyOptions, as_json: bool) -> None:
     found: list[dict[str, Any]] = []
-    for study, request in zip(studies, requests, strict=True):
-        selection, _ = choose(study, request)
+    for study in studies:
+        out = str(options.folder_of(study.name))
+        selection, _ = choose(study, options)
         found += [
-            {"run_id": point.run_id, "attempt": attempt, "out": str(request.out), "axes": point.axes}
-            | {"config": point.canonical}
+            {"run_id": point.run_id, "attempt": attempt, "out": out, "axes": point.axes, "config": point.canonical}
             for point, attempt in selection.todo
         ]
     if as_json:
@@ -147,12 +132,11 @@ def _list(studies: Sequence[StudyRuns], requests: Sequence[Request], as_json: bo
     )
 
 
-def _summarize(done: StudyOutcome, request: Request) -> None:
-    results = done.results
+def _summarize(results: Results, folder: Path) -> None:
     print_summary(results, limit=GROUPS_SHOWN)
     statuses = sorted(results.statuses().items(), key=lambda item: -item[1])
     counts = ", ".join(f"{count} {status}" for status, count in statuses)
-    print(f"{counted(len(results), 'run')}: {counts}; results in {request.out}")
-    print(f"for intervals, comparisons and an HTML page: `mrpbench report {request.out}`")
+    print(f"{counted(len(results), 'run')}: {counts}; results in {folder}")
+    print(f"for intervals, comparisons and an HTML page: `mrpbench report {folder}`")
     if results.statuses().get(RunStatus.CRASHED):
-        print(f"{request.out}/logs shows why runs crashed; `--rerun failed` repeats them")
+        print(f"{folder}/logs shows why runs crashed; `--rerun failed` repeats them")

@@ -22,22 +22,29 @@ NAMED_POINTS = 5
 
 
 @attrs.frozen(kw_only=True)
-class RunPoint:
-    """One run of a study."""
+class RunData:
+    """One run of a study as plain data."""
 
     run_id: str
-    config: RunConfig
     canonical: dict[str, Any] = attrs.field(repr=False)
-    """The configuration as plain data, for records."""
+    """The configuration, for records and workers; see `mrpbench_core.config.canonical`."""
     axes: dict[str, Any]
     """Plain values of the keys that vary in the study, by dotted key."""
     folder: Path
-    sources: dict[str, str] = attrs.field(repr=False, factory=dict)
+    sources: dict[str, str] = attrs.field(repr=False)
+    """Texts of local plugins by file."""
 
     @property
     def parcel(self) -> dict[str, Any]:
         """Plain data from which another process makes the same configuration; see `unpack`."""
         return {"config": self.canonical, "folder": str(self.folder), "sources": self.sources}
+
+
+@attrs.frozen(kw_only=True)
+class RunPoint(RunData):
+    """One run of a study with its configuration."""
+
+    config: RunConfig
 
 
 @attrs.frozen(kw_only=True)
@@ -87,7 +94,7 @@ def load_studies(files: Iterable[Path | str], overrides: Sequence[str] = ()) -> 
 
 
 def unpack(parcel: Mapping[str, Any], *, verify: bool = True) -> RunConfig:
-    """Return the configuration of a `RunPoint.parcel`, in any process that sees the same files.
+    """Return the configuration of a `RunData.parcel`, in any process that sees the same files.
 
     Raises:
         InputErrors: a plugin or file is missing, or (with `verify`) a file has changed.

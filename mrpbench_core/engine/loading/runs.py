@@ -7,7 +7,7 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.config.study import RunPoint, Study, load_study
+from mrpbench_core.config.study import RunData, RunPoint, Study, load_study
 from mrpbench_core.engine.loading.versions import code_of
 from mrpbench_core.engine.stages.measure import describe
 from mrpbench_core.files.errors import InputError, InputErrors
@@ -15,28 +15,15 @@ from mrpbench_core.plugins.provenance import components_in
 
 
 @attrs.frozen(kw_only=True)
-class StudyRun:
-    """One run of a study as plain data."""
+class StudyRun(RunData):
+    """One run of a study, as the invoker knows it."""
 
-    run_id: str
-    canonical: dict[str, Any] = attrs.field(repr=False)
-    """The configuration, for records and workers; see `mrpbench_core.config.canonical`."""
-    axes: dict[str, Any]
-    """Plain values of the keys that vary in the study, by dotted key."""
-    folder: Path
-    sources: dict[str, str] = attrs.field(repr=False)
-    """Texts of local plugins by file."""
     code: dict[str, Any] = attrs.field(repr=False)
     """Its components and their versions; the same object for runs with the same ones."""
     live: bool
     """Something outside of the process takes part."""
     wall_s: float
     memory_bytes: int
-
-    @property
-    def parcel(self) -> dict[str, Any]:
-        """Plain data from which a worker makes the configuration; see `mrpbench_core.config.study.unpack`."""
-        return {"config": self.canonical, "folder": str(self.folder), "sources": self.sources}
 
 
 @attrs.frozen(kw_only=True)

@@ -30,3 +30,6 @@ class StudyProgress:
 
     def refused(self, point: StudyRun, mistake: str) -> None:
         """A run could not be executed because of a mistake of the user; nothing was recorded."""
+
+    def close(self) -> None:
+        """The study has ended or was interrupted."""

@@ -145,7 +145,7 @@ def test_records_survive_a_round_trip_through_json_and_are_complete(study):
         ({"shard": "3/3"}, "--shard 3/3: not i/n"),
         ({"shard": "half"}, "--shard half: not i/n"),
         ({"executor": "proceses"}, "did you mean 'processes'"),
-        ({"executor_options": {"speed": 1}}, "executor.speed: unknown option of 'processes'"),
+        ({"executor": {"plugin": "processes", "speed": 1}}, "executor.speed: unknown option of 'processes'"),
     ],
 )
 def test_a_wrong_request_is_refused_before_anything_is_written(study, options, what):

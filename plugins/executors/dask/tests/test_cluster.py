@@ -164,7 +164,7 @@ def test_a_study_survives_the_loss_of_a_worker_and_names_the_repeated_runs(clust
     killer.start()
     heard = Heard()
     results = run(
-        study, out="there", workers=2, executor="dask", executor_options={"scheduler": cluster.address}, progress=heard
+        study, out="there", workers=2, executor={"plugin": "dask", "scheduler": cluster.address}, progress=heard
     )
     killer.join()
     assert len(results) == 8
@@ -200,7 +200,7 @@ def test_a_lost_scheduler_ends_the_study_in_one_line_and_it_can_go_on(doomed, st
     killer = threading.Thread(target=kill_the_scheduler)
     killer.start()
     with pytest.raises(InputError, match="the Dask scheduler was lost"):
-        run(study, out="there", workers=2, executor="dask", executor_options={"scheduler": doomed.address})
+        run(study, out="there", workers=2, executor={"plugin": "dask", "scheduler": doomed.address})
     killer.join()
     kept = len(load("there"))
     assert kept < 8
