@@ -95,14 +95,7 @@ def scan_costs(world: World, robots: int) -> tuple[float, float]:
     """Microseconds for one scan by the native caster and by the kinematic simulator's."""
     lidar, solids, pose = BURGER.lidar or Lidar(), segments(world), placements(world, robots)
     radius, movers, scanning = np.full(robots, BURGER.radius), np.empty((0, 2)), np.arange(robots, dtype=np.int32)
-    caster = Caster(
-        segments=solids,
-        beams=lidar.beams,
-        range=lidar.range,
-        min_range=lidar.min_range,
-        forward=lidar.mount[0],
-        leftward=lidar.mount[1],
-    )
+    caster = Caster(segments=solids, lidar=lidar)
     near = solids[point_segment_distance(pose[0, :2], solids[:, :2], solids[:, 2:]) < lidar.range + 1]
     native = fastest(lambda: caster.scan(scanning, pose, movers, radius)) / robots
     return native, fastest(lambda: scan(lidar, pose[0], near, pose[1:, :2], radius[1:]))

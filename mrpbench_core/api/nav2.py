@@ -5,6 +5,7 @@ from typing import Any, Literal, get_args, get_origin
 
 import attrs
 
+from mrpbench_core.api.described import DescribedOption, kind_of, validator_of
 from mrpbench_core.files.nav2 import Nav2Block
 
 
@@ -21,6 +22,17 @@ def parameter(default: Any, *, help: str, unit: str | None = None, validator: Ca
         validator=None if validator is None else attrs.validators.optional(validator),
         metadata={"help": help + shown, "unit": unit, "nav2": default},
     )
+
+
+def as_parameter(described: DescribedOption, *, unset: bool = False) -> tuple[Any, Any]:
+    """Return the type and the field of an option that a library describes; with `unset` it has no default."""
+    field = parameter(
+        None if unset else described.default,
+        help=described.help,
+        unit=described.unit or None,
+        validator=validator_of(described),
+    )
+    return kind_of(described) | None, field
 
 
 def settle(

@@ -2,12 +2,14 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <stdexcept>
 #include <string>
 
 #include "arrays.hpp"
 #include "mrpbench_amcl/fleet.hpp"
+#include "options.hpp"
 
 namespace nb = nanobind;
 using namespace mrpbench::bindings;
@@ -17,38 +19,23 @@ using mrpbench::sim::Segment;
 
 namespace {
 
-using Table = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Output = nb::ndarray<nb::numpy, double>;
 
 static_assert(sizeof(Segment) == 4 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
 static_assert(sizeof(Point) == 2 * sizeof(double));
-
-Parameters parameters(const nb::dict& given) {
-  Parameters result;
-  for (const auto& [key, value] : given) {
-    const auto name = nb::cast<std::string>(key);
-    const auto field = Parameters::fields().find(name);
-    if (field == Parameters::fields().end()) throw std::invalid_argument("there is no parameter " + name);
-    const auto assign = [&, &value = value](auto member) {
-      result.*member = nb::cast<std::remove_reference_t<decltype(result.*member)>>(value);
-    };
-    std::visit(assign, field->second);
-  }
-  return result;
-}
 
 void construct(Fleet* self, const Matrix<4>& segments, double resolution, const Matrix<2>& places,
                const Matrix<3>& placements, std::uint64_t seed, const nb::dict& given) {
   const auto walls = rows<Segment>(segments);
   const auto free = rows<Point>(places);
   const auto poses = rows<Pose>(placements);
-  const Parameters chosen = parameters(given);
+  const auto chosen = configured_by<Parameters>(given);
   const nb::gil_scoped_release release;
   new (self) Fleet({walls.begin(), walls.end()}, resolution, Places{{free.begin(), free.end()}, resolution},
                    {poses.begin(), poses.end()}, chosen, seed);
 }
 
-void sense(Fleet& self, const Vector<std::int32_t>& robots, const Table& ranges, const Matrix<3>& odometry,
+void sense(Fleet& self, const Vector<std::int32_t>& robots, const Table<double>& ranges, const Matrix<3>& odometry,
            double range, double min_range, double forward, double leftward) {
   require(ranges.shape(0) == robots.size(), "one row of ranges for each robot");
   const Scans scans{
@@ -87,6 +74,7 @@ Output particles(const Fleet& self, std::size_t robot) {
 }  // namespace
 
 NB_MODULE(amcl, module) {
+  use_options();
   module.doc() = "Adaptive Monte Carlo localisation of a fleet, in C++.";
 
   nb::class_<Fleet>(module, "Fleet")
@@ -99,4 +87,6 @@ NB_MODULE(amcl, module) {
       .def("poses", &poses, "odometry"_a, nb::rv_policy::automatic)
       .def_prop_ro("covariances", &covariances, nb::rv_policy::automatic)
       .def("particles", &particles, "robot"_a, nb::rv_policy::automatic);
+
+  module.def("options", [] { return parameters(Parameters::description()); });
 }

@@ -1,7 +1,6 @@
 // Python bindings of local navigation: arrays in, arrays out. Nothing here decides anything.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
-#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
@@ -13,6 +12,7 @@
 #include "arrays.hpp"
 #include "mrpbench_local/fleet.hpp"
 #include "mrpbench_local/footprint.hpp"
+#include "options.hpp"
 
 namespace nb = nanobind;
 using namespace mrpbench::bindings;
@@ -22,8 +22,7 @@ using namespace mrpbench::local;
 namespace {
 
 using Output = nb::ndarray<nb::numpy, double>;
-using Settings = std::map<std::string, double>;
-using Critics = std::vector<std::tuple<std::string, double, Settings>>;
+using Critics = std::vector<std::tuple<std::string, double, nb::dict>>;
 
 static_assert(sizeof(Segment) == 4 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
 static_assert(sizeof(Twist) == 2 * sizeof(double) && sizeof(Point) == 2 * sizeof(double));
@@ -45,53 +44,15 @@ Path whole(const Matrix<2>& path) {
   return {all[0], all.subspan(1)};
 }
 
-RobotOptions robot_options(const Settings& settings, const Matrix<2>& footprint) {
-  CriticOptions given(settings);
-  RobotOptions all;
-  const auto take = [&](const char* name, double& value) { value = given.take(name, value); };
-  const auto flag = [&](const char* name, bool& value) { value = given.take(name, value) != 0; };
-  const auto whole = [&](const char* name, int& value) { value = static_cast<int>(given.take(name, value)); };
-  CostmapOptions& map = all.costmap;
-  take("width", map.width), take("height", map.height), take("resolution", map.resolution);
-  take("update_frequency", map.update_frequency);
-  flag("obstacle_layer", map.obstacle_layer), flag("static_layer", map.static_layer);
-  flag("inflation_layer", map.inflation_layer), flag("marking", map.marking), flag("clearing", map.clearing);
-  flag("inf_is_valid", map.inf_is_valid), flag("footprint_clearing_enabled", map.footprint_clearing);
-  take("obstacle_max_range", map.obstacle_max_range), take("obstacle_min_range", map.obstacle_min_range);
-  take("raytrace_max_range", map.raytrace_max_range), take("raytrace_min_range", map.raytrace_min_range);
-  take("inflation_radius", map.inflation_radius), take("cost_scaling_factor", map.cost_scaling_factor);
-  MotionOptions& motion = all.dwb.motion;
-  take("min_vel_x", motion.min_vel_x), take("max_vel_x", motion.max_vel_x);
-  take("max_vel_theta", motion.max_vel_theta), take("min_speed_xy", motion.min_speed_xy);
-  take("max_speed_xy", motion.max_speed_xy), take("min_speed_theta", motion.min_speed_theta);
-  take("acc_lim_x", motion.acc_lim_x), take("decel_lim_x", motion.decel_lim_x);
-  take("acc_lim_theta", motion.acc_lim_theta), take("decel_lim_theta", motion.decel_lim_theta);
-  whole("vx_samples", motion.vx_samples), whole("vtheta_samples", motion.vtheta_samples);
-  take("sim_time", motion.sim_time), take("linear_granularity", motion.linear_granularity);
-  take("angular_granularity", motion.angular_granularity), take("time_granularity", motion.time_granularity);
-  flag("discretize_by_time", motion.discretize_by_time), flag("include_last_point", motion.include_last_point);
-  flag("limited", motion.limited), take("period", motion.period);
-  take("prune_distance", all.dwb.pruning.prune_distance);
-  flag("shorten_transformed_plan", all.dwb.pruning.shorten);
-  take("beyond_end", all.dwb.pruning.beyond_end);
-  take("rotate_to_path", all.dwb.rotate_to_path);
-  take("min_x_velocity_threshold", all.dwb.min_x_velocity_threshold);
-  take("min_theta_velocity_threshold", all.dwb.min_theta_velocity_threshold);
-  flag("short_circuit_trajectory_evaluation", all.dwb.short_circuit);
-  take("lidar_forward", all.sensor.mount.x), take("lidar_leftward", all.sensor.mount.y);
-  take("lidar_range", all.sensor.range);
-  flag("by_radius", all.by_radius), take("max_detour", all.max_detour);
-  const double padding = given.take("footprint_padding", 0.01);
-  const double radius = given.take("robot_radius", 0);
-  given.finish();
-  map.footprint = padded(all.by_radius ? rounded(radius) : copy<Point>(footprint), padding);
-  return all;
-}
-
-void add(Fleet& self, const Settings& settings, const Matrix<2>& footprint, const Critics& critics) {
+void add(Fleet& self, const nb::dict& settings, const Matrix<2>& footprint, const Critics& critics) {
+  auto options = configured_by<RobotOptions>(settings);
+  options.costmap.footprint = padded(options.by_radius ? rounded(options.robot_radius) : copy<Point>(footprint),
+                                     options.costmap.footprint_padding);
   std::vector<Dwb::Weighted> weighted;
-  for (const auto& [name, scale, options] : critics) weighted.push_back({name, scale, make_critic(name, options)});
-  self.add(robot_options(settings, footprint), std::move(weighted));
+  for (const auto& [name, scale, given] : critics) {
+    weighted.push_back({name, scale, make_critic(name, from_python(given, critic_kind(name).options))});
+  }
+  self.add(options, std::move(weighted));
 }
 
 void see(Fleet& self, double now, const Vector<std::int32_t>& robots, const Matrix<3>& poses,
@@ -130,10 +91,15 @@ Output twists_array(const Trajectories& all) {
   return own(std::move(values), {all.size(), 2});
 }
 
-Output command(Fleet& self, double now, const Vector<std::int64_t>& robot, const Matrix<3>& pose,
-               const Matrix<2>& twist, const Matrix<2>& foot, const Matrix<2>& points,
-               const Vector<std::int64_t>& begin, const Vector<std::int64_t>& end, const Vector<double>& yaw,
-               const Vector<double>& speed, double tolerance, const nb::object& score) {
+/// `seen` is an object with the attributes of `Observations`.
+Output command(Fleet& self, nb::handle seen, const nb::object& score) {
+  const auto robot = attribute<Vector<std::int64_t>>(seen, "robot");
+  const auto pose = attribute<Matrix<3>>(seen, "pose");
+  const auto twist = attribute<Matrix<2>>(seen, "twist"), foot = attribute<Matrix<2>>(seen, "foot");
+  const auto points = attribute<Matrix<2>>(seen, "points");
+  const auto begin = attribute<Vector<std::int64_t>>(seen, "begin"), end = attribute<Vector<std::int64_t>>(seen, "end");
+  const auto yaw = attribute<Vector<double>>(seen, "yaw"), speed = attribute<Vector<double>>(seen, "speed");
+  const auto now = attribute<double>(seen, "now"), tolerance = attribute<double>(seen, "tolerance");
   const std::size_t count = robot.size();
   require(pose.shape(0) == count && twist.shape(0) == count && foot.shape(0) == count && begin.size() == count &&
               end.size() == count && yaw.size() == count && speed.size() == count,
@@ -200,6 +166,7 @@ std::tuple<Output, double, double, double> costmap(const Fleet& self, std::size_
 }  // namespace
 
 NB_MODULE(local, module) {
+  use_options();
   module.doc() = "Local navigation in C++: costmaps, and Nav2's DWB.";
 
   nb::class_<Fleet>(module, "Fleet")
@@ -211,8 +178,7 @@ NB_MODULE(local, module) {
           nb::kw_only(), "walls"_a, "reach"_a, "threads"_a)
       .def("add", &add, nb::kw_only(), "settings"_a, "footprint"_a, "critics"_a)
       .def("see", &see, "now"_a, "robots"_a, "pose"_a, "ranges"_a)
-      .def("command", &command, nb::kw_only(), "now"_a, "robot"_a, "pose"_a, "twist"_a, "foot"_a, "points"_a, "begin"_a,
-           "end"_a, "yaw"_a, "speed"_a, "tolerance"_a, "score"_a = nb::none())
+      .def("command", &command, "seen"_a, "score"_a = nb::none())
       .def("clear", &Fleet::clear, "robot"_a)
       .def("is_free",
            [](const Fleet& self, std::size_t robot, const Matrix<3>& poses) {
@@ -227,7 +193,6 @@ NB_MODULE(local, module) {
       .def("explain", &explain, "robot"_a)
       .def("costmap", &costmap, "robot"_a);
 
-  module.def(
-      "critic", [](const std::string& name, const Settings& options) { make_critic(name, options); }, "name"_a,
-      "options"_a);
+  module.def("robot_options", &robot_parameters, "group"_a);
+  module.def("critic_options", [](const std::string& name) { return critic_kind(name).options; }, "name"_a);
 }

@@ -9,7 +9,8 @@
 #include <string>
 
 #include "mapf_instance.hpp"
-#include "mapf_options.hpp"
+#include "mrpbench_mapf/algorithms/algorithms.hpp"
+#include "options.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -89,7 +90,7 @@ Answer solve(const Instance& instance, const std::string& name, const nb::dict& 
   const Algorithm& chosen = algorithm(name);
   Algorithm::Solver solver;
   try {
-    solver = chosen.configure(from_python(options, chosen));
+    solver = chosen.configure(from_python(options, chosen.options));
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + ": " + error.what());
   }
@@ -101,6 +102,7 @@ Answer solve(const Instance& instance, const std::string& name, const nb::dict& 
 }  // namespace
 
 NB_MODULE(mapf, module) {
+  use_options();
   module.doc() = "Multi-agent path finding in C++. Plain arrays in, plain arrays out.";
 
   nb::class_<Instance>(module, "Instance", "Robots on a roadmap. Raises ValueError for data that make no sense.")
@@ -124,27 +126,6 @@ NB_MODULE(mapf, module) {
       .def_prop_ro(
           "enter", [](const Answer& it) { return view(it.enter); }, "i8[...] ticks.")
       .def_prop_ro("leave", [](const Answer& it) { return view(it.leave); }, "i8[...] ticks.");
-
-  nb::class_<Parameter>(module, "Option", "An option of an algorithm.")
-      .def_prop_ro(
-          "name", [](const Parameter& it) { return it.info.name; }, "The word that sets it.")
-      .def_prop_ro(
-          "type", [](const Parameter& it) { return type_name(it.info.type); }, "bool, int, float or str.")
-      .def_prop_ro(
-          "optional", [](const Parameter& it) { return it.info.optional; }, "It may be None.")
-      .def_prop_ro(
-          "default", [](const Parameter& it) { return to_python(it.preset); }, "Its value unless it is set.")
-      .def_prop_ro(
-          "least", [](const Parameter& it) { return it.info.range.least; }, "Of numbers, None if unbounded.")
-      .def_prop_ro(
-          "most", [](const Parameter& it) { return it.info.range.most; }, "Of numbers, None if unbounded.")
-      .def_prop_ro(
-          "choices", [](const Parameter& it) { return it.info.choices; }, "The words it may be; [] for other types.")
-      .def_prop_ro(
-          "help", [](const Parameter& it) { return it.info.help; }, "One sentence, without a full stop.")
-      .def_prop_ro(
-          "paper", [](const Parameter& it) { return it.info.paper; }, "Short citation, or an empty text.")
-      .def_ro("fixed", &Parameter::fixed, "The name of the algorithm decides it; planners do not offer it.");
 
   nb::class_<Algorithm>(module, "Algorithm", "An algorithm and its options.")
       .def_ro("name", &Algorithm::name)

@@ -2,15 +2,19 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 #include "arrays.hpp"
 #include "mrpbench_sim/caster.hpp"
 #include "mrpbench_sim/plane.hpp"
+#include "options.hpp"
 
 namespace nb = nanobind;
 using namespace mrpbench::bindings;
@@ -32,18 +36,30 @@ Output<T> copied(const std::vector<Row>& rows_of) {
   return own<T>({first, first + rows_of.size() * columns}, {rows_of.size(), columns});
 }
 
-void construct_plane(Plane* self, const Matrix<4>& segments, const Vector<double>& radius, const Matrix<2>& limit,
-                     const Matrix<2>& acceleration, const Vector<double>& wheel_separation, const Matrix<3>& pose,
-                     double period, double slip, double actuation, std::uint64_t seed) {
+void construct_plane(Plane* self, const Matrix<4>& segments, const nb::dict& robots, const Vector<double>& movers,
+                     double period, const nb::dict& noise, std::uint64_t seed) {
+  const NamedArrays arrays(robots, "robots");
+  const auto pose = arrays.rows<3>("pose");
   const std::size_t count = pose.shape(0);
-  require(limit.shape(0) == count && acceleration.shape(0) == count && wheel_separation.size() == count,
-          "limits, accelerations and wheel separations are those of the robots");
+  const auto limit = arrays.rows<2>("limit", count), acceleration = arrays.rows<2>("acceleration", count);
+  const auto wheel_separation = arrays.vector<double>("wheel_separation", count);
+  auto radius = copy<double>(arrays.vector<double>("radius", count));
+  radius.insert(radius.end(), movers.data(), movers.data() + movers.size());
   std::vector<Drive> drives;
   for (std::size_t i = 0; i < count; ++i) {
     drives.push_back({rows<Twist>(limit)[i], rows<Twist>(acceleration)[i], wheel_separation.data()[i]});
   }
-  new (self) Plane(copy<Segment>(segments), copy<double>(radius), std::move(drives), copy<Pose>(pose), period,
-                   {slip, actuation, seed});
+  auto chance = configured_by<Chance>(noise);
+  chance.seed = seed;
+  new (self) Plane(copy<Segment>(segments), std::move(radius), std::move(drives), copy<Pose>(pose), period, chance);
+}
+
+void construct_caster(Caster* self, const Matrix<4>& segments, nb::handle lidar) {
+  const auto [forward, leftward, height] = attribute<std::tuple<double, double, double>>(lidar, "mount");
+  new (self) Caster(copy<Segment>(segments), {attribute<int>(lidar, "beams"),
+                                              attribute<double>(lidar, "range"),
+                                              attribute<double>(lidar, "min_range"),
+                                              {forward, leftward}});
 }
 
 void step(Plane& self, const Matrix<2>& twist, const std::optional<Matrix<2>>& movers) {
@@ -75,11 +91,12 @@ Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, cons
 }  // namespace
 
 NB_MODULE(sim, module) {
+  use_options();
   module.doc() = "Robots, contacts and lidars in the plane, in C++.";
 
   nb::class_<Plane>(module, "Plane")
-      .def("__init__", &construct_plane, nb::kw_only(), "segments"_a, "radius"_a, "limit"_a, "acceleration"_a,
-           "wheel_separation"_a, "pose"_a, "period"_a, "slip"_a, "actuation"_a, "seed"_a)
+      .def("__init__", &construct_plane, nb::kw_only(), "segments"_a, "robots"_a, "movers"_a, "period"_a, "noise"_a,
+           "seed"_a)
       .def("step", &step, "twist"_a, "movers"_a = nb::none())
       .def(
           "set_leaves", [](Plane& self, const Matrix<4>& segments) { self.set_leaves(rows<Segment>(segments)); },
@@ -95,12 +112,8 @@ NB_MODULE(sim, module) {
           "contacts", [](const Plane& self) { return copied<std::int32_t>(self.touches()); }, nb::rv_policy::automatic);
 
   nb::class_<Caster>(module, "Caster")
-      .def(
-          "__init__",
-          [](Caster* self, const Matrix<4>& segments, int beams, double range, double min_range, double forward,
-             double leftward) {
-            new (self) Caster(copy<Segment>(segments), Lidar{beams, range, min_range, {forward, leftward}});
-          },
-          nb::kw_only(), "segments"_a, "beams"_a, "range"_a, "min_range"_a, "forward"_a, "leftward"_a)
+      .def("__init__", &construct_caster, nb::kw_only(), "segments"_a, "lidar"_a)
       .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a, "leaves"_a = nb::none());
+
+  module.def("noise_options", [] { return parameters(Chance::description()); });
 }

@@ -42,7 +42,7 @@ def test_particles_poses_and_covariances_have_their_shapes():
     ("changes", "message"),
     [
         ({"parameters": {"min_particles": 0}}, "min_particles"),
-        ({"parameters": {"sigma": 0.2}}, "there is no parameter sigma"),
+        ({"parameters": {"sigma": 0.2}}, "there is no option 'sigma'"),
         ({"resolution": 0.0}, "resolution"),
         ({"placements": np.full((1, 3), np.inf)}, "finite"),
     ],
@@ -70,4 +70,4 @@ def test_the_stub_names_what_the_module_has():
     (item,) = (item for item in stub.body if isinstance(item, ast.ClassDef))
     declared = {member.name for member in item.body if isinstance(member, ast.FunctionDef)} - {"__init__"}
     assert declared == {name for name in dir(amcl.Fleet) if not name.startswith("_")}
-    assert {item.name} == {name for name in dir(amcl) if not name.startswith("_")}
+    assert {item.name, "options"} == {name for name in dir(amcl) if not name.startswith("_")}

@@ -1,8 +1,10 @@
 """Invalid arguments of local navigation raise errors in Python."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
-from mrpbench_native.local import Fleet, critic
+from mrpbench_native.local import Fleet
 
 SQUARE = np.array([(0.1, 0.1), (-0.1, 0.1), (-0.1, -0.1), (0.1, -0.1)])
 
@@ -13,7 +15,7 @@ def fleet(settings=None, critics=(("PathDist", 1.0, {}),)):
     return found
 
 
-def command(found, **changed):
+def command(found, score=None, **changed):
     seen = {
         "now": 0.0,
         "robot": np.zeros(1, np.int64),
@@ -27,12 +29,12 @@ def command(found, **changed):
         "speed": np.full(1, np.inf),
         "tolerance": 0.1,
     }
-    return found.command(**(seen | changed))
+    return found.command(SimpleNamespace(**(seen | changed)), score)
 
 
 def test_a_robot_is_driven_along_its_path():
     assert command(fleet())[0, 0] >= 0
-    assert command(fleet({"by_radius": 0.0})).shape == (1, 2)
+    assert command(fleet({"by_radius": False})).shape == (1, 2)
 
 
 @pytest.mark.parametrize(
@@ -52,11 +54,13 @@ def test_invalid_rows_are_refused(changed, message):
 @pytest.mark.parametrize(
     ("settings", "message"),
     [
-        ({"simtime": 1.0}, "unknown option"),
-        ({"sim_time": 0.0}, "must be positive"),
-        ({"acc_lim_x": -1.0}, "acceleration limits must be positive"),
+        ({"simtime": 1.0}, "there is no option 'simtime'"),
+        ({"sim_time": 0.0}, "sim_time must be a number above 0, not 0"),
+        ({"acc_lim_x": -1.0}, "acc_lim_x must be a number above 0"),
+        ({"decel_lim_x": 1.0}, "deceleration limits negative"),
+        ({"marking": 1.0}, "marking must be true or false"),
         ({"min_vel_x": 1.0, "max_vel_x": 0.5}, "lowest speed exceeds"),
-        ({"vx_samples": 0.0}, "samples"),
+        ({"vx_samples": 0}, "vx_samples must be a whole number from 1 to 1000"),
         ({"resolution": 0.0}, "resolution"),
         ({"width": 1e6}, "cells"),
         ({"inflation_radius": 99.0}, "inflation radius"),
@@ -67,11 +71,18 @@ def test_invalid_settings_are_refused(settings, message):
         fleet(settings)
 
 
-def test_critics_that_do_not_exist_are_refused():
+def test_critics_and_options_that_do_not_exist_are_refused():
     with pytest.raises(ValueError, match="there is no critic PathDits"):
-        critic("PathDits", {})
-    with pytest.raises(ValueError, match="unknown option of a critic: penalti"):
-        critic("PreferForward", {"penalti": 1.0})
+        fleet(critics=[("PathDits", 1.0, {})])
+    with pytest.raises(ValueError, match="PreferForward: there is no option 'penalti'"):
+        fleet(critics=[("PreferForward", 1.0, {"penalti": 1.0})])
+    with pytest.raises(ValueError, match="aggregation_type must be one of last, sum, product, not 'best'"):
+        fleet(critics=[("PathDist", 1.0, {"aggregation_type": "best"})])
+
+
+def test_observations_of_the_wrong_type_are_refused():
+    with pytest.raises(TypeError, match="pose has the wrong type or shape"):
+        command(fleet(), pose=np.zeros((1, 2)))
 
 
 def test_scans_of_no_robot_are_refused():

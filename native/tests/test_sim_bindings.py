@@ -2,6 +2,7 @@ import ast
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,32 +12,27 @@ NOTHING = np.empty((0, 4))
 NO_MOVERS = np.empty((0, 2))
 
 
-def plane(robots=1, **changes):
-    arguments = {
-        "segments": NOTHING,
+def plane(robots=1, *, movers=(), period=0.05, noise=None, **changes):
+    arrays = {
+        "pose": np.column_stack([np.arange(robots), np.zeros(robots), np.zeros(robots)]),
         "radius": np.full(robots, 0.1),
         "limit": np.tile([0.5, 2.0], (robots, 1)),
         "acceleration": np.tile([2.5, 3.2], (robots, 1)),
         "wheel_separation": np.full(robots, 0.16),
-        "pose": np.column_stack([np.arange(robots), np.zeros(robots), np.zeros(robots)]),
-        "period": 0.05,
-        "slip": 0.0,
-        "actuation": 0.0,
-        "seed": 0,
     }
-    return sim.Plane(**{**arguments, **changes})
+    return sim.Plane(
+        segments=NOTHING,
+        robots=arrays | changes,
+        movers=np.array(movers, float),
+        period=period,
+        noise=noise or {},
+        seed=0,
+    )
 
 
 def caster(**changes):
-    arguments = {
-        "segments": NOTHING,
-        "beams": 8,
-        "range": 3.5,
-        "min_range": 0.1,
-        "forward": 0.0,
-        "leftward": 0.0,
-    }
-    return sim.Caster(**{**arguments, **changes})
+    lidar = {"beams": 8, "range": 3.5, "min_range": 0.1, "mount": (0.0, 0.0, 0.2)}
+    return sim.Caster(segments=NOTHING, lidar=SimpleNamespace(**lidar | changes))
 
 
 def test_returned_arrays_are_copies():
@@ -51,7 +47,7 @@ def test_returned_arrays_are_copies():
 
 
 def test_contacts_are_pairs_of_indices():
-    it = plane(2, radius=np.array([0.6, 0.6, 0.2]))
+    it = plane(2, radius=np.array([0.6, 0.6]), movers=[0.2])
     it.step(np.zeros((2, 2)), np.array([[-0.7, 0.0]]))
     assert it.contacts.tolist() == [[0, -1], [0, 1]]
 
@@ -59,15 +55,15 @@ def test_contacts_are_pairs_of_indices():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"limit": np.zeros((2, 2))}, "those of the robots"),
-        ({"radius": np.empty(0)}, "each robot has a radius"),
+        ({"limit": np.zeros((2, 2))}, r"robots\['limit'\] has the wrong length"),
+        ({"radius": np.empty(0)}, r"robots\['radius'\] has the wrong length"),
         ({"radius": np.array([-1.0])}, "radii must be positive"),
         ({"pose": np.array([[np.nan, 0, 0]])}, "poses must be finite"),
         ({"acceleration": np.zeros((1, 2))}, "accelerations must be positive"),
         ({"wheel_separation": np.zeros(1)}, "wheel separations"),
         ({"period": 0.0}, "period"),
-        ({"slip": 0.7}, "slip"),
-        ({"actuation": -0.1}, "actuation"),
+        ({"noise": {"slip": 0.7}}, "slip must be a number from 0 to 0.5"),
+        ({"noise": {"actuation_noise": -0.1}}, "actuation_noise must be a number of at least 0"),
     ],
 )
 def test_invalid_planes_are_refused(changes, message):
@@ -76,7 +72,7 @@ def test_invalid_planes_are_refused(changes, message):
 
 
 def test_invalid_steps_are_refused():
-    it = plane(1, radius=np.array([0.1, 0.3]))
+    it = plane(1, movers=[0.3])
     with pytest.raises(ValueError, match="one twist for each robot"):
         it.step(np.zeros((2, 2)))
     with pytest.raises(ValueError, match="finite"):

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mrpbench_local/grid.hpp"
+#include "mrpbench_options/options.hpp"
 #include "mrpbench_sim/segment_buckets.hpp"
 
 namespace mrpbench::local {
@@ -14,13 +15,18 @@ namespace mrpbench::local {
 constexpr std::uint8_t kFree = 0, kInscribed = 253, kLethal = 254;
 
 struct CostmapOptions {
-  double width = 3, height = 3, resolution = 0.05, update_frequency = 5;
+  double width = 3, height = 3, resolution = 0.05, update_frequency = 5, footprint_padding = 0.01;
   bool obstacle_layer = true, static_layer = false, inflation_layer = true;
   double obstacle_max_range = 2.5, obstacle_min_range = 0, raytrace_max_range = 3, raytrace_min_range = 0;
   bool marking = true, clearing = true, inf_is_valid = false, footprint_clearing = true;
   double inflation_radius = 0.55, cost_scaling_factor = 3;
   /// Padded, about the robot's origin.
   std::vector<Point> footprint;
+
+  static Description<CostmapOptions> grid();
+  static Description<CostmapOptions> inflation();
+  static Description<CostmapOptions> observation();
+  static Description<CostmapOptions> layers();
 };
 
 /// What is solid in the static map, shared by all robots.

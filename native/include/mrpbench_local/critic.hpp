@@ -1,11 +1,9 @@
 // Critics score trajectories.
 #pragma once
 
-#include <map>
+#include <functional>
 #include <memory>
 #include <span>
-#include <stdexcept>
-#include <string>
 #include <string_view>
 
 #include "mrpbench_local/costmap.hpp"
@@ -35,25 +33,6 @@ constexpr Reason kLegal = nullptr;
 /// How the poses of a trajectory make one score.
 enum class Aggregation { last, sum, product };
 
-/// Options by Nav2's names; a critic takes its own; the remaining ones are errors.
-class CriticOptions {
- public:
-  explicit CriticOptions(std::map<std::string, double> values) : values_(std::move(values)) {}
-  double take(const std::string& name, double otherwise) {
-    const auto found = values_.find(name);
-    if (found == values_.end()) return otherwise;
-    const double value = found->second;
-    values_.erase(found);
-    return value;
-  }
-  void finish() const {
-    if (!values_.empty()) throw std::invalid_argument("unknown option of a critic: " + values_.begin()->first);
-  }
-
- private:
-  std::map<std::string, double> values_;
-};
-
 class Critic {
  public:
   virtual ~Critic() = default;
@@ -72,7 +51,17 @@ class Critic {
   virtual double weight(const Scene&) const { return 1; }
 };
 
-/// A critic by Nav2's name.
-std::unique_ptr<Critic> make_critic(std::string_view name, std::map<std::string, double> options);
+/// The critics of one name.
+struct CriticKind {
+  std::function<std::unique_ptr<Critic>(const OptionValues&)> make;
+  std::vector<Parameter> options;
+};
+
+/// The critics that Nav2 calls by this name. Throws std::invalid_argument if there are none.
+const CriticKind& critic_kind(std::string_view name);
+
+/// A critic by Nav2's name. Throws std::invalid_argument, naming critic and option, for an option that does not exist
+/// or that cannot have its value.
+std::unique_ptr<Critic> make_critic(std::string_view name, const OptionValues& options);
 
 }  // namespace mrpbench::local

@@ -5,18 +5,26 @@
 
 namespace mrpbench::local {
 
-std::unique_ptr<Critic> rotate_to_goal(CriticOptions& options);
-std::unique_ptr<Critic> oscillation(CriticOptions& options);
-std::unique_ptr<Critic> base_obstacle(CriticOptions& options);
-std::unique_ptr<Critic> obstacle_footprint(CriticOptions& options);
-std::unique_ptr<Critic> path_dist(CriticOptions& options);
-std::unique_ptr<Critic> goal_dist(CriticOptions& options);
-std::unique_ptr<Critic> path_align(CriticOptions& options);
-std::unique_ptr<Critic> goal_align(CriticOptions& options);
-std::unique_ptr<Critic> prefer_forward(CriticOptions& options);
-std::unique_ptr<Critic> twirling(CriticOptions& options);
+CriticKind rotate_to_goal();
+CriticKind oscillation();
+CriticKind base_obstacle();
+CriticKind obstacle_footprint();
+CriticKind path_dist();
+CriticKind goal_dist();
+CriticKind path_align();
+CriticKind goal_align();
+CriticKind prefer_forward();
+CriticKind twirling();
 
-Aggregation aggregation(CriticOptions& options, Aggregation otherwise);
+/// Critics of the class `C`, which is made from `C::Options`.
+template <class C>
+CriticKind kind_of() {
+  using Options = typename C::Options;
+  return {[](const OptionValues& values) -> std::unique_ptr<Critic> {
+            return std::make_unique<C>(configured(Options::description(), values, Options{}));
+          },
+          parameters(Options::description(), Options{})};
+}
 
 /// The scores of one trajectory's poses as one. `pose_score(pose)` gives a negative number for what is off the map.
 template <class PoseScore>

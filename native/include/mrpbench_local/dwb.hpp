@@ -13,10 +13,13 @@ struct DwbOptions {
   MotionOptions motion;
   Pruning pruning;
   double min_x_velocity_threshold = 0.001, min_theta_velocity_threshold = 0.001;
-  /// Check only trajectories that can win pose by pose; if false check all, so that every reason is known.
   bool short_circuit = true;
-  /// A robot turns on the spot to a new path from which it heads off by more radians than this; 0 = never.
-  double rotate_to_path = 0;
+  double rotate_to_path = 0.4;
+
+  /// The parameters of Nav2.
+  static Description<DwbOptions> nav2();
+  /// Options that Nav2 does not have.
+  static Description<DwbOptions> further();
 };
 
 /// A path in the plane, with yaw and speed at its end.

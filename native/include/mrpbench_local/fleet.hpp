@@ -3,20 +3,10 @@
 
 #include <memory>
 
-#include "mrpbench_local/dwb.hpp"
 #include "mrpbench_local/reroute.hpp"
+#include "mrpbench_local/robot_options.hpp"
 
 namespace mrpbench::local {
-
-struct RobotOptions {
-  CostmapOptions costmap;
-  DwbOptions dwb;
-  Sensor sensor;
-  /// Check collisions at the centre instead of along the outline.
-  bool by_radius = true;
-  /// Largest distance of a detour from the path, in metres.
-  double max_detour = 0.5;
-};
 
 /// The input of `command` for one robot.
 struct Request {

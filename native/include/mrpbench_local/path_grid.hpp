@@ -12,9 +12,8 @@ namespace mrpbench::local {
 struct Pruning {
   double prune_distance = 1;
   bool shorten = true;
-  /// Metres by which the path goes on straight beyond its end, for distances to it only: a robot with its
-  /// front beyond the end is still on the path.
-  double beyond_end = 0;
+  /// Without it a robot with its front beyond the end would be off the path.
+  double beyond_end = 0.35;
 };
 
 class PathGrid {

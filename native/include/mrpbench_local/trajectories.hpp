@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mrpbench_local/grid.hpp"
+#include "mrpbench_options/options.hpp"
 
 namespace mrpbench::local {
 
@@ -20,6 +21,8 @@ struct MotionOptions {
   /// Of the limited-acceleration generator: what one control period allows, kept for the whole trajectory.
   bool limited = false;
   double period = 0.05;
+
+  static Description<MotionOptions> description();
 };
 
 /// `speed` after `dt` on its way to `target`; `deceleration` is negative.

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "mrpbench_options/options.hpp"
 #include "mrpbench_sim/contacts.hpp"
 #include "mrpbench_sim/drive.hpp"
 
@@ -16,11 +17,15 @@ struct Pose {
 
 /// Noise; 0 = none.
 struct Chance {
-  /// Mean share of its travel that a wheel loses; drawn for each wheel and period, uniformly up to twice the mean.
-  double slip = 0;
-  /// Standard deviation of the relative error of speed and turn rate, drawn for each period.
-  double actuation = 0;
+  double slip = 0, actuation = 0;
   std::uint64_t seed = 0;
+
+  static Description<Chance> description() {
+    return {{"slip", &Chance::slip, within(0, 0.5),
+             "mean share of its travel that a wheel loses; drawn for each wheel and period, from 0 to twice that"},
+            {"actuation_noise", &Chance::actuation, at_least(0),
+             "standard deviation of the relative error of speed and turn rate, which is drawn every period"}};
+  }
 };
 
 class Plane {

@@ -3,10 +3,12 @@
 All functions raise ValueError for invalid data. Only one thread at a time may use a `Fleet`.
 """
 
-from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+from mrpbench_native.options import Option
 
 class Fleet:
     """A particle filter for each robot, all on one map."""
@@ -19,14 +21,13 @@ class Fleet:
         places: NDArray[np.float64],
         placements: NDArray[np.float64],
         seed: int,
-        parameters: Mapping[str, float],
+        parameters: dict[str, Any],
     ) -> None:
         """Particles around `placements` f8[n,3] among `segments` f8[S,4], solid on their left.
 
         `resolution` is the side of the likelihood field's squares. Recovery draws particles on the squares of that side
-        around `places` f8[k,2]. `parameters` are Nav2's, by name, and `independent_beams`, which is its
-        `likelihood_field_prob`; parameters that are not named have their defaults. `seed` is below 2**64; the draws of
-        a robot do not depend on other robots.
+        around `places` f8[k,2]. `parameters` are those of `options`. `seed` is below 2**64; the draws
+        of a robot do not depend on other robots.
         """
     def begin(self, odometry: NDArray[np.float64]) -> None:
         """Set the odometry f8[n,3] at the placements; call this once, before all other methods."""
@@ -49,3 +50,6 @@ class Fleet:
         """f8[n,3,3] of the last updates."""
     def particles(self, robot: int) -> NDArray[np.float64]:
         """x, y, yaw, weight f8[k,4] of one robot's particles."""
+
+def options() -> list[Option]:
+    """The parameters of Nav2's AMCL."""

@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_native.options import Option
+
 class Fleet:
     """Local controllers, one per robot; one call computes the commands of all."""
 
@@ -18,33 +20,23 @@ class Fleet:
     def add(
         self,
         *,
-        settings: dict[str, float],
+        settings: dict[str, Any],
         footprint: NDArray[np.float64],
-        critics: list[tuple[str, float, dict[str, float]]],
+        critics: list[tuple[str, float, dict[str, Any]]],
     ) -> None:
-        """Add a robot: options by Nav2's names (flags as 0 or 1), footprint f8[k,2], critics with scale and options."""
+        """Add a robot: options by Nav2's names, footprint f8[k,2], critics with scale and options."""
     def see(
         self, now: float, robots: NDArray[np.int32], pose: NDArray[np.float64], ranges: NDArray[np.float64]
     ) -> None:
         """Mark scans f8[k,beams] of `robots` i4[k] in the costmaps; `pose` f8[n,3] is that of the whole fleet."""
     def command(
         self,
-        *,
-        now: float,
-        robot: NDArray[np.int64],
-        pose: NDArray[np.float64],
-        twist: NDArray[np.float64],
-        foot: NDArray[np.float64],
-        points: NDArray[np.float64],
-        begin: NDArray[np.int64],
-        end: NDArray[np.int64],
-        yaw: NDArray[np.float64],
-        speed: NDArray[np.float64],
-        tolerance: float,
+        seen: Any,
         score: Callable[[int, NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]] | None = None,
     ) -> NDArray[np.float64]:
-        """Commands f8[k,2], NaN where none is admissible; see `mrpbench_core.model.execution.observation.Observations`.
+        """Commands f8[k,2], NaN where none is admissible.
 
+        `seen` has the attributes of `mrpbench_core.model.execution.observation.Observations`.
         `score` gets a robot, twists f8[m,2] and poses f8[m,p,3], and returns f8[m], which is added to their totals.
         """
     def clear(self, robot: int) -> None:
@@ -64,5 +56,8 @@ class Fleet:
     def costmap(self, robot: int) -> tuple[NDArray[np.float64], float, float, float]:
         """Costs f8[rows,columns], x and y of the lower left corner, inscribed radius."""
 
-def critic(name: str, options: dict[str, float]) -> None:
-    """Raise ValueError if there is no such critic, or if it does not have these options."""
+def robot_options(group: str) -> list[Option]:
+    """The options of the groups `dwb`, `dwb_further`, `costmap_grid`, `inflation` and `observation`."""
+
+def critic_options(name: str) -> list[Option]:
+    """The options of a critic. Raises ValueError if there is no critic of this name."""

@@ -5,6 +5,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_native.options import Option
+
 class Instance:
     """Robots on a roadmap. `mrpbench_native.instances.build_instance` makes one; each dict holds arrays by name.
 
@@ -52,39 +54,6 @@ class Answer:
     @property
     def leave(self) -> NDArray[np.int64]:
         """i8[...] ticks."""
-
-class Option:
-    """An option of an algorithm."""
-
-    @property
-    def name(self) -> str:
-        """The word that sets it."""
-    @property
-    def type(self) -> Literal["bool", "int", "float", "str"]: ...
-    @property
-    def optional(self) -> bool:
-        """It may be None."""
-    @property
-    def default(self) -> bool | int | float | str | None:
-        """Its value unless it is set."""
-    @property
-    def least(self) -> float | None:
-        """Of numbers, None if unbounded."""
-    @property
-    def most(self) -> float | None:
-        """Of numbers, None if unbounded."""
-    @property
-    def choices(self) -> list[str]:
-        """The words it may be; [] for other types."""
-    @property
-    def help(self) -> str:
-        """One sentence, without a full stop."""
-    @property
-    def paper(self) -> str:
-        """Short citation, or an empty text."""
-    @property
-    def fixed(self) -> bool:
-        """The name of the algorithm decides it; planners do not offer it."""
 
 class Algorithm:
     """An algorithm and its options."""

@@ -4,8 +4,12 @@ Segments are f8[S,4] x1, y1, x2, y2, solid on their left. All functions raise Va
 let other threads run. Only one thread at a time may use a `Plane`; any number of threads may use a `Caster`.
 """
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
+
+from mrpbench_native.options import Option
 
 class Plane:
     """Robots with differential drives among walls and movers; all of them collide as discs."""
@@ -14,21 +18,17 @@ class Plane:
         self,
         *,
         segments: NDArray[np.float64],
-        radius: NDArray[np.float64],
-        limit: NDArray[np.float64],
-        acceleration: NDArray[np.float64],
-        wheel_separation: NDArray[np.float64],
-        pose: NDArray[np.float64],
+        robots: dict[str, NDArray[np.float64]],
+        movers: NDArray[np.float64],
         period: float,
-        slip: float,
-        actuation: float,
+        noise: dict[str, Any],
         seed: int,
     ) -> None:
-        """Robots at `pose` f8[n,3].
+        """`robots` holds arrays by name: `pose` f8[n,3], `radius` f8[n], `limit` and `acceleration` f8[n,2] of speed
+        and turn rate, `wheel_separation` f8[n].
 
-        `radius` f8[n+m] holds the robots' radii, then the movers'; movers have no place until `step` sets it. `limit`
-        and `acceleration` f8[n,2] limit speed and turn rate. `slip` is the mean share of its travel that a wheel loses,
-        `actuation` the standard deviation of the relative error of speeds; `seed` is below 2**64.
+        `movers` f8[m] are the radii of movers, which have no place until `step` sets it. `noise` has the options that
+        `noise_options` describes; `seed` is below 2**64.
         """
     def step(self, twist: NDArray[np.float64], movers: NDArray[np.float64] | None = None) -> None:
         """Advance by one control period under commands f8[n,2]; put movers at f8[m,2], or leave them."""
@@ -49,16 +49,8 @@ class Plane:
 class Caster:
     """Lidars of one kind among segments and discs. Beam i points at i * 2*pi / beams from straight ahead."""
 
-    def __init__(
-        self,
-        *,
-        segments: NDArray[np.float64],
-        beams: int,
-        range: float,
-        min_range: float,
-        forward: float,
-        leftward: float,
-    ) -> None: ...
+    def __init__(self, *, segments: NDArray[np.float64], lidar: Any) -> None:
+        """`lidar` has the attributes of `mrpbench_core.model.common.fleet.Lidar`."""
     def scan(
         self,
         robots: NDArray[np.int32],
@@ -72,3 +64,6 @@ class Caster:
         `radius` f8[n+m]. A robot does not see itself. A mover at infinity is absent. `leaves` f8[S,4] are
         solid besides the segments.
         """
+
+def noise_options() -> list[Option]:
+    """The options of the noise of wheels."""

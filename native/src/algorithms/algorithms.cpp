@@ -30,17 +30,11 @@ Fixed all_but(Names names) {
 template <class Options>
 Algorithm make(std::string name, std::string help, Result (*solve)(const Instance&, const Options&, Limits&),
                Options preset = {}, const Fixed& fixed = only({})) {
-  Algorithm made{std::move(name), std::move(help), {}, {}};
   const Description<Options> rows = Options::description();
-  for (const auto& row : rows) made.options.push_back({row.info, row.get(preset), fixed(row.info.name)});
+  Algorithm made{std::move(name), std::move(help), parameters(rows, preset), {}};
+  for (Parameter& option : made.options) option.fixed = fixed(option.info.name);
   made.configure = [rows, preset, solve](const OptionValues& values) -> Algorithm::Solver {
-    Options options = preset;
-    for (const auto& [option, value] : values) {
-      const auto row = std::ranges::find_if(rows, [&](const auto& it) { return it.info.name == option; });
-      if (row == rows.end()) throw std::invalid_argument("there is no option '" + option + "'");
-      row->info.check(value);
-      row->set(options, value);
-    }
+    const Options options = configured(rows, values, preset);
     return [options, solve](const Instance& instance, Limits& limits) { return solve(instance, options, limits); };
   };
   return made;

@@ -12,11 +12,20 @@ constexpr Reason kOffGrid = "Trajectory Goes Off Grid.";
 constexpr Reason kHits = "Trajectory Hits Obstacle.";
 constexpr double kOff = -1, kHit = -2;
 
-/// Scores poses, negative where they are illegal.
+struct ObstacleOptions {
+  bool sum_scores = false;
+
+  static Description<ObstacleOptions> description() {
+    return {{"sum_scores", &ObstacleOptions::sum_scores, "sum the costs of all poses instead of taking the last"}};
+  }
+};
+
+/// `PoseScore` is negative for illegal poses.
 template <class PoseScore>
 class Obstacle : public Critic {
  public:
-  Obstacle(PoseScore score, bool sum) : score_(std::move(score)), sum_(sum) {}
+  using Options = ObstacleOptions;
+  explicit Obstacle(const Options& options) : sum_(options.sum_scores) {}
 
   void score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
     if (sum_) {
@@ -100,12 +109,12 @@ struct Outline {
 
 }  // namespace
 
-std::unique_ptr<Critic> base_obstacle(CriticOptions& options) {
-  return std::make_unique<Obstacle<Centre>>(Centre{}, options.take("sum_scores", 0) != 0);
+CriticKind base_obstacle() {
+  return kind_of<Obstacle<Centre>>();
 }
 
-std::unique_ptr<Critic> obstacle_footprint(CriticOptions& options) {
-  return std::make_unique<Obstacle<Outline>>(Outline{}, options.take("sum_scores", 0) != 0);
+CriticKind obstacle_footprint() {
+  return kind_of<Obstacle<Outline>>();
 }
 
 }  // namespace mrpbench::local

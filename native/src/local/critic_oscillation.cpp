@@ -34,13 +34,23 @@ class Trend {
   bool positive_only_ = false, negative_only_ = false;
 };
 
+struct OscillationOptions {
+  double x_only_threshold = 0.05, reset_dist = 0.05, reset_angle = 0.2, reset_time = -1;
+
+  static Description<OscillationOptions> description() {
+    using O = OscillationOptions;
+    return {{"x_only_threshold", &O::x_only_threshold, any("m/s"), "turning is checked only at speeds up to this"},
+            {"oscillation_reset_dist", &O::reset_dist, any("m"), "distance after which all motions are allowed again"},
+            {"oscillation_reset_angle", &O::reset_angle, "turn after which all motions are allowed again, radians"},
+            {"oscillation_reset_time", &O::reset_time, any("s"),
+             "time after which all motions are allowed again; -1 = never"}};
+  }
+};
+
 class Oscillation : public Critic {
  public:
-  explicit Oscillation(CriticOptions& options)
-      : x_only_threshold_(options.take("x_only_threshold", 0.05)),
-        reset_dist_(options.take("oscillation_reset_dist", 0.05)),
-        reset_angle_(options.take("oscillation_reset_angle", 0.2)),
-        reset_time_(options.take("oscillation_reset_time", -1)) {}
+  using Options = OscillationOptions;
+  explicit Oscillation(const Options& options) : options_(options) {}
 
   void reset() override {
     ahead_.reset();
@@ -57,7 +67,7 @@ class Oscillation : public Critic {
 
   void debrief(const Scene& scene, Twist chosen) override {
     bool reversed = ahead_.update(chosen.ahead);
-    if (x_only_threshold_ < 0 || std::abs(chosen.ahead) <= x_only_threshold_) {
+    if (options_.x_only_threshold < 0 || std::abs(chosen.ahead) <= options_.x_only_threshold) {
       reversed = turn_.update(chosen.turn) || reversed;
     }
     if (reversed) {
@@ -70,13 +80,13 @@ class Oscillation : public Critic {
  private:
   bool is_elsewhere(const Scene& scene) const {
     const Point moved{scene.pose.x - pose_.x, scene.pose.y - pose_.y};
-    if (reset_dist_ >= 0 && sim::length(moved) > reset_dist_) return true;
+    if (options_.reset_dist >= 0 && sim::length(moved) > options_.reset_dist) return true;
     const double turned = std::abs(std::remainder(scene.pose.yaw - pose_.yaw, 2 * std::numbers::pi));
-    if (reset_angle_ >= 0 && turned > reset_angle_) return true;
-    return reset_time_ >= 0 && scene.now - time_ > reset_time_;
+    if (options_.reset_angle >= 0 && turned > options_.reset_angle) return true;
+    return options_.reset_time >= 0 && scene.now - time_ > options_.reset_time;
   }
 
-  double x_only_threshold_, reset_dist_, reset_angle_, reset_time_;
+  Options options_;
   Trend ahead_, turn_;
   Pose pose_;
   double time_ = 0;
@@ -84,8 +94,8 @@ class Oscillation : public Critic {
 
 }  // namespace
 
-std::unique_ptr<Critic> oscillation(CriticOptions& options) {
-  return std::make_unique<Oscillation>(options);
+CriticKind oscillation() {
+  return kind_of<Oscillation>();
 }
 
 }  // namespace mrpbench::local

@@ -13,16 +13,35 @@ constexpr Reason kUnreachable = "Unreachable";
 /// Nav2 scales these critics by half the resolution.
 constexpr double kHalf = 0.5;
 
-/// Distance of that point along the heading, in metres.
-double forward_point_distance(CriticOptions& options) {
-  return options.take("forward_point_distance", 0.325);
-}
+struct DistanceOptions {
+  Aggregation aggregation = Aggregation::last;
+
+  static Description<DistanceOptions> description() {
+    return {{"aggregation_type", &DistanceOptions::aggregation,
+             Choices<Aggregation>{
+                 {"last", Aggregation::last}, {"sum", Aggregation::sum}, {"product", Aggregation::product}},
+             "combination of the scores of poses into the score of the trajectory"}};
+  }
+};
+
+struct AlignOptions {
+  double forward_point_distance = 0.325;
+  DistanceOptions distance;
+
+  static Description<AlignOptions> description() {
+    Description<AlignOptions> rows{{"forward_point_distance", &AlignOptions::forward_point_distance, at_least(0, "m"),
+                                    "distance of the point that is scored ahead of the robot"}};
+    append(rows, DistanceOptions::description(), &AlignOptions::distance);
+    return rows;
+  }
+};
 
 /// Distances to the whole path, or to its end.
 template <bool to_path>
 class Distance : public Critic {
  public:
-  Distance(CriticOptions& options, double nose) : nose_(nose), aggregation_(aggregation(options, Aggregation::last)) {}
+  using Options = DistanceOptions;
+  explicit Distance(const Options& options, double nose = 0) : nose_(nose), aggregation_(options.aggregation) {}
 
   void prepare(const Scene& scene) override {
     if (scene.path->empty()) return;
@@ -90,24 +109,29 @@ class Distance : public Critic {
   bool near_goal_ = false;
 };
 
+template <bool to_path>
+class Alignment : public Distance<to_path> {
+ public:
+  using Options = AlignOptions;
+  explicit Alignment(const Options& options) : Distance<to_path>(options.distance, options.forward_point_distance) {}
+};
+
 }  // namespace
 
-std::unique_ptr<Critic> path_dist(CriticOptions& options) {
-  return std::make_unique<Distance<true>>(options, 0);
+CriticKind path_dist() {
+  return kind_of<Distance<true>>();
 }
 
-std::unique_ptr<Critic> goal_dist(CriticOptions& options) {
-  return std::make_unique<Distance<false>>(options, 0);
+CriticKind goal_dist() {
+  return kind_of<Distance<false>>();
 }
 
-std::unique_ptr<Critic> path_align(CriticOptions& options) {
-  const double nose = forward_point_distance(options);
-  return std::make_unique<Distance<true>>(options, nose);
+CriticKind path_align() {
+  return kind_of<Alignment<true>>();
 }
 
-std::unique_ptr<Critic> goal_align(CriticOptions& options) {
-  const double nose = forward_point_distance(options);
-  return std::make_unique<Distance<false>>(options, nose);
+CriticKind goal_align() {
+  return kind_of<Alignment<false>>();
 }
 
 }  // namespace mrpbench::local

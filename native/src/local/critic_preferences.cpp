@@ -7,29 +7,43 @@ namespace mrpbench::local {
 
 namespace {
 
+struct PreferForwardOptions {
+  double penalty = 1, strafe_x = 0.1, strafe_theta = 0.2, theta_scale = 10;
+
+  static Description<PreferForwardOptions> description() {
+    using P = PreferForwardOptions;
+    return {{"penalty", &P::penalty, "cost of driving back, and of driving slowly and nearly straight"},
+            {"strafe_x", &P::strafe_x, any("m/s"), "speed below which a robot drives slowly"},
+            {"strafe_theta", &P::strafe_theta, any("rad/s"), "turn rate below which driving is nearly straight"},
+            {"theta_scale", &P::theta_scale, "cost of turning, per rad/s"}};
+  }
+};
+
 class PreferForward : public Critic {
  public:
-  explicit PreferForward(CriticOptions& options)
-      : penalty_(options.take("penalty", 1)),
-        strafe_x_(options.take("strafe_x", 0.1)),
-        strafe_theta_(options.take("strafe_theta", 0.2)),
-        theta_scale_(options.take("theta_scale", 10)) {}
+  using Options = PreferForwardOptions;
+  explicit PreferForward(const Options& options) : options_(options) {}
 
   void score(const Scene&, const Trajectories& all, std::span<double> raw, std::span<Reason>) override {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Twist twist = all.twist(i);
       const double rate = std::abs(twist.turn);
-      const bool creeps = twist.ahead < 0 || (twist.ahead < strafe_x_ && rate < strafe_theta_);
-      raw[i] = creeps ? penalty_ : rate * theta_scale_;
+      const bool creeps = twist.ahead < 0 || (twist.ahead < options_.strafe_x && rate < options_.strafe_theta);
+      raw[i] = creeps ? options_.penalty : rate * options_.theta_scale;
     }
   }
 
  private:
-  double penalty_, strafe_x_, strafe_theta_, theta_scale_;
+  Options options_;
 };
 
 class Twirling : public Critic {
  public:
+  struct Options {
+    static Description<Options> description() { return {}; }
+  };
+  explicit Twirling(const Options&) {}
+
   void score(const Scene&, const Trajectories& all, std::span<double> raw, std::span<Reason>) override {
     for (std::size_t i = 0; i < all.size(); ++i) raw[i] = std::abs(all.twist(i).turn);
   }
@@ -37,12 +51,12 @@ class Twirling : public Critic {
 
 }  // namespace
 
-std::unique_ptr<Critic> prefer_forward(CriticOptions& options) {
-  return std::make_unique<PreferForward>(options);
+CriticKind prefer_forward() {
+  return kind_of<PreferForward>();
 }
 
-std::unique_ptr<Critic> twirling(CriticOptions&) {
-  return std::make_unique<Twirling>();
+CriticKind twirling() {
+  return kind_of<Twirling>();
 }
 
 }  // namespace mrpbench::local

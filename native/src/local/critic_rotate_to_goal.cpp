@@ -8,23 +8,35 @@ namespace mrpbench::local {
 
 namespace {
 
+struct RotateToGoalOptions {
+  double xy_goal_tolerance = 0.25, trans_stopped_velocity = 0.25, slowing_factor = 5, lookahead_time = -1;
+
+  static Description<RotateToGoalOptions> description() {
+    using R = RotateToGoalOptions;
+    return {
+        {"xy_goal_tolerance", &R::xy_goal_tolerance, above(0, "m"),
+         "distance from the goal at which RotateToGoal begins, within the navigator's"},
+        {"trans_stopped_velocity", &R::trans_stopped_velocity, at_least(0, "m/s"),
+         "speed below which RotateToGoal only turns"},
+        {"slowing_factor", &R::slowing_factor, "cost of speed near the goal"},
+        {"lookahead_time", &R::lookahead_time, "compare the yaw at this time instead of at the end; -1 = at the end"}};
+  }
+};
+
 class RotateToGoal : public Critic {
  public:
-  explicit RotateToGoal(CriticOptions& options)
-      : xy_goal_tolerance_(options.take("xy_goal_tolerance", 0.25)),
-        trans_stopped_velocity_(options.take("trans_stopped_velocity", 0.25)),
-        slowing_factor_(options.take("slowing_factor", 5)),
-        lookahead_time_(options.take("lookahead_time", -1)) {}
+  using Options = RotateToGoalOptions;
+  explicit RotateToGoal(const Options& options) : options_(options) {}
 
   void reset() override { in_window_ = rotating_ = false; }
 
   void prepare(const Scene& scene) override {
     if (std::isnan(scene.goal.yaw)) return reset();  // the goal has no yaw
     // A robot that stopped farther away than its navigator accepts would never arrive.
-    const double tolerance = std::min(xy_goal_tolerance_, scene.tolerance);
+    const double tolerance = std::min(options_.xy_goal_tolerance, scene.tolerance);
     const Point away{scene.pose.x - scene.goal.x, scene.pose.y - scene.goal.y};
     in_window_ = in_window_ || sim::length(away) <= tolerance;
-    rotating_ = rotating_ || (in_window_ && std::abs(scene.twist.ahead) <= trans_stopped_velocity_);
+    rotating_ = rotating_ || (in_window_ && std::abs(scene.twist.ahead) <= options_.trans_stopped_velocity);
   }
 
   void score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
@@ -41,25 +53,25 @@ class RotateToGoal : public Critic {
       } else if (speed * speed >= scene.twist.ahead * scene.twist.ahead) {
         why[i] = "Not slowing down near goal.";
       } else {
-        raw[i] = speed * speed * slowing_factor_ + off(scene, all, i);
+        raw[i] = speed * speed * options_.slowing_factor + off(scene, all, i);
       }
     }
   }
 
  private:
   double off(const Scene& scene, const Trajectories& all, std::size_t i) const {
-    const double yaw = lookahead_time_ >= 0 ? all.at(i, lookahead_time_).yaw : all.end(i).yaw;
+    const double yaw = options_.lookahead_time >= 0 ? all.at(i, options_.lookahead_time).yaw : all.end(i).yaw;
     return std::abs(std::remainder(yaw - scene.goal.yaw, 2 * std::numbers::pi));
   }
 
-  double xy_goal_tolerance_, trans_stopped_velocity_, slowing_factor_, lookahead_time_;
+  Options options_;
   bool in_window_ = false, rotating_ = false;
 };
 
 }  // namespace
 
-std::unique_ptr<Critic> rotate_to_goal(CriticOptions& options) {
-  return std::make_unique<RotateToGoal>(options);
+CriticKind rotate_to_goal() {
+  return kind_of<RotateToGoal>();
 }
 
 }  // namespace mrpbench::local

@@ -6,17 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "mrpbench_mapf/common/options.hpp"
 #include "mrpbench_mapf/model/result.hpp"
+#include "mrpbench_options/options.hpp"
 
 namespace mrpbench::mapf {
-
-/// An option of an algorithm.
-struct Parameter {
-  OptionInfo info;
-  OptionValue preset;
-  bool fixed = false;  // decided by what the algorithm's name stands for; planners do not offer it
-};
 
 struct Algorithm {
   using Solver = std::function<Result(const Instance&, Limits&)>;

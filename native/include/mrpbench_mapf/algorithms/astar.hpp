@@ -2,8 +2,8 @@
 // Hart, Nilsson and Raphael, "A Formal Basis for the Heuristic Determination of Minimum Cost Paths", IEEE TSSC 1968.
 #pragma once
 
-#include "mrpbench_mapf/common/options.hpp"
 #include "mrpbench_mapf/model/result.hpp"
+#include "mrpbench_options/options.hpp"
 
 namespace mrpbench::mapf {
 

@@ -3,8 +3,8 @@
 // AAAI 2019.
 #pragma once
 
-#include "mrpbench_mapf/common/options.hpp"
 #include "mrpbench_mapf/model/result.hpp"
+#include "mrpbench_options/options.hpp"
 
 namespace mrpbench::mapf {
 

@@ -4,8 +4,8 @@
 // pathfinding", IJCAI 2023.
 #pragma once
 
-#include "mrpbench_mapf/common/options.hpp"
 #include "mrpbench_mapf/model/result.hpp"
+#include "mrpbench_options/options.hpp"
 
 namespace mrpbench::mapf {
 

@@ -5,8 +5,8 @@
 // restarts robots also start late at random; once there is a plan, each is given its earliest path in it.
 #pragma once
 
-#include "mrpbench_mapf/common/options.hpp"
 #include "mrpbench_mapf/model/result.hpp"
+#include "mrpbench_options/options.hpp"
 
 namespace mrpbench::mapf {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "mrpbench_mapf/common/options.hpp"
+#include "mrpbench_options/options.hpp"
 
 namespace mrpbench::mapf {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <compare>
 
-#include "mrpbench_mapf/common/options.hpp"
 #include "mrpbench_mapf/model/result.hpp"
+#include "mrpbench_options/options.hpp"
 
 namespace mrpbench::mapf {
 

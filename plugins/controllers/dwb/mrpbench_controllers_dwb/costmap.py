@@ -1,13 +1,15 @@
 """Options of the rolling costmap, by the names and defaults of Nav2's local costmap."""
 
 import json
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 import attrs
 import numpy as np
-from attrs.validators import deep_iterable, ge, gt, in_
+from attrs.validators import deep_iterable, gt, in_
+from mrpbench_native.local import robot_options
 
-from mrpbench_core.api.nav2 import parameter, settle
+from mrpbench_core.api.described import described
+from mrpbench_core.api.nav2 import as_parameter, parameter, settle
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import RobotModel
@@ -17,58 +19,28 @@ Polygon = tuple[tuple[float, float], ...]
 
 
 @attrs.frozen(kw_only=True, slots=False)
+@described(robot_options("inflation"), as_parameter)
 class InflationLayer:
     """The decrease of costs around obstacles (Nav2: the inflation layer)."""
 
-    inflation_radius: float | None = parameter(
-        0.55, help="distance up to which obstacles cost something", unit="m", validator=ge(0)
-    )
-    cost_scaling_factor: float | None = parameter(
-        3.0, help="rate at which costs decrease with distance, 1/m", validator=ge(0)
-    )
-
 
 @attrs.frozen(kw_only=True, slots=False)
+@described(robot_options("observation"), as_parameter)
 class ObservationSource:
     """Marking and clearing of cells by scans (Nav2: an observation source)."""
 
-    obstacle_max_range: float | None = parameter(
-        2.5, help="returns beyond this mark nothing", unit="m", validator=ge(0)
-    )
-    obstacle_min_range: float | None = parameter(
-        0.0, help="returns nearer than this mark nothing", unit="m", validator=ge(0)
-    )
-    raytrace_max_range: float | None = parameter(
-        3.0, help="beams clear cells up to this range", unit="m", validator=ge(0)
-    )
-    raytrace_min_range: float | None = parameter(
-        0.0, help="beams clear cells from this range on", unit="m", validator=ge(0)
-    )
-    marking: bool | None = parameter(True, help="scans mark obstacles")
-    clearing: bool | None = parameter(True, help="scans clear the cells that beams pass")
-    inf_is_valid: bool | None = parameter(False, help="beams without a return clear cells too")
-
 
 @attrs.frozen(kw_only=True, slots=False)
+@described(robot_options("costmap_grid"), as_parameter)
 class CostmapGrid:
     """The size of the costmap, and how often it is updated."""
 
-    width: float | None = parameter(
-        3.0, help="side of the costmap, which is centred on the robot", unit="m", validator=gt(0)
-    )
-    height: float | None = parameter(
-        3.0, help="side of the costmap, which is centred on the robot", unit="m", validator=gt(0)
-    )
-    resolution: float | None = parameter(0.05, help="side of a cell", unit="m", validator=gt(0))
-    update_frequency: float | None = parameter(5.0, help="update rate of the costmap", unit="Hz", validator=gt(0))
-    footprint_padding: float | None = parameter(0.01, help="room around the footprint", unit="m", validator=ge(0))
     robot_radius: float | None = parameter(
         None,
         help="treat the robot as a disc of this radius; by default its circumscribed disc",
         unit="m",
         validator=gt(0),
     )
-    footprint_clearing_enabled: bool | None = parameter(True, help="clear the cells under the robot")
 
 
 @attrs.frozen(kw_only=True, slots=False)
@@ -85,12 +57,13 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
         metadata={"help": "use this shape instead of a disc: `robot`, or a polygon of points [x, y]", "unit": None},
     )
 
-    def settings(self, robot: RobotModel, block: Nav2Block | None) -> tuple[dict[str, float], Float]:
-        """Return the settings of one robot's costmap for the native part, as numbers, and its footprint f8[k,2].
+    def settings(self, robot: RobotModel, block: Nav2Block | None) -> tuple[dict[str, Any], Float]:
+        """Return the settings of one robot's costmap for the native part, and its footprint f8[k,2].
 
         Raises:
             InputError: the Nav2 file has a value that is not supported.
         """
+        given = attrs.asdict(self, recurse=False)
         layers = self.plugins or settle(self, None, of=LocalCostmap)["plugins"]
         values = settle(self, block, of=CostmapGrid)
         inflation, observation = settle(self, of=InflationLayer), settle(self, of=ObservationSource)
@@ -111,22 +84,21 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
                             )
                         block.ignore(*(f"{name}.{source}.{word}" for word in _OF_SOURCES))
                     cleared = block.take(f"{name}.footprint_clearing_enabled", bool)
-                    if cleared is not None and self.footprint_clearing_enabled is None:
+                    if cleared is not None and given["footprint_clearing_enabled"] is None:
                         values["footprint_clearing_enabled"] = cleared
                 block.ignore(*(f"{name}.{word}" for word in _OF_LAYERS))
             block.ignore(*_IGNORED, *(name for name in _LAYERS if named and name not in named))
             block.refuse_unknown()
         values |= inflation | observation
         radius = values.pop("robot_radius")
-        numbers = {name: float(value) for name, value in values.items()}
-        numbers |= {
+        values |= {
             "robot_radius": robot.radius if radius is None else radius,
-            "by_radius": float(polygon is None),
-            "obstacle_layer": float("obstacle_layer" in layers or "voxel_layer" in layers),
-            "static_layer": float("static_layer" in layers),
-            "inflation_layer": float("inflation_layer" in layers),
+            "by_radius": polygon is None,
+            "obstacle_layer": "obstacle_layer" in layers or "voxel_layer" in layers,
+            "static_layer": "static_layer" in layers,
+            "inflation_layer": "inflation_layer" in layers,
         }
-        return numbers, robot.footprint if polygon is None else polygon
+        return values, robot.footprint if polygon is None else polygon
 
     def _polygon(self, robot: RobotModel, block: Nav2Block | None) -> Float | None:
         if self.footprint is not None:

@@ -6,27 +6,40 @@ Nav2: Macenski et al., "The Marathon 2: A Navigation System", IROS 2020. DWB des
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import Any
 
 import attrs
 import numpy as np
-from attrs.validators import and_, ge, gt, le
+from attrs.validators import ge
+from mrpbench_native.local import critic_options, robot_options
+from mrpbench_native.options import Option
 
 from mrpbench_controllers_dwb.costmap import LocalCostmap
 from mrpbench_controllers_dwb.critic import Critic
-from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE
+from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE, OF_CONTROLLER
 from mrpbench_controllers_dwb.settings import RobotSettings
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
-from mrpbench_core.api.nav2 import parameter, settle
+from mrpbench_core.api.described import described
+from mrpbench_core.api.nav2 import as_parameter, settle
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import Nav2Block, nav2_block
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.worlds.world import World
 
-Generator = Literal["dwb_plugins::StandardTrajectoryGenerator", "dwb_plugins::LimitedAccelGenerator"]
+_OF_ROBOTS = ("max_vel_x", "max_speed_xy", "acc_lim_x", "acc_lim_theta", "decel_lim_x", "decel_lim_theta")
+"""Parameters whose defaults follow from the robot."""
+_OF_GOALS = tuple(row for row in critic_options("RotateToGoal") if row.name in OF_CONTROLLER)
+_FURTHER = robot_options("dwb_further")
+"""Options that Nav2 does not have."""
+
+
+def _declare(row: Option) -> tuple[Any, Any]:
+    return as_parameter(row, unset=row.name in _OF_ROBOTS)
 
 
 @attrs.frozen(kw_only=True)
+@described([*robot_options("dwb"), *_OF_GOALS], _declare)
+@described(_FURTHER)
 class Dwb(Controller):
     """Samples velocities, simulates each, and takes the one with the best score of its critics."""
 
@@ -38,74 +51,10 @@ class Dwb(Controller):
         hash=False,
         metadata={"help": "a block FollowPath of a Nav2 parameter file, pasted as it stands", "unit": None},
     )
-    min_vel_x: float | None = parameter(0.0, help="lowest speed; negative = may drive back", unit="m/s")
-    max_vel_x: float | None = parameter(None, help="highest speed; by default the robot's", unit="m/s", validator=gt(0))
-    max_vel_theta: float | None = parameter(
-        1.0, help="highest turn rate, within the robot's limit", unit="rad/s", validator=gt(0)
-    )
-    min_speed_xy: float | None = parameter(
-        0.0, help="samples with a lower speed must turn faster than min_speed_theta", unit="m/s"
-    )
-    max_speed_xy: float | None = parameter(None, help="highest speed in the plane; by default max_vel_x", unit="m/s")
-    min_speed_theta: float | None = parameter(
-        0.0, help="samples that turn slower than this must drive faster than min_speed_xy", unit="rad/s"
-    )
-    acc_lim_x: float | None = parameter(None, help="acceleration, m/s^2; by default the robot's", validator=gt(0))
-    acc_lim_theta: float | None = parameter(None, help="acceleration, rad/s^2; by default the robot's", validator=gt(0))
-    decel_lim_x: float | None = parameter(None, help="deceleration, negative; by default the robot's")
-    decel_lim_theta: float | None = parameter(None, help="deceleration, negative; by default the robot's")
-    vx_samples: int | None = parameter(20, help="number of speeds that are sampled", validator=and_(ge(1), le(1000)))
-    vtheta_samples: int | None = parameter(
-        20, help="number of turn rates that are sampled", validator=and_(ge(1), le(1000))
-    )
-    sim_time: float | None = parameter(1.7, help="duration of a trajectory", unit="s", validator=gt(0))
-    linear_granularity: float | None = parameter(0.05, help="longest step of a trajectory", unit="m", validator=gt(0))
-    angular_granularity: float | None = parameter(
-        0.025, help="largest turn in a step of a trajectory, radians", validator=gt(0)
-    )
-    discretize_by_time: bool | None = parameter(False, help="step by time_granularity instead of by way and angle")
-    time_granularity: float | None = parameter(0.5, help="longest step of a trajectory", unit="s", validator=gt(0))
-    include_last_point: bool | None = parameter(True, help="count the last pose twice where scores are summed")
-    trajectory_generator_name: Generator | None = parameter(
-        "dwb_plugins::StandardTrajectoryGenerator",
-        help="accelerate to sampled velocities along the trajectory, or sample only what one period can reach",
-    )
-    xy_goal_tolerance: float | None = parameter(
-        0.25,
-        help="distance from the goal at which RotateToGoal begins, within the navigator's",
-        unit="m",
-        validator=gt(0),
-    )
-    trans_stopped_velocity: float | None = parameter(
-        0.25, help="speed below which RotateToGoal only turns", unit="m/s", validator=ge(0)
-    )
-    short_circuit_trajectory_evaluation: bool | None = parameter(
-        True, help="stop scoring a trajectory that cannot win; false = score all in full, for `explain`"
-    )
-    prune_distance: float | None = parameter(
-        1.0, help="ignore parts of the path that are farther away", unit="m", validator=gt(0)
-    )
-    shorten_transformed_plan: bool | None = parameter(
-        True, help="use prune_distance; if false, half the size of the costmap"
-    )
     critics: tuple[Critic, ...] | None = option(
         None, help="critics that score trajectories, in order (default: those of Nav2 for the TurtleBot3)"
     )
     local_costmap: LocalCostmap | None = option(None, help="costmap around each robot (default: as in Nav2)")
-    beyond_end: float = option(
-        0.35,
-        help="prolong the path straight beyond its end by this, for critics that measure distances to it, so that a "
-        "robot comes nearer to the end than the 0.25 m of Nav2; 0 = as in Nav2",
-        unit="m",
-        validator=ge(0),
-    )
-    rotate_to_path: float = option(
-        0.4,
-        help="turn on the spot first where a new path leads off the heading by more than this, radians, as the "
-        "rotation shim of Nav2 does; 0 = never, as DWB alone",
-        validator=ge(0),
-    )
-    max_detour: float = option(0.5, help="largest distance of a detour from a blocked path", unit="m", validator=ge(0))
     threads: int = option(
         1, help="threads that share the robots; results do not depend on their number", validator=ge(1)
     )
@@ -144,8 +93,8 @@ class Dwb(Controller):
         values = self._values(follow)
         critics = self._critics(follow)
         costmap, footprint = (self.local_costmap or LocalCostmap()).settings(robot, local)
-        del values["xy_goal_tolerance"], values["trans_stopped_velocity"]
-        limited = values.pop("trajectory_generator_name") == "dwb_plugins::LimitedAccelGenerator"
+        for row in _OF_GOALS:
+            del values[row.name]
         _within(values, "max_vel_x", robot.max_speed)
         _within(values, "max_vel_theta", robot.max_turn_rate)
         _within(values, "acc_lim_x", robot.acceleration)
@@ -155,18 +104,16 @@ class Dwb(Controller):
         values["max_speed_xy"] = values["max_vel_x"] if values["max_speed_xy"] is None else values["max_speed_xy"]
         values["min_vel_x"] = max(values["min_vel_x"], -robot.max_speed)
         lidar = robot.lidar
-        numbers = {name: float(value) for name, value in values.items()} | costmap
-        numbers |= {"limited": float(limited), "period": period, "max_detour": self.max_detour}
-        numbers |= {"beyond_end": self.beyond_end, "rotate_to_path": self.rotate_to_path}
+        values |= costmap | {row.name: getattr(self, row.name) for row in _FURTHER} | {"period": period}
         if lidar is not None:
             forward, leftward, _ = lidar.mount
-            numbers |= {"lidar_forward": forward, "lidar_leftward": leftward, "lidar_range": lidar.range}
-        return RobotSettings(numbers, footprint, critics)
+            values |= {"lidar_forward": forward, "lidar_leftward": leftward, "lidar_range": lidar.range}
+        return RobotSettings(values, footprint, critics)
 
     def goal_options(self) -> dict[str, float]:
         """Return the options of this class that the critic RotateToGoal reads in Nav2."""
         values = self._values(self._blocks()[0])
-        return {name: values[name] for name in ("xy_goal_tolerance", "trans_stopped_velocity")}
+        return {row.name: values[row.name] for row in _OF_GOALS}
 
     def _blocks(self) -> tuple[Nav2Block | None, Nav2Block | None]:
         if self.nav2 is None:
@@ -182,8 +129,6 @@ class Dwb(Controller):
         values = settle(self, block)
         if block is None:
             return values
-        if values["trajectory_generator_name"] not in get_args(Generator):
-            raise block.error("is not implemented", "trajectory_generator_name")
         plugin = block.take("plugin", str, _PLUGIN)
         if plugin != _PLUGIN:
             raise block.error(f"is not {_PLUGIN}", "plugin")

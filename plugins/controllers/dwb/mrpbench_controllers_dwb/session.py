@@ -40,19 +40,19 @@ class DwbSession(FleetControllerSession):
         super().__init__(())
         # Controllers are not told the level of their robot, so the walls of several levels cannot be used.
         walls = segments(world) if len(world.levels) == 1 else np.empty((0, 4))
-        numbers = [settings.numbers for _, settings in robots]
-        if len(world.levels) > 1 and any(each["static_layer"] for each in numbers):
+        values = [settings.values for _, settings in robots]
+        if len(world.levels) > 1 and any(each["static_layer"] for each in values):
             raise InputError(
                 f"controller: static_layer is the map of one level, and {world.name} has {len(world.levels)}",
                 hint="remove it from the plugins of the costmap",
             )
-        reach = max((np.hypot(each["width"], each["height"]) for each in numbers), default=1.0)
+        reach = max((np.hypot(each["width"], each["height"]) for each in values), default=1.0)
         self._fleet = Fleet(walls=np.ascontiguousarray(walls, float), reach=float(reach), threads=threads)
         self._in_python: list[list[tuple[str, float, CriticSession]]] = []
         for robot, settings in robots:
             native = [critic for critic in settings.critics if isinstance(critic, NativeCritic)]
             self._fleet.add(
-                settings=settings.numbers,
+                settings=settings.values,
                 footprint=np.ascontiguousarray(settings.footprint, float),
                 critics=[
                     (
@@ -78,20 +78,7 @@ class DwbSession(FleetControllerSession):
         scored = any(self._in_python)
         if scored:
             self._row = {robot: row for row, robot in enumerate(seen.robot.tolist())}
-        return self._fleet.command(
-            now=seen.now,
-            robot=seen.robot,
-            pose=seen.pose,
-            twist=seen.twist,
-            foot=seen.foot,
-            points=seen.points,
-            begin=seen.begin,
-            end=seen.end,
-            yaw=seen.yaw,
-            speed=seen.speed,
-            tolerance=seen.tolerance,
-            score=self._score if scored else None,
-        )
+        return self._fleet.command(seen, self._score if scored else None)
 
     def clear(self, robot: int) -> None:
         """Forget what one robot's scans have marked."""

@@ -1,6 +1,6 @@
 """The parameters of one robot for the native part."""
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from mrpbench_controllers_dwb.critic import Critic
 from mrpbench_core.model.common.arrays import Float
@@ -9,8 +9,8 @@ from mrpbench_core.model.common.arrays import Float
 class RobotSettings(NamedTuple):
     """Settings of one robot, from the recipe, its Nav2 file and the robot's limits."""
 
-    numbers: dict[str, float]
-    """Parameters of DWB and the costmap, by name."""
+    values: dict[str, Any]
+    """Options of DWB and the costmap, by name."""
     footprint: Float
     """f8[k,2] metres."""
     critics: tuple[Critic, ...]

@@ -79,7 +79,7 @@ def write(tmp_path, text):
 
 
 def test_a_nav2_file_says_everything(tmp_path):
-    numbers, _, critics = Dwb(nav2=write(tmp_path, FILE)).settings(BURGER, 0.05)
+    values, _, critics = Dwb(nav2=write(tmp_path, FILE)).settings(BURGER, 0.05)
     wanted = {
         "max_vel_x": 0.18,
         "max_vel_theta": 0.9,
@@ -102,7 +102,7 @@ def test_a_nav2_file_says_everything(tmp_path):
         "static_layer": 0.0,  # described, as in Nav2's own file, but not among the plugins
         "footprint_clearing_enabled": 0.0,
     }
-    assert {name: numbers[name] for name in wanted} == wanted
+    assert {name: values[name] for name in wanted} == wanted
     assert critics == (
         RotateToGoal(scale=32.0),
         BaseObstacle(scale=0.02),
@@ -117,30 +117,30 @@ def test_options_win_over_the_file(tmp_path):
         critics=(BaseObstacle(),),
         local_costmap=LocalCostmap(inflation_radius=0.3),
     )
-    numbers, _, critics = given.settings(BURGER, 0.05)
-    assert (numbers["sim_time"], numbers["vx_samples"], numbers["inflation_radius"]) == (1.7, 12, 0.3)
+    values, _, critics = given.settings(BURGER, 0.05)
+    assert (values["sim_time"], values["vx_samples"], values["inflation_radius"]) == (1.7, 12, 0.3)
     assert critics == (BaseObstacle(),)
 
 
 def test_a_block_can_be_pasted():
     pasted = Dwb(FollowPath={"plugin": "dwb_core::DWBLocalPlanner", "sim_time": 1.2, "critics": ["BaseObstacle"]})
-    numbers, _, critics = pasted.settings(BURGER, 0.05)
-    assert numbers["sim_time"] == 1.2
+    values, _, critics = pasted.settings(BURGER, 0.05)
+    assert values["sim_time"] == 1.2
     assert critics == (BaseObstacle(),)
 
 
 def test_without_any_the_limits_are_the_robots():
-    numbers, _, critics = Dwb().settings(load_robot("turtlebot3_waffle"), 0.05)
-    assert numbers["max_vel_x"] == 0.26
-    assert numbers["max_vel_theta"] == 1.0
+    values, _, critics = Dwb().settings(load_robot("turtlebot3_waffle"), 0.05)
+    assert values["max_vel_x"] == 0.26
+    assert values["max_vel_theta"] == 1.0
     assert [type(critic).__name__ for critic in critics] == [
         *("RotateToGoal", "Oscillation", "BaseObstacle", "GoalAlign", "PathAlign", "PathDist", "GoalDist")
     ]
 
 
 def test_no_option_exceeds_the_limits_of_the_robot():
-    numbers, _, _ = Dwb(max_vel_x=5.0, max_vel_theta=9.0, acc_lim_x=99.0).settings(BURGER, 0.05)
-    assert (numbers["max_vel_x"], numbers["max_vel_theta"], numbers["acc_lim_x"]) == (0.22, 2.84, 2.5)
+    values, _, _ = Dwb(max_vel_x=5.0, max_vel_theta=9.0, acc_lim_x=99.0).settings(BURGER, 0.05)
+    assert (values["max_vel_x"], values["max_vel_theta"], values["acc_lim_x"]) == (0.22, 2.84, 2.5)
 
 
 @pytest.mark.parametrize(

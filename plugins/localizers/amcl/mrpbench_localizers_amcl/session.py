@@ -14,7 +14,7 @@ from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBa
 from mrpbench_core.model.worlds.solids import segments
 from mrpbench_core.model.worlds.world import World
 
-_OURS = ("laser_max_range", "laser_min_range", "laser_model_type", "robot_model_type")
+_OURS = ("laser_max_range", "laser_min_range", "robot_model_type")
 """Parameters that are not passed to the native part."""
 
 
@@ -39,10 +39,7 @@ class AmclSession(LocalizerSession):
             places=_free(world, resolution) if recovers else np.empty((0, 2)),
             placements=np.array(placements, float).reshape(-1, 3),
             seed=seed % 2**64,
-            parameters={
-                "independent_beams": parameters["laser_model_type"] == "likelihood_field_prob",
-                **{name: value for name, value in parameters.items() if name not in _OURS},
-            },
+            parameters={name: value for name, value in parameters.items() if name not in _OURS},
         )
         self._began = False
 

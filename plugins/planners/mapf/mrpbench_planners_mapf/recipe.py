@@ -1,12 +1,14 @@
 """Planners whose search is in C++. Their options follow from what `mrpbench_native` says about the algorithm."""
 
 from collections.abc import Callable
-from typing import Any, ClassVar, Literal, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import attrs
-from mrpbench_native import describe, mapf
+from mrpbench_native import describe
+from mrpbench_native.options import Option
 
 from mrpbench_core.api.component import option
+from mrpbench_core.api.described import as_option, described, validator_of
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.planning.plan import Budget, PlanResult
 from mrpbench_core.model.planning.problem import Feature, Problem
@@ -23,7 +25,6 @@ SUPPORTED = frozenset(
         Feature.FOLLOWING_FORBIDDEN,
     }
 )
-_TYPES: dict[str, type[Any]] = {"bool": bool, "int": int, "float": float}
 
 
 class NativePlanner(Planner):
@@ -38,11 +39,11 @@ class NativePlanner(Planner):
     def _options(self, budget: Budget) -> dict[str, Any]:
         """The options of the algorithm: fields of this recipe, and what the budget sets."""
         options: dict[str, Any] = {}
-        for described in describe(self.algorithm).options:
-            if described.name == "iterations":
+        for row in describe(self.algorithm).options:
+            if row.name == "iterations":
                 options["iterations"] = budget.iterations
-            elif not described.fixed:
-                options[described.name] = getattr(self, described.name)
+            elif not row.fixed:
+                options[row.name] = getattr(self, row.name)
         if "seed" in options and options["seed"] is None:
             options["seed"] = budget.seed
         return options
@@ -57,41 +58,17 @@ def native_planner(algorithm: str) -> Callable[[type[P]], type[P]]:
 
     def decorate(cls: type[P]) -> type[P]:
         offered = [it for it in describe(algorithm).options if not it.fixed and it.name != "iterations"]
-        for described in offered:
-            setattr(cls, described.name, _field(described))
-        cls.__annotations__ = {it.name: _annotation(it) for it in offered} | cls.__annotations__
         cls.algorithm = algorithm
-        return attrs.frozen(kw_only=True)(cls)
+        return attrs.frozen(kw_only=True)(described(offered, _declare)(cls))
 
     return decorate
 
 
-def _annotation(described: mapf.Option) -> Any:
-    kind: Any = Literal[tuple(described.choices)] if described.choices else _TYPES[described.type]
-    return kind | None if described.optional or described.name == "seed" else kind
-
-
-def _field(described: mapf.Option) -> Any:
-    drawn = described.name == "seed"
-    paper = f" ({described.paper})" if described.paper else ""
-    more = "; none = drawn from the run's seed and repeat" if drawn else ""
-    return option(
-        None if drawn else described.default,
-        help=f"{described.help}{more}{paper}.",
-        validator=_validator(described, optional=described.optional or drawn),
+def _declare(row: Option) -> tuple[Any, Any]:
+    if row.name != "seed":
+        return as_option(row)
+    return int | None, option(
+        None,
+        help=f"{row.help}; none = drawn from the run's seed and repeat",
+        validator=attrs.validators.optional(validator_of(row)),
     )
-
-
-def _validator(described: mapf.Option, *, optional: bool) -> Any:
-    if described.choices:
-        return attrs.validators.in_(tuple(described.choices))
-    kind = _TYPES[described.type]
-    bounds: list[Any] = []
-    if described.least is not None:
-        bounds.append(attrs.validators.ge(kind(described.least)))
-    if described.most is not None:
-        bounds.append(attrs.validators.le(kind(described.most)))
-    if not bounds:
-        return None
-    within = attrs.validators.and_(*bounds) if len(bounds) > 1 else bounds[0]
-    return attrs.validators.optional(within) if optional else within

@@ -2,8 +2,8 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
-import attrs
 import numpy as np
 from mrpbench_native.sim import Caster, Plane
 
@@ -18,14 +18,11 @@ from mrpbench_core.model.worlds.level_layout import LevelLayout
 from mrpbench_core.model.worlds.world import World
 
 
-@attrs.frozen(kw_only=True)
-class WheelNoise:
+class WheelNoise(NamedTuple):
     """The deviation of motion from the commands; draws are functions of the seed, the robot's index and the period."""
 
-    slip: float
-    """Mean share of its travel that a wheel loses."""
-    actuation: float
-    """Standard deviation of the relative error of speed and turn rate."""
+    options: dict[str, Any]
+    """As `mrpbench_native.sim.noise_options` describes them."""
     seed: int
 
 
@@ -54,29 +51,21 @@ class PlanarSimulation(Simulation):
         self._radius = np.concatenate([fleet.radii, np.asarray(movers, float)])
         self._plane = Plane(
             segments=solids,
-            radius=self._radius,
-            limit=_table([(robot.max_speed, robot.max_turn_rate) for robot in robots]),
-            acceleration=_table([(robot.acceleration, robot.turn_acceleration) for robot in robots]),
-            wheel_separation=np.array([robot.wheel_separation for robot in robots], float),
-            pose=self._layout.to_plane(np.array(placements, float).reshape(-1, 3), self._level),
+            robots={
+                "pose": self._layout.to_plane(np.array(placements, float).reshape(-1, 3), self._level),
+                "radius": fleet.radii,
+                "limit": _table([(robot.max_speed, robot.max_turn_rate) for robot in robots]),
+                "acceleration": _table([(robot.acceleration, robot.turn_acceleration) for robot in robots]),
+                "wheel_separation": np.array([robot.wheel_separation for robot in robots], float),
+            },
+            movers=np.array(movers, float),
             period=period,
-            slip=noise.slip,
-            actuation=noise.actuation,
+            noise=noise.options,
             seed=noise.seed % 2**64,
         )
         self._plane.set_leaves(self._leaves)
         self._period, self._periods = period, 0
-        self._casters = {
-            lidar: Caster(
-                segments=solids,
-                beams=lidar.beams,
-                range=lidar.range,
-                min_range=lidar.min_range,
-                forward=lidar.mount[0],
-                leftward=lidar.mount[1],
-            )
-            for lidar in self._schedule.lidars
-        }
+        self._casters = {lidar: Caster(segments=solids, lidar=lidar) for lidar in self._schedule.lidars}
         self._movers = np.full((len(movers), 2), np.inf)
         self._state = self._observe()
         self._scans = self._take_scans()

@@ -71,7 +71,7 @@ def test_neighbouring_beams_have_almost_equal_ranges(lines, discs, pose, beams, 
     outline = wall_boxes(np.array(lines).reshape(-1, 4), 0.1)
     discs, pose = np.array(discs, float).reshape(-1, 3), np.array(pose)
     lidar = Lidar(beams=beams, range=reach, min_range=0.1, mount=(*mount, 0.2))
-    caster = Caster(segments=outline, beams=beams, range=reach, min_range=0.1, forward=mount[0], leftward=mount[1])
+    caster = Caster(segments=outline, lidar=lidar)
     radius = np.concatenate([[0.1], discs[:, 2]])
     found = caster.scan(np.zeros(1, np.int32), pose[None], np.ascontiguousarray(discs[:, :2]), radius)[0]
     # The sensor stays where it is while the beams turn by a hair.
@@ -95,10 +95,7 @@ def rotated(mount, yaw):
 
 
 def test_a_scan_does_not_depend_on_which_others_are_taken_with_it():
-    lidar = BURGER.lidar
-    caster = Caster(
-        segments=segments(FURNISHED), beams=lidar.beams, range=lidar.range, min_range=0.12, forward=-0.032, leftward=0.0
-    )
+    caster = Caster(segments=segments(FURNISHED), lidar=BURGER.lidar)
     pose, radius, movers = np.array(STARTS, float), np.full(6, BURGER.radius), np.empty((0, 2))
     together = caster.scan(np.arange(6, dtype=np.int32), pose, movers, radius)
     parts = [caster.scan(np.array(part, np.int32), pose, movers, radius) for part in ([0, 1], [2], [3, 4, 5])]

@@ -79,17 +79,7 @@ class Casters:
 
     def __init__(self, lidars: Sequence[Lidar], segments: Float, radius: Float) -> None:
         self._radius = radius
-        self._casters = {
-            lidar: Caster(
-                segments=segments,
-                beams=lidar.beams,
-                range=lidar.range,
-                min_range=lidar.min_range,
-                forward=lidar.mount[0],
-                leftward=lidar.mount[1],
-            )
-            for lidar in lidars
-        }
+        self._casters = {lidar: Caster(segments=segments, lidar=lidar) for lidar in lidars}
 
     def scan(self, lidar: Lidar, robots: Sequence[int], pose: Float, movers: Float, leaves: Float) -> Float:
         """Ranges f8[k,beams] of `robots`, while all stand at `pose` f8[n,3], movers at f8[m,2], and leaves f8[S,4]."""

@@ -1,31 +1,41 @@
-// The options of an algorithm by name. Each option is one row in the struct that holds it; ranges, error messages,
-// the Python interface and the options of planners follow from the row.
+// The options of a component by name. Each option is one row in the struct that holds it; ranges, error messages, the
+// Python interface and the options of plugins follow from the row.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-namespace mrpbench::mapf {
+namespace mrpbench {
 
 /// The value of an option; `std::monostate` is "none", for options that may be left open.
 using OptionValue = std::variant<std::monostate, bool, std::int64_t, double, std::string>;
 using OptionValues = std::map<std::string, OptionValue>;
 
-/// The values from `least` to `most`, both included.
+/// The values from `least` to `most`, both included unless `above` excludes `least`, in a unit ("m"; empty = none).
 struct ValueRange {
   std::optional<double> least, most;
+  bool above = false;
+  std::string unit;
 };
-inline ValueRange at_least(double least) {
-  return {least, std::nullopt};
+inline ValueRange any(std::string unit) {
+  return {std::nullopt, std::nullopt, false, std::move(unit)};
 }
-inline ValueRange within(double least, double most) {
-  return {least, most};
+inline ValueRange at_least(double least, std::string unit = "") {
+  return {least, std::nullopt, false, std::move(unit)};
+}
+inline ValueRange above(double least, std::string unit = "") {
+  return {least, std::nullopt, true, std::move(unit)};
+}
+inline ValueRange within(double least, double most, std::string unit = "") {
+  return {least, most, false, std::move(unit)};
 }
 
 /// The description of an option, without the struct that holds it.
@@ -131,4 +141,39 @@ struct Option {
 template <class Options>
 using Description = std::vector<Option<Options>>;
 
-}  // namespace mrpbench::mapf
+/// Append the rows of the struct that `Options` holds in `part`.
+template <class Options, class Part>
+void append(Description<Options>& rows, const Description<Part>& inner, Part Options::* part) {
+  for (const auto& row : inner) rows.emplace_back(row, part);
+}
+
+/// An option as its users see it.
+struct Parameter {
+  OptionInfo info;
+  OptionValue preset;
+  bool fixed = false;  // decided by the name of the component; plugins do not offer it
+};
+
+/// What `rows` describe, with the defaults of `preset`.
+template <class Options>
+std::vector<Parameter> parameters(const Description<Options>& rows, const Options& preset = {}) {
+  std::vector<Parameter> found;
+  for (const auto& row : rows) found.push_back({row.info, row.get(preset)});
+  return found;
+}
+
+/// Options with `values` set. Throws std::invalid_argument, naming the option, for one that does not exist or a value
+/// that it cannot have.
+template <class Options>
+Options configured(const Description<Options>& rows, const OptionValues& values, Options options = {}) {
+  for (const auto& [name, value] : values) {
+    const auto row =
+        std::find_if(rows.begin(), rows.end(), [&name = name](const auto& it) { return it.info.name == name; });
+    if (row == rows.end()) throw std::invalid_argument("there is no option '" + name + "'");
+    row->info.check(value);
+    row->set(options, value);
+  }
+  return options;
+}
+
+}  // namespace mrpbench

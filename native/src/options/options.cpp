@@ -1,11 +1,11 @@
-#include "mrpbench_mapf/common/options.hpp"
+#include "mrpbench_options/options.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
 
-namespace mrpbench::mapf {
+namespace mrpbench {
 
 namespace {
 
@@ -27,7 +27,12 @@ std::string expected(const OptionInfo& option) {
     case OptionInfo::Type::integer:
     case OptionInfo::Type::real:
       text << (option.type == OptionInfo::Type::integer ? "a whole number" : "a number");
-      if (option.range.least) text << (option.range.most ? " from " : " of at least ") << *option.range.least;
+      if (option.range.least) {
+        text << (option.range.above  ? " above "
+                 : option.range.most ? " from "
+                                     : " of at least ")
+             << *option.range.least;
+      }
       if (option.range.most) text << (option.range.least ? " to " : " of at most ") << *option.range.most;
   }
   if (option.optional) text << ", or none";
@@ -54,6 +59,7 @@ std::string written(const OptionValue& value) {
 template <class T>
 bool is_within(T value, const ValueRange& range) {
   const auto number = static_cast<double>(value);
+  if (range.above && number <= *range.least) return false;
   return number >= range.least.value_or(-std::numeric_limits<double>::infinity()) &&
          number <= range.most.value_or(std::numeric_limits<double>::infinity());
 }
@@ -81,4 +87,4 @@ void OptionInfo::check(const OptionValue& value) const {
     throw std::invalid_argument(name + " must be " + expected(*this) + ", not " + written(value));
 }
 
-}  // namespace mrpbench::mapf
+}  // namespace mrpbench

@@ -6,14 +6,15 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
-#include "mrpbench_mapf/algorithms/algorithms.hpp"
+#include "mrpbench_options/options.hpp"
 
 namespace mrpbench::bindings {
 
 namespace nb = nanobind;
 
-inline nb::object to_python(const mapf::OptionValue& value) {
+inline nb::object to_python(const OptionValue& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return nb::bool_(*flag);
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return nb::int_(*whole);
   if (const auto* number = std::get_if<double>(&value)) return nb::float_(*number);
@@ -22,8 +23,8 @@ inline nb::object to_python(const mapf::OptionValue& value) {
 }
 
 /// The value of an option from a Python object: integers are whole numbers of any type, numbers may be whole.
-inline mapf::OptionValue from_python(nb::handle value, mapf::OptionInfo::Type wanted) {
-  using Type = mapf::OptionInfo::Type;
+inline OptionValue from_python(nb::handle value, OptionInfo::Type wanted) {
+  using Type = OptionInfo::Type;
   if (value.is_none()) return std::monostate{};
   if (PyBool_Check(value.ptr())) return value.ptr() == Py_True;
   if (PyUnicode_Check(value.ptr())) return nb::cast<std::string>(value);
@@ -40,12 +41,12 @@ inline mapf::OptionValue from_python(nb::handle value, mapf::OptionInfo::Type wa
   throw std::invalid_argument("cannot be a " + std::string(nb::str(value.type()).c_str()));
 }
 
-inline mapf::OptionValues from_python(const nb::dict& given, const mapf::Algorithm& algorithm) {
-  mapf::OptionValues values;
+inline OptionValues from_python(const nb::dict& given, const std::vector<Parameter>& options) {
+  OptionValues values;
   for (const auto& [key, value] : given) {
     const auto name = nb::cast<std::string>(key);
-    auto type = mapf::OptionInfo::Type::real;
-    for (const mapf::Parameter& it : algorithm.options) {
+    auto type = OptionInfo::Type::real;
+    for (const Parameter& it : options) {
       if (it.info.name == name) type = it.info.type;
     }
     try {
@@ -57,19 +58,15 @@ inline mapf::OptionValues from_python(const nb::dict& given, const mapf::Algorit
   return values;
 }
 
-/// The Python type that a row stands for.
-inline const char* type_name(mapf::OptionInfo::Type type) {
-  switch (type) {
-    case mapf::OptionInfo::Type::boolean:
-      return "bool";
-    case mapf::OptionInfo::Type::integer:
-      return "int";
-    case mapf::OptionInfo::Type::real:
-      return "float";
-    case mapf::OptionInfo::Type::choice:
-      break;
-  }
-  return "str";
+/// Options with the values that a dict gives.
+template <class Options>
+Options configured_by(const nb::dict& given, const Description<Options>& rows = Options::description()) {
+  return configured(rows, from_python(given, parameters(rows, Options{})), Options{});
+}
+
+/// Lets a module return options, whose Python class is in `mrpbench_native.options`.
+inline void use_options() {
+  nb::module_::import_("mrpbench_native.options");
 }
 
 }  // namespace mrpbench::bindings
