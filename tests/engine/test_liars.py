@@ -1,11 +1,13 @@
 """A component of any kind that lies about its work, or changes its inputs, gains nothing, and is named."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from mrpbench_core import run
+from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 
 LIARS = """
@@ -181,17 +183,20 @@ HONEST = {
     "limits": {"planning": 5.0, "execution": 120.0},
     "recording": {"keep": "all"},
 }
+SHORT = {"planning": 5.0, "execution": 15.0}
+"""For what need not arrive."""
 
 
 @pytest.fixture
 def record(tmp_path, monkeypatch):
-    """Return a function: the record of a run with some components replaced, in the working directory."""
+    """Return a function: the record of a run in this process with some components replaced; it leaves `run.zip`."""
     (tmp_path / "liars.py").write_text(LIARS)
     monkeypatch.chdir(tmp_path)
 
     def make(**changes):
-        (found,) = run({**HONEST, **changes}, out="out", rerun="all")
-        return found
+        (point,) = load_study({**HONEST, **changes}).runs
+        paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
+        return execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
 
     return make
 
@@ -214,9 +219,15 @@ def liar(name, **options):
     ],
 )
 def test_a_component_that_changes_what_it_is_judged_by_breaks_its_contract(record, changes, message):
-    found = record(**changes)
+    with pytest.raises(BrokenContractError) as caught:
+        record(**changes)
+    assert message in str(caught.value)
+
+
+def test_the_status_of_a_run_says_that_a_contract_was_broken(record):
+    (found,) = run({**HONEST, "planner": liar("Planner", how="goals")}, out="out")
     assert found["status"] == "contract_broken"
-    assert message in found["error"]["message"]
+    assert "the planner LyingPlanner changed the problem.goals" in found["error"]["message"]
 
 
 def test_a_plan_after_the_limit_is_a_timeout(record):
@@ -244,25 +255,29 @@ def test_robots_that_only_are_said_to_arrive_have_not_arrived(record):
 @pytest.mark.parametrize(
     "changes", [{"navigator": liar("Navigator", how="inputs")}, {"dispatcher": liar("Dispatcher")}]
 )
-def test_inputs_that_a_component_changes_in_every_period_change_nothing_that_is_recorded(record, changes):
+def test_inputs_that_a_component_changes_in_every_period_change_nothing_that_is_recorded(record, tmp_path, changes):
     honest = {"dispatcher": "all_at_once"} if "dispatcher" in changes else {}
-    made = record(**honest), record(**changes)
-    one, other = (Recording(Path("out/recordings", f"{found['run_id']}.zip")) for found in made)
-    for name in ("truth", "estimate", "odometry", "reached"):
-        assert np.array_equal(one.channel(name), other.channel(name))
+    channels = []
+    for components in (honest, changes):
+        record(**components, limits=SHORT)
+        recording = Recording(tmp_path / "run.zip")
+        channels.append([recording.channel(name) for name in ("truth", "estimate", "odometry", "reached")])
+        recording.close()
+    for one, other in zip(*channels, strict=True):
+        assert np.array_equal(one, other)
 
 
 def test_true_poses_are_given_only_where_the_configuration_grants_them(record):
     with pytest.raises(Exception, match=r"localizer: LyingLocalizer needs the true poses .*grant_truth: true"):
         record(localizer=liar("Localizer"))
-    granted = record(localizer=liar("Localizer"), grant_truth=True)
-    assert granted["status"] == "succeeded"
+    granted = record(localizer=liar("Localizer"), grant_truth=True, limits=SHORT)
+    assert granted["metrics"]["execution.distance_m"] > 0
     assert granted["true_poses"].endswith(":LyingLocalizer")
 
 
 def test_a_metric_that_changes_the_run_has_no_value_and_changes_no_other_metric(record):
-    honest = record()
-    found = record(metrics=[liar("Metric"), "execution"])
+    honest = record(limits=SHORT)
+    found = record(metrics=[liar("Metric"), "execution"], limits=SHORT)
     assert found["metrics"]["LyingMetric.zero"] is None
     assert "changed the run" in found["unmeasured"]["LyingMetric"]
-    assert found["metrics"]["execution.duration_s"] == honest["metrics"]["execution.duration_s"]
+    assert found["metrics"]["execution.distance_m"] == honest["metrics"]["execution.distance_m"] > 0
