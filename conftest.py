@@ -5,8 +5,17 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from mrpbench_core.engine.processes.slots import slots_of_this_process
+
 settings.register_profile("mrpbench", deadline=None)  # a busy machine is no defect
 settings.load_profile("mrpbench")
+
+
+@pytest.fixture(scope="module")
+def kept_workers():
+    """Keep worker processes for all studies of a module, since starting them costs more than most runs."""
+    with slots_of_this_process():
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -41,3 +41,8 @@ def mrpbench(tmp_path, monkeypatch, capsys):
         return code, captured.out, captured.err
 
     return invoke
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _kept(kept_workers):
+    """Studies of a module share their worker processes."""

@@ -135,3 +135,8 @@ def browser(tmp_path_factory):
     found.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
     yield found
     found.quit()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _kept(kept_workers):
+    """Studies of a module share their worker processes."""

@@ -4,6 +4,7 @@ import secrets
 import threading
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any, TypeVar
 
 from mrpbench_core.engine.processes.job import Job, JobOutcome
@@ -12,6 +13,7 @@ from mrpbench_core.engine.processes.slot import Slot, SlotStopped
 T = TypeVar("T")
 _LOCK = threading.Lock()
 _POOLS: dict[str, "Slots"] = {}
+_OPEN: ContextVar[str | None] = ContextVar("slots of this process", default=None)
 
 
 class Slots:
@@ -60,11 +62,16 @@ class Slots:
 
 @contextmanager
 def slots_of_this_process() -> Iterator[str]:
-    """A key for the slots of one invocation in this process, which end with it."""
+    """A key for worker slots in this process, which end with the outermost of nested contexts: workers start once."""
+    if (outer := _OPEN.get()) is not None:
+        yield outer
+        return
     key = secrets.token_hex(8)
+    token = _OPEN.set(key)
     try:
         yield key
     finally:
+        _OPEN.reset(token)
         close_slots(key)
 
 

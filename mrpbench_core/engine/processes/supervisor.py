@@ -70,7 +70,8 @@ class Supervisor:
     def _server(self, job: Mapping[str, Any]) -> tuple[str, ForkServer]:
         """The fork server for the plugins of a job, and the key under which it is kept."""
         parcel = job.get("parcel", {})
-        plugins = json.dumps([sorted(set(_plugins(parcel))), parcel.get("sources"), parcel.get("folder")])
+        sources = parcel.get("sources")
+        plugins = json.dumps([sorted(set(_plugins(parcel))), sources, parcel.get("folder") if sources else None])
         if plugins not in self._servers:
             while len(self._servers) >= SERVERS:
                 self._servers.popitem(last=False)[1].wait()

@@ -116,8 +116,10 @@ class RunQueue:
     def _ending(self, executor: Executor) -> Iterator[None]:
         try:
             yield
+        except BaseException:
+            close_slots(self.slots)  # or the runs in flight would go on
+            raise
         finally:
-            close_slots(self.slots)
             if isinstance(executor, RemoteExecutor):
                 for future in self._going:
                     future.cancel()

@@ -139,3 +139,8 @@ def foreign(tmp_path):
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return lambda *options: module.Foreign(tmp_path / "foreign", *options)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _kept(kept_workers):
+    """Studies of a module share their worker processes."""

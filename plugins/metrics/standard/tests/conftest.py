@@ -112,3 +112,8 @@ def executed():
 @pytest.fixture(scope="session")
 def permuted():
     return _permuted
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _kept(kept_workers):
+    """Studies of a module share their worker processes."""

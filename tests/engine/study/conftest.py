@@ -1,0 +1,8 @@
+"""Studies in this process."""
+
+import pytest
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _kept(kept_workers):
+    """Studies of a module share their worker processes."""
