@@ -239,7 +239,7 @@ def test_a_planner_that_assigns_takes_the_assigners_place(tmp_path, choosing):
     for robot, task in enumerate(context.assigned):
         goal = context.scenario.tasks[task].goals[-1, :2]
         assert np.hypot(*(np.array(context.goal[robot][:2]) - goal)) < 0.4, "within a cell of the task's goal"
-    fixed, _ = execute_first(tmp_path, planner={**choosing, "assign": False})
+    fixed, _ = execute_first(tmp_path, planner={**choosing, "assign": False}, simulator="none", metrics=["planning"])
     assert fixed["scenario_id"] == record["scenario_id"]
     assert record["metrics"]["planning.sum_of_costs"] <= fixed["metrics"]["planning.sum_of_costs"]
 

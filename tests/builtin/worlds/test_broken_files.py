@@ -18,7 +18,7 @@ from mrpbench_core.builtin.worlds.ros_map import RosMap
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.worlds.world import World
 
-COUNT = int(os.environ.get("FILES", "100"))
+COUNT = int(os.environ.get("FILES", "40"))
 STRANGE = (
     *(None, True, 0, -1, 0.5, 10**30, 2**63, 1e300, 1e-300, math.nan, math.inf, -math.inf),
     *("", "x", "1", "\t", "é", [], {}, [[]], [1], [3, "a"], [1, None], [9, 1], {"a": 1}),

@@ -25,7 +25,7 @@ BUDGET = Budget(wall_s=300.0, memory_bytes=1 << 30)
 PIXEL = 1e-3
 """metres: what the rounding of pixels makes out."""
 seeds = st.integers(0, 2**32 - 1)
-with_files = settings(deadline=None, max_examples=25, suppress_health_check=[HealthCheck.function_scoped_fixture])
+with_files = settings(deadline=None, max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
 
 def loaded(tmp_path, building):
@@ -119,7 +119,7 @@ def test_robots_that_queue_at_lifts_change_floors_without_contact(tmp_path, side
         "assigner": "identity",
         "planner": "pbs",
         "simulator": "kinematic",
-        "control_rate": "10 Hz",
+        "control_rate": "5 Hz",
         "limits": {"execution": "15 min", "planning": "60 s"},
         "metrics": ["execution"],
     }

@@ -87,7 +87,7 @@ def run(tmp_path, planner, robots, simulator):
         "assigner": "identity",
         "planner": planner,
         "simulator": simulator,
-        "control_rate": "10 Hz",
+        "control_rate": "5 Hz",
         "limits": {"execution": "15 min", "planning": "60 s"},
         "metrics": ["planning"] if simulator == "none" else ["planning", "execution"],
     }
@@ -106,7 +106,7 @@ def test_robots_that_change_floors_get_a_plan(tmp_path, planner, robots):
 
 
 def test_robots_change_floors_without_contact(tmp_path):
-    record = run(tmp_path, "pbs", 4, "kinematic")
+    record = run(tmp_path, "pbs", 3, "kinematic")
     assert record["status"] == "succeeded", record.get("error")
     assert record["metrics"]["execution.robot_contacts"] == 0
     assert record["metrics"]["execution.wall_contacts"] == 0

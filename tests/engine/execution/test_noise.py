@@ -21,12 +21,13 @@ def disturbances(seed=0, repeat=0, robots=2, **size):
     return Disturbances(Noise(**size), Fleet(robots=(BURGER,) * robots), start, PERIOD, seed, repeat)
 
 
-def straight(noise, steps=200, step=0.01):
-    """Two robots drive straight ahead."""
-    pose = START.copy()
+def straight(noise, steps=200, step=0.01, robots=2):
+    """Robots drive straight ahead, from the two starts in turn."""
+    pose, move = np.resize(START, (robots, 3)), np.resize([[step, 0.0, 0.0], [0.0, step, 0.0]], (robots, 3))
     for _ in range(steps):
-        pose = pose + [[step, 0.0, 0.0], [0.0, step, 0.0]]
-        odometry = noise.odometry(State(pose=pose, twist=[[step / PERIOD, 0.0]] * 2, level=[0, 0], contacts=[]))
+        pose = pose + move
+        state = State(pose=pose, twist=[[step / PERIOD, 0.0]] * robots, level=[0] * robots, contacts=[])
+        odometry = noise.odometry(state)
     return pose, odometry
 
 
@@ -46,9 +47,9 @@ def test_by_default_everything_is_exact():
 def test_odometry_drifts_with_the_root_of_the_distance_at_any_period(step):
     """Two independent wheels of error k per root metre: distance errs by k sqrt(d/2), heading by k sqrt(2 d) / axle."""
     steps, k = round(1 / step), 0.003
-    ends = [straight(disturbances(seed, odometry=k), steps, step)[1].pose for seed in range(80)]
-    ahead = np.concatenate([np.array(ends)[:, 0, 0], np.array(ends)[:, 1, 1] - 1])
-    heading = np.concatenate([np.array(ends)[:, 0, 2], np.array(ends)[:, 1, 2] - np.pi / 2])
+    ends = straight(disturbances(robots=160, odometry=k), steps, step, robots=160)[1].pose
+    ahead = np.concatenate([ends[::2, 0], ends[1::2, 1] - 1])
+    heading = np.concatenate([ends[::2, 2], ends[1::2, 2] - np.pi / 2])
     assert ahead.mean() == pytest.approx(1.0, abs=0.002)
     assert ahead.std() == pytest.approx(k * np.sqrt(1 / 2), rel=0.2)
     assert heading.std() == pytest.approx(k * np.sqrt(2) / BURGER.wheel_separation, rel=0.2)
@@ -57,8 +58,8 @@ def test_odometry_drifts_with_the_root_of_the_distance_at_any_period(step):
 def test_a_wrong_scale_errs_in_proportion_to_the_way():
     one, two = (straight(disturbances(5, odometry_bias=0.01), steps)[1].pose[0] - START[0] for steps in (100, 200))
     assert two[2] == pytest.approx(2 * one[2], rel=1e-9)
-    ends = [straight(disturbances(seed, odometry_bias=0.01), 100)[1].pose[0, 2] for seed in range(120)]
-    assert np.std(ends) == pytest.approx(0.01 * np.sqrt(2) / BURGER.wheel_separation, rel=0.25)
+    ends = straight(disturbances(robots=240, odometry_bias=0.01), 100, robots=240)[1].pose[::2, 2]
+    assert ends.std() == pytest.approx(0.01 * np.sqrt(2) / BURGER.wheel_separation, rel=0.25)
 
 
 def test_measured_speeds_are_the_measured_way():
