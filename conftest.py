@@ -1,5 +1,6 @@
 """Fixtures that every test folder shares."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,7 +13,7 @@ settings.load_profile("mrpbench")
 
 
 @pytest.fixture(scope="module")
-def kept_workers():
+def kept_workers() -> Iterator[None]:
     """Keep worker processes for all studies of a module, since starting them costs more than most runs."""
     with slots_of_this_process():
         yield
