@@ -8,6 +8,7 @@ from mrpbench_core.files.errors import InputError
 SIZE_LIMIT = 256 * 2**20
 """Bytes. Larger than any map or record file, and small enough that `/dev/zero` gives an error."""
 
+_BLOCK = 2**20
 _NOT_TEXT = re.compile("[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
@@ -19,16 +20,19 @@ def read_bytes(path: Path | str) -> bytes:
     """
     try:
         with Path(path).open("rb") as stream:
-            content = stream.read(SIZE_LIMIT + 1)
+            blocks, size = [], 0
+            while size <= SIZE_LIMIT and (block := stream.read(_BLOCK)):
+                blocks.append(block)
+                size += len(block)
     except FileNotFoundError:
         raise InputError("no such file", file=path) from None
     except IsADirectoryError:
         raise InputError("is a folder, not a file", file=path) from None
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         raise InputError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=path) from None
-    if len(content) > SIZE_LIMIT:
+    if size > SIZE_LIMIT:
         raise InputError(f"is larger than {SIZE_LIMIT // 2**20} MiB", file=path)
-    return content
+    return b"".join(blocks)
 
 
 def read_text(path: Path | str) -> str:

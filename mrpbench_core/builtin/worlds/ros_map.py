@@ -92,9 +92,9 @@ class RosMap(WorldSource):
             occupancy = image.lightness if _flag(fields, "negate") else 1 - image.lightness
             occupied = occupancy > high
             unknown = (occupancy >= low) & ~occupied if mode == "trinary" else np.zeros_like(occupied)
-        unknown |= image.transparent
-        blocked: Bool = occupied & ~unknown if self.unknown == "free" else occupied | unknown
-        return blocked
+        free = self.unknown == "free"
+        blocked: Bool = (occupied & ~unknown if free else occupied | unknown)[image.tone]
+        return blocked & ~image.transparent if free else blocked | image.transparent
 
 
 def _share(fields: dict[str, Node], key: str, default: float) -> float:

@@ -29,10 +29,11 @@ def rotate(occupancy: Occupancy, angle: float) -> Occupancy:
         blocked = np.rot90(occupancy.blocked, -quarters)
         return Occupancy(blocked=blocked, cell_size=size, origin=origin)
     shape = np.ceil((high - low) / size - 1e-9).astype(int)
-    column, row = np.meshgrid(np.arange(shape[0]), np.arange(shape[1]))
-    dx, dy = low[0] + (column + 0.5) * size, low[1] + (row + 0.5) * size
-    across = np.floor((dx * cosine + dy * sine) / size).astype(int)
-    up = np.floor((dy * cosine - dx * sine) / size).astype(int)
-    inside = (across >= 0) & (across < columns) & (up >= 0) & (up < rows)
-    blocked = ~inside | occupancy.blocked[np.where(inside, up, 0), np.where(inside, across, 0)]
+    dx = low[0] + (np.arange(shape[0]) + 0.5) * size
+    blocked = np.empty((shape[1], shape[0]), bool)
+    for row, dy in enumerate(low[1] + (np.arange(shape[1]) + 0.5) * size):  # by rows, which takes little memory
+        across = np.floor((dx * cosine + dy * sine) / size).astype(int)
+        up = np.floor((dy * cosine - dx * sine) / size).astype(int)
+        inside = (across >= 0) & (across < columns) & (up >= 0) & (up < rows)
+        blocked[row] = ~inside | occupancy.blocked[np.where(inside, up, 0), np.where(inside, across, 0)]
     return Occupancy(blocked=blocked, cell_size=size, origin=origin)

@@ -33,6 +33,9 @@ MOVED = 0.1
 DAMAGED = "the end of the recording is missing or damaged"
 MOST_SAMPLES = 5_000_000
 """Positions that are kept in memory."""
+FEWEST_SAMPLES, PER_POSE = 1_000_000, 100
+"""Positions up to which a recording is not sparse, and beyond that for each recorded pose: where a clock jumped, few
+poses span a long time."""
 
 
 @attrs.frozen(kw_only=True)
@@ -207,7 +210,8 @@ def _times(tracks: tuple[Track, ...], sampling: Sampling) -> Float:
         raise InputError(
             f"nothing is recorded from {since:g} to {until:g} s: poses begin at {begin:g} and end at {end:g} s"
         )
-    if (until - since) * sampling.rate * len(tracks) > MOST_SAMPLES:
+    most = min(MOST_SAMPLES, max(FEWEST_SAMPLES, PER_POSE * sum(len(track.time) for track in tracks)))
+    if (until - since) * sampling.rate * len(tracks) > most:
         raise InputError(
             f"{until - since:.0f} s of {len(tracks)} robots at {sampling.rate:g} Hz are too many samples",
             hint="lower --rate, or cut a part out with --start-time and --end-time",

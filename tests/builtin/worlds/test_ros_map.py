@@ -1,5 +1,6 @@
 import math
 import sys
+import tracemalloc
 
 import numpy as np
 import pytest
@@ -128,6 +129,23 @@ def test_pgm_of_text_and_of_16_bits_is_read(tmp_path):
     assert blocked(RosMap(file=tmp_path / "map.yaml").load()) == [[True, False, True]]
     (tmp_path / "map.pgm").write_bytes(b"P5 3 1 65535\n" + bytes([0, 0, 255, 255, 128, 0]))
     assert blocked(RosMap(file=tmp_path / "map.yaml").load()) == [[True, False, True]]
+
+
+def test_an_image_with_too_many_pixels_is_refused_before_they_are_decoded(load, monkeypatch):
+    monkeypatch.setattr("mrpbench_core.builtin.worlds.image.PIXELS", 11)
+    monkeypatch.setattr("PIL.Image.Image.convert", None)
+    with pytest.raises(InputError, match=r"is too large \(crop it"):
+        load([[0, 0, 0, 0]] * 3)
+
+
+def test_an_image_takes_little_memory_for_each_pixel(tmp_path):
+    (tmp_path / "map.yaml").write_text(YAML.replace("origin: [-1, 2, 0]", "origin: [-1, 2, 0.3]"))
+    Image.new("L", (1000, 1000), 254).save(tmp_path / "map.png")
+    tracemalloc.start()
+    RosMap(file=tmp_path / "map.yaml").load()
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 16 * 1000 * 1000
 
 
 def test_another_image_can_be_named(load, tmp_path):

@@ -115,6 +115,11 @@ def test_impossible_samplings_are_refused(sampling, message):
         seen(scenario(4.0), [track([0, 9], [0, 4])], **sampling)
 
 
+def test_few_poses_over_a_long_time_are_refused_before_memory_is_taken():
+    with pytest.raises(InputError, match="too many samples"):
+        seen(scenario(4.0), [track([0, 1, 150_000], [0, 1, 4])])
+
+
 def test_tasks_of_an_online_scenario_are_refused():
     late = attrs.evolve(scenario(4.0), tasks=(Task(goals=[[4, 0, NAN]], release=3.0),))
     with pytest.raises(InputError, match="released over time"):

@@ -4,6 +4,7 @@ It has the entry `context`, the UTF-8 bytes of `{"format": 1, "context": …}` i
 """
 
 import json
+import zipfile
 from collections.abc import Mapping
 from io import BytesIO
 from typing import Any
@@ -11,10 +12,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_core.checking.context import check_context
 from mrpbench_core.files.codec import decode, encode
+from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2.messages import Topic, message, serialize
 
+LARGEST = 2**30
+"""Bytes of all arrays of a message."""
 FORMAT = 1
 """Raised when a reader of the old format would misread the new one."""
 TOPIC = Topic("/run_data", "std_msgs/UInt8MultiArray", latched=True)
@@ -49,13 +54,33 @@ def unpack(data: NDArray[np.uint8]) -> RunContext:
     Raises:
         ValueError: it is damaged, or of another format.
     """
+    arrays = unpacked(data)
+    context, fault = None, None
     try:
+        said = json.loads(arrays["context"].tobytes())
+        if said["format"] == FORMAT:
+            context = decode(said["context"], RunContext, arrays.__getitem__)
+            fault = check_context(context)
+    except Exception as error:  # JSON and cattrs have no common class of errors
+        raise ValueError(f"damaged: {one_line(error)}") from error
+    if fault is not None:
+        raise ValueError(f"damaged: {fault}")
+    if context is None:
+        raise ValueError(f"format {said['format']!r:.40}, this version reads {FORMAT}")
+    return context
+
+
+def unpacked(data: NDArray[np.uint8]) -> dict[str, NDArray[Any]]:
+    """The arrays that `packed` packed into the message's `data`.
+
+    Raises:
+        ValueError: it is damaged, or would take more than `LARGEST` bytes.
+    """
+    try:
+        with zipfile.ZipFile(BytesIO(data.tobytes())) as source:
+            if sum(entry.file_size for entry in source.infolist()) > LARGEST:
+                raise ValueError(f"damaged: it would take more than {LARGEST // 2**20} MiB")
         with np.load(BytesIO(data.tobytes()), allow_pickle=False) as file:
-            said = json.loads(file["context"].tobytes())
-            if said["format"] != FORMAT:
-                raise ValueError(f"format {said['format']}, this version reads {FORMAT}")
-            return decode(said["context"], RunContext, file.__getitem__)
-    except ValueError:
-        raise
-    except Exception as error:  # zip, JSON and cattrs have no common class of errors
-        raise ValueError(f"damaged: {error}") from error
+            return {name: file[name] for name in file}
+    except Exception as error:  # zip, zlib and NumPy have no common class of errors
+        raise ValueError(f"damaged: {one_line(error)}") from error

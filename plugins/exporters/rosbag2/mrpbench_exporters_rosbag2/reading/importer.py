@@ -7,7 +7,7 @@ import attrs
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.importer import SOURCES, Importer, Observed, Track
-from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_exporters_rosbag2.messages import SECOND
 from mrpbench_exporters_rosbag2.reading.collected import Collected, Patterns
 from mrpbench_exporters_rosbag2.reading.names import natural, robot_in, wanted, without_robot
@@ -59,7 +59,11 @@ class FromRosbag2(Importer):
                 }
                 for topic, logged, message in stream.messages(takes):
                     for take in takes[topic]:
-                        take(logged, message)
+                        try:
+                            take(logged, message)
+                        except (ValueError, TypeError, AttributeError, LookupError, OverflowError) as error:
+                            stream.complete = False
+                            stream.notes.append(f"{topic}: a message is damaged and was not read ({one_line(error)})")
                 span, notes = self._span(collected)
                 best = self._best(collected, span, bases, robots, SOURCES)
                 if best:

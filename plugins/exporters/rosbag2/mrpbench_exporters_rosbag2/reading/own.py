@@ -1,12 +1,14 @@
 """Reads bags that mrpbench wrote: context, progress, contacts, events and channels of the recording."""
 
 from collections import defaultdict
-from io import BytesIO
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_core.checking.context import check_rows
+from mrpbench_core.checking.recording import axis_of, check_names
+from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2 import advance, routes, whole
@@ -34,6 +36,7 @@ class Own:
         self._types = topics
         self._signals = signals
         self._estimates: dict[str, Said] = {}
+        self._damaged: str | None = None
 
     def takers(self) -> dict[str, Take]:
         """Return the handler of each topic, if mrpbench wrote the bag."""
@@ -57,11 +60,22 @@ class Own:
         return int(self._rows["time"][0]) if self.context and self._rows["time"] else None
 
     def channels(self) -> Chunk:
-        """Channels with times in seconds since `begin`."""
-        begin = self.begin
-        if begin is None or self.context is None:
+        """Channels with times in seconds since `begin`; none if something in them is damaged."""
+        if self.begin is None or self.context is None:
             return {}
-        numbers = {name: index for index, name in enumerate(self.context.fleet.names)}
+        try:
+            found = self._channels(self.begin, self.context)
+            faults = [check_rows(name, rows, found[axis_of(name)], self.context) for name, rows in found.items()]
+            fault = next(filter(None, [self._damaged, *check_names(found), *faults]), None)
+        except (ValueError, TypeError, LookupError, OverflowError) as error:  # messages do not fit one another
+            fault = one_line(error)
+        if fault is not None:
+            self.notes.append(f"the progress of the run is damaged ({fault}): read like a bag of any other fleet")
+            return {}
+        return found
+
+    def _channels(self, begin: int, context: RunContext) -> Chunk:
+        numbers = {name: index for index, name in enumerate(context.fleet.names)}
 
         def times(name: str) -> NDArray[Any]:
             return (np.array(self._rows[name], np.int64) - begin) / SECOND
@@ -166,8 +180,12 @@ class Own:
         self._rows["event_detail"].append(status.values[0].value)
 
     def _routes(self, _logged: int, message: Any) -> None:
-        with np.load(BytesIO(message.data.tobytes()), allow_pickle=False) as file:
-            self._rows["routes"].append({name: file[name] for name in routes.CHANNELS if name in file})
+        try:
+            arrays = whole.unpacked(message.data)
+        except ValueError as error:
+            self._damaged = f"{routes.TOPIC.name} is {error}"
+        else:
+            self._rows["routes"].append({name: arrays[name] for name in routes.CHANNELS if name in arrays})
 
 
 def _planar(transform: Any) -> NDArray[Any]:
