@@ -64,7 +64,7 @@ def cycle_in(problem, plan):
     return bool(nodes)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=40)
 @given(SEEDS)
 def test_plans_of_chance_drain(seed):
     random = np.random.default_rng(seed)
@@ -76,7 +76,7 @@ def test_plans_of_chance_drain(seed):
         event(f"rings: {executor.rings > 0}")
 
 
-@settings(deadline=None, max_examples=80)
+@settings(deadline=None, max_examples=40)
 @given(SEEDS)
 def test_plans_that_change_on_the_way_drain(seed):
     random = np.random.default_rng(seed)

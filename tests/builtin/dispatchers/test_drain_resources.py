@@ -45,7 +45,7 @@ def accepted(problem, plan):
         return None
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=30)
 @given(SEEDS)
 def test_plans_of_chance_drain(seed):
     random = np.random.default_rng(seed)
@@ -77,7 +77,7 @@ def test_plans_that_change_on_the_way_drain(seed):
     released_under_delays(session, problem, plan, random, replans)
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=30)
 @given(SEEDS)
 def test_plans_of_prioritized_drain(seed):
     found = {point.name: point for point in entry_points(group="mrpbench.planners")}

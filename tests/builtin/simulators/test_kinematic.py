@@ -97,7 +97,7 @@ def test_a_mover_pushes_and_is_not_pushed():
 commands = st.lists(st.tuples(st.floats(-1, 1), st.floats(-4, 4)), min_size=6, max_size=6)
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=12)
 @given(st.lists(commands, min_size=1, max_size=4))
 def test_robots_overlap_nothing_under_any_commands(plan):
     starts = [[0.3, 0.3, 0], [0.6, 0.3, 2], [0.3, 0.6, -1], [0.6, 0.6, 1], [1.4, 0.4, 3], [1.7, 1.7, -2]]

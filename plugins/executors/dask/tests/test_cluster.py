@@ -57,10 +57,10 @@ class Heard(StudyProgress):
 
 
 class LocalCluster:
-    """One scheduler and two worker processes, each of them started as on any machine."""
+    """One scheduler and worker processes, each of them started as on any machine."""
 
-    def __init__(self, folder):
-        self.folder = folder
+    def __init__(self, folder, size=2):
+        self.folder, self.size = folder, size
         self.file = folder / "scheduler.json"
         self.processes = []
         self.start("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--no-show")
@@ -74,7 +74,7 @@ class LocalCluster:
     def complete(self):
         """Start workers in place of those that were killed."""
         self.workers = [worker for worker in self.workers if worker.poll() is None]
-        while len(self.workers) < 2:
+        while len(self.workers) < self.size:
             self.workers.append(self.start("worker", "--no-nanny", "--nthreads", "1", "--no-dashboard"))
 
     def start(self, what, *words):
@@ -112,7 +112,7 @@ def cluster(scheduler):
 @pytest.fixture
 def doomed(tmp_path):
     """Return a cluster that a test may kill as a whole."""
-    made = LocalCluster(tmp_path)
+    made = LocalCluster(tmp_path, size=1)
     yield made
     made.close()
 

@@ -1,5 +1,5 @@
 import yaml
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_exporters_rosbag2.block_yaml import block_yaml
 
@@ -10,6 +10,7 @@ SCALARS = (
 NAMES = st.from_regex("[a-z][a-z_0-9]{3,10}", fullmatch=True).filter(lambda name: name not in ("true", "false", "null"))
 
 
+@settings(max_examples=40)
 @given(
     st.recursive(SCALARS, lambda inner: st.lists(inner, max_size=4) | st.dictionaries(NAMES, inner, max_size=4)).filter(
         lambda value: isinstance(value, dict | list)

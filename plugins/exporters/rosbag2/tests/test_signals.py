@@ -21,7 +21,7 @@ def export(context, recording, destination, **options):
     return destination
 
 
-@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(max_examples=6, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     turned=st.floats(-6.2, 6.2),
     rate=st.floats(-3, 3),

@@ -29,6 +29,7 @@ def errors(out, world, localizer, **changes):
         "simulator": "planar",
         "localizer": localizer,
         "noise": NOISE,
+        "control_rate": "10 Hz",
         "metrics": ["execution"],
         "limits": {"execution": "60 s"},
         "seed": 1,
@@ -87,15 +88,15 @@ def test_other_robots_in_sight_and_noise_of_motors_do_no_harm(tmp_path):
 
 
 def test_recordings_are_the_same_at_any_number_of_workers_and_in_any_process(tmp_path):
-    """Five runs in two processes at once, and again in one."""
+    """Two runs in two processes at once, and again in one."""
 
     def run(name, workers):
-        study = {"matrix": {"seed": "0..2"}, "limits": {"execution": "10 s"}, "recording": {"scans": True}}
+        study = {"matrix": {"seed": "0..1"}, "limits": {"execution": "5 s"}, "recording": {"scans": True}}
         base = {"world": "office", "scenario": {"plugin": "random", "robots": 3}, "planner": "prioritized"}
         stack = {"simulator": "planar", "localizer": "amcl", "noise": NOISE, "assigner": "identity", "metrics": []}
         mrpbench_core.run({**base, **stack, **study}, out=tmp_path / name, workers=workers)
         return {file.name: file.read_bytes() for file in (tmp_path / name).rglob("recordings/*.zip")}
 
     one, two = run("one", 1), run("two", 2)
-    assert len(one) == 3
+    assert len(one) == 2
     assert one == two

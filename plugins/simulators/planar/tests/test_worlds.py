@@ -9,7 +9,7 @@ import pytest
 SCRIPT = Path(__file__).parents[4] / "benchmarks" / "worlds.py"
 
 
-@pytest.mark.parametrize("world", ["office", "household_graph", "bottlenecks_door"])
+@pytest.mark.parametrize("world", ["household_graph", "bottlenecks_door"])
 def test_robots_arrive_and_touch_nothing(world):
     pytest.importorskip("mrpbench_planners_mapf")
     if not SCRIPT.exists():
