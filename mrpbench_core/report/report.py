@@ -8,6 +8,7 @@ import numpy as np
 from mrpbench_core.api.metric import Column
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import suggest
+from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.report.estimation.comparison import Comparison, compare_settings
 from mrpbench_core.report.estimation.estimates import Numbers, numbers_of
 from mrpbench_core.report.estimation.groups import Setting, find_settings, group_runs
@@ -53,6 +54,18 @@ class Report:
             pairs_table(self.comparisons, brief=brief),
         )
         return [table for table in found if table is not None]
+
+    def failures_first(self) -> Int:
+        """Return the indices of all runs: failed ones first, and every configuration in turn."""
+        groups = [group.members for setting in self.settings for group in setting.groups]
+        order = np.concatenate(groups)
+        succeeded = self.runs.values["succeeded"][order] == 1
+        number = np.repeat(np.arange(len(groups)), [len(members) for members in groups])
+        alike = 2 * number + succeeded  # runs of one configuration with the same outcome
+        grouped, sizes = np.argsort(alike, kind="stable"), np.bincount(alike)
+        turn = np.empty(len(order), np.int64)
+        turn[grouped] = np.arange(len(order)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+        return order[np.lexsort((number, turn, succeeded))]
 
 
 def make_report(

@@ -22,7 +22,7 @@ are valid for that scenario only.
 
 Rates: Wilson intervals, {100 * LEVEL:.0f} %; if scenarios were repeated, for the effective sample size.
 
-Means: Bootstrap intervals (BCa, {100 * LEVEL:.0f} %, {RESAMPLES} resamples, seed {SEED}; percentiles above {MANY}
+Means: Bootstrap intervals (BCa, {100 * LEVEL:.0f} %, {RESAMPLES} resamples, seed {SEED}; normal intervals above {MANY}
 samples). There is no interval below {LEAST} samples.
 
 Censoring: A run without a plan has no planning time. timing.planning_s is over runs with a plan; {PAR2} counts each
@@ -36,7 +36,8 @@ have in common (for success, the scenarios for which every group found a plan). 
 
 Pairs: Groups that differ in one choice are compared on the scenarios that both have. Success is compared by McNemar's
 exact test (interval of Bonett and Price; if scenarios were repeated, by sign flips, {FLIPS} of them with seed {SEED} if
-there are too many to try all). Values are compared by Wilcoxon's signed-rank test (equal pairs are dropped; bootstrap
+there are too many to try all, and by the normal distribution if more than {MANY} pairs differ). Values are compared by
+Wilcoxon's signed-rank test (equal pairs are dropped; bootstrap
 interval of the mean difference). p is adjusted by Holm for all tests of the table that could be significant (six pairs
 must differ). A difference is significant if the adjusted p < {SIGNIFICANT:g}. The ranks decide between better and
 worse. If the mean has the other sign, a few large differences oppose many small ones, and the table says so.

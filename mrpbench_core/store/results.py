@@ -2,16 +2,16 @@
 
 import logging
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
-import attrs
+import msgspec
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.jsonl import line
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.record_index import Entry, RecordIndex
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.run_files import check_recording, names_files
 from mrpbench_core.store.shards import read_at, read_shard
@@ -20,55 +20,71 @@ _ATTEMPT = re.compile(r"(?P<run_id>.+)-(?P<attempt>[1-9]\d{0,9})")
 _LOG = logging.getLogger(__name__)
 
 
-@attrs.frozen
-class Entry:
-    """The place of a run's record, and the facts that decide whether the run is repeated."""
-
-    attempt: int
-    status: str
-    origin: str
-    """Versions and source hashes of the run's code, as one text."""
-    shard: Path
-    offset: int
-    names_files: bool
-    """False for records of older versions, whose files have the names of the first attempt."""
-
-
 class Results:
     """Records of finished runs, in the order in which they were stored.
 
-    Records are read from disk as they are asked for: a folder of 10^5 runs costs tens of megabytes, not gigabytes.
+    Records are read from disk as they are asked for: a folder of 10^6 runs costs 200 MB, not gigabytes.
     """
 
-    def __init__(self, folder: ResultsFolder, only: Iterable[str] | None = None) -> None:
+    def __init__(self, folder: ResultsFolder, only: Iterable[str] | None = None, *, warn: bool = False) -> None:
+        """Open a folder; its files are read when they are first needed.
+
+        Args:
+            folder: of the results.
+            only: ids of the runs that count; None = all.
+            warn: log each damaged line.
+        """
         self.folder = folder
-        self.damaged: list[InputError] = []
-        """Lines that are not records, each with advice. Their runs count as not done."""
-        self._entries: dict[str, Entry] = {}
-        wanted = None if only is None else frozenset(only)
-        origins: dict[str, str] = {}  # equal texts become one object
-        for shard in folder.shards():
-            for offset, record in read_shard(shard, self.damaged):
-                run_id = record["run_id"]
-                known = self._entries.get(run_id)
-                attempt = record.get("attempt", 1)
-                if (wanted is not None and run_id not in wanted) or (known is not None and known.attempt >= attempt):
+        self._only = None if only is None else frozenset(only)
+        self._warn = warn
+        self._damaged: list[InputError] = []
+        self._found: RecordIndex | None = None
+
+    def scan(self, visit: Callable[[dict[str, Any]], object] | None = None) -> bool:
+        """Find all records, and call `visit` with each one.
+
+        Returns:
+            Whether the records that were visited are those of this object: each run once. If not, iterate.
+        """
+        if self._found is not None:
+            return visit is None
+        self._found, once = RecordIndex(), True
+        for shard in self.folder.shards():
+            for offset, record in read_shard(shard, self._damaged):
+                run_id, attempt = record["run_id"], record.get("attempt", 1)
+                if (self._only is not None and run_id not in self._only) or self._found.attempt(run_id) >= attempt:
                     continue
-                text = origin(record.get("provenance") or {})
-                text = origins.setdefault(text, text)
-                self._entries[run_id] = Entry(attempt, record["status"], text, shard, offset, names_files(record))
+                code = origin(record.get("provenance") or {})
+                entry = Entry(attempt, record["status"], code, shard, offset, names_files(record))
+                once = self._found.put(run_id, entry) and once
+                if visit is not None:
+                    visit(record)
+        for error in self._damaged if self._warn else ():
+            _LOG.warning("%s", error)
+        return once
+
+    @property
+    def damaged(self) -> list[InputError]:
+        """Lines that are not records, each with advice. Their runs count as not done."""
+        self.scan()
+        return self._damaged
+
+    @property
+    def _index(self) -> RecordIndex:
+        self.scan()
+        assert self._found is not None
+        return self._found
 
     def __len__(self) -> int:
-        return len(self._entries)
+        return len(self._index.rows)
 
     def __contains__(self, run_id: object) -> bool:
-        return run_id in self._entries
+        return run_id in self._index.rows
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
-        places = {(entry.shard, entry.offset) for entry in self._entries.values()}
-        for shard in dict.fromkeys(sorted(entry.shard for entry in self._entries.values())):
+        for shard in self._index.shards():
             for offset, record in read_shard(shard):
-                if (shard, offset) in places:
+                if self._index.is_at(record["run_id"], shard, offset):
                     yield record
 
     def __getitem__(self, run_id: str) -> dict[str, Any]:
@@ -77,22 +93,24 @@ class Results:
         Raises:
             KeyError: no run, or several runs.
         """
-        entry = self._entries.get(run_id)
+        entry = self._index.get(run_id)
         if entry is None:
-            found = [known for known in self._entries if known.startswith(run_id)]
+            found = [known for known in self._index.rows if known.startswith(run_id)]
             if len(found) != 1:
                 which = f"begin with {run_id!r}" if run_id else "are here, one must be named"
                 raise KeyError(f"{len(found) or 'no'} runs {which}")
-            entry = self._entries[found[0]]
+            entry = self._index.get(found[0])
+            assert entry is not None
         return read_at(entry.shard, entry.offset)
 
     def entry(self, run_id: str) -> Entry | None:
         """Facts about a run's record without reading it, or None."""
-        return self._entries.get(run_id)
+        return self._index.get(run_id)
 
     def paths(self, run_id: str) -> RunPaths:
         """The files of a run that has a record."""
-        entry = self._entries[run_id]
+        entry = self._index.get(run_id)
+        assert entry is not None
         return self.folder.run(run_id, entry.attempt if entry.names_files else 1)
 
     def recording(self, run_id: str) -> Recording:
@@ -114,21 +132,18 @@ class Results:
         for part in ("recordings", "exports"):
             for file in (self.folder.path / part).iterdir():
                 found = _ATTEMPT.fullmatch(file.name.removesuffix(".zip"))
-                if found is None or found[0] in self._entries:
+                if found is None or found[0] in self:
                     continue
-                entry = self._entries.get(found["run_id"])
+                entry = self._index.get(found["run_id"])
                 if entry is not None and entry.names_files and entry.attempt != int(found["attempt"]):
                     self.folder.forget(found["run_id"], int(found["attempt"]))
-        for run_id, entry in self._entries.items():
-            if entry.names_files and entry.attempt > 1:
+        for run_id in self._index.rows:
+            if self._index.attempt(run_id) > 1 and self.paths(run_id) != self.folder.run(run_id):
                 self.folder.forget(run_id, 1)
 
     def statuses(self) -> dict[str, int]:
         """The number of runs by status."""
-        counts: dict[str, int] = {}
-        for entry in self._entries.values():
-            counts[entry.status] = counts.get(entry.status, 0) + 1
-        return counts
+        return dict(self._index.statuses())
 
     def to_rows(self) -> list[dict[str, Any]]:
         """One flat dict per run, for `pandas.DataFrame`: options, metrics and timing become dotted keys."""
@@ -137,7 +152,7 @@ class Results:
 
 def origin(provenance: dict[str, Any]) -> str:
     """The part of a record's provenance that can change its numbers, as text to compare."""
-    return line({key: provenance.get(key) for key in ("components", "versions")})
+    return msgspec.json.encode([provenance.get("components"), provenance.get("versions")]).decode()
 
 
 def flatten(record: dict[str, Any]) -> dict[str, Any]:
@@ -164,7 +179,4 @@ def load(folder: Path | str) -> Results:
     results = ResultsFolder(Path(folder))
     if not (results.path / "runs").is_dir():
         raise InputError("is no results folder", file=folder, hint="give the folder that `mrpbench run` wrote")
-    found = Results(results)
-    for error in found.damaged:
-        _LOG.warning("%s", error)
-    return found
+    return Results(results, warn=True)

@@ -103,7 +103,7 @@ def read_shard(path: Path, damaged: list[InputError] | None = None) -> Iterator[
                 except InputError as error:
                     if damaged is not None:
                         damaged.append(error)
-                offset = stream.tell()
+                offset = offset + len(line) if line.endswith(b"\n") else stream.tell()
     except OSError as error:
         if damaged is not None:
             damaged.append(InputError(f"cannot be read: {error.strerror or error}", file=path))

@@ -2,7 +2,6 @@
 
 import logging
 import os
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -13,7 +12,6 @@ from mrpbench_core.api.planner import Planner
 from mrpbench_core.config.canonical import json_scalar
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import load as load_yaml
-from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.plugins.local import is_local
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.reading.columns import Columns, describe_columns
@@ -69,13 +67,15 @@ def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
     """
     found: dict[str, str] = {}
     lacking: list[tuple[Results, str, Path]] = []
-    for index in _order(report):
-        run_id = report.runs.run_id[index]
-        results = report.folders[report.runs.folder[index]]
+    there = [{file.name for file in results.folder.path.glob("replay-*.html")} for results in report.folders]
+    recorded = [any((results.folder.path / "recordings").glob("*.zip")) for results in report.folders]
+    for index in report.failures_first().tolist() if any(there) or any(recorded) else ():
+        run_id, folder = report.runs.run_id[index], int(report.runs.folder[index])
+        results = report.folders[folder]
         file = results.folder.replay(run_id)
-        if template().wrote(file):
+        if file.name in there[folder] and template().wrote(file):
             found[run_id] = _address(file, page)
-        elif len(lacking) < most and results.paths(run_id).recording.is_file():
+        elif recorded[folder] and len(lacking) < most and results.paths(run_id).recording.is_file():
             lacking.append((results, run_id, file))
     for results, run_id, file in lacking:
         try:
@@ -89,20 +89,6 @@ def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
             continue
         found[run_id] = _address(file, page)
     return found
-
-
-def _order(report: Report) -> Sequence[int]:
-    runs = report.runs
-    groups = [group for setting in report.settings for group in setting.groups]
-    turns = [
-        (succeeded, turn, number, index)
-        for number, group in enumerate(groups)
-        for succeeded in (False, True)
-        for turn, index in enumerate(
-            i for i in group.members.tolist() if (runs.status[i] == RunStatus.SUCCEEDED) == succeeded
-        )
-    ]
-    return [index for *_, index in sorted(turns)]
 
 
 def _address(file: Path, page: Path) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from html import escape
 
 import attrs
+import numpy as np
 
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.report.html.scales import Scale, spread, tick_text
@@ -39,10 +40,9 @@ def steps(curves: Sequence[Curve], x_label: str, y_label: str, *, log_x: bool, s
         start: y before the first x.
         top: the largest y; None = of the curves.
     """
-    points = [
-        float(value) for curve in curves for value in curve.x if value < float("inf") and (value > 0 or not log_x)
-    ]
-    if not points:
+    points = np.concatenate([curve.x for curve in curves])
+    points = points[np.isfinite(points) & ((points > 0) | (not log_x))]
+    if not len(points):
         return ""
     x = Scale(*spread(points, log_x), _LEFT, _WIDTH - _RIGHT, log_x)
     height = top if top is not None else max(float(curve.y[-1]) for curve in curves if len(curve.y))
@@ -106,9 +106,10 @@ def legend(names: Sequence[str]) -> str:
 
 def _thinned(curve: Curve) -> list[tuple[float, float]]:
     """The curve's points, not more than can be seen."""
-    pairs = [(float(a), float(b)) for a, b in zip(curve.x, curve.y, strict=True) if a < float("inf")]
-    every = -(-len(pairs) // _MOST_POINTS) or 1
-    return [pair for index, pair in enumerate(pairs) if index % every == 0 or index == len(pairs) - 1]
+    finite = np.flatnonzero(np.isfinite(curve.x))
+    every = -(-len(finite) // _MOST_POINTS) or 1
+    shown = np.unique(np.concatenate([finite[::every], finite[-1:]]))
+    return list(zip(curve.x[shown].tolist(), curve.y[shown].tolist(), strict=True))
 
 
 def _grid(x: Scale, y: Scale, x_label: str, y_label: str) -> str:

@@ -94,8 +94,8 @@ def _curves(report: Report, setting: Setting) -> list[tuple[str, str]]:
 
 
 def _wide(curves: Sequence[Curve]) -> bool:
-    finite = [float(value) for curve in curves for value in curve.x if np.isfinite(value)]
-    return max(finite, default=1.0) > 10
+    values = np.concatenate([curve.x for curve in curves])
+    return bool(values[np.isfinite(values)].max(initial=1.0) > 10)
 
 
 def _on(runs: Runs, setting: Setting, group: RunGroup, column: Column, units: Float) -> Float:

@@ -10,7 +10,7 @@ from mrpbench_core.files.text import counted
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.comparison import SIGNIFICANT, Comparison
 from mrpbench_core.report.html.figures import figures
-from mrpbench_core.report.html.listing import packed_runs, tone
+from mrpbench_core.report.html.listing import LISTED, packed_runs, tone
 from mrpbench_core.report.html.origin import origin
 from mrpbench_core.report.report import Report
 from mrpbench_core.report.rules import RULES
@@ -47,9 +47,21 @@ def write_report(report: Report, file: Path, replays: Mapping[str, str] | None =
         "figures": figures(report),
         "origin": origin(report),
         "rules": "".join(f"<dt>{escape(name)}</dt><dd>{escape(words)}</dd>" for name, words in RULES),
+        "listed": _left_out(report),
         "data": packed_runs(report, replays or {}),
     }
     PageTemplate(folder / "index.html", code).write(file, f"{title} · mrpbench report", parts)
+
+
+def _left_out(report: Report) -> str:
+    """Say which runs the list does not have."""
+    count = len(report.runs)
+    if count <= LISTED:
+        return ""
+    return (
+        f'<p class="note">The list has {LISTED} of {count} runs: failed ones first, and every configuration in turn.'
+        " Tables and figures are of all runs. <code>mrpbench report --parquet FILE</code> writes all runs.</p>"
+    )
 
 
 def _counts(report: Report) -> list[tuple[str, int]]:

@@ -43,7 +43,7 @@ def spread(
     values: "list[float] | np.ndarray[tuple[int], np.dtype[np.float64]]", log: bool = False
 ) -> tuple[float, float]:
     """Return the ends of an axis for these values, with a margin."""
-    low, high = float(min(values)), float(max(values))
+    low, high = float(np.min(values)), float(np.max(values))
     if log:
         return 10 ** math.floor(math.log10(low) + 1e-9), 10 ** max(
             math.ceil(math.log10(high) - 1e-9), math.floor(math.log10(low) + 1e-9) + 1

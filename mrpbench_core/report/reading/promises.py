@@ -25,10 +25,19 @@ class Claims:
         self._columns = {name: array("d") for name in _NUMBERS}
         self._places = {name: array("q") for name in ("setting", "problem")}
         self._flags = {name: array("b") for name in ("assigns", "unsolvable")}
+        self._empty: list[tuple[array[Any], Any]] = [
+            *((column, -1) for column in self._places.values()),
+            *((column, math.nan) for column in self._columns.values()),
+            *((column, False) for column in self._flags.values()),
+        ]
 
     def add(self, record: Mapping[str, Any]) -> None:
         """Add the claims of the next run, if its record has any."""
-        claims = record.get("plan") or {}
+        claims = record.get("plan")
+        if not claims:
+            for column, empty in self._empty:
+                column.append(empty)
+            return
         where = {"setting": (record.get("scenario_id"), claims.get("setting")), "problem": claims.get("problem")}
         for name, column in self._places.items():
             known = claims.get(name) is not None

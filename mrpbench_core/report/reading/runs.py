@@ -1,13 +1,15 @@
 """The runs of results folders as columns of numbers, which hold 10^5 runs in little memory."""
 
+import math
+import sys
 from array import array
 from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
 import attrs
+import msgspec
 import numpy as np
 
-from mrpbench_core.files.jsonl import line
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.reading.axes import NO_AXES, Axes, find_axes
@@ -86,6 +88,9 @@ def read_runs(folders: Sequence[Results], columns: Collection[str] | None = None
         once: keep only the last record of a run that is in several folders.
     """
     reader = _Reader(columns)
+    if len(folders) == 1 and folders[0].scan(lambda record: reader.add(0, record)):
+        return reader.runs()
+    reader = _Reader(columns)
     everything = ((index, record) for index, results in enumerate(folders) for record in results)
     for index, record in each_once(folders) if once else everything:
         reader.add(index, record)
@@ -102,7 +107,8 @@ def each_once(folders: Sequence[Results]) -> Iterator[tuple[int, dict[str, Any]]
 
 class _Reader:
     def __init__(self, columns: Collection[str] | None) -> None:
-        self._wanted = None if columns is None else frozenset(columns)
+        self._asked = None if columns is None else frozenset(columns)
+        self._wanted = None if self._asked is None else self._asked | {"timing.planning_s"}
         self._run_id: list[str] = []
         self._status: list[str] = []
         self._message: list[str] = []
@@ -114,42 +120,52 @@ class _Reader:
         self._true_poses: dict[str, int] = {}
         self._limits = array("d")
         self._scenarios: dict[str, int] = {}
-        self._configs: dict[str, int] = {}
+        self._configs: dict[bytes, int] = {}
         self._examples: list[dict[str, Any]] = []
         self._values: dict[str, array[float]] = {}
         self._numbers: set[str] = set()
         """Columns with a value that is not yes or no."""
 
     def add(self, folder: int, record: dict[str, Any]) -> None:
-        scenario, true_poses = record.get("scenario_id"), record.get("true_poses")
-        self._limits.append(float((record["config"].get("limits") or {}).get("planning", np.nan)))
-        facts = {
-            "folder": folder,
-            "seed": int(record.get("seed") or 0),
-            "repeat": int(record.get("repeat") or 0),
-            "scenario": -1 if scenario is None else self._scenarios.setdefault(scenario, len(self._scenarios)),
-            "config": self._number(record["config"], true_poses),
-            "reassigned": int(record.get("reassigned") or 0),
-        }
+        scenario, true_poses, config = record.get("scenario_id"), record.get("true_poses"), record["config"]
+        integers = self._integers
+        integers["folder"].append(folder)
+        integers["seed"].append(record.get("seed") or 0)
+        integers["repeat"].append(record.get("repeat") or 0)
+        integers["scenario"].append(
+            -1 if scenario is None else self._scenarios.setdefault(scenario, len(self._scenarios))
+        )
+        integers["config"].append(self._number(config, true_poses))
+        integers["reassigned"].append(record.get("reassigned") or 0)
+        limit = (config.get("limits") or {}).get("planning")
+        self._limits.append(math.nan if limit is None else limit)
         self._claims.add(record)
         if true_poses is not None:
             self._true_poses[true_poses] = self._true_poses.get(true_poses, 0) + 1
         planned = has_plan(record)
-        self._planned.append(np.nan if planned is None else planned)
-        for name, value in facts.items():
-            self._integers[name].append(value)
-        timing = {f"timing.{key}": value for key, value in (record.get("timing") or {}).items()}
-        for key, value in ((record.get("metrics") or {}) | timing).items():
-            if isinstance(value, int | float) and (self._wanted is None or key in self._wanted | {"timing.planning_s"}):
-                self._column(key).append(float(value))
-                if not isinstance(value, bool):
-                    self._numbers.add(key)
+        self._planned.append(math.nan if planned is None else planned)
+        filled = 0
+        for prefix, part in (("", "metrics"), ("timing.", "timing")):
+            for key, value in (record.get(part) or {}).items():
+                kind = type(value)
+                if kind is not float and kind is not int and kind is not bool:
+                    continue
+                column = self._values.get(prefix + key)
+                if column is None:
+                    if self._wanted is not None and prefix + key not in self._wanted:
+                        continue
+                    column = self._values[prefix + key] = array("d", [np.nan]) * len(self._run_id)
+                column.append(value)
+                filled += 1
+                if kind is not bool:
+                    self._numbers.add(prefix + key)
         self._run_id.append(record["run_id"])
-        self._status.append(record["status"])
+        self._status.append(sys.intern(record["status"]))
         self._message.append((record.get("error") or {}).get("message") or "")
-        for column in self._values.values():
-            if len(column) < len(self._run_id):
-                column.append(np.nan)
+        if filled < len(self._values):
+            for column in self._values.values():
+                if len(column) < len(self._run_id):
+                    column.append(np.nan)
 
     def _number(self, config: dict[str, Any], true_poses: str | None) -> int:
         """Return the number of the configuration, regardless of seed and repeat.
@@ -161,20 +177,15 @@ class _Reader:
             own["localizer"] = (own.get("localizer") or {}) | {"plugin": f"{true_poses} (true poses)"}
         if "limits" in own:
             own["limits"] = {key: value for key, value in own["limits"].items() if key != "wall"}
-        number = self._configs.setdefault(line(own), len(self._configs))
+        number = self._configs.setdefault(msgspec.json.encode(own), len(self._configs))
         if number == len(self._examples):
             self._examples.append(own)
         return number
 
-    def _column(self, key: str) -> "array[float]":
-        if key not in self._values:
-            self._values[key] = array("d", [np.nan]) * len(self._run_id)
-        return self._values[key]
-
     def runs(self) -> Runs:
         integers = {name: np.array(column, np.int64) for name, column in self._integers.items()}
         planned = np.array(self._planned, float)
-        values = {key: np.array(column, float) for key, column in self._values.items()}
+        values = {key: np.frombuffer(column, float) for key, column in self._values.items()}  # shares the memory
         broken = self._claims.broken(self._run_id)
         for index, message in broken.items():
             self._status[index], self._message[index], planned[index] = RunStatus.PROMISE_BROKEN, message, 0
@@ -186,9 +197,9 @@ class _Reader:
         if "timing.planning_s" in values:
             measured = (planned == 1) & np.isfinite(values["timing.planning_s"])
             penalised = np.where(measured, values["timing.planning_s"], PENALTY * np.array(self._limits, float))
-            if self._wanted is None or PAR2 in self._wanted:
+            if self._asked is None or PAR2 in self._asked:
                 values = _after(values, "timing.planning_s", {PAR2: penalised})
-            if self._wanted is not None and "timing.planning_s" not in self._wanted:
+            if self._asked is not None and "timing.planning_s" not in self._asked:
                 del values["timing.planning_s"]
         outcome = {
             "succeeded": np.array([status == RunStatus.SUCCEEDED for status in self._status], float),

@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.report.html import listing
+from mrpbench_core.report.html import page as page_module
 from mrpbench_core.report.html.origin import spans
 from mrpbench_core.report.html.page import write_report
 from mrpbench_core.report.report import make_report
@@ -82,3 +84,32 @@ def test_a_folder_that_does_not_exist_is_named(study, tmp_path):
 def test_numbers_in_a_row_are_a_span():
     assert spans(np.array([3, 1, 2, 7, 9, 10, 2])) == "1..3, 7, 9..10"
     assert spans(np.array([], int)) == ""
+
+
+def test_a_page_with_very_many_runs_lists_failures_of_every_configuration_first_and_says_so(
+    study, tmp_path, monkeypatch
+):
+    monkeypatch.setattr(listing, "LISTED", 6)
+    monkeypatch.setattr(page_module, "LISTED", 6)
+    report = make_report([study], ["planning.cost"])
+    write_report(report, tmp_path / "report.html")
+    text = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "The list has 6 of 42 runs: failed ones first, and every configuration in turn." in text
+    data = json.loads(zlib.decompress(base64.b64decode(re.search(r'id="data">([^<]*)<', text)[1])))
+    assert (len(data["id"]), data["total"]) == (6, 42)
+    assert sorted(data["statuses"][number] for number in data["status"]) == [
+        "plan_timeout",
+        "plan_timeout",
+        "scenario_infeasible",
+        "succeeded",
+        "succeeded",
+        "unknown",
+    ]
+
+
+def test_failures_come_first_and_every_configuration_in_turn(study):
+    report = make_report([study], ["planning.cost"])
+    found = [(report.runs.status[index] == "succeeded", report.runs.config[index]) for index in report.failures_first()]
+    assert sorted(report.failures_first()) == list(range(42))
+    assert [succeeded for succeeded, _ in found] == [False] * 4 + [True] * 38
+    assert {config for _, config in found[4:6]} == {0, 1}

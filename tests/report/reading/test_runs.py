@@ -1,5 +1,7 @@
 """Records as columns."""
 
+import tracemalloc
+
 import numpy as np
 
 from mrpbench_core.report.reading.runs import PAR2, read_runs
@@ -54,3 +56,26 @@ def test_runs_whose_scenario_was_never_drawn_stand_alone(results, record):
     runs = read_runs([results([record(), *lost])])
     units, _ = runs.units(np.arange(3))
     assert len(set(units.tolist())) == 3
+
+
+def test_of_attempts_the_highest_counts_whether_records_are_read_once_or_again(results, record):
+    again = [record(cost=1.0) | {"attempt": 2}, record(seed=1, cost=5.0), record(cost=2.0) | {"attempt": 3}]
+    folder = results([record(cost=7.0), *again, record(cost=9.0) | {"attempt": 1}])
+    for _ in range(2):
+        runs = read_runs([folder])
+        assert runs.values["planning.cost"].tolist() == [5.0, 2.0]
+        assert len(folder) == 2
+
+
+def test_memory_grows_by_less_than_a_kilobyte_with_each_run(results, record):
+    def peak(count):
+        folder = results([record(seed=seed, cost=float(seed)) for seed in range(count)], f"results-{count}")
+        tracemalloc.start()
+        try:
+            assert len(read_runs([folder])) == len(folder) == count
+            return tracemalloc.get_traced_memory()[1]
+        finally:
+            tracemalloc.stop()
+
+    peak(10)  # imports and caches
+    assert (peak(3000) - peak(1000)) / 2000 < 1000

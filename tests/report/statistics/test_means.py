@@ -59,3 +59,9 @@ def test_very_many_values_are_done_with_in_little_memory():
     assert (found.low, found.high) == pytest.approx(
         stats.t.interval(0.95, MANY, loc=values.mean(), scale=stats.sem(values)), abs=0.003
     )
+
+
+def test_the_interval_hardly_changes_where_it_becomes_normal():
+    values = np.random.default_rng(2).exponential(size=MANY + 1)
+    fewer, more = mean(values[:-1]), mean(values)
+    assert (fewer.low, fewer.high) == pytest.approx((more.low, more.high), abs=0.1 * (more.high - more.low))

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.stats import binom, norm
 
+from mrpbench_core.report.statistics.means import MANY
 from mrpbench_core.report.statistics.paired import adjust, compare_rates, compare_values
 
 DARWIN = np.array([6, 8, 14, 16, 23, 24, 28, 29, 41, -48, 49, 56, 60, -67, 75], float)
@@ -112,3 +113,12 @@ def test_six_pairs_must_differ_to_be_significant():
 class _Found:
     def __init__(self, p, able=True):
         self.p, self.can_be_significant = p, able
+
+
+def test_many_fractions_are_compared_by_the_limit_of_sign_flips():
+    rng = np.random.default_rng(3)
+    first = rng.choice([0.0, 0.5, 1.0], MANY + 1)
+    second = np.clip(first + rng.choice([-0.5, 0.5], MANY + 1, p=[0.47, 0.53]), -0.5, 1.5)
+    steps = second - first
+    flipped = np.abs((rng.choice([-1, 1], (20_000, len(steps))) * steps).sum(axis=1))
+    assert compare_rates(first, second).p == pytest.approx((flipped >= abs(steps.sum())).mean(), abs=0.01)

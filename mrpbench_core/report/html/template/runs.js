@@ -108,7 +108,7 @@ function list(runs) {
     const rest = state.found.length - state.shown;
     element("more").hidden = rest <= 0;
     element("more").textContent = `Show ${Math.min(PART, rest)} more of ${rest}`;
-    element("found").textContent = `${state.found.length} of ${count} runs`;
+    element("found").textContent = `${state.found.length} of ${count} runs${runs.total > count ? ` in this list, of ${runs.total} in all` : ""}`;
     for (const [index, head] of [...element("list").tHead.rows[0].cells].entries()) {
       head.ariaSort = index === state.sort ? (state.down ? "descending" : "ascending") : "none";
     }
