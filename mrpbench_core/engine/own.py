@@ -47,9 +47,9 @@ def _own(value: Any, known: dict[int, Any]) -> Any:
     if kind is dict:
         return {key: _own(item, known) for key, item in value.items()}
     if _is_object(kind):
-        if id(value) not in known:
-            known[id(value)] = value, _own_object(value, known)  # the original is kept, so that its id stays its own
-        return known[id(value)][1]
+        if (found := known.get(id(value))) is None:
+            found = known[id(value)] = value, _own_object(value, known)  # the original is kept: its id stays its own
+        return found[1]
     return _own_other(value, known)
 
 

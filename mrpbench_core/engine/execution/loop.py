@@ -141,6 +141,8 @@ class ExecutionLoop:
         assert given.result.plan is not None
         robots = len(context.fleet)
         self._step = self._revision = 0
+        self._now = 0.0
+        """Simulated seconds at the beginning of this control period."""
         self._causes: dict[int, str] = {}
         self._checks = ContractChecks(_segments(plan), _reach(context))
         self._checks.state(attrs.evolve(inputs.simulation.state, pose=inputs.placed))
@@ -167,11 +169,6 @@ class ExecutionLoop:
             cleared=np.zeros(robots, "i4"),
             mode=np.full(robots, Mode.WAITING, "u1"),
         )
-
-    @property
-    def _now(self) -> float:
-        """Simulated seconds at the beginning of this control period."""
-        return self._step * self._inputs.context.period
 
     def run(self) -> ExecutionResult:
         """Run until every robot has arrived or given up, or the simulated time is over."""
@@ -306,6 +303,7 @@ class ExecutionLoop:
         driven = Inputs(twist=inputs.noise.actuated(self._motion.twist), facilities=commands)
         self._state = self._checks.state(inputs.simulation.step(driven))
         self._step += 1
+        self._now = self._step * inputs.context.period
         inputs.recorder.contacts(self._now, self._state)
 
 
