@@ -18,7 +18,7 @@ class DispatcherSession(ABC):
 
     @abstractmethod
     def adopt(self, problem: Problem, plan: Plan) -> None:
-        """Continue with a new plan that begins with what was released of the old one (`problem.commitments`).
+        """Continue with a new plan that begins with the released part of the old one (`problem.commitments`).
 
         Segments keep their indices, so progress counts for the new plan as it did for the old one.
 

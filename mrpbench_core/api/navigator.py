@@ -19,7 +19,7 @@ class NavigatorSession(ABC):
 
     @abstractmethod
     def adopt(self, routes: Sequence[Route]) -> None:
-        """Follow new routes, one per robot; each begins with what was released of the old one, index by index."""
+        """Follow new routes, one per robot; each begins with the released part of the old one, index by index."""
 
     @abstractmethod
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:

@@ -10,7 +10,7 @@ def check_facility_use(problem: Problem, plan: Plan) -> list[str]:
     """Return a sentence for each door or lift that a robot uses in a plan without faults; mutexes do not count.
 
     A dispatcher that does not request doors and lifts (`Orders.requests`) refuses plans with such sentences, in `start`
-    as well as in `adopt`: the robots would wait for ever before closed doors.
+    as well as in `adopt`: the robots would wait forever before closed doors.
     """
     kinds = {resource.name: resource.kind for resource in problem.roadmap.resources}
     used = {

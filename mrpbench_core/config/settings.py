@@ -92,7 +92,7 @@ class Noise:
     )
     odometry_bias: float = option(
         0.0,
-        help="standard deviation of each wheel's wrong scale, drawn once per run: 0.01 = one percent of every way",
+        help="standard deviation of the scale error of each wheel, drawn once per run: 0.01 = 1 % of the distance",
         validator=validators.ge(0),
     )
     actuation: float = option(
@@ -182,7 +182,9 @@ class RunConfig:
     dispatcher: Dispatcher | None = block(
         "adg", help="decides how far along its path each robot may go", validator=_drives
     )
-    navigator: Navigator | None = block("waypoints", help="drives robots along what is released", validator=_drives)
+    navigator: Navigator | None = block(
+        "waypoints", help="drives robots along the released parts of their paths", validator=_drives
+    )
     controller: Controller | None = block("pure_pursuit", help="turns a path into wheel commands", validator=_drives)
     simulator: Simulator | None = block("kinematic", help="moves the robots; `none` ends the run after planning")
     localizer: Localizer | None = block("ground_truth", help="tells robots where they are", validator=_drives)

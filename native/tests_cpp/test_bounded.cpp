@@ -44,7 +44,7 @@ TEST("plans are sound, their cost is within the bound, and the bound below the o
   for (int k = 0; k < 300; ++k) {
     const Instance it = random_instance(random, 3, 3, 2 + random.below(2));
     if (least_makespan(it) < 0) continue;
-    Limits all = unlimited(), little(kForever, 2 << 20);  // plain searches may take for ever
+    Limits all = unlimited(), little(kForever, 2 << 20);  // plain searches may take forever
     const Result best = solve_cbs(it, {}, all);
     const CbsOptions options = draw(random);
     const Result result = solve_cbs(it, options, little);

@@ -38,7 +38,7 @@ def test_two_robots_that_arrive_at_one_vertex_conflict(make, conflicts):
     assert str(found[0]) == "vertex conflict of robots 0 and 1 at vertex 1, tick 1"
 
 
-def test_a_robot_that_stays_at_its_goal_is_in_the_way_for_ever(make, conflicts):
+def test_a_robot_that_stays_at_its_goal_is_in_the_way_forever(make, conflicts):
     lane = make.grid(1, 3)
     assert conflicts(lane, (1,), (0, (0, 0, 7), (0, 1, 8), (1, 2, 9))) == [Conflict("vertex", (0, 1), (1, 1), 8)]
     assert not conflicts(lane, (1,), (0, (0, 0, 7), (0, 1, 8), (1, 2, 9)), rules=Rules(at_goal="disappear"))

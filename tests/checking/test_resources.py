@@ -47,7 +47,7 @@ def test_a_robot_may_come_back_without_setup(make):
     assert not found(make, line, door, (0, (0, 1, 1), (1, 2, 2), (2, 1, 3), (1, 0, 4)))
 
 
-def test_a_robot_that_ends_in_a_resource_uses_it_for_ever(make):
+def test_a_robot_that_ends_in_a_resource_uses_it_forever(make):
     line = make.grid(1, 5)
     lift = Resource(name="lift", kind="lift", vertices=(0, 1, 3))
     assert found(make, line, lift, (0, (0, 1, 1)), (4, (4, 4, 90), (4, 3, 91)))

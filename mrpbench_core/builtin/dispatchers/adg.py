@@ -62,11 +62,11 @@ class AdgSession(DispatcherSession):
         self.adopt(problem, plan)
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
-        """Continue with `plan`; what was released stays so.
+        """Continue with `plan`; released segments remain released.
 
         Raises:
-            DispatchError: as `Adg.start`, or the plan does not contain what was released, or it lets a robot pass first
-                where another one is on its way already. The session then continues with its old plan.
+            DispatchError: as `Adg.start`, or the plan does not contain the released segments, or it lets a robot pass
+                first where another one is on its way already. The session then continues with its old plan.
         """
         _check(problem, plan)
         for robot, count in enumerate(self.released.tolist()):

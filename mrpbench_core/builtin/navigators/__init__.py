@@ -1,4 +1,4 @@
-"""The navigator `waypoints`: how robots follow what is released to them.
+"""The navigator `waypoints`: how robots follow the released parts of their paths.
 
 From the top down: `waypoints` has the options, and `session` is one control period. It asks `route_follower` how far
 robots are (`route_progress` counts on `route_tables`, `route_checks` are the conditions), `controller_server` for

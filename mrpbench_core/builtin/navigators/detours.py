@@ -1,6 +1,6 @@
 """Ways around what blocks the released path, which controllers find from what their sensors show.
 
-A detour begins where the robot is and ends on the released path, so it never leads beyond what is released. Where the
+A detour begins where the robot is and ends on the released path, so it never leads beyond the released part. Where the
 end of the path itself is occupied, a detour may end beside it, if `planner_tolerance` of the navigator allows that.
 """
 

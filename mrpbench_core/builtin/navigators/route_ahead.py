@@ -52,7 +52,7 @@ class RouteAhead:
         here, goal = first + reached, first + np.minimum(reached + 1, tables.last[robots])
         corner, row = tables.corner[here], first_corner + leg
         # A path ends at the next bend that is not reached, so that no controller cuts a corner by more than the
-        # tolerance, or at the end of what is released.
+        # tolerance, or at the end of the released part.
         end = np.minimum(np.maximum(corner, leg) + 1, last)
         end = np.minimum(tables.bend[first_corner + end], last)
         is_open = reached < released

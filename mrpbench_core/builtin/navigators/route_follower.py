@@ -11,7 +11,7 @@ from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32, fr
 from mrpbench_core.model.execution.route import Route
 
 _SETTLED = 0.02
-"""metres before the end of what is released at which a robot that has reached it need not be driven any more."""
+"""metres from the end of the released part within which a robot that has reached it need not drive on."""
 
 
 class RouteFollower:
@@ -39,7 +39,7 @@ class RouteFollower:
         return len(self.reached)
 
     def adopt(self, routes: Sequence[Route]) -> None:
-        """Continue with routes that begin with what was released of the old ones."""
+        """Continue with routes that begin with the released parts of the old ones."""
         self._progress.adopt(routes)
         self.corners = self._progress.tables.corners
         self._wants_yaw = any(not np.isnan(route.waypoint[:, 2]).all() for route in routes)
@@ -113,7 +113,7 @@ class RouteFollower:
         return self._ahead.leg.nearest_points(pose[:, 0], pose[:, 1])
 
     def driven(self, pose: Float, foot: Float) -> Bool:
-        """Tell bool[n] which robots a controller has to drive, or turn, on the way to the end of what is released."""
+        """Tell bool[n] which robots a controller has to drive, or turn, on the way to the end of the released part."""
         ahead = self._ahead
         at_end = np.abs(foot[:, 0] - ahead.end_x) <= _SETTLED
         at_end &= np.abs(foot[:, 1] - ahead.end_y) <= _SETTLED

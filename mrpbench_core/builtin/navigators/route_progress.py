@@ -38,7 +38,7 @@ class RouteProgress:
         self.adopt(routes)
 
     def adopt(self, routes: Sequence[Route]) -> None:
-        """Continue with routes that begin with what was released of the old ones."""
+        """Continue with routes that begin with the released parts of the old ones."""
         self.tables = RouteTables(routes, self._rules, self._clearances)
         self.released: Int = self.reached.copy()
         """i8[n]: as far as each robot may go now. A robot that stops at waypoints goes to the next one first."""
@@ -139,7 +139,7 @@ class RouteProgress:
         return corner
 
     def _count_up_to(self, robot: int, corner: int) -> None:
-        """Count what is released up to a corner as reached."""
+        """Count the released segments up to a corner as reached."""
         first = int(self.tables.first[robot])
         ahead = self.tables.corner[first + int(self.reached[robot]) + 1 : first + int(self.released[robot]) + 1]
         self.reached[robot] += int(np.searchsorted(ahead, corner, side="right"))

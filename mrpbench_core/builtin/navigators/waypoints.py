@@ -1,4 +1,4 @@
-"""The navigator `waypoints`: drives each robot along what is released to it, and tells how far the robot got.
+"""The navigator `waypoints`: drives each robot along the released part of its path, and reports its progress.
 
 Checks, recoveries and their order are those of Nav2, by its names (Macenski et al., "The Marathon 2: A Navigation
 System", IROS 2020).

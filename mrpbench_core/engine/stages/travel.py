@@ -20,7 +20,7 @@ STATES = 2**24
 def travel_ticks(roadmap: Roadmap, profile: int, targets: Sequence[int], sources: Sequence[int]) -> Float:
     """Ticks f8[targets,sources] that a robot of a motion profile, alone, takes from each source to each target.
 
-    inf = there is no way.
+    inf = no path.
     """
     together = max(1, STATES // max(1, len(roadmap.position)))
     ticks = np.empty((len(targets), len(sources)))

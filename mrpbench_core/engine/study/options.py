@@ -26,7 +26,7 @@ def _executor(chosen: str | Mapping[str, Any]) -> ExecutorSource:
 
 @attrs.frozen(kw_only=True)
 class StudyOptions:
-    """What the configuration of a study does not say about its invocation.
+    """The options of an invocation, which are no part of the configuration.
 
     Raises:
         InputErrors, InputError: an option is wrong.

@@ -1,4 +1,4 @@
-"""Robots that drive what is released to them on the roadmap alone, each with delays drawn at random."""
+"""Robots that drive the released parts of their paths on the roadmap, each with random delays."""
 
 from collections import defaultdict
 from itertools import combinations
@@ -48,7 +48,7 @@ class DelayedExecutor:
         self.adopt(problem, plan)
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
-        """Go on with a new plan, which begins with what was released of the old one."""
+        """Continue with a new plan that begins with the released part of the old one."""
         self.problem, self.plan = problem, plan
         self._footprints = Feature.FOOTPRINTS in problem.features
         self.routes = [

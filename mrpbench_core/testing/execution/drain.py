@@ -14,10 +14,10 @@ from mrpbench_core.testing.execution.resource_manager import ResourceManager
 from mrpbench_core.testing.faults import Fault, require
 
 Replan = Callable[[Int32], tuple[Problem, Plan]]
-"""Makes a new problem and plan from what is released."""
+"""Makes a new problem and plan from the released segments."""
 MOST_STEPS = 20_000
 IDLE_STEPS = 10
-"""Steps without any motion after which robots are said to wait for ever."""
+"""Steps without any motion after which robots are said to wait forever."""
 
 
 def drain(
@@ -40,7 +40,7 @@ def drain(
         released: what it has released already.
 
     Raises:
-        Fault: the orders are malformed or take back what was released, or robots wait for ever.
+        Fault: the orders are malformed or revoke released segments, or robots wait forever.
     """
     pending = dict(replans or {})
     before = np.zeros(len(executor.routes), np.int32) if released is None else released
@@ -70,7 +70,7 @@ def drain(
         if idle > IDLE_STEPS and step > 2 * last:  # a dispatcher may wait for the clock
             break
     waiting = [robot for robot, path in enumerate(executor.plan.paths) if executor.reached[robot] < len(path)]
-    raise Fault(f"robots {waiting} wait for ever")
+    raise Fault(f"robots {waiting} wait forever")
 
 
 def require_orders(orders: Orders, before: Int32, plan: Plan) -> None:

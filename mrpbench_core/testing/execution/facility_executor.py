@@ -1,4 +1,4 @@
-"""Robots that drive through doors and lifts within what is released to them, with the engine's facility manager."""
+"""Robots that drive the released parts of their paths through doors and lifts, with the engine's facility manager."""
 
 import numpy as np
 

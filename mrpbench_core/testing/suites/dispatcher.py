@@ -75,7 +75,7 @@ class DispatcherConformance(ComponentConformance):
                 require(str(refusal), f"refuses {name} without a reason: give `DispatchError` a message")
                 continue
             executor = DelayedExecutor(asked, plan)
-            with contextlib.suppress(Fault):  # to wait for ever is safe
+            with contextlib.suppress(Fault):  # to wait forever is safe
                 run(name, session, executor)
             require(executor.fault is None, f"releases {name}: {executor.fault}")
 

@@ -1,5 +1,5 @@
-// A planar lidar among segments and discs. Everything near updates only the beams inside the angle it fills, in closed
-// form; the exact test of the core's `kinematic` simulator decides at the ends of that angle.
+// A planar lidar among segments and discs. Each wall and disc updates only the beams within the angle that it covers,
+// in closed form; the exact test of the core's `kinematic` simulator decides at the ends of that angle.
 #pragma once
 
 #include <span>

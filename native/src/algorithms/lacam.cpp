@@ -99,8 +99,8 @@ class Lacam {
     return true;
   }
 
-  /// First plans by other chances: in a crowd their costs differ by a tenth, and each is sooner found than improved by
-  /// as much.
+  /// Search first plans with other random seeds: among many robots their costs differ by a tenth, and finding another
+  /// one takes less time than improving one by as much.
   void draw_others() {
     LacamOptions options = options_;
     const std::int64_t most = 2 * result_.statistics.expansions;

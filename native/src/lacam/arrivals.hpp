@@ -1,4 +1,4 @@
-// The least sum of arrival times over all ways from start to goal in a graph of configurations. A step's share in it
+// The least sum of arrival times over all paths from start to goal in a graph of configurations. A step's share in it
 // depends on which robots will still move, so the search runs backwards: over configurations with the set of robots
 // that move after them.
 #pragma once

@@ -1,5 +1,5 @@
-// What a search over configurations needs to know of an instance: where it starts, how it goes on, and what plan a
-// sequence of configurations is.
+// An instance as a search over configurations sees it: the start, the successors of a configuration, and the plan that
+// a sequence of configurations stands for.
 #pragma once
 
 #include <memory>

@@ -16,7 +16,7 @@ int Swap::partner(int robot, int here, int wanted, std::span<const std::int32_t>
   if (ahead >= 0 && to[ahead] < 0 && must_swap(robot, ahead, here, wanted) && can_swap(robot, wanted, here)) {
     return ahead;
   }
-  // Someone behind may have to pass through here while this robot goes on into a dead end.
+  // A robot behind this one may have to pass this vertex while this one drives into a dead end.
   for (const std::int32_t vertex : moves_.successors(robot, here)) {
     const std::int32_t behind = now_[vertex];
     if (behind < 0 || vertex == wanted) continue;

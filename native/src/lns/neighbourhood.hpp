@@ -1,6 +1,6 @@
-// Which robots to plan anew together. Of a plan without conflicts: those in the way of one that is late, those that
-// meet at a crossing, or any (Li et al., IJCAI 2021). Of one with conflicts: robots in conflict with one another, those
-// in the way to a goal, or any (Li et al., AAAI 2022).
+// Chooses the robots that are planned anew together. In a plan without conflicts: robots in the way of a late robot,
+// robots that meet at a crossing, or random robots (Li et al., IJCAI 2021). In a plan with conflicts: robots that
+// conflict with one another, robots in the way to a goal, or random robots (Li et al., AAAI 2022).
 #pragma once
 
 #include "lns/schedule.hpp"

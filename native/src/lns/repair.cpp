@@ -67,7 +67,7 @@ void Repair::count_conflicts(const std::vector<int>& robots) {
   pairs_ /= 2;
 }
 
-/// Between the robots that have a path, or else across as few of them as possible.
+/// Plan a path without conflicts with the planned robots or, if there is none, with as few conflicts as possible.
 bool Repair::plan_first(int robot, Tick latest, int& in_the_way, int most_in_the_way) {
   const auto in_time = [&](int) { return latest; };
   bool found = schedule_.plan({robot}, Others::hard, in_time);
@@ -154,7 +154,7 @@ void Repair::advance() {
   }
 }
 
-/// Plan the group anew where whether two robots conflict in a resource also depends on others that use it.
+/// Plan the group anew and count all conflicts: with resources, whether two robots conflict also depends on the others.
 void Repair::replan_and_count() {
   const int before = pairs_;
   const bool found = schedule_.plan(robots_, Others::soft, whenever);

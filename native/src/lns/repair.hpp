@@ -1,6 +1,6 @@
 // Makes a plan without conflicts out of one with conflicts, a group of robots at a time (Li et al., AAAI 2022). Where
-// there is room, the first paths have few conflicts or none: the robots are planned in turn, each around those before
-// it, and those with short ways, whose goals the others can go around, are first.
+// there is room, the first paths have few conflicts or none: the robots are planned in turn, each around the robots
+// planned before it. Robots with short paths are first, because the others can go around their goals.
 #pragma once
 
 #include <limits>

@@ -1,4 +1,4 @@
-// Chooses between heuristics by what they brought lately: Ropke and Pisinger, "An adaptive large neighborhood search
+// Chooses between heuristics by their recent improvements: Ropke and Pisinger, "An adaptive large neighborhood search
 // heuristic for the pickup and delivery problem with time windows", Transportation Science 2006.
 #pragma once
 

@@ -21,7 +21,7 @@ class Schedule {
   Tick delay(int robot) const { return arrival(paths_[robot]) - least_[robot]; }
   Tick least(int robot) const { return least_[robot]; }
 
-  /// Take all these paths instead.
+  /// Replace all paths.
   void replace(std::vector<Path> paths);
   /// Plan `robots` anew in their order; the present paths of the others are hard or soft. `latest(k)` is when the k-th
   /// one has to arrive, given the arrivals of those before it. The new paths are in `fresh()`; false if some robot

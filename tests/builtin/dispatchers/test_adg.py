@@ -136,7 +136,7 @@ def test_a_ring_too_tight_for_its_robots_is_refused_by_name(make, square):
 
 
 def test_a_cycle_that_only_time_resolves_is_refused_by_name(make):
-    """A quick robot goes round a slow one and leaves its goal before it arrives: late, they would wait for ever."""
+    """A quick robot goes round a slow one and leaves its goal before it arrives: late, they would wait forever."""
     points = [(0, 0), (9, 0), (3, 3), (6, 3), (9, 3), (0, 3)]
     ways = make.roadmap(points, [(0, 1), (5, 0), (0, 2), (2, 1), (1, 4)], duration=[20, 1, 1, 1, 1])
     slow = Path(edge=[0], enter=[0], leave=[20])

@@ -62,7 +62,7 @@ def test_all_robots_pass_the_door_and_no_leaf_touches_one(planner, seed, robots,
         assert run.gap().min() > 0, "a leaf touches a robot"
         for name, capacity in rooms.items():
             assert sum(pair[1] == name for pair in run.granted) <= capacity
-        assert run.waited.max() < 2000, "a robot waits for ever"
+        assert run.waited.max() < 2000, "a robot waits forever"
         if run.done:
             break
     assert run.done

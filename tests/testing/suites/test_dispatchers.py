@@ -39,7 +39,7 @@ def test_a_dispatcher_that_takes_back():
 
 def test_a_dispatcher_that_releases_nothing():
     found = failed_checks(suite_for(session(update=lambda self, now, view: Orders(released=0 * self.length))))
-    assert "wait for ever" in found["plans drain under delays"]
+    assert "wait forever" in found["plans drain under delays"]
     assert "goes on with a new plan" in found
 
 
