@@ -4,6 +4,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.importer import Track
+from mrpbench_core.files.text import counted
 from mrpbench_core.model.common.arrays import Float
 
 STANDING = 0.25
@@ -75,7 +76,7 @@ def resample(track: Track, time: Float, max_gap: float) -> Resampled:
     if trigger:
         notes.append(
             f"{track.robot}: {track.topic} gives poses only while the robot moves, at most {trigger:.2f} m apart: it is"
-            f" held where it was in {np.count_nonzero(stood)} gaps"
+            f" held where it was during {counted(int(np.count_nonzero(stood)), 'gap')}"
         )
     elif time[-1] - last > max_gap:
         notes.append(f"{track.robot} is last seen {time[-1] - last:.1f} s before the end: held at its last position")

@@ -15,7 +15,6 @@ NAN = float("nan")
 MAP = "type octile\nheight 6\nwidth 12\nmap\n" + "............\n" * 6
 STUDY = {
     "name": "simulated",
-    "world": {"plugin": "movingai", "file": "free.map"},
     "roadmap": "grid",
     "scenario": {"plugin": "random", "robots": 3},
     "assigner": "identity",
@@ -27,6 +26,16 @@ SCENARIO = Scenario(
     start_level=[0, 0],
     tasks=(Task(goals=[[5.0, 1.0, NAN]]), Task(goals=[[3.0, 2.0, NAN], [5.0, 2.0, NAN]], levels=[0, 0])),
 )
+
+
+@pytest.fixture(scope="module")
+def own(tmp_path_factory):
+    """The results folder of a run of ours with a bag, and its record."""
+    folder = tmp_path_factory.mktemp("own")
+    (folder / "free.map").write_text(MAP)
+    world = {"plugin": "movingai", "file": str(folder / "free.map")}
+    (record,) = run(STUDY | {"world": world}, out=folder / "simulated")
+    return folder / "simulated", record
 
 
 @pytest.fixture
@@ -55,16 +64,16 @@ def passing(bag, speed=0.5, seconds=10.0, only=("a", "b"), **shift):
     return bag
 
 
-def test_a_run_comes_back_with_its_numbers(analyze, capsys):
-    (record,) = run(STUDY)
-    code, found, _ = analyze(f"results/simulated/exports/{record['run_id']}/rosbag2", known=True)
+def test_a_run_comes_back_with_its_numbers(analyze, own, capsys):
+    folder, record = own
+    code, found, _ = analyze(folder / "exports" / record["run_id"] / "rosbag2", known=True)
     assert (code, found["status"], found["unmeasured"]) == (0, record["status"], {})
     assert found["scenario_id"] == record["scenario_id"]
     assert found["run_id"] != record["run_id"]
     assert found["metrics"].keys() == record["metrics"].keys()
     for name, value in record["metrics"].items():
         assert found["metrics"][name] == pytest.approx(value, abs=1e-6), name
-    assert main(["report", "results/simulated", "measured"]) == 0
+    assert main(["report", str(folder), "measured"]) == 0
     table = capsys.readouterr().out
     assert "kinematic" in table
     assert "recorded" in table
@@ -208,7 +217,7 @@ def test_amcl_that_is_silent_while_a_robot_stands_has_no_gaps(analyze, foreign):
     assert found["metrics"]["execution.min_distance_m"] == pytest.approx(1.0)
     assert found["metrics"]["execution.duration_s"] == pytest.approx(22.0, abs=1.0)
     (note,) = (note for note in found["analysis"]["notes"] if note.startswith("a: "))
-    assert "only while the robot moves, at most 0.25 m apart: it is held where it was in 2 gaps" in note
+    assert "only while the robot moves, at most 0.25 m apart: it is held where it was during 2 gaps" in note
 
 
 def test_amcl_that_is_silent_near_the_goal_leaves_the_end_unknown(analyze, foreign):
@@ -375,8 +384,8 @@ def test_a_foreign_bag_needs_world_and_scenario(analyze, foreign):
     assert "needs --world" in error
 
 
-def test_a_bag_of_another_scenario_is_refused(analyze):
-    (record,) = run(STUDY)
-    code, _, error = analyze(f"results/simulated/exports/{record['run_id']}/rosbag2")
+def test_a_bag_of_another_scenario_is_refused(analyze, own):
+    folder, record = own
+    code, _, error = analyze(folder / "exports" / record["run_id"] / "rosbag2")
     assert code == 2
     assert f"the recording was made of {record['scenario_id']}" in error

@@ -19,6 +19,7 @@ roadmap: {plugin: grid, cell_size: 0.7}
 scenario: {plugin: random, robots: 2}
 planner: example
 simulator: kinematic
+limits: {execution: 20 s}
 """
 ELSEWHERE = ("ros2", "pip")
 """Programs that the page names and that are not ours."""
