@@ -26,6 +26,10 @@ class Assigner(Component):
         help="cost of a pair: straight-line or Manhattan distance (m), or duration of the shortest path (s)",
     )
 
+    def idle_options(self) -> dict[str, str]:
+        """Return `cost` if the assigner ignores costs."""
+        return {} if self.reads_costs else {"cost": "this assigner reads no costs"}
+
     @abstractmethod
     def assign(self, problem: AssignmentProblem) -> Assignment:
         """Return an assignment of min(n, m) tasks, no pair of which has a forbidden (infinite) cost.

@@ -1,7 +1,7 @@
 """Base of every plugin: an immutable recipe whose attrs fields are its options."""
 
 from abc import ABC
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -45,6 +45,13 @@ class Component(ABC):
     """The conformance suite of a kind that a plugin defines, as `package.module:Class`; the class of the kind sets it.
 
     It derives from `mrpbench_core.testing.ComponentConformance` and is imported for `mrpbench check` only."""
+
+    def idle_options(self) -> Mapping[str, str]:
+        """Return options that have no effect with the values of the others, each with the reason.
+
+        A configuration that names one is told so before its runs.
+        """
+        return {}
 
     def reads(self) -> tuple[Path, ...]:
         """Return files that the component reads besides those of its options, e.g. because one of these names them.

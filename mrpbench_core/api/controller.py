@@ -133,6 +133,11 @@ class Controller(Component):
 
     group: ClassVar[str] = "mrpbench.controllers"
 
+    @property
+    def needs_lidar(self) -> bool:
+        """True if it works by scans: runs with robots that have no lidar are refused."""
+        return False
+
     @abstractmethod
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:
         """Begin to control one robot; `world` is the static map, `period` the control period in simulated seconds."""

@@ -26,6 +26,11 @@ class Localizer(Component):
     needs_truth: ClassVar[bool] = False
     """True if `update` needs the true poses, which only `ground_truth` gets without `grant_truth: true`."""
 
+    @property
+    def needs_lidar(self) -> bool:
+        """True if it works by scans: runs with robots that have no lidar are refused."""
+        return False
+
     @abstractmethod
     def start(self, fleet: Fleet, world: World, placements: Float, seed: int) -> LocalizerSession:
         """Begin with robots placed at `placements` f8[n,3]."""

@@ -75,6 +75,8 @@ def run(arguments: argparse.Namespace) -> int:
         studies = read_studies(slots, files, overrides)
         for error in (error for study in studies for error in study.errors):
             sys.stderr.write(f"{error}\n")
+        for note in dict.fromkeys(note for study in studies for note in study.notes):
+            sys.stderr.write(f"note: {note}\n")
         if arguments.dry_run:
             _list(studies, options, arguments.json)
             return int(any(study.errors for study in studies))

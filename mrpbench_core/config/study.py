@@ -8,6 +8,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.config.canonical import canonical, sources
+from mrpbench_core.config.combinations import IdleOptions, refusals
 from mrpbench_core.config.identity import run_id
 from mrpbench_core.config.items import COMMAND_LINE, Item, Location, from_data, from_document
 from mrpbench_core.config.matrix import Matrix, Point, parse_matrix
@@ -62,6 +63,8 @@ class Study:
     """Number of these points."""
     document: Any = None
     """The content of the file as plain data."""
+    notes: tuple[str, ...] = ()
+    """What the configuration names without effect in any run, one line each."""
 
 
 def load_study(source: Path | str | Mapping[str, Any], overrides: Sequence[str] = ()) -> Study:
@@ -112,7 +115,8 @@ def _study(root: Item, file: Path | None, folder: Path, overrides: Sequence[str]
     points = list(matrix.points(attrs.evolve(root, value=settings), parse_overrides(overrides, matrix)))
     if not points:
         raise InputErrors(root.value["matrix"].location.error("matrix", "excludes every point"))
-    runs, faults = _structure(points, folder)
+    idle = IdleOptions()
+    runs, faults = _structure(points, folder, idle)
     errors = _explain(faults, len(points))
     if not runs or any(error.file == COMMAND_LINE for error in errors):
         raise InputErrors(*errors)
@@ -124,11 +128,12 @@ def _study(root: Item, file: Path | None, folder: Path, overrides: Sequence[str]
         errors=tuple(errors),
         invalid=len({id(point) for _, broken in faults.values() for point in broken}),
         document=root.data,
+        notes=idle.notes(),
     )
 
 
 def _structure(
-    points: Sequence[Point], folder: Path
+    points: Sequence[Point], folder: Path, idle: IdleOptions
 ) -> tuple[dict[str, RunPoint], dict[str, tuple[InputError, list[Point]]]]:
     """Return the runs by id, and each error with the points that it affects."""
     structurer = Structure(folder)
@@ -139,10 +144,13 @@ def _structure(
             if point.fault:
                 raise InputErrors(point.fault)
             config = structurer.run(point.root)
+            if refused := refusals(config, point.root):
+                raise InputErrors(*refused)
         except InputErrors as several:
             for error in several.errors:
                 faults.setdefault(str(error), (error, []))[1].append(point)
             continue
+        idle.add(config, point.root)
         identity = run_id(config, folder)
         if identity not in runs:
             runs[identity] = RunPoint(

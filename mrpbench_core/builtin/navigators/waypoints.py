@@ -80,6 +80,17 @@ class Waypoints(Navigator):
         6, help="recoveries that a robot tries between two waypoints before it gives up", validator=ge(0)
     )
 
+    def idle_options(self) -> dict[str, str]:
+        """Return options that the others make idle."""
+        idle = {}
+        if not self.max_recoveries:
+            idle["recoveries"] = "max_recoveries is 0"
+        elif not self.recoveries:
+            idle["max_recoveries"] = "there are no recoveries"
+        if not self.replan_period:
+            idle["planner_tolerance"] = "replan_period is 0"
+        return idle
+
     def start(
         self, fleet: Fleet, world: World, routes: Sequence[Route], controller: Controller, period: float, seed: int
     ) -> NavigatorSession:

@@ -34,6 +34,8 @@ class StudyRuns:
     runs: tuple[StudyRun, ...]
     errors: tuple[InputError, ...] = ()
     document: Any = None
+    notes: tuple[str, ...] = ()
+    """What the configuration names without effect in any run, one line each."""
     columns: dict[str, Any] = attrs.field(factory=dict)
     """The declaration of each metric column; see `mrpbench_core.engine.stages.measure.describe`."""
 
@@ -57,6 +59,7 @@ def _pack(study: Study) -> dict[str, Any]:
         "folder": str(study.folder),
         "errors_of_points": [_pack_error(error) for error in study.errors],
         "document": study.document,
+        "notes": study.notes,
         "columns": describe(metrics),
         "runs": [_packed(point, values) for point in study.runs],
         "values": values.texts,
@@ -100,6 +103,7 @@ def unpack_study(study: dict[str, Any]) -> StudyRuns:
         name=study["name"],
         errors=tuple(map(unpack_error, study["errors_of_points"])),
         document=study["document"],
+        notes=tuple(study["notes"]),
         columns=study["columns"],
         runs=tuple(
             StudyRun(

@@ -16,7 +16,7 @@ from mrpbench_native.options import Option
 
 from mrpbench_controllers_dwb.costmap import LocalCostmap
 from mrpbench_controllers_dwb.critic import Critic
-from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE, OF_CONTROLLER
+from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE, OF_CONTROLLER, RotateToGoal
 from mrpbench_controllers_dwb.settings import RobotSettings
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
 from mrpbench_core.api.described import described
@@ -52,8 +52,11 @@ class Dwb(Controller):
         metadata={"help": "a block FollowPath of a Nav2 parameter file, pasted as it stands", "unit": None},
     )
     critics: tuple[Critic, ...] | None = option(
-        None, help="critics that score trajectories, in order (default: those of Nav2 for the TurtleBot3)"
+        None,
+        help="critics that score trajectories, in order; default, with scales: "
+        + ", ".join(f"{type(critic).__name__} {critic.scale:g}" for critic in DEFAULT),
     )
+    extra_critics: tuple[Critic, ...] = option((), help="critics in addition to those of `critics` or of the Nav2 file")
     local_costmap: LocalCostmap | None = option(None, help="costmap around each robot (default: as in Nav2)")
     threads: int = option(
         1, help="threads that share the robots; results do not depend on their number", validator=ge(1)
@@ -110,6 +113,26 @@ class Dwb(Controller):
             values |= {"lidar_forward": forward, "lidar_leftward": leftward, "lidar_range": lidar.range}
         return RobotSettings(values, footprint, critics)
 
+    @property
+    def needs_lidar(self) -> bool:
+        """True if the costmap has a layer that beams mark."""
+        return bool(self.settings(_SOME_ROBOT, 0.05).numbers["obstacle_layer"])
+
+    def idle_options(self) -> dict[str, str]:
+        """Return options that the others make idle."""
+        values = self._values(self._blocks()[0])
+        idle = {}
+        if values["discretize_by_time"]:
+            idle |= dict.fromkeys(("linear_granularity", "angular_granularity"), "discretize_by_time is on")
+        else:
+            idle["time_granularity"] = "discretize_by_time is off"
+        if not any(isinstance(critic, RotateToGoal) for critic in self._critics(self._blocks()[0])):
+            names = ("xy_goal_tolerance", "trans_stopped_velocity")
+            idle |= dict.fromkeys(names, "RotateToGoal, which reads it, is not among the critics")
+        if not values["shorten_transformed_plan"]:
+            idle["prune_distance"] = "shorten_transformed_plan is off"
+        return idle
+
     def goal_options(self) -> dict[str, float]:
         """Return the options of this class that the critic RotateToGoal reads in Nav2."""
         values = self._values(self._blocks()[0])
@@ -140,7 +163,7 @@ class Dwb(Controller):
 
     def _critics(self, block: Nav2Block | None) -> tuple[Critic, ...]:
         if block is None:
-            return self.critics or DEFAULT
+            return self._with_extra(self.critics or DEFAULT)
         names = block.take_names("critics")
         found: list[Critic] = []
         for name in names:
@@ -149,7 +172,19 @@ class Dwb(Controller):
             found.append(NATIVE[name].from_nav2(block))
         block.ignore(*(name for name in NATIVE if name not in names))
         block.refuse_unknown()
-        return self.critics or tuple(found) or DEFAULT
+        return self._with_extra(self.critics or tuple(found) or DEFAULT)
+
+    def _with_extra(self, critics: tuple[Critic, ...]) -> tuple[Critic, ...]:
+        """Add the extra critics.
+
+        Raises:
+            InputError: one of Nav2's critics would score twice.
+        """
+        kinds = {type(critic) for critic in critics}
+        if twice := next((critic for critic in self.extra_critics if type(critic) in kinds), None):
+            name = type(twice).__name__
+            raise InputError(f"extra_critics: {name} is there already", hint="set its scale in `critics`")
+        return critics + self.extra_critics
 
 
 def _within(values: dict[str, Any], name: str, limit: float) -> None:

@@ -16,6 +16,17 @@ N = TypeVar("N", bound="NativeCritic")
 OF_CONTROLLER = ("xy_goal_tolerance", "trans_stopped_velocity")
 """Options of RotateToGoal that Nav2 reads from the controller."""
 
+TURTLEBOT3: dict[str, dict[str, float]] = {
+    "RotateToGoal": {"scale": 32.0},
+    "BaseObstacle": {"scale": 0.02},
+    "GoalAlign": {"scale": 24.0, "forward_point_distance": 0.1},
+    "PathAlign": {"scale": 32.0, "forward_point_distance": 0.1},
+    "PathDist": {"scale": 32.0},
+    "GoalDist": {"scale": 24.0},
+}
+"""Options whose values in the parameter file of Nav2 for the TurtleBot3 are not those of Nav2's code."""
+IN_CODE = "in_code"
+
 
 @attrs.frozen(kw_only=True)
 class NativeCritic(Critic):
@@ -43,7 +54,9 @@ class NativeCritic(Critic):
         values = {}
         for field in attrs.fields(cls):
             key = f"{name}.{field.name}"
-            values[field.name] = block.take(key, type(field.default), field.default)
+            values[field.name] = block.take(
+                key, type(field.default), field.metadata.get(IN_CODE, field.default)
+            )  # a file means what Nav2's code takes where it says nothing
             check_parameter(field, values[field.name], block, key)
         block.ignore(f"{name}.class")
         return cls(**values)
@@ -52,7 +65,18 @@ class NativeCritic(Critic):
 def _native(cls: type[N]) -> type[N]:
     """Give a critic the options that its C++ class describes; RotateToGoal gets two of them from `Dwb`."""
     rows = [row for row in critic_options(cls.__name__) if row.name not in OF_CONTROLLER]
-    return attrs.frozen(kw_only=True)(described(rows)(cls))
+    return attrs.frozen(kw_only=True, field_transformer=_with_defaults)(described(rows)(cls))
+
+
+def _with_defaults(cls: type, fields: list[Any]) -> list[Any]:
+    """Give the options of a critic the values in the parameter file, and keep those of Nav2's code beside them."""
+    own = TURTLEBOT3.get(cls.__name__, {})
+    return [
+        field.evolve(default=own[field.name], metadata={**field.metadata, IN_CODE: field.default})
+        if field.name in own
+        else field
+        for field in fields
+    ]
 
 
 @_native
@@ -111,14 +135,8 @@ _ALL: tuple[type[NativeCritic], ...] = (
 )
 NATIVE = {cls.__name__: cls for cls in _ALL}
 """By Nav2's names."""
-_NEAR = {"forward_point_distance": 0.1}
 DEFAULT: tuple[Critic, ...] = (
-    RotateToGoal(scale=32.0),
-    Oscillation(scale=1.0),
-    BaseObstacle(scale=0.02),
-    GoalAlign(scale=24.0, **_NEAR),
-    PathAlign(scale=32.0, **_NEAR),
-    PathDist(scale=32.0),
-    GoalDist(scale=24.0),
+    *(RotateToGoal(), Oscillation(), BaseObstacle(), GoalAlign()),
+    *(PathAlign(), PathDist(), GoalDist()),
 )
 """The critics in the parameter file of Nav2 for the TurtleBot3 (galactic), which MRP-Bench used too."""

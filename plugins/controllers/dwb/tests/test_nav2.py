@@ -1,5 +1,7 @@
+import attrs
 import pytest
-from mrpbench_controllers_dwb import BaseObstacle, Dwb, LocalCostmap, PathAlign, RotateToGoal
+from mrpbench_controllers_dwb import BaseObstacle, Dwb, LocalCostmap, PathAlign, PathDist, RotateToGoal, Twirling
+from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
@@ -126,7 +128,7 @@ def test_a_block_can_be_pasted():
     pasted = Dwb(FollowPath={"plugin": "dwb_core::DWBLocalPlanner", "sim_time": 1.2, "critics": ["BaseObstacle"]})
     values, _, critics = pasted.settings(BURGER, 0.05)
     assert values["sim_time"] == 1.2
-    assert critics == (BaseObstacle(),)
+    assert critics == (BaseObstacle(scale=1.0),)  # what Nav2 takes where a file names no scale
 
 
 def test_without_any_the_limits_are_the_robots():
@@ -170,3 +172,29 @@ def test_mistakes_in_the_file_are_named_with_their_place(tmp_path, old, new, mes
 def test_a_file_without_these_blocks_is_refused(tmp_path):
     with pytest.raises(InputError, match="has neither FollowPath of controller_server nor local_costmap"):
         Dwb(nav2=write(tmp_path, "amcl:\n  ros__parameters:\n    alpha1: 0.2\n"))
+
+
+def test_named_critics_have_the_scales_of_the_default():
+    (*_, default), (*_, named) = (
+        Dwb(critics=critics).settings(BURGER, 0.05)
+        for critics in (None, tuple(NATIVE[type(critic).__name__]() for critic in DEFAULT))
+    )
+    assert named == default
+    assert [critic.scale for critic in default] == [32.0, 1.0, 0.02, 24.0, 32.0, 32.0, 24.0]
+
+
+def test_an_extra_critic_is_added_to_the_default_or_to_those_of_the_file(tmp_path):
+    extra = (Twirling(scale=2.0),)
+    assert Dwb(extra_critics=extra).settings(BURGER, 0.05).critics == DEFAULT + extra
+    own = Dwb(nav2=write(tmp_path, FILE)).settings(BURGER, 0.05).critics
+    assert Dwb(nav2=write(tmp_path, FILE), extra_critics=extra).settings(BURGER, 0.05).critics == own + extra
+
+
+def test_an_extra_critic_that_is_there_already_is_refused():
+    with pytest.raises(InputError, match=r"extra_critics: PathDist is there already \(set its scale in `critics`\)"):
+        Dwb(extra_critics=(PathDist(scale=3.0),))
+
+
+def test_the_help_of_critics_shows_their_scales():
+    (critics,) = (field for field in attrs.fields(Dwb) if field.name == "critics")
+    assert critics.metadata["help"].endswith("BaseObstacle 0.02, GoalAlign 24, PathAlign 32, PathDist 32, GoalDist 24")

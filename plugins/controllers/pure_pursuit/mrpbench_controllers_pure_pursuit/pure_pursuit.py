@@ -56,6 +56,17 @@ class PurePursuit(Controller):
         0.1, help="lowest speed in tight turns", unit="m/s", validator=ge(0)
     )
 
+    def idle_options(self) -> dict[str, str]:
+        """Return the options of behaviours that are switched off."""
+        idle = {}
+        if not self.use_rotate_to_heading:
+            names = ("rotate_to_heading_min_angle", "angular_disengage_threshold", "rotate_to_heading_angular_vel")
+            idle |= dict.fromkeys(names, "use_rotate_to_heading is off")
+        if not self.use_regulated_linear_velocity_scaling:
+            names = ("regulated_linear_scaling_min_radius", "regulated_linear_scaling_min_speed")
+            idle |= dict.fromkeys(names, "use_regulated_linear_velocity_scaling is off")
+        return idle
+
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:
         """Begin to control one robot; the world does not matter to it."""
         del world

@@ -44,6 +44,11 @@ class Amcl(Localizer):
         _DIFFERENTIAL[0], help="model of the odometry error; only this one is implemented", validator=in_(_DIFFERENTIAL)
     )
 
+    @property
+    def needs_lidar(self) -> bool:
+        """It compares scans with the map."""
+        return True
+
     def start(self, fleet: Fleet, world: World, placements: Float, seed: int) -> LocalizerSession:
         """Begin with particles around the placements. A robot's draws are functions of `seed` and its index alone.
 

@@ -1,0 +1,126 @@
+"""Combinations of settings that cannot mean anything, which are refused, and options that have no effect in a study."""
+
+from collections.abc import Iterator, Mapping
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.config.items import Item
+from mrpbench_core.config.settings import EXECUTION, ONLY_EXECUTION, FleetEntry, RunConfig
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.robot import load_robot
+from mrpbench_core.plugins.provenance import origin
+
+IDLE = "has no effect: "
+NO_SIMULATOR = f"{IDLE}there is no simulator"
+
+
+def refusals(config: RunConfig, root: Item) -> list[InputError]:
+    """Return the errors of one run whose settings contradict one another."""
+    if config.simulator is None:
+        return []
+    blind = [entry for entry in config.fleet if not _has_lidar(entry)]
+    return [
+        _place(root, key).location.error(
+            key,
+            f"{_name(component)} works by a lidar, and the robot {blind[0].robot} has none",
+            "choose another one, or give the robot a lidar (`fleet`)",
+        )
+        for key, component in (("localizer", config.localizer), ("controller", config.controller))
+        if blind and component is not None and component.needs_lidar
+    ]
+
+
+class IdleOptions:
+    """Collects the options that a study names and that have no effect in any of its runs."""
+
+    def __init__(self) -> None:
+        self._idle: dict[str, str] = {}
+        self._effective: set[str] = set()
+
+    def add(self, config: RunConfig, root: Item) -> None:
+        """Add one run."""
+        idle = _idle(config, root)
+        for key in _named(root):
+            reason = next((idle[part] for part in (key, key.partition(".")[0]) if part in idle), None)
+            if reason is None:
+                self._effective.add(key)
+            elif key in idle:
+                place = _place(root, key)
+                self._idle.setdefault(key, str(place.location.error(key, reason)))
+
+    def notes(self) -> tuple[str, ...]:
+        """One line for each option."""
+        return tuple(line for key, line in self._idle.items() if key not in self._effective)
+
+
+def _idle(config: RunConfig, root: Item) -> dict[str, str]:
+    """Return the reason for each setting without effect in a run, whether the file names it or not."""
+    found = dict(_of_planning_only(config)) if config.simulator is None else dict(_of_executions(config))
+    if config.planner.assigns:
+        found["assigner"] = f"{IDLE}the planner assigns the tasks"
+    for key in root.value:
+        component = getattr(config, key, None)
+        if isinstance(component, Component):
+            found |= {f"{key}.{name}": IDLE + reason for name, reason in component.idle_options().items()}
+    if all(entry.graph is None or not _is(config.roadmap, "graph") for entry in config.fleet):
+        found |= {
+            f"fleet.{number}.graph": f"{IDLE}only `roadmap: graph` has lanes of graphs"
+            for number, entry in enumerate(config.fleet)
+            if entry.graph is not None
+        }
+    return found
+
+
+def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:
+    for key in (*ONLY_EXECUTION, *EXECUTION, "export", "recording"):
+        if key != "plan_filter" or config.plan_filter is not None:
+            yield key, NO_SIMULATOR
+
+
+def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
+    localizer = config.localizer
+    if localizer is not None and (not localizer.needs_truth or _is(localizer, "ground_truth")):
+        yield "grant_truth", f"{IDLE}{_name(localizer)} does not need it"
+    if config.replanning.delay is None and config.replanning.period is None:
+        yield "replanning.latency", f"{IDLE}neither `delay` nor `period` calls for new plans"
+    if not any(map(_has_lidar, config.fleet)):
+        yield from dict.fromkeys(("noise.lidar", "noise.lidar_dropout"), f"{IDLE}no robot has a lidar").items()
+    if _is(config.dispatcher, "adg") and _is(config.navigator, "waypoints"):
+        reason = (
+            "does not fit `dispatcher: adg`, which lets others pass where a robot beside its waypoint is in the way"
+        )
+        yield "navigator.planner_tolerance", reason
+
+
+def _named(root: Item) -> Iterator[str]:
+    """Return the settings that a configuration names, and the options within their blocks."""
+    for key, item in root.value.items():
+        yield key
+        entries = enumerate(item.value) if isinstance(item.value, list) else [(None, item)]
+        for number, entry in entries:
+            if isinstance(entry.value, Mapping):
+                yield from (f"{key}.{name}" if number is None else f"{key}.{number}.{name}" for name in entry.value)
+
+
+def _place(root: Item, key: str) -> Item:
+    """The part of a configuration that a dotted key names, or the nearest part around it."""
+    item = root
+    for step in key.split("."):
+        if isinstance(item.value, Mapping) and step in item.value:
+            item = item.value[step]
+        elif isinstance(item.value, list) and step.isdecimal() and int(step) < len(item.value):
+            item = item.value[int(step)]
+    return item
+
+
+def _has_lidar(entry: FleetEntry) -> bool:
+    if entry.lidar == "none":
+        return False
+    return entry.lidar is not None or load_robot(str(entry.robot)).lidar is not None
+
+
+def _is(component: Component | None, name: str) -> bool:
+    return component is not None and origin(type(component))["name"] == name
+
+
+def _name(component: Component) -> str:
+    return str(origin(type(component))["name"])

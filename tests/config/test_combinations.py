@@ -1,0 +1,100 @@
+"""Settings that contradict one another are refused, and options without effect in a study are told before its runs."""
+
+import pytest
+
+from mrpbench_core.config.study import load_study
+from mrpbench_core.files.errors import InputErrors
+
+STUDY = {"world": "office", "scenario": {"plugin": "random", "robots": 2}, "planner": "example"}
+BLIND = [{"robot": "turtlebot3_burger", "lidar": "none"}]
+
+
+def notes(**changes):
+    return load_study(STUDY | changes).notes
+
+
+@pytest.mark.parametrize("key", ["localizer", "controller"])
+def test_what_works_by_a_lidar_is_refused_for_robots_without_one(key):
+    chosen = {"localizer": "amcl", "controller": "dwb"}[key]
+    with pytest.raises(
+        InputErrors, match=f"{key}: {chosen} works by a lidar, and the robot turtlebot3_burger has none"
+    ):
+        load_study(STUDY | {key: chosen, "fleet": BLIND})
+    assert load_study(STUDY | {key: chosen}).runs
+    assert load_study(STUDY | {key: chosen, "fleet": BLIND, "simulator": "none"}).runs
+
+
+def test_a_costmap_of_walls_needs_no_lidar():
+    dwb = {"plugin": "dwb", "local_costmap": {"plugins": ["static_layer", "inflation_layer"]}}
+    assert load_study(STUDY | {"controller": dwb, "fleet": BLIND}).runs
+
+
+def test_only_the_points_of_a_matrix_that_contradict_themselves_are_refused():
+    study = load_study(STUDY | {"fleet": BLIND, "matrix": {"localizer": ["amcl", "ground_truth"]}})
+    (error,) = study.errors
+    assert len(study.runs) == 1
+    assert "in localizer=amcl" in str(error)
+
+
+@pytest.mark.parametrize(
+    ("changes", "note"),
+    [
+        ({"simulator": "none", "export": ["rosbag2"]}, "export: has no effect: there is no simulator"),
+        ({"simulator": "none", "noise": {"lidar": 0.1}}, "noise: has no effect: there is no simulator"),
+        ({"simulator": "none", "limits": {"execution": 9}}, "limits.execution: has no effect: there is no simulator"),
+        ({"simulator": "none", "navigator": "waypoints"}, "navigator: has no effect: there is no simulator"),
+        ({"planner": "cbs_ta", "assigner": "hungarian"}, "assigner: has no effect: the planner assigns the tasks"),
+        ({"assigner": {"plugin": "identity", "cost": "roadmap"}}, "assigner.cost: has no effect: this assigner reads"),
+        ({"grant_truth": True}, "grant_truth: has no effect: ground_truth does not need it"),
+        ({"replanning": {"latency": 1}}, "replanning.latency: has no effect: neither `delay` nor `period`"),
+        ({"fleet": BLIND, "noise": {"lidar": 0.1}}, "noise.lidar: has no effect: no robot has a lidar"),
+        (
+            {"fleet": [{"robot": "turtlebot3_burger", "graph": 0}]},
+            "fleet.0.graph: has no effect: only `roadmap: graph`",
+        ),
+        (
+            {"navigator": {"plugin": "waypoints", "planner_tolerance": 0.5}},
+            "navigator.planner_tolerance: does not fit `dispatcher: adg`",
+        ),
+        (
+            {"navigator": {"plugin": "waypoints", "max_recoveries": 0, "recoveries": ["wait"]}},
+            "navigator.recoveries: has no effect: max_recoveries is 0",
+        ),
+        (
+            {
+                "controller": {
+                    "plugin": "pure_pursuit",
+                    "use_rotate_to_heading": False,
+                    "rotate_to_heading_min_angle": 1,
+                }
+            },
+            "controller.rotate_to_heading_min_angle: has no effect: use_rotate_to_heading is off",
+        ),
+        (
+            {"controller": {"plugin": "dwb", "time_granularity": 0.1}},
+            "controller.time_granularity: has no effect: discretize_by_time is off",
+        ),
+        (
+            {"controller": {"plugin": "dwb", "critics": ["PathDist"], "xy_goal_tolerance": 0.1}},
+            "controller.xy_goal_tolerance: has no effect: RotateToGoal",
+        ),
+    ],
+)
+def test_an_option_without_effect_is_named_with_the_reason(changes, note):
+    (found,) = notes(**changes)
+    assert note in found
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"simulator": "none"},
+        {"noise": {"lidar": 0.1}, "matrix": {"simulator": ["none", "kinematic"]}},
+        {"export": ["rosbag2"], "assigner": "identity", "replanning": {"latency": 1, "period": 5}},
+        {"dispatcher": "all_at_once", "navigator": {"plugin": "waypoints", "planner_tolerance": 0.5}},
+        {"roadmap": "graph", "fleet": [{"robot": "turtlebot3_burger", "graph": 0}]},
+    ],
+)
+def test_options_with_effect_in_some_run_are_not_named(changes):
+    assert notes(**changes) == ()
