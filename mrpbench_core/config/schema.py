@@ -14,7 +14,7 @@ import attrs
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.canonical import json_scalar
-from mrpbench_core.config.settings import FleetEntry, RunConfig
+from mrpbench_core.config.settings import NOT_IDENTIFYING, FleetEntry, RunConfig
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import robot_names
 from mrpbench_core.model.common.units import sizes
@@ -41,7 +41,12 @@ class _Schema:
 
     def whole(self) -> dict[str, Any]:
         settings = self.options(RunConfig)
-        point = {"type": "object", "description": "values by key, dotted keys for single options"}
+        name = _axis_name()
+        point = {
+            "type": "object",
+            "description": "values by key, dotted keys for single options",
+            "propertyNames": {"pattern": f"^{name}$"},
+        }
         axes = {"anyOf": [{"type": "array", "minItems": 1}, RANGE]}
         points = {"anyOf": [{"type": "array", "items": point}, point]}
         matrix = {
@@ -49,6 +54,7 @@ class _Schema:
             "description": "what varies: a list of values, or a range of integers, by key",
             "properties": {"include": points, "exclude": points},
             "additionalProperties": axes,
+            "propertyNames": {"pattern": rf"^(include|exclude|\s*{name}\s*(,\s*{name}\s*)*)$"},
         }
         return {
             "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -155,6 +161,21 @@ class _Schema:
         ]
         local = {"type": "object", "properties": {"plugin": LOCAL}, "required": ["plugin"]}
         return {"oneOf": [{"enum": list(classes)}, LOCAL, *blocks, local]}
+
+
+def _axis_name() -> str:
+    """The pattern of a key that may vary. Options of plugins are not checked, because local plugins may have any."""
+    patterns = []
+    for field in attrs.fields(RunConfig):
+        kind, key = field.type, field.name
+        if key in NOT_IDENTIFYING:
+            continue
+        if isinstance(kind, type) and attrs.has(kind) and not issubclass(kind, Component):
+            names = [inner.alias for inner in attrs.fields(kind) if f"{key}.{inner.alias}" not in NOT_IDENTIFYING]
+            patterns.append(rf"{key}(\.({'|'.join(names)}))?")
+        else:
+            patterns.append(key if kind in _SCALARS else rf"{key}(\.[^,]+)?")
+    return f"({'|'.join(patterns)})"
 
 
 def _classes(kind: type[Component]) -> dict[str, type[Component]]:

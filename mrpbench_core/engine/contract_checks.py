@@ -4,11 +4,12 @@ Arrays of a wrong shape broadcast, and comparisons with NaN are false: without t
 not stop the run but falsify its numbers.
 """
 
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.engine.own import own
 from mrpbench_core.model.common.arrays import Int32
@@ -17,7 +18,9 @@ from mrpbench_core.model.execution.observation import Estimate, ScanBatch
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.scenario import Scenario
+from mrpbench_core.plugins.kinds import kind_of
 
+T = TypeVar("T")
 _LAST_MODE = int(max(Mode))
 
 
@@ -128,6 +131,14 @@ class ContractChecks:
     def _no_robot(self, kind: str, what: str, bad: NDArray[np.bool_]) -> None:
         if np.count_nonzero(bad):
             _refuse(kind, f"for robot {int(bad.argmax())}: {what}")
+
+
+def check_returned(component: Component, returned: Any, wanted: type[T]) -> T:
+    """Check the class of what a component returns."""
+    if not isinstance(returned, wanted):
+        kind = kind_of(component.group).replace("_", " ")
+        _refuse(f"the {kind}", f"{type(returned).__name__} instead of {wanted.__name__}")
+    return returned
 
 
 def check_drawn(scenario: Scenario, robots: int) -> Scenario:

@@ -12,6 +12,7 @@ from mrpbench_core.engine.execution.loop import granted_localizer
 from mrpbench_core.engine.execution.replanning import replanning_fault
 from mrpbench_core.engine.execution.routes import Router, speed_limits
 from mrpbench_core.engine.observers import Observers
+from mrpbench_core.engine.origins import title
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.record import RunError, RunRecord
 from mrpbench_core.engine.stage import Announce, RunEnded, RunInputs
@@ -112,7 +113,9 @@ def _plan(inputs: RunInputs, problem: Problem, record: RunRecord) -> tuple[PlanR
     record.plan = {} if fault else claims_of(promises, problem, result)
     inputs.observers.planned(problem=own(problem), result=own(result))
     if fault is not None:
-        return attrs.evolve(result, plan=None), RunEnded(RunStatus.PLAN_INVALID, Stage.PLANNING, fault)
+        return attrs.evolve(result, plan=None), RunEnded(
+            RunStatus.PLAN_INVALID, Stage.PLANNING, f"{fault} ({title(config.planner)})"
+        )
     if result.plan is None:
         return result, RunEnded(STATUS[result.status], Stage.PLANNING, _unsolved(config, result, timing))
     return result, None

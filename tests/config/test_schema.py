@@ -38,6 +38,7 @@ def validator(toy):
         "recording: {keep: failed, rate: 5 Hz, scans: true}\n",
         "matrix: {seed: 0..9, planner: [astar, {plugin: ecbs, w: 1.5}], exclude: [{planner: astar, seed: 3}]}\n",
         "matrix: {seed: [1], include: {seed: 2}}\n",
+        "matrix: {'noise.lidar, scenario.robots': [[0, 5], [0.1, 6]], goal_tolerance: [1, 2]}\n",
     ],
 )
 def test_accepted_configurations_are_valid(validator, text):
@@ -66,6 +67,12 @@ def test_accepted_configurations_are_valid(validator, text):
         "metrics: [plan]\n",
         "matrix: {seed: 3}\n",
         "matrix: {exclude: [3]}\n",
+        "matrix: {planer: [astar]}\n",
+        "matrix: {noise.lida: [1, 2]}\n",
+        "matrix: {limits.wall: [1, 2]}\n",
+        "matrix: {seed: 0..3, 'noise.lidar, plan': [[0, 1]]}\n",
+        "matrix: {seed: 0..3, exclude: [{sead: 1}]}\n",
+        "matrix: {seed: 0..3, include: {names: x}}\n",
     ],
 )
 def test_refused_configurations_are_invalid(validator, text):

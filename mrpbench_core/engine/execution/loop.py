@@ -7,6 +7,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.controller import Controller
 from mrpbench_core.api.dispatcher import Dispatcher, DispatchError
 from mrpbench_core.api.localizer import Localizer
@@ -159,6 +160,9 @@ class ExecutionLoop:
             context.period,
             seed_of(*inputs.seeds, "navigator"),
         )
+        for kind in ("dispatcher", "localizer", "navigator"):
+            if getattr(self, f"_{kind}") is None:
+                raise BrokenContractError(f"the {kind} returned None instead of a session")
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
         self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
         self._given_routes = given.routes

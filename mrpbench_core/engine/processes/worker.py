@@ -16,10 +16,12 @@ from typing import Any
 import numpy as np
 
 from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.study import unpack
 from mrpbench_core.engine.json_values import jsonable
 from mrpbench_core.engine.loading.runs import loaded
 from mrpbench_core.engine.observers import Observers
+from mrpbench_core.engine.origins import owner_of, title, with_origin
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.processes.channel import KEY_BYTES, Channel
 from mrpbench_core.engine.processes.output import flush, redirect
@@ -83,13 +85,15 @@ def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, A
         executed=lambda: hooks.call("mrpbench_executed"),
         progress=lambda **facts: channel.send({"progress": facts}),
     )
+    config = None
     try:
-        record = jsonable(execute(unpack(job["parcel"]), job["run_id"], paths, announce, observers).message())
+        config = unpack(job["parcel"])
+        record = jsonable(execute(config, job["run_id"], paths, announce, observers).message())
     except (InputError, InputErrors) as error:
         return {"mistake": jsonable(str(error))}
     except BrokenContractError as error:
         traceback.print_exc()
-        return {"status": RunStatus.CONTRACT_BROKEN, "message": printable(str(error))}
+        return {"status": RunStatus.CONTRACT_BROKEN, "message": printable(_named(str(error), config))}
     except MemoryError as error:
         traceback.print_exc()
         return {"status": RunStatus.OUT_OF_MEMORY, "message": printable(str(error)) or "no memory left"}
@@ -97,19 +101,25 @@ def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, A
         if is_full(error):  # the run is to be done again
             return {"mistake": f"{job['recording']}: cannot be written: {jsonable(printable(str(error)))}"}
         traceback.print_exc()
-        return {"status": RunStatus.CRASHED, "message": describe(error)}
+        return {"status": RunStatus.CRASHED, "message": describe(error, config)}
     return {"record": record}
 
 
-def describe(error: BaseException) -> str:
-    """One line: what was raised, and the innermost place outside the core."""
+def _named(message: str, config: RunConfig | None) -> str:
+    return message if config is None else with_origin(message, config)
+
+
+def describe(error: BaseException, config: RunConfig | None = None) -> str:
+    """One line: what was raised, the innermost place outside the core, and the component to which it belongs."""
     text = printable(str(error))[:300]
     frames = traceback.extract_tb(error.__traceback__)
     own = str(Path(__file__).parents[2]), "<"  # attrs compiles without a file
     outside = [frame for frame in frames if not frame.filename.startswith(own)]
     place = next(reversed(outside or frames[-1:]), None)
+    owner = None if config is None else owner_of(error, config)
+    of = "" if owner is None else f", in the {printable(title(owner))}"
     where = "" if place is None else f" ({Path(place.filename).name}:{place.lineno})"
-    return f"{type(error).__name__}{': ' + text if text else ''}{where}"
+    return f"{type(error).__name__}{': ' + text if text else ''}{where}{of}"
 
 
 def _backstop(memory_bytes: int) -> None:

@@ -9,11 +9,13 @@ from mrpbench_core.api.assigner import AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
 from mrpbench_core.checking.scenario import check_travel
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.contract_checks import check_returned
+from mrpbench_core.engine.origins import title
 from mrpbench_core.engine.own import Handed
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.costs import cost_matrix
 from mrpbench_core.engine.stages.prepare import RunInstance, summary
-from mrpbench_core.model.planning.assignment import AssignmentProblem
+from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.runs.status import RunStatus, Stage
@@ -43,9 +45,12 @@ def assign(config: RunConfig, instance: RunInstance, announce: Announce, timing:
     except AssignmentError as error:
         raise RunEnded(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, str(error)) from error
     timing["assignment_s"] = time.perf_counter() - began
+    check_returned(assigner, assignment, Assignment)
     handed.check(assigner)
     if faults := check_assignment(question, assignment):
-        raise RunEnded(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, f"{type(assigner).__name__} {faults[0]}")
+        raise RunEnded(
+            RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, f"{type(assigner).__name__} {faults[0]} ({title(assigner)})"
+        )
     return tuple(int(task) for task in assignment.task)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.metric import Metric
+from mrpbench_core.engine.origins import title
 from mrpbench_core.engine.own import Handed
 from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.runs.run import FinishedRun
@@ -33,7 +34,7 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
         try:
             handed.check(metric)
         except BrokenContractError:
-            measured, reason = {}, "the metric changed the run"
+            measured, reason = {}, f"the metric changed the run ({title(metric)})"
             handed = Handed(run.context, "the context")
         if reason is not None:
             reasons[name] = reason
@@ -41,12 +42,26 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
             key, value = f"{name}.{column.name}", measured.get(column.name)
             if (reason := _obstacle(metric.requires | column.requires, run)) is not None:
                 reasons[key], value = reason, None
-            elif not isinstance(value, NUMBER | None):
-                reasons[key], value = f"the metric returned {type(value).__name__} instead of a number", None
-            elif isinstance(value, int) and not -(2**63) <= value < 2**63:
-                reasons[key], value = "the metric returned an integer of more than 64 bits", None
-            values[key] = None if isinstance(value, float) and value != value else value
+            elif (fault := _fault(measured, column.name)) is not None:
+                if name not in reasons:
+                    reasons[key] = f"the metric returned {fault} ({title(metric)})"
+                value = None
+            values[key] = value
     return values, reasons
+
+
+def _fault(measured: Mapping[str, Any], column: str) -> str | None:
+    """What a metric returned instead of a number or None."""
+    if column not in measured:
+        return "no value for it"
+    value = measured[column]
+    if not isinstance(value, NUMBER | None):
+        return f"{type(value).__name__} instead of a number"
+    if isinstance(value, int) and not -(2**63) <= value < 2**63:
+        return "an integer of more than 64 bits"
+    if value is not None and not np.isfinite(value):
+        return f"{float(value)}, and not None"
+    return None
 
 
 def _measured(metric: Metric, run: FinishedRun) -> tuple[Mapping[str, Any], str | None]:
@@ -55,9 +70,9 @@ def _measured(metric: Metric, run: FinishedRun) -> tuple[Mapping[str, Any], str 
         measured = metric.measure(run)
     except (Exception, SystemExit) as error:  # noqa: BLE001 - a plugin may raise anything
         traceback.print_exc()  # into the run's log
-        return {}, f"the metric raised {one_line(error)}"
+        return {}, f"the metric raised {one_line(error)} ({title(metric)})"
     if not isinstance(measured, Mapping):
-        return {}, f"the metric returned {type(measured).__name__} instead of a mapping"
+        return {}, f"the metric returned {type(measured).__name__} instead of a mapping ({title(metric)})"
     return measured, None
 
 

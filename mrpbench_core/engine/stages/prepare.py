@@ -5,7 +5,7 @@ import numpy as np
 
 from mrpbench_core.checking.doorways import check_doorways
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.contract_checks import check_drawn
+from mrpbench_core.engine.contract_checks import check_drawn, check_returned
 from mrpbench_core.engine.own import Handed, own
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.fleet import build_fleet
@@ -44,15 +44,16 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
         RunEnded: the scenario cannot be solved by any planner.
     """
     announce(Stage.WORLD, {})
-    world = own(config.world.load())
+    world = own(check_returned(config.world, config.world.load(), World))
     fleet = build_fleet(config, config.scenario.size())
     announce(Stage.ROADMAP, {})
     given = Handed((world, fleet), "world or fleet")
-    roadmap = own(config.roadmap.build(*given.given))
+    roadmap = own(check_returned(config.roadmap, config.roadmap.build(*given.given), Roadmap))
     given.check(config.roadmap)
     announce(Stage.SCENARIO, {})
     handed = Handed((world, roadmap, fleet), "world, roadmap or fleet")
-    scenario = own(check_drawn(config.scenario.draw(*handed.given, config.seed), len(fleet)))
+    drawn = check_returned(config.scenario, config.scenario.draw(*handed.given, config.seed), Scenario)
+    scenario = own(check_drawn(drawn, len(fleet)))
     handed.check(config.scenario)
     if any(task.release > 0 for task in scenario.tasks) or len(scenario.tasks) > len(fleet):
         raise InputError("scenario: tasks released over time, or more tasks than robots, cannot be executed yet")

@@ -2,6 +2,7 @@
 
 import attrs
 import numpy as np
+import pytest
 
 from mrpbench_core.api import Column, Metric
 from mrpbench_core.engine.stages.measure import measure
@@ -33,13 +34,13 @@ def test_values_are_named_after_metric_and_column_and_nan_is_null(run_context):
     run = FinishedRun(context=run_context, executed=True, channels={"time": lambda: np.arange(3.0)})
     values, reasons = measure(METRICS, run)
     assert values == {"length.length_s": 2.0, "length.odd": None, "plan.length_s": 1.0, "plan.odd": None}
-    assert reasons == {}
+    assert reasons.keys() == {"length.odd", "plan.odd"}
 
 
 def test_a_metric_without_its_channel_gives_null_and_the_reason(run_context):
     values, reasons = measure(METRICS, FinishedRun(context=run_context, executed=True))
     assert values["length.length_s"] is None
-    assert reasons == {"length": "no time"}
+    assert reasons["length"] == "no time"
 
 
 def test_without_a_plan_the_reason_says_so(run_context):
@@ -60,7 +61,7 @@ def test_a_column_without_its_channel_is_null_alone(run_context):
     run = FinishedRun(context=run_context, executed=True, channels={"time": lambda: np.arange(3.0)})
     values, reasons = measure({"m": Touches()}, run)
     assert values == {"m.length_s": 2.0, "m.odd": None, "m.touches": None}
-    assert reasons == {"m.touches": "no contact"}
+    assert reasons["m.touches"] == "no contact"
 
 
 def test_a_recording_without_plans_does_not_count_as_a_failed_plan(run_context):
@@ -94,7 +95,7 @@ def test_a_metric_that_raises_costs_neither_the_run_nor_the_others(run_context):
     values, reasons = measure({"broken": Broken(), **METRICS}, run)
     assert values["broken.length_s"] is None
     assert values["length.length_s"] == 2.0
-    assert reasons == {"broken": "the metric raised ValueError: no idea"}
+    assert reasons["broken"].startswith("the metric raised ValueError: no idea (metric ")
 
 
 def test_values_that_are_not_numbers_are_null_with_the_reason(run_context):
@@ -102,7 +103,22 @@ def test_values_that_are_not_numbers_are_null_with_the_reason(run_context):
     text = {"broken": Broken(returns={"length_s": "long", "odd": 1})}
     values, reasons = measure(text, run)
     assert values == {"broken.length_s": None, "broken.odd": 1}
-    assert reasons == {"broken.length_s": "the metric returned str instead of a number"}
+    assert reasons["broken.length_s"].startswith("the metric returned str instead of a number (metric ")
+
+
+@pytest.mark.parametrize(
+    ("returns", "reason"),
+    [
+        ({"odd": 1}, "returned no value for it"),
+        ({"odd": 1, "length_s": float("nan")}, "returned nan, and not None"),
+        ({"odd": 1, "length_s": float("inf")}, "returned inf, and not None"),
+    ],
+)
+def test_a_column_that_is_left_out_or_not_finite_is_null_and_the_metric_is_named(run_context, returns, reason):
+    values, reasons = measure({"broken": Broken(returns=returns)}, FinishedRun(context=run_context, executed=True))
+    assert values == {"broken.length_s": None, "broken.odd": 1}
+    assert list(reasons) == ["broken.length_s"]
+    assert f"the metric {reason} (metric '" in reasons["broken.length_s"]
 
 
 def test_an_integer_that_records_do_not_hold_is_null(run_context):
@@ -114,9 +130,9 @@ def test_an_integer_that_records_do_not_hold_is_null(run_context):
     run = FinishedRun(context=run_context, executed=True, channels={"time": lambda: np.arange(3.0)})
     values, reasons = measure({"vast": Vast()}, run)
     assert values == {"vast.length_s": None, "vast.odd": -(2**63)}
-    assert reasons == {"vast.length_s": "the metric returned an integer of more than 64 bits"}
+    assert reasons["vast.length_s"].startswith("the metric returned an integer of more than 64 bits (metric ")
     _, reasons = measure({"broken": Broken(returns=[1])}, run)
-    assert reasons == {"broken": "the metric returned list instead of a mapping"}
+    assert reasons["broken"].startswith("the metric returned list instead of a mapping (metric ")
 
 
 @attrs.frozen(kw_only=True)

@@ -116,12 +116,12 @@ class Dwb(Controller):
     @property
     def needs_lidar(self) -> bool:
         """True if the costmap has a layer that beams mark."""
-        return bool(self.settings(_SOME_ROBOT, 0.05).numbers["obstacle_layer"])
+        return bool(self.settings(_SOME_ROBOT, 0.05).values["obstacle_layer"])
 
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""
         values = self._values(self._blocks()[0])
-        idle = {}
+        idle: dict[str, str] = {}
         if values["discretize_by_time"]:
             idle |= dict.fromkeys(("linear_granularity", "angular_granularity"), "discretize_by_time is on")
         else:

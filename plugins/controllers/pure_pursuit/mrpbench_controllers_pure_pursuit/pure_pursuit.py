@@ -58,10 +58,10 @@ class PurePursuit(Controller):
 
     def idle_options(self) -> dict[str, str]:
         """Return the options of behaviours that are switched off."""
-        idle = {}
+        idle: dict[str, str] = {}
         if not self.use_rotate_to_heading:
-            names = ("rotate_to_heading_min_angle", "angular_disengage_threshold", "rotate_to_heading_angular_vel")
-            idle |= dict.fromkeys(names, "use_rotate_to_heading is off")
+            turning = ("rotate_to_heading_min_angle", "angular_disengage_threshold", "rotate_to_heading_angular_vel")
+            idle |= dict.fromkeys(turning, "use_rotate_to_heading is off")
         if not self.use_regulated_linear_velocity_scaling:
             names = ("regulated_linear_scaling_min_radius", "regulated_linear_scaling_min_speed")
             idle |= dict.fromkeys(names, "use_regulated_linear_velocity_scaling is off")

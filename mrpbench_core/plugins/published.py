@@ -1,0 +1,39 @@
+"""The distributions of this project by the names that they offer, for errors about plugins that are not installed.
+
+A test compares this table with the entry points of the distributions.
+"""
+
+_CRITICS = (
+    *("RotateToGoal", "Oscillation", "BaseObstacle", "ObstacleFootprint", "GoalAlign"),
+    *("PathAlign", "PathDist", "GoalDist", "PreferForward", "Twirling"),
+)
+_METRICS = (
+    *("planning", "execution", "clearance", "contact", "deadlock", "delay", "efficiency"),
+    *("fairness", "smoothness", "stops", "throughput", "tracking", "waiting"),
+)
+_PLANNERS = (
+    *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
+    *("pbs", "pibt", "lacam", "lns"),
+)
+PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
+    "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},
+    "mrpbench-assigners-scipy": {"mrpbench.assigners": ("hungarian",)},
+    "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},
+    "mrpbench-controllers-dwb": {"mrpbench.controllers": ("dwb",), "mrpbench.critics": _CRITICS},
+    "mrpbench-controllers-pure-pursuit": {"mrpbench.controllers": ("pure_pursuit",)},
+    "mrpbench-executors-dask": {"mrpbench.executors": ("dask",)},
+    "mrpbench-exporters-rosbag2": {"mrpbench.exporters": ("rosbag2",), "mrpbench.importers": ("rosbag2",)},
+    "mrpbench-localizers-amcl": {"mrpbench.localizers": ("amcl",)},
+    "mrpbench-metrics-standard": {"mrpbench.metrics": _METRICS},
+    "mrpbench-planners-example": {"mrpbench.planners": ("example",)},
+    "mrpbench-planners-external": {"mrpbench.planners": ("external",)},
+    "mrpbench-planners-mapf": {"mrpbench.planners": _PLANNERS},
+    "mrpbench-simulators-planar": {"mrpbench.simulators": ("planar",)},
+    "mrpbench-simulators-pybullet": {"mrpbench.simulators": ("pybullet",)},
+}
+"""Names by entry-point group, by distribution. Of other distributions nothing is known before they are installed."""
+
+
+def distribution_of(group: str, name: str) -> str | None:
+    """Return the distribution of this project that offers a plugin, or None."""
+    return next((owner for owner, offers in PUBLISHED.items() if name in offers.get(group, ())), None)

@@ -1,0 +1,31 @@
+"""A plugin that is not installed is found by the table of this project's distributions."""
+
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from mrpbench_core.api import Planner
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.published import PUBLISHED
+from mrpbench_core.plugins.registry import Registry
+
+PLUGINS = Path(__file__).parents[2] / "plugins"
+
+
+def test_the_table_is_that_of_the_entry_points():
+    found = {}
+    for file in PLUGINS.glob("*/*/pyproject.toml"):
+        project = tomllib.loads(file.read_text())["project"]
+        found[project["name"]] = {group: set(names) for group, names in project["entry-points"].items()}
+    assert {name: {group: set(names) for group, names in offers.items()} for name, offers in PUBLISHED.items()} == found
+
+
+def test_a_plugin_of_a_distribution_that_is_not_installed_names_it(install):
+    with pytest.raises(InputError, match=r"no planner is called 'lacam' \(mrpbench-planners-mapf has it: `pip install"):
+        Registry(Planner).get("lacam")
+
+
+def test_of_other_names_nothing_is_said(install):
+    with pytest.raises(InputError, match=r"no planner is called 'lacan' \(`mrpbench plugins` lists"):
+        Registry(Planner).get("lacan")
