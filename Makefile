@@ -8,7 +8,7 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds
+.PHONY: help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz
 
 help: ## list the targets
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -79,6 +79,11 @@ sanitize: install ## run native tests and soaks under AddressSanitizer and Undef
 	$(CHECKED) -m pytest -p no:cacheprovider native plugins/planners/mapf plugins/simulators/planar plugins/controllers/dwb plugins/localizers/amcl
 	$(CHECKED) plugins/planners/mapf/tests/soak_planners.py 2000 2
 	$(CHECKED) plugins/planners/mapf/tests/soak_assigning.py 1000 2
+
+ATHERIS := build/fuzz/atheris
+fuzz: install ## give changed inputs to readers of files; COUNT=1000000 READERS="records mcap"
+	test -d $(ATHERIS) || $(PYTHON) -m pip install --quiet --disable-pip-version-check --target $(ATHERIS) atheris || echo "Atheris cannot be installed here"
+	PYTHONPATH=$(ATHERIS) $(BIN)/python fuzz/run.py --inputs $(or $(COUNT),20000) $(READERS)
 
 worlds: install ## drive robots on every built-in world without contacts (ten minutes); CONTROLLER=dwb for another
 	$(BIN)/python benchmarks/worlds.py --controller $(or $(CONTROLLER),pure_pursuit)

@@ -1,0 +1,372 @@
+"""The readers of files from outside: what each reads, examples of it, and how they are changed."""
+
+import functools
+import io
+import json
+import struct
+import tempfile
+import zlib
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from typing import Any
+
+import attrs
+import numpy as np
+from mrpbench_controllers_dwb.dwb import Dwb
+from mrpbench_exporters_rosbag2.exporter import Rosbag2
+from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
+from mrpbench_localizers_amcl import Amcl
+from mrpbench_metrics_standard import execution
+from mrpbench_planners_external.outputs import READERS as OUTPUTS
+from mrpbench_planners_external.outputs import UnreadableError
+from mutation import Mutate, in_zip, mutate_bytes, mutate_npy, mutate_text
+from PIL import Image
+
+from mrpbench_core.builtin.scenarios.movingai import MovingAiScenario
+from mrpbench_core.builtin.worlds.movingai import MovingAi
+from mrpbench_core.builtin.worlds.rmf import Rmf
+from mrpbench_core.builtin.worlds.ros_map import RosMap
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.analysis.observed_run import Sampling, observe, observe_own
+from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.record import StoredRecord
+from mrpbench_core.engine.stages.measure import measure_recording
+from mrpbench_core.files.jsonl import line
+from mrpbench_core.files.robot import load_robot
+from mrpbench_core.files.scenario import read_scenario, write_scenario
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.worlds.world import World
+from mrpbench_core.report.data import write_estimates
+from mrpbench_core.report.folder_comparison import compare_folders
+from mrpbench_core.report.html.page import write_report
+from mrpbench_core.report.parquet import write_parquet
+from mrpbench_core.report.reading.runs import read_runs
+from mrpbench_core.report.replay.page import write_page
+from mrpbench_core.report.report import make_report
+from mrpbench_core.report.tables.write import latex, markdown
+from mrpbench_core.store.folder import ResultsFolder
+from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.recording import Recording
+from mrpbench_core.store.results import Results
+
+ROOT = Path(__file__).parent.parent
+RUN = {
+    "name": "fuzz",
+    "world": "office",
+    "scenario": {"plugin": "random", "robots": 2},
+    "planner": "prioritized",
+    "simulator": "kinematic",
+    "recording": {"scans": True, "rate": 1},
+    "replanning": {"period": "4 s"},
+    "limits": {"execution": "9 s"},
+}
+
+
+@attrs.frozen(kw_only=True)
+class Reader:
+    """A reader, which gets each input as a file of this name in an empty folder."""
+
+    name: str
+    file: str
+    read: Callable[[Path], object]
+    seeds: Callable[[], Iterable[bytes]]
+    mutate: Mutate = mutate_text
+
+
+@functools.cache
+def example() -> tuple[dict[str, Any], bytes]:
+    """The record and the recording of a short run."""
+    (point,) = load_study(RUN).runs
+    with tempfile.TemporaryDirectory() as folder:
+        paths = RunPaths(recording=Path(folder, "run.zip"), exports=Path(folder, "exports"), picture=None)
+        run = execute(point.config, point.run_id, paths, lambda *_: None, None)
+        config = {"world": {"plugin": "office"}, "planner": {"plugin": "example"}, "limits": {"planning": 60.0}}
+        versions = {"components": [{"kind": "planner", "name": "example"}], "versions": {"numpy": "2"}}
+        stored = StoredRecord(run=run, attempt=1, config=config, seed=0, repeat=0, provenance=versions)
+        return stored.document(), paths.recording.read_bytes()
+
+
+def records() -> list[bytes]:
+    """A file of records of two configurations and three seeds."""
+    record = example()[0]
+    lines = []
+    for number in range(6):
+        planner = {"plugin": ("cbs", "lns")[number % 2], "w": 1.2}
+        config = {**record["config"], "planner": planner, "fleet": [{"robot": "turtlebot3_burger"}]}
+        more = {"run_id": f"{number:016x}", "scenario_id": f"{number // 2:016x}", "seed": number // 2, "config": config}
+        more["error"] = {"stage": "execution", "message": "robot 0 gave up"} if number == 5 else None
+        lines.append(line({**record, **more, "timing": {"planning_s": 0.5 + number, "clock_bound": False}}))
+    return ["\n".join([*lines, ""]).encode()]
+
+
+def _results(file: Path) -> Results:
+    folder = ResultsFolder(file.parent / "results")
+    if not folder.path.exists():
+        folder.create()
+    folder.shard("1").write_bytes(file.read_bytes())
+    return Results(folder)
+
+
+def read_records(file: Path) -> None:
+    """Read records into columns."""
+    results = _results(file)
+    runs = read_runs([results])
+    assert len(runs) == len(results) == len(results.to_rows())
+
+
+def read_reports(file: Path) -> None:
+    """Make everything of records that `mrpbench report` and `compare` make."""
+    results = _results(file)
+    report = make_report([results], ["all"])
+    write_report(report, file.parent / "report.html", {})
+    write_estimates(report, file.parent / "estimates.csv")
+    write_parquet([results], file.parent / "runs.parquet")
+    tables = report.tables()
+    (file.parent / "tables.md").write_text(markdown(tables) + latex(tables), encoding="utf-8")
+    compare_folders(results, results, ["all"])
+
+
+def read_recording(file: Path) -> None:
+    """Show and measure a recording, and write it as a bag."""
+    recording = Recording(file)
+    try:
+        write_page(recording, example()[0], file.parent / "page.html", columns={}, planner="example")
+        context = recording.first_context()
+        measure_recording({"execution": execution.Execution()}, file)
+        session = Rosbag2(topics=("/robot_*", "/tf*")).open(context, file.parent / "bag")
+        try:
+            for chunk in recording.chunks():
+                session.write(chunk)
+            session.close()
+        except BaseException:
+            session.discard()
+            raise
+    finally:
+        recording.close()
+
+
+@functools.cache
+def bags(storage: str) -> list[bytes]:
+    """The bag of the short run."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "run.zip")
+        file.write_bytes(example()[1])
+        recording = Recording(file)
+        session = Rosbag2(storage=storage).open(recording.first_context(), Path(folder, "bag"))
+        for chunk in recording.chunks():
+            session.write(chunk)
+        session.close()
+        recording.close()
+        return [found.read_bytes() for found in Path(folder).rglob("*") if found.suffix in (".mcap", ".db3")]
+
+
+def read_bag(file: Path) -> None:
+    """Read a bag and put it on the clock of a run."""
+    observed = FromRosbag2().read(file)
+    own = observed.context
+    if own is not None and "time" in observed.channels and len(observed.tracks) == len(own.fleet):
+        observe_own(observed, own)
+    elif own is not None:
+        observe(observed, own.world, own.fleet, own.scenario, Sampling(), assigned=own.assigned)
+
+
+def read_study(file: Path) -> None:
+    """Read a configuration."""
+    load_study(file)
+
+
+def read_nav2(file: Path) -> None:
+    """Read all blocks of a Nav2 parameter file that components read."""
+    from mrpbench_core.files.errors import InputError
+
+    robot = load_robot("turtlebot3_burger")
+    world = World(name="x", levels=office().levels[:1])
+    errors = []
+    for read in (
+        lambda: Dwb(nav2=file).start(robot, world, 0.05),
+        lambda: Amcl(nav2=file).start(Fleet(robots=(robot,)), world, np.zeros((1, 3)), 0),
+    ):
+        try:
+            read()
+        except InputError as error:
+            errors.append(error)
+    if errors:
+        raise errors[0]
+
+
+@functools.cache
+def office() -> World:
+    """A world."""
+    return Rmf(file=ROOT / "mrpbench_core/builtin/worlds/data/office.building.yaml").load()
+
+
+def read_urdf(file: Path) -> None:
+    """Read a robot with this URDF."""
+    robot = file.with_name("robot.yaml")
+    if not robot.exists():
+        text = "name: cart\nfootprint: [[0.3, -0.2], [0.3, 0.2], [-0.3, 0.2]]\nmax_speed: 1\nmax_turn_rate: 1.5\n"
+        robot.write_text(text + "urdf: {file: cart.urdf, wheels: [left, right]}\n")
+    load_robot(str(robot))
+
+
+def urdfs() -> list[bytes]:
+    """A cart with two wheels."""
+    wheel = (
+        '<inertial><mass value="0.5"/></inertial><collision><geometry><cylinder radius="0.1"/></geometry></collision>'
+    )
+    parts = "".join(
+        f'<link name="{side}_wheel">{wheel}</link><joint name="{side}" type="continuous"><parent link="axle"/>'
+        f'<child link="{side}_wheel"/><origin xyz="0 {y} 0" rpy="{-turn} 0 0"/><axis xyz="0 0 1"/></joint>\n'
+        for side, y, turn in (("left", 0.2, 1.5708), ("right", -0.2, -1.5708))
+    )
+    above = '<joint name="f" type="fixed"><parent link="base"/><child link="axle"/><origin xyz="0 0 0.1"/></joint>'
+    return [f'<robot name="cart"><link name="base"/><link name="axle"/>{above}\n{parts}</robot>'.encode()]
+
+
+def read_image(file: Path) -> None:
+    """Read a map with this image."""
+    RosMap(file=_map(file), image=file).load()
+
+
+def read_map(file: Path) -> None:
+    """Read a map with a small image."""
+    if not (image := file.with_name("map.pgm")).exists():
+        image.write_bytes(b"P5\n4 3\n255\n" + bytes(range(0, 240, 20)))
+    RosMap(file=file).load()
+
+
+def _map(file: Path) -> Path:
+    named = file.with_name("map.yaml")
+    if not named.exists():
+        named.write_text("image: x\nresolution: 0.05\norigin: [0, 0, 0]\n")
+    return named
+
+
+def images() -> Iterable[bytes]:
+    """A small image in several formats."""
+    grey = Image.fromarray(np.arange(48, dtype=np.uint8).reshape(6, 8) * 5)
+    for kind, mode in (("PNG", "L"), ("PNG", "RGBA"), ("PPM", "L"), ("BMP", "RGB"), ("PNG", "I;16"), ("JPEG", "L")):
+        buffer = io.BytesIO()
+        grey.convert(mode).save(buffer, kind)
+        yield buffer.getvalue()
+    header = b"IHDR" + struct.pack(">IIBBBBB", 9_000, 9_000, 1, 0, 0, 0, 0)
+    data = b"IDAT" + zlib.compress(bytes(9_000 * 1_126))
+    chunks = (
+        struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk)) for chunk in (header, data)
+    )
+    yield b"\x89PNG\r\n\x1a\n" + b"".join(chunks)  # 10 kB that are 81 million pixels
+
+
+AMCL = b"amcl:\n  ros__parameters:\n    alpha1: 0.2\n    max_beams: 60\n    laser_model_type: likelihood_field\n"
+
+
+def read_movingai(file: Path) -> None:
+    """Read a MovingAI map."""
+    MovingAi(file=file).load()
+
+
+def read_scen(file: Path) -> None:
+    """Read rows of a MovingAI scenario."""
+    named = file.with_name("a.map")
+    if not named.exists():
+        named.write_bytes(GRID)
+    MovingAiScenario(file=file, robots=2).draw(MovingAi(file=named).load(), None, None, 0)  # type: ignore[arg-type]
+
+
+MAP = b"image: map.pgm\nresolution: 0.05\norigin: [0.0, -1.5, 0.3]\nnegate: 0\noccupied_thresh: 0.65\nmode: scale\n"
+GRID = b"type octile\nheight 3\nwidth 4\nmap\n....\n.@T.\nGS..\n"
+
+
+def scenarios() -> list[bytes]:
+    """The starts and goals of the short run."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "run.zip")
+        file.write_bytes(example()[1])
+        recording = Recording(file)
+        write_scenario(file.with_suffix(".yaml"), recording.first_context().scenario)
+        recording.close()
+        return [file.with_suffix(".yaml").read_bytes()]
+
+
+def read_outputs(file: Path) -> None:
+    """Read what a solver wrote, in each format."""
+    text = file.read_bytes().decode(errors="replace")
+    for read in OUTPUTS.values():
+        try:
+            read(text)
+        except UnreadableError:
+            continue
+
+
+def _files(pattern: str) -> Callable[[], list[bytes]]:
+    return lambda: [file.read_bytes() for file in sorted(ROOT.glob(pattern))]
+
+
+_RECORDING = in_zip(mutate_npy)
+READERS = {
+    reader.name: reader
+    for reader in (
+        Reader(name="records", file="runs.jsonl", read=read_records, seeds=records),
+        Reader(name="reports", file="runs.jsonl", read=read_reports, seeds=records),
+        Reader(
+            name="recordings",
+            file="run.zip",
+            read=read_recording,
+            seeds=lambda: [example()[1]],
+            mutate=lambda data, rng: (_RECORDING if rng.random() < 0.8 else mutate_bytes)(data, rng),
+        ),
+        Reader(
+            name="studies",
+            file="study.yaml",
+            read=read_study,
+            seeds=lambda: [json.dumps(RUN, indent=1).encode(), *_files("studies/safe.yaml")()],
+        ),
+        Reader(
+            name="buildings",
+            file="a.building.yaml",
+            read=lambda file: Rmf(file=file).load(),
+            seeds=_files("mrpbench_core/builtin/worlds/data/[bo]*.building.yaml"),
+        ),
+        Reader(
+            name="maps",
+            file="map.yaml",
+            read=read_map,
+            seeds=lambda: [MAP],
+        ),
+        Reader(name="images", file="map.png", read=read_image, seeds=images, mutate=mutate_bytes),
+        Reader(name="movingai", file="a.map", read=read_movingai, seeds=lambda: [GRID]),
+        Reader(
+            name="scens",
+            file="a.scen",
+            read=read_scen,
+            seeds=lambda: [b"version 1\n0\ta.map\t4\t3\t0\t0\t3\t2\t5\n0\ta.map\t4\t3\t1\t0\t0\t1\t2\n"],
+        ),
+        Reader(name="scenarios", file="scenario.yaml", read=read_scenario, seeds=scenarios),
+        Reader(
+            name="nav2",
+            file="nav2.yaml",
+            read=read_nav2,
+            seeds=lambda: [nav2 + AMCL for nav2 in _files("plugins/controllers/dwb/tests/nav2_params.yaml")()],
+        ),
+        Reader(
+            name="robots",
+            file="robot.yaml",
+            read=lambda file: load_robot(str(file)),
+            seeds=_files("mrpbench_core/robots/*.yaml"),
+        ),
+        Reader(name="urdfs", file="cart.urdf", read=read_urdf, seeds=urdfs),
+        Reader(name="mcap", file="bag.mcap", read=read_bag, seeds=lambda: bags("mcap"), mutate=mutate_bytes),
+        Reader(name="sqlite3", file="bag.db3", read=read_bag, seeds=lambda: bags("sqlite3"), mutate=mutate_bytes),
+        Reader(
+            name="outputs",
+            file="out.txt",
+            read=read_outputs,
+            seeds=lambda: [
+                b"Agent 0: (3,5)->(3,6)->\nAgent 1: (0,0)->\n",
+                b"solution=\n0:(5,3),(2,1),\n1:(5,4),(2,1),\n",
+                b"schedule:\n  agent0: [{x: 5, y: 3, t: 0}, {x: 5, y: 4, t: 2}]\n",
+            ],
+        ),
+    )
+}
+"""By name."""
