@@ -9,7 +9,7 @@ namespace mrpbench::mapf {
 
 namespace {
 
-/// Do all goals of one robot exclude all goals of another, which both have to stand on for good?
+/// Tell whether all goals of one robot exclude all goals of another; both robots stay at their goals.
 bool goals_clash(const Instance& instance, const Relations& relations, int one, int other) {
   const double reach = instance.reach(one, other);
   for (const int a : instance.robots()[one].goals) {

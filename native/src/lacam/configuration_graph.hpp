@@ -43,7 +43,7 @@ class ConfigurationGraph {
 
   /// The node of a configuration, or nullptr.
   Node* find(Configuration at) const;
-  /// A node for a configuration that has none, reached from `parent` (nullptr: where all begins).
+  /// A node for a configuration that has none, reached from `parent` (nullptr: the start).
   Node& add(Configuration at, Node* parent);
   /// A step between known configurations, and what becomes cheaper by it: calls `cheaper(node)` for each.
   template <class Cheaper>

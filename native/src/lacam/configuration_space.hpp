@@ -33,7 +33,7 @@ class ConfigurationSpace {
 
  private:
   std::vector<Path> unit_paths_of(const std::vector<Configuration>& sequence) const;
-  /// Can all robots do what they are committed to, and then stay?
+  /// Tell whether all robots can complete their commitments and then stay.
   bool beginnings_agree() const;
 
   const Instance& instance_;
@@ -43,7 +43,7 @@ class ConfigurationSpace {
   std::optional<JointMoves> joint_;
 };
 
-/// Does every robot have one goal, where it stays?
+/// Tell whether every robot has one goal and stays there.
 bool is_suitable(const Instance& instance);
 /// Throws std::invalid_argument naming the `solver` that can do nothing with an instance that is not.
 void require_suitable(const Instance& instance, const char* solver);

@@ -76,13 +76,13 @@ bool JointMoves::excludes(int one, int element, int other, int other_element) co
   return place != row.end() && place->element == other_element && applies(*place, one, other);
 }
 
-/// Is a robot at `vertex` in the way of the move, or where it ends?
+/// Tell whether a robot at `vertex` is in the way of the move or at its end.
 bool JointMoves::is_in_way(const Move& move, int other, int vertex) const {
   return excludes(move.robot, move.to, other, vertex) ||
          (move.edge >= 0 && excludes(move.robot, move.edge, other, vertex));
 }
 
-/// Must the move be in a later round than that of a robot that leaves `vertex`?
+/// Tell whether the move must be in a later round than the move of a robot that leaves `vertex`.
 bool JointMoves::delays(const Move& move, int vertex) const {
   const auto is_delayed = [&](int element) {
     const auto row = excluded(element);

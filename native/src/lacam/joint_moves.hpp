@@ -35,9 +35,9 @@ class JointMoves {
     return excluded.distance < instance_.reach(one, other);
   }
   bool excludes(int one, int element, int other, int other_element) const;
-  /// Can both robots move in one round?
+  /// Tell whether both robots can move in one round.
   bool fit_together(const Move& one, const Move& other) const;
-  /// Can `one` move first, and `other` only then?
+  /// Tell whether `one` can move first, and `other` after it.
   bool fit_in_turn(const Move& one, const Move& other) const;
   /// Resources that hold several robots.
   const std::vector<std::int32_t>& roomy() const { return roomy_; }
@@ -45,7 +45,7 @@ class JointMoves {
     return element >= 0 && std::ranges::count(instance_.resources_of(element), resource) > 0;
   }
 
-  /// Can all robots be where they are at one time?
+  /// Tell whether all robots can be at their vertices at the same time.
   bool is_allowed(Configuration at);
   /// The rounds of a step; false if there are none.
   bool rounds(Configuration from, Configuration to, std::vector<std::vector<Move>>& rounds);

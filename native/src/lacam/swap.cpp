@@ -39,8 +39,8 @@ std::int32_t Swap::only_way(int robot, int before, int here) const {
   return way;
 }
 
-/// Would the pusher only ever push the puller before it, along a passage without a place to let it by, until either is
-/// on the wrong side of the other?
+/// Tell whether the pusher would push the puller along a passage without a place to let it pass, until one robot is on
+/// the wrong side of the other.
 bool Swap::must_swap(int pusher, int puller, int pusher_at, int puller_at) {
   DistanceTable& to_go = *distance_[pusher];
   while (to_go(puller_at) < to_go(pusher_at)) {
@@ -54,7 +54,7 @@ bool Swap::must_swap(int pusher, int puller, int pusher_at, int puller_at) {
   return other(pusher_at) < other(puller_at) && (to_go(pusher_at) == 0 || to_go(puller_at) < to_go(pusher_at));
 }
 
-/// Backing away from `pusher_at`, does `robot` come from `puller_at` to a place where it can step aside?
+/// Tell whether `robot`, which backs away from `pusher_at`, gets from `puller_at` to a vertex where it can step aside.
 bool Swap::can_swap(int robot, int pusher_at, int puller_at) const {
   const int begin = pusher_at;
   for (int steps = 0; puller_at != begin && steps < moves_.vertex_count(); ++steps) {

@@ -8,7 +8,7 @@
 
 namespace mrpbench::mapf {
 
-/// Two robots on one lane at the same time: does the first to enter fail to be the first to leave?
+/// Tell whether, of two robots on one lane at the same time, the first to enter is not the first to leave.
 inline bool overtakes(const Occupation& one, const Occupation& other) {
   return (one.begin < other.begin) != (one.end < other.end) || one.begin == other.begin || one.end == other.end;
 }

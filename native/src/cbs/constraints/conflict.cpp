@@ -60,7 +60,8 @@ class Ticks {
   std::vector<Conflict>& found_;
 };
 
-/// Does a robot that uses something at the half-ticks `own` do so for good, and since before another leaves it?
+/// Tell whether a robot that uses something at the half-ticks `own` uses it forever, from before another robot leaves
+/// it.
 bool stays(const TimedPath& path, const Range& own, const Range& beside) {
   return own.last == kForeverHalf && 2 * path.cost <= beside.last;
 }

@@ -130,12 +130,12 @@ void Corridors::extend(IsEnd is_end) {
   }
 }
 
-/// Does `robot` begin with moves that it is committed to, which may end or lead through anywhere?
+/// Tell whether `robot` begins with committed moves, which may end at or lead through any vertex.
 bool Corridors::is_under_way(int robot) const {
   return context_.space.instance().beginning(robot).occupied.size() > 1;
 }
 
-/// Do they begin in the chain, or come into it, so that `one` gets to its exit only past `other`?
+/// Tell whether they begin in the chain, or enter it, so that `one` reaches its exit only past `other`.
 bool Corridors::opposed(int one, int other) const {
   const auto place = [&](int robot, std::size_t outside) {
     const auto at = std::ranges::find(chain_, context_.space.instance().beginning(robot).vertex);

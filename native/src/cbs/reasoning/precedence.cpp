@@ -41,7 +41,7 @@ Half Precedence::earliest_left(const NodeState& state, int robot, int resource) 
   return static_cast<Half>(std::min<std::int64_t>(last, kForeverHalf));
 }
 
-/// Does the present path use the resource at half-tick `last` or before?
+/// Tell whether the present path uses the resource at half-tick `last` or before.
 bool Precedence::enters_by(const NodeState& state, int robot, int resource, Half last) const {
   return std::ranges::any_of(uses(context_.space.instance(), state.path(robot).occupied),
                              [&](const Use& it) { return it.resource == resource && it.halves.first <= last; });

@@ -74,7 +74,7 @@ int ConstraintTree::goal_of(int robot) const {
   return path.empty() ? root_goals_[robot] : path.goal;
 }
 
-/// Does the robot already have a path to `goal` that keeps the constraints of `child`?
+/// Tell whether the robot already has a path to `goal` that satisfies the constraints of `child`.
 bool ConstraintTree::is_settled(int robot, int goal, const Child& child) const {
   const TimedPath& path = state_.path(robot);
   if (path.empty() || path.goal != goal) return false;

@@ -5,7 +5,7 @@
 
 namespace mrpbench::mapf {
 
-/// Is this one taken out later?
+/// Tell whether this node is taken out later.
 bool BestFirst::Entry::operator<(const Entry& other) const {
   return std::tuple(node.least, node.conflicts, node.heuristic, other.number) >
          std::tuple(other.node.least, other.node.conflicts, other.node.heuristic, number);

@@ -32,10 +32,10 @@ struct Conflict {
 void find_conflicts(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,
                     Arena<Constraint>& constraints, std::vector<Conflict>& found);
 
-/// Does `robot` get in the way of the robot that `parked` (a `length_at_most`) makes stand at its goal?
+/// Tell whether `robot` is in the way of the robot that `parked` (a `length_at_most`) keeps at its goal.
 bool stands_in_way(const Space& space, int robot, const TimedPath& path, const Constraint& parked);
 
-/// Does the path of `robot` break one of `constraints`, which are made to forbid what robots do at present?
+/// Tell whether the path of `robot` violates one of `constraints`, which forbid parts of the present paths.
 bool breaks(const Space& space, int robot, const TimedPath& path, std::span<const Constraint> constraints);
 
 }  // namespace mrpbench::mapf

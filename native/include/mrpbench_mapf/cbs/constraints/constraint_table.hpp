@@ -20,15 +20,15 @@ class ConstraintTable {
 
   int robot() const { return robot_; }
   int goal() const { return goal_; }
-  /// Can any of the next three say yes for `vertex`?
+  /// Tell whether any of the next three functions can be true for `vertex`.
   bool constrains(int vertex) const { return head_[vertex] >= 0; }
-  /// Must the robot not be at `vertex` at tick `at`?
+  /// Tell whether the robot must not be at `vertex` at tick `at`.
   bool forbids(int vertex, Tick at) const { return head_[vertex] >= 0 && blocked(vertex, kVertex, 2 * at, 2 * at); }
-  /// Must it not stand at `vertex` from tick `at` to the next (that one included)?
+  /// Tell whether it must not stand at `vertex` from tick `at` to the next tick (included).
   bool forbids_waiting(int vertex, Tick at) const {
     return head_[vertex] >= 0 && blocked(vertex, kVertex, 2 * at + 1, 2 * at + 2);
   }
-  /// Must it not enter `edge`, which leads out of `vertex`, at tick `at`?
+  /// Tell whether it must not enter `edge`, which leads out of `vertex`, at tick `at`.
   bool forbids_entering(int vertex, int edge, Tick at) const {
     return head_[vertex] >= 0 && blocked(vertex, edge, at, at);
   }
@@ -36,7 +36,7 @@ class ConstraintTable {
   void at_vertex(int vertex, std::vector<Range>& halves) const;
   /// The first tick from `at` on at which it may enter `edge`, which leads out of `vertex`.
   Tick next_entry(int vertex, int edge, Tick at) const;
-  /// Is what the robot is committed to forbidden?
+  /// Tell whether a commitment of the robot is forbidden.
   bool forbids_beginning() const;
 
   /// Tick from which nothing changes any more.

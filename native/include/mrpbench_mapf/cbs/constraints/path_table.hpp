@@ -59,7 +59,7 @@ class PathTable {
     return number;
   }
   const TimedPath& path(int robot) const { return paths_[robot]; }
-  /// Does any path visit `vertex`?
+  /// Tell whether any path visits `vertex`.
   bool is_visited(int vertex) const { return visits_[vertex] != 0; }
   /// The tick from which on no robot in the table has ever moved.
   Tick ticks() const { return ticks_; }

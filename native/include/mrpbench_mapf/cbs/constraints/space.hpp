@@ -33,7 +33,7 @@ class Space {
   bool committed() const { return certain_.has_value(); }
   /// Which elements exclude one another; only unless `classical`, or if `committed`.
   const Relations& relations() const { return *relations_; }
-  /// Is only one robot at a time at `vertex` and on the edges that end there?
+  /// Tell whether only one robot at a time may be at `vertex` and on the edges that end there.
   bool is_junction(int vertex) const { return !junction_.empty() && junction_[vertex]; }
   /// The vertices at which a robot is on an element, or to which the element leads; -1 = no second one.
   std::array<int, 2> ends(int element) const {
@@ -41,7 +41,7 @@ class Space {
     if (edge < 0) return {element, -1};
     return {instance_.roadmap().tail(edge), instance_.roadmap().head(edge)};
   }
-  /// Is `element` the vertex, or an edge that ends there?
+  /// Tell whether `element` is the vertex or an edge that ends there.
   bool meets(int element, int vertex) const {
     const std::array<int, 2> both = ends(element);
     return both[0] == vertex || both[1] == vertex;

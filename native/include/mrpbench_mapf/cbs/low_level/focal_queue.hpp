@@ -54,7 +54,7 @@ class FocalQueue {
     }
   }
 
-  /// Is no state open?
+  /// Tell whether no state is open.
   bool empty() const { return size_ == 0; }
   /// Least f of the open states, of which there must be one.
   Tick least_f();

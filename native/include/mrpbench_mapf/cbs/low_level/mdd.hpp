@@ -32,9 +32,9 @@ class Mdd {
   }
   /// Node of `vertex` at `tick`, -1 = none.
   int find(int vertex, Tick tick) const;
-  /// Are all paths at `vertex` at `tick` (classical instances)?
+  /// Tell whether all paths are at `vertex` at `tick` (classical instances).
   bool always_at(int vertex, Tick tick) const;
-  /// Does every path break one of `constraints` (those of its robot, and `length_at_most` of others)?
+  /// Tell whether every path violates one of `constraints` (those of its robot, and `length_at_most` of others).
   bool blocked_by(std::span<const Constraint> constraints, ConstraintTable& scratch) const;
   std::size_t bytes() const;
 

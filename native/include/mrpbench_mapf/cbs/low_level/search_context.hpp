@@ -18,7 +18,7 @@ class SearchContext {
   Tick least_cost(const NodeState& state, int robot);
   /// All its cheapest paths to the goal, of which there must be one.
   std::shared_ptr<const Mdd> mdd(const NodeState& state, int robot);
-  /// Would every one of its cheapest paths break `constraints`?
+  /// Tell whether each of its cheapest paths violates `constraints`.
   bool costs_more(const NodeState& state, int robot, std::span<const Constraint> constraints);
   /// Distances to one vertex with the motion profile of `robot`.
   DistanceTable& distance_to(int robot, int vertex);

@@ -47,7 +47,7 @@ class ConstraintTree {
   void start(const NodeState& state, int one, int other);
   /// Take the next node out of the open list. False if there is none: the tree has no solution.
   bool next();
-  /// Does the node at hand have no conflicts?
+  /// Tell whether the current node has no conflicts.
   bool is_solved() const { return node_->conflicts.empty(); }
   /// Branch on a conflict of the node at hand, bypass it, or put the node back with a higher lower bound.
   void expand();

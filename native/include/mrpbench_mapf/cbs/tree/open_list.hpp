@@ -31,7 +31,7 @@ class OpenList {
   virtual void push_root(std::int32_t id, Cost cost, std::int32_t conflicts) = 0;
   /// Take out the node to expand next.
   virtual std::int32_t pop() = 0;
-  /// Was the last node taken out for its lower bound, so that a higher bound puts others first?
+  /// Tell whether the last node was taken out for its lower bound, so that a higher bound puts other nodes first.
   virtual bool popped_for_its_bound() const = 0;
   /// Learn from the `children` that a node has, if any.
   virtual void learn(const Candidate& /*node*/, std::span<const Candidate> /*children*/) {}
