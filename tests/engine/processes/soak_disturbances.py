@@ -4,6 +4,7 @@
 """
 
 import random
+import re
 import resource
 import signal
 import subprocess
@@ -76,9 +77,14 @@ def recorded(out: Path) -> int:
 
 def contents(folder: Path) -> dict[str, bytes | int]:
     """Every recording byte by byte, and every exported file by its size: bags hold the time of writing."""
-    return {str(file.relative_to(folder)): file.read_bytes() for file in folder.glob("recordings/*")} | {
-        str(file.relative_to(folder)): len(file.read_bytes()) for file in folder.glob("exports/**/*") if file.is_file()
+    return {named(file, folder): file.read_bytes() for file in folder.glob("recordings/*")} | {
+        named(file, folder): len(file.read_bytes()) for file in folder.glob("exports/**/*") if file.is_file()
     }
+
+
+def named(file: Path, folder: Path) -> str:
+    """The name of a file in a results folder, without the number of the attempt."""
+    return re.sub(r"^(recordings|exports)/([0-9a-f]+)-\d+", r"\1/\2", str(file.relative_to(folder)))
 
 
 def differences(one: Path, other: Path) -> list[str]:
