@@ -70,6 +70,7 @@ def _shards(report: Report) -> str:
         f"<tr><td>{escape(str(shard))}</td><td><code>{digest(shard)}</code></td></tr>"
         for results in report.folders
         for shard in results.folder.shards()
+        if shard.is_file()
     ]
     damaged = [error for results in report.folders for error in results.damaged]
     warning = "".join(f'<p class="warning">{escape(str(error))}</p>' for error in damaged)

@@ -2,6 +2,7 @@
 
 import base64
 import json
+import os
 import re
 import zlib
 from importlib import resources
@@ -113,3 +114,10 @@ def test_failures_come_first_and_every_configuration_in_turn(study):
     assert sorted(report.failures_first()) == list(range(42))
     assert [succeeded for succeeded, _ in found] == [False] * 4 + [True] * 38
     assert {config for _, config in found[4:6]} == {0, 1}
+
+
+def test_a_fifo_among_the_records_is_named_and_not_read(results, record, tmp_path):
+    folder = results([record(seed=seed) for seed in range(2)])
+    os.mkfifo(folder.folder.path / "runs" / "2.jsonl")
+    write_report(make_report([folder]), tmp_path / "report.html")
+    assert "2.jsonl: cannot be read: it is not a file" in (tmp_path / "report.html").read_text(encoding="utf-8")
