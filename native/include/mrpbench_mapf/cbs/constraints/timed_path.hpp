@@ -18,7 +18,7 @@ struct TimedPath {
   std::int32_t goal = kAnyGoal;          // the one that it was made for
 
   bool empty() const { return at.empty() && occupied.empty(); }
-  /// Tell whether they are equal.
+  /// Tell whether they share their data.
   bool operator==(const TimedPath& other) const {
     return at.data() == other.at.data() && occupied.data() == other.occupied.data();
   }
