@@ -90,7 +90,7 @@ def test_a_robot_that_starts_in_the_swing_of_a_door_is_named_in_one_line(tmp_pat
 def test_robots_change_floors_in_the_hotel(tmp_path, shared_data):
     """Three levels, two lifts, nineteen doors; one robot goes up, one comes down."""
     hotel = shared_data / "rmf/rmf_demos/hotel.building.yaml"
-    record, file = run(tmp_path, ["lobby", "L2_room15"], ["L2_master_suite", "restaurant"], hotel)
+    record, file = run(tmp_path, ["lobby", "L2_room15"], ["L2_master_suite", "restaurant"], hotel, control_rate="5 Hz")
     assert record["status"] == "succeeded", record.get("error")
     assert record["metrics"]["execution.wall_contacts"] == record["metrics"]["execution.robot_contacts"] == 0
     recording = Recording(file)

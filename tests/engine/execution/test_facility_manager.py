@@ -35,7 +35,7 @@ def planner():
     return found["prioritized"].load()()
 
 
-@settings(deadline=None, max_examples=12)
+@settings(deadline=None, max_examples=8)
 @given(
     seed=st.integers(0, 2**32 - 1),
     robots=st.integers(1, 4),

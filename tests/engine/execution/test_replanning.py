@@ -132,7 +132,7 @@ RUN = {
     "planner": "prioritized",
     "controller": {"plugin": "./held.py:FirstHeld"},
     "navigator": {"plugin": "waypoints", "movement_time_allowance": "100 s"},
-    "control_rate": "10 Hz",
+    "control_rate": "5 Hz",
     "metrics": ["planning", "execution", "delay", "contact", "tracking"],
     "seed": 4,
 }
