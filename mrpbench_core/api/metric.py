@@ -59,4 +59,7 @@ class Metric(Component):
 
     @abstractmethod
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
-        """Return a value for each column, by name."""
+        """Return a value for each column, by name; None where it cannot be measured.
+
+        No value depends on the order of the robots.
+        """

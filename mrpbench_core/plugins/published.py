@@ -34,6 +34,9 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
 """Names by entry-point group, by distribution. Of other distributions nothing is known before they are installed."""
 
 
-def distribution_of(group: str, name: str) -> str | None:
-    """Return the distribution of this project that offers a plugin, or None."""
-    return next((owner for owner, offers in PUBLISHED.items() if name in offers.get(group, ())), None)
+def distribution_of(name: str, group: str | None = None) -> str | None:
+    """Return the distribution of this project that offers a plugin, of any group if none is given, or None."""
+    for owner, offers in PUBLISHED.items():
+        if any(name in names for offered, names in offers.items() if group in (None, offered)):
+            return owner
+    return None

@@ -95,7 +95,7 @@ class Registry(Generic[C]):
         return cast("type[C]", cls)
 
     def _unknown(self, name: str, part: str, known: list[str]) -> InputError:
-        if part not in known and (owner := distribution_of(self.base.group, part)):
+        if part not in known and (owner := distribution_of(part, self.base.group)):
             return InputError(f"no {self.kind} is called {name!r}", hint=f"{owner} has it: `pip install {owner}`")
         found = closest(part, known)
         hint = f"did you mean {name.replace(part, found)!r}? " if found else ""

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from mrpbench_core.api import Planner
+from mrpbench_core.cli.input.plugin_name import resolve
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.published import PUBLISHED
 from mrpbench_core.plugins.registry import Registry
@@ -24,6 +25,11 @@ def test_the_table_is_that_of_the_entry_points():
 def test_a_plugin_of_a_distribution_that_is_not_installed_names_it(install):
     with pytest.raises(InputError, match=r"no planner is called 'lacam' \(mrpbench-planners-mapf has it: `pip install"):
         Registry(Planner).get("lacam")
+
+
+def test_a_plugin_that_is_named_without_its_kind_is_found_too(install):
+    with pytest.raises(InputError, match=r"no plugin is called 'amcl' \(mrpbench-localizers-amcl has it"):
+        resolve("amcl")
 
 
 def test_of_other_names_nothing_is_said(install):

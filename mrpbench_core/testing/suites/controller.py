@@ -66,7 +66,9 @@ class ControllerConformance(ComponentConformance):
     def test_commands_are_within_the_limits_of_the_robot(self) -> None:
         for path in (STRAIGHT, CORNER):
             twist = drive(self.start(), path).twist
-            require(np.isfinite(twist).all(), "commands a speed that is not finite")
+            require(
+                np.isfinite(twist).all(), "commands a speed that is not finite: return None if no command is admissible"
+            )
             fastest, spin = np.abs(twist).max(axis=0)
             require(
                 fastest <= ROBOT.max_speed + 1e-6, f"commands {fastest:.3f} m/s, the robot's limit is {ROBOT.max_speed}"
@@ -96,11 +98,14 @@ class ControllerConformance(ComponentConformance):
 
     def test_a_robot_at_the_end_stays(self) -> None:
         twist = drive(self.start(), (tuple(START[:2].tolist()),), seconds=2.0).twist
-        require(np.abs(twist[-10:, 0]).max() < 0.05, "keeps driving at the end of its path")
+        require(np.abs(twist[-10:, 0]).max() < 0.05, "keeps driving at the end of its path: command (0, 0) there")
 
     def test_the_same_observations_give_the_same_commands(self) -> None:
         one, other = drive(self.start(), CORNER), drive(self.start(), CORNER)
-        require(np.array_equal(one.twist, other.twist), "commands differ the second time")
+        require(
+            np.array_equal(one.twist, other.twist),
+            "commands differ the second time: keep all state in the session, draw nothing",
+        )
 
     def test_robots_do_not_disturb_one_another(self) -> None:
         alone = [drive(self.start(), path, seconds=5.0).twist for path in (STRAIGHT, CORNER)]
@@ -118,7 +123,10 @@ class ControllerConformance(ComponentConformance):
         first = np.array(said)
         for robot in range(2):
             same = np.allclose(first[: len(alone[robot]), robot], alone[robot][: len(first)], atol=1e-9)
-            require(same, "a robot gets other commands when a second robot is controlled in the same call")
+            require(
+                same,
+                "a robot gets other commands when a second one is controlled in the same call: keep their states apart",
+            )
 
     def test_optional_methods_return_valid_values(self) -> None:
         session = self.start()

@@ -51,4 +51,4 @@ class ExecutorConformance(ComponentConformance):
             error = executor.submit(divmod, 1, 0).exception(timeout=60)
             require(isinstance(error, ZeroDivisionError), f"a call that raises ZeroDivisionError gave {error!r}")
             if executor.submit(divmod, 9, 2).result(timeout=60) != (4, 1):
-                raise Fault("fails after a call has raised")
+                raise Fault("fails after a call has raised: pass the exception on, and go on")

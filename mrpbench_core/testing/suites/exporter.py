@@ -23,7 +23,7 @@ class ExporterConformance(ComponentConformance):
     def test_writes_a_run(self) -> None:
         with folder() as here:
             self.export(here)
-            require(written(here), f"wrote nothing called {NAME} or {NAME}.<suffix>")
+            require(written(here), f"wrote nothing called {NAME} or {NAME}.<suffix>: write to the given path")
             require(not leftovers(here), f"leaves other files behind: {', '.join(leftovers(here))}")
 
     def test_writes_a_run_in_one_piece_or_many(self) -> None:
@@ -36,7 +36,7 @@ class ExporterConformance(ComponentConformance):
     def test_writes_a_run_in_which_nothing_happened(self) -> None:
         with folder() as here:
             self.make().open(context(), here / NAME).close()
-            require(written(here), "wrote nothing for a run without chunks")
+            require(written(here), "wrote nothing for a run without chunks: `close` must finish the export")
 
     def test_replaces_an_earlier_export(self) -> None:
         with folder() as here:

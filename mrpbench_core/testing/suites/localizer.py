@@ -29,7 +29,9 @@ class LocalizerConformance(ComponentConformance):
         for estimate in self.drive(0)[0]:
             require(isinstance(estimate, Estimate), f"returns {type(estimate).__name__} instead of Estimate")
             require(estimate.pose.shape == (2, 3), f"estimates of two robots have shape {estimate.pose.shape}")
-            require(np.isfinite(estimate.pose).all(), "an estimate is not finite")
+            require(
+                np.isfinite(estimate.pose).all(), "an estimate is not finite: keep the last one where there is none"
+            )
             if estimate.covariance is not None:
                 shape = np.shape(estimate.covariance)
                 require(shape == (2, 3, 3), f"covariances of two robots have shape {shape}")
@@ -44,7 +46,9 @@ class LocalizerConformance(ComponentConformance):
 
     def test_the_same_seed_gives_the_same_estimates(self) -> None:
         one, other = (np.array([estimate.pose for estimate in self.drive(3)[0]]) for _ in range(2))
-        require(np.array_equal(one, other), "the same seed gives other estimates the second time")
+        require(
+            np.array_equal(one, other), "the same seed gives other estimates the second time: draw from `seed` only"
+        )
 
     def test_does_not_need_the_truth(self) -> None:
         if self.make().needs_truth:

@@ -45,8 +45,8 @@ class MetricConformance(ComponentConformance):
     def test_gives_exactly_its_columns(self) -> None:
         metric = self.make()
         given, wanted = set(measured(metric, finished())), {column.name for column in metric.columns}
-        require(given <= wanted, f"returns values that are no columns: {', '.join(sorted(given - wanted))}")
-        require(wanted <= given, f"returns no value for: {', '.join(sorted(wanted - given))}")
+        require(given <= wanted, f"returns values that `columns` does not declare: {', '.join(sorted(given - wanted))}")
+        require(wanted <= given, f"returns no value (None is one) for: {', '.join(sorted(wanted - given))}")
 
     def test_needs_no_channel_that_it_does_not_require(self) -> None:
         metric = self.make()

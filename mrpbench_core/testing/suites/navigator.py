@@ -104,13 +104,13 @@ class NavigatorConformance(ComponentConformance):
             require(isinstance(motion, Motion), f"returns {type(motion).__name__} instead of Motion")
             shapes = [motion.twist.shape, motion.reached.shape, motion.cleared.shape, motion.mode.shape]
             require(shapes == [(2, 2), (2,), (2,), (2,)], f"twist, reached, cleared, mode have shapes {shapes}")
-            require(np.isfinite(motion.twist).all(), "a twist is not finite")
+            require(np.isfinite(motion.twist).all(), "a twist is not finite: command (0, 0) where there is no command")
 
     def test_runs_are_equal_to_the_last_bit(self) -> None:
         one, other = (
             b"".join(motion.twist.tobytes() for motion in self.drive(lambda _: LENGTHS, seconds=10.0)[0]) for _ in "12"
         )
-        require(one == other, "the same run led to other twists the second time")
+        require(one == other, "the same run led to other twists the second time: draw from the given seed only")
 
     def test_goes_on_with_longer_routes(self) -> None:
         short = [

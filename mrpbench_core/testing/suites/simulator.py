@@ -48,7 +48,9 @@ class SimulatorConformance(ComponentConformance):
                 require(shapes == [(2, 3), (2, 2), (2,)], f"pose, twist, level of two robots have shapes {shapes}")
                 require(np.isfinite(state.pose).all() and np.isfinite(state.twist).all(), "poses or twists not finite")
             latest, given = simulation.step(inputs(STILL, STILL)), simulation.state
-            require(np.array_equal(latest.pose, given.pose), "`state` is not the state that the last step returned")
+            require(
+                np.array_equal(latest.pose, given.pose), "`state` is not the state that the last step returned: keep it"
+            )
 
     def test_robots_without_a_command_stay(self) -> None:
         with self.open() as simulation:
@@ -112,7 +114,7 @@ class SimulatorConformance(ComponentConformance):
     def test_scans_come_once_and_in_order(self) -> None:
         with self.open() as simulation:
             taken = list(simulation.scans())
-            require(not simulation.scans(), "`scans` returns the same scans twice")
+            require(not simulation.scans(), "`scans` returns the same scans twice: return those since the last call")
             for period in range(1, 61):
                 simulation.step(inputs(STILL, STILL))
                 new = simulation.scans()
@@ -207,7 +209,7 @@ class SimulatorConformance(ComponentConformance):
 
     def test_runs_are_equal_to_the_last_bit(self) -> None:
         first, second = self.history(), self.history()
-        require(first == second, "the same inputs lead to other states or scans the second time")
+        require(first == second, "the same inputs lead to other states or scans the second time: draw from `seed`")
 
     def test_simulations_do_not_disturb_one_another(self) -> None:
         alone = self.history()
@@ -215,7 +217,7 @@ class SimulatorConformance(ComponentConformance):
             drive(other, [(CRUISE, 1.0)], 0.5)
             together = self.history()
             other.step(inputs((CRUISE, 1.0)))
-        require(alone == together, "a second simulation in the same process changes the first")
+        require(alone == together, "a second simulation in the same process changes the first: keep no global state")
 
     def test_closes_twice(self) -> None:
         simulation = self.open()
