@@ -135,8 +135,7 @@ def _list(studies: Sequence[StudyRuns], options: StudyOptions, as_json: bool) ->
 
 
 def _summarize(results: Results, folder: Path) -> None:
-    print_summary(results, limit=GROUPS_SHOWN)
-    statuses = sorted(results.statuses().items(), key=lambda item: -item[1])
+    statuses = print_summary(results, limit=GROUPS_SHOWN).most_common()
     counts = ", ".join(f"{count} {status}" for status, count in statuses)
     print(f"{counted(len(results), 'run')}: {counts}; results in {folder}")
     print(f"for intervals, comparisons and an HTML page: `mrpbench report {folder}`")

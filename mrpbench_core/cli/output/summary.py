@@ -1,5 +1,6 @@
 """Prints the table at the end of `mrpbench run`: counts and means, without intervals and comparisons."""
 
+from collections import Counter
 from collections.abc import Sequence
 from typing import Any
 
@@ -32,12 +33,16 @@ def plugins_line(studies: Sequence[StudyRuns]) -> str:
     return "plugins: " + "; ".join(f"{owner}: {', '.join(names)}" for owner, names in sorted(offered.items()))
 
 
-def print_summary(results: Results, limit: int | None = None) -> None:
-    """Print a column for each group if there are few, otherwise a row for each, at most `limit` rows."""
+def print_summary(results: Results, limit: int | None = None) -> Counter[str]:
+    """Print a column for each group if there are few, otherwise a row for each, at most `limit` rows.
+
+    Returns:
+        The number of runs of each status, `promise_broken` included.
+    """
     shown = [column.name for column in primary_columns(read_columns([results])) if column.name != PAR2]
     runs = read_runs([results], shown)
     if not len(runs):
-        return
+        return Counter()
     groups = group_runs(runs)
     axes = list(dict.fromkeys(key for found in groups for key in found.axes))
     statuses = [found.statuses(runs) for found in groups]
@@ -59,6 +64,7 @@ def print_summary(results: Results, limit: int | None = None) -> None:
         print_table(_short(list(table)), list(zip(*table.values(), strict=True))[:limit])
     if limit is not None and len(groups) > max(limit, ABREAST):
         print(f"… {counted(len(groups) - limit, 'more row')}")
+    return sum(statuses, Counter())
 
 
 def _short(columns: Sequence[str]) -> list[str]:
