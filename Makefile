@@ -84,6 +84,7 @@ ATHERIS := build/fuzz/atheris
 fuzz: install ## give changed inputs to readers of files; COUNT=1000000 READERS="records mcap"
 	test -d $(ATHERIS) || $(PYTHON) -m pip install --quiet --disable-pip-version-check --target $(ATHERIS) atheris || echo "Atheris cannot be installed here"
 	PYTHONPATH=$(ATHERIS) $(BIN)/python fuzz/run.py --inputs $(or $(COUNT),20000) $(READERS)
+	$(if $(READERS),,fuzz/native.sh $(or $(COUNT),20000))
 
 worlds: install ## drive robots on every built-in world without contacts (ten minutes); CONTROLLER=dwb for another
 	$(BIN)/python benchmarks/worlds.py --controller $(or $(CONTROLLER),pure_pursuit)
