@@ -183,9 +183,10 @@ class _Reader:
         return number
 
     def runs(self) -> Runs:
-        integers = {name: np.array(column, np.int64) for name, column in self._integers.items()}
-        planned = np.array(self._planned, float)
-        values = {key: np.frombuffer(column, float) for key, column in self._values.items()}  # shares the memory
+        # The columns share the memory of what was read.
+        integers = {name: np.frombuffer(column, np.int64) for name, column in self._integers.items()}
+        planned = np.frombuffer(self._planned, float)
+        values = {key: np.frombuffer(column, float) for key, column in self._values.items()}
         broken = self._claims.broken(self._run_id)
         for index, message in broken.items():
             self._status[index], self._message[index], planned[index] = RunStatus.PROMISE_BROKEN, message, 0
@@ -202,14 +203,16 @@ class _Reader:
             if self._asked is not None and "timing.planning_s" not in self._asked:
                 del values["timing.planning_s"]
         outcome = {
-            "succeeded": np.array([status == RunStatus.SUCCEEDED for status in self._status], float),
+            "succeeded": np.fromiter(
+                (status == RunStatus.SUCCEEDED for status in self._status), float, len(self._status)
+            ),
             "planned": planned,
         }
         return Runs(
             run_id=self._run_id,
             status=self._status,
             message=self._message,
-            counted=np.array([status not in LEFT_OUT for status in self._status], bool),
+            counted=np.fromiter((status not in LEFT_OUT for status in self._status), bool, len(self._status)),
             configs=self._examples,
             values=outcome | values,
             true_poses=self._true_poses,
