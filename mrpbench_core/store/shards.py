@@ -15,7 +15,7 @@ LINE_LIMIT = 16 * 2**20
 DEPTH_LIMIT = 8
 """Nested arrays and objects in a value of a record."""
 
-_ADVICE = "left out, its run counts as not done: `mrpbench run` does it again; delete the line to hear no more of it"
+_ADVICE = "left out, and its run counts as not done: `mrpbench run` repeats it; delete the line to stop this message"
 
 
 class _Limits(msgspec.Struct):
