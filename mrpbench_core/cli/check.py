@@ -1,9 +1,6 @@
 """`mrpbench check NAME [OPTION=VALUE…]`: run the conformance suite of a plugin without pytest."""
 
 import argparse
-import os
-import sys
-import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
@@ -16,17 +13,12 @@ from mrpbench_core.cli.input.plugin_name import hook_named, resolve
 from mrpbench_core.cli.output.table import print_json
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
-from mrpbench_core.engine.processes.child import WorkerDied
-from mrpbench_core.engine.processes.slot import Slot
-from mrpbench_core.files.errors import InputError, InputErrors
-from mrpbench_core.model.runs.status import RunStatus
+from mrpbench_core.engine.processes.call import LIMIT_S, CallFailedError, call
+from mrpbench_core.engine.processes.slots import slots_of_this_process
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import load
 from mrpbench_core.plugins.kinds import HOOKS, kind_of
 
-LIMIT_S = 120.0
-"""Wall seconds that one check may take by default."""
-MEMORY = 4 * 2**30
-"""Bytes that the processes of one check may hold."""
 OUTCOMES = ("ok", "failed", "skipped")
 
 
@@ -48,21 +40,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Print one line for each check and return 1 if any failed; each check has a process of its own."""
     name, *words = arguments.words
-    slot = Slot()
-    try:
-        facts = _ask(slot, "listed", [name, words], arguments.limit)
-        if "failure" in facts:
-            raise InputError(f"{name} cannot be checked: {facts['failure']}")
-        if "errors" in facts:
-            raise InputErrors(*map(InputError, facts["errors"]))
+    with slots_of_this_process() as slots:
+        try:
+            facts = call(slots, listed, name, words, limit_s=arguments.limit)
+        except CallFailedError as failure:
+            raise InputError(f"{name} cannot be checked: {_why(failure)}") from failure
         outcomes = []
-        for check in _checks(slot, facts["checks"], name, words, arguments.limit):
+        for check in _checks(slots, facts["checks"], name, words, arguments.limit):
             outcomes.append(check)
             if not arguments.json:
                 reason = f": {check['reason']}" if check["reason"] else ""
                 print(f"{check['outcome']:<7}  {check['check']}{reason}", flush=True)
-    finally:
-        slot.close()
     counts = {outcome: sum(check["outcome"] == outcome for check in outcomes) for outcome in OUTCOMES}
     about = {"kind": facts["kind"], "name": name, "component": facts["component"]}
     if arguments.json:
@@ -73,46 +61,26 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _checks(
-    slot: Slot, methods: Mapping[str, str], name: str, words: list[str], limit_s: float
+    slots: str, methods: Mapping[str, str], name: str, words: list[str], limit_s: float
 ) -> Iterator[dict[str, str]]:
     """Run the checks one after another."""
     for method, expected in methods.items():
-        answer = _ask(slot, "checked", [name, words, method], limit_s)
-        failed = {"check": expected, "outcome": "failed", "reason": answer.get("failure", "")}
-        yield failed if "failure" in answer else answer
-
-
-def _ask(slot: Slot, function: str, arguments: list[Any], limit_s: float) -> dict[str, Any]:
-    """Call a function of this module in a process of its own; its answer, or why there is none as `failure`."""
-    with tempfile.TemporaryDirectory(prefix="mrpbench-") as folder:
-        log = Path(folder, "log.txt")
-        call = {"call": f"{__name__}:{function}", "arguments": arguments, "folder": os.getcwd()}  # noqa: PTH109
         try:
-            answer = slot.ask({**call, "log": str(log), "wall_s": limit_s, "memory_bytes": MEMORY})
-        except WorkerDied as death:
-            answer = {"failure": {"status": RunStatus.CRASHED, "message": str(death)}}
-        if log.exists():  # a plugin's output is not part of ours
-            sys.stderr.write(log.read_text(errors="replace"))
-    if "failure" not in answer:
-        returned: dict[str, Any] = answer["returned"]
-        return returned
-    message = str(answer["failure"]["message"])
-    if answer["failure"]["status"] == RunStatus.WALL_TIMEOUT:
-        message = f"did not end within {limit_s:g} s and was ended; `--limit` gives it more time"
-    return {"failure": message.replace("limits.memory allows", "a check may hold")}
+            yield call(slots, checked, name, words, method, limit_s=limit_s)
+        except CallFailedError as failure:
+            yield {"check": expected, "outcome": "failed", "reason": _why(failure)}
+
+
+def _why(failure: CallFailedError) -> str:
+    return f"{failure}; `--limit` gives it more time" if failure.late else str(failure)
 
 
 def listed(name: str, words: list[str]) -> dict[str, Any]:
-    """In a worker process: the kind and the checks of a plugin, or its errors."""
+    """In a worker process: the kind and the checks of a plugin."""
     from mrpbench_core.testing.checks import methods
     from mrpbench_core.testing.checks import words as said
 
-    try:
-        kind, component, suite = _suite(name, words)
-    except InputErrors as several:
-        return {"errors": [str(error) for error in several.errors]}
-    except InputError as error:
-        return {"errors": [str(error)]}
+    kind, component, suite = _suite(name, words)
     return {
         "kind": kind,
         "component": component,

@@ -24,9 +24,7 @@ def run(arguments: argparse.Namespace) -> int:
     if words[:1] == ["show"]:
         if len(words) != 2:
             raise InputError("`show` needs the name of one plugin", hint="e.g. `mrpbench plugins show lanes`")
-        from mrpbench_core.cli.output.plugin import show
-
-        show(words[1], arguments.json)
+        _show(words[1], arguments.json)
         return 0
     if len(words) > 1:
         raise InputError(f"plugins {' '.join(words)}: expected one kind, or `show NAME`")
@@ -42,6 +40,20 @@ def run(arguments: argparse.Namespace) -> int:
     rows = [[entry.kind, entry.name, entry.distribution, entry.version, entry.problem or ""] for entry in found]
     print_table(["kind", "name", "distribution", "version", ""], rows)
     return 0
+
+
+def _show(name: str, as_json: bool) -> None:
+    """Show a plugin, which is imported in a process of its own: a module may do anything when it is imported."""
+    from mrpbench_core.cli.output.plugin import facts_of, print_facts
+    from mrpbench_core.engine.processes.call import CallFailedError, call
+    from mrpbench_core.engine.processes.slots import slots_of_this_process
+
+    with slots_of_this_process() as slots:
+        try:
+            facts = call(slots, facts_of, name)
+        except CallFailedError as failure:
+            raise InputError(f"{name} cannot be shown: {failure}") from failure
+    print_json(facts) if as_json else print_facts(facts)
 
 
 def _facts(provider: Provider) -> dict[str, Any]:

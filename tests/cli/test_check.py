@@ -5,6 +5,7 @@ import json
 import pytest
 
 from mrpbench_core.cli.check import checked, listed
+from mrpbench_core.files.errors import InputError, InputErrors
 
 GOOD = """\
 import ctypes
@@ -114,9 +115,10 @@ def repr_of(name, **options):
 )
 def test_mistakes_are_one_line(file, tmp_path, monkeypatch, words, line):
     monkeypatch.chdir(tmp_path)
-    (error,) = listed(words[0], words[1:])["errors"]
-    assert line in error
-    assert "\n" not in error
+    with pytest.raises((InputError, InputErrors)) as raised:
+        listed(words[0], words[1:])
+    assert line in str(raised.value)
+    assert "\n" not in str(raised.value)
 
 
 def test_a_mistake_is_the_only_output(mrpbench):
@@ -133,7 +135,8 @@ def test_an_installed_plugin_that_breaks_its_contract(install):
             pass
     """
     install("acme-thawed", {"mrpbench.assigners": {"thawed": "{module}:Thawed"}}, code)
-    assert "is not decorated @attrs.frozen(kw_only=True)" in listed("thawed", [])["errors"][0]
+    with pytest.raises(InputErrors, match=r"is not decorated @attrs\.frozen\(kw_only=True\)"):
+        listed("thawed", [])
 
 
 KIND = """
@@ -174,7 +177,8 @@ def test_a_kind_that_a_plugin_defines_names_its_suite(install):
 )
 def test_a_suite_that_is_none_is_named(install, suite, fault):
     install("acme-judges", {"mrpbench.judges": {"mild": "{module}:Mild"}}, KIND.format(suite=suite))
-    assert fault in listed("mild", [])["errors"][0]
+    with pytest.raises(InputError, match=fault):
+        listed("mild", [])
 
 
 HOOK = """

@@ -62,3 +62,13 @@ def test_an_unknown_hook_is_one_line(mrpbench):
     assert code == 2
     assert "no hook is called 'ros'" in error
     assert error.count("\n") == 1
+
+
+def test_a_plugin_that_ends_the_process_when_it_is_imported_is_named(mrpbench, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "ending.py").write_text("import os\nos._exit(3)\n")
+    code, out, error = mrpbench("plugins", "show", "./ending.py:Mine")
+    assert (code, out) == (2, "")
+    assert "./ending.py:Mine cannot be shown: " in error
+    assert "ended with exit code 3" in error
+    assert error.count("\n") == 1

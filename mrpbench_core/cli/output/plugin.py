@@ -10,7 +10,7 @@ import attrs
 from mrpbench_core.api import Metric, hooks
 from mrpbench_core.api.component import Component
 from mrpbench_core.cli.input.plugin_name import hook_named, resolve
-from mrpbench_core.cli.output.table import print_json, print_table
+from mrpbench_core.cli.output.table import print_table
 from mrpbench_core.plugins.installed import Provider, load
 from mrpbench_core.plugins.provenance import kind_class, origin
 from mrpbench_core.plugins.registry import Registry
@@ -21,40 +21,45 @@ MODULES = re.compile(r"\b(?:\w+\.)+(?=[A-Z])")
 """Modules before the name of a class."""
 
 
-def show(name: str, as_json: bool) -> None:
-    """Print a plugin, given as in `cli.input.plugin_name`."""
+def facts_of(name: str) -> dict[str, Any]:
+    """A plugin, given as in `cli.input.plugin_name`, as plain data. This imports it.
+
+    Raises:
+        InputError: there is no such plugin, or it cannot be imported.
+    """
     if hook := hook_named(name):
-        _show_hook(hook, as_json)
-        return
+        return _facts_of_hook(hook)
     base, plugin = resolve(name)
     cls = Registry(base).get(plugin, Path.cwd())
     facts: dict[str, Any] = origin(cls) | {"description": inspect.getdoc(cls) or ""} | _traits(cls)
     if issubclass(cls, Metric):
         facts["columns"] = [{key: getattr(column, key) for key in COLUMN} for column in cls.columns]
     facts["options"] = [_option(field) for field in _fields(cls)]
-    if as_json:
-        print_json(facts)
-        return
+    return facts
+
+
+def print_facts(facts: dict[str, Any]) -> None:
+    """Print a plugin for people."""
     print(f"{facts['kind']} {facts['name']}, from {facts['distribution']} {facts['version']}")
     print(facts["description"])
-    for key in ("supports", "promises", "requires"):
+    for key in ("supports", "promises", "requires", "hooks"):
         if key in facts:
             print(f"{key}: {', '.join(facts[key]) or 'nothing'}")
-    print()
     if "columns" in facts:
-        _print_rows("column", COLUMN, facts["columns"])
         print()
-    if facts["options"]:
+        _print_rows("column", COLUMN, facts["columns"])
+    if facts.get("options"):
+        print()
         _print_rows("option", ("name", "default", "unit", "type", "help"), facts["options"])
-    else:
-        print("It has no options.")
+    elif "options" in facts:
+        print("\nIt has no options.")
 
 
-def _show_hook(provider: Provider, as_json: bool) -> None:
-    """Print a hook plugin, and the hooks that it implements."""
+def _facts_of_hook(provider: Provider) -> dict[str, Any]:
+    """A hook plugin, and the hooks that it implements."""
     plugin = load(provider)
     described = plugin if inspect.isclass(plugin) or inspect.ismodule(plugin) else type(plugin)
-    facts: dict[str, Any] = {
+    return {
         "kind": provider.kind,
         "name": provider.name,
         "distribution": provider.distribution,
@@ -62,12 +67,6 @@ def _show_hook(provider: Provider, as_json: bool) -> None:
         "description": inspect.getdoc(described) or "",
         "hooks": [name for name in vars(hooks) if name.startswith("mrpbench_") and hasattr(plugin, name)],
     }
-    if as_json:
-        print_json(facts)
-        return
-    print(f"{facts['kind']} {facts['name']}, from {facts['distribution']} {facts['version']}")
-    print(facts["description"])
-    print(f"hooks: {', '.join(facts['hooks'])}")
 
 
 def _print_rows(first: str, keys: tuple[str, ...], rows: list[dict[str, Any]]) -> None:

@@ -10,7 +10,7 @@ import attrs
 from mrpbench_core.config.study import RunData, RunPoint, Study, load_study
 from mrpbench_core.engine.loading.versions import code_of
 from mrpbench_core.engine.stages.measure import describe
-from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.provenance import components_in
 
 
@@ -40,14 +40,13 @@ class StudyRuns:
     """The declaration of each metric column; see `mrpbench_core.engine.stages.measure.describe`."""
 
 
-def loaded(source: str | Mapping[str, Any], overrides: Sequence[str]) -> dict[str, Any]:
-    """Load a study; return it, or its errors, as plain data."""
-    try:
-        return _pack(load_study(source, overrides))
-    except InputErrors as several:
-        return {"errors": [_pack_error(error) for error in several.errors]}
-    except InputError as error:
-        return {"errors": [_pack_error(error)]}
+def packed_study(source: str | Mapping[str, Any], overrides: Sequence[str]) -> dict[str, Any]:
+    """Load a study; return it as plain data.
+
+    Raises:
+        InputErrors, InputError: see `mrpbench_core.config.study.load_study`.
+    """
+    return _pack(load_study(source, overrides))
 
 
 def _pack(study: Study) -> dict[str, Any]:
@@ -57,7 +56,7 @@ def _pack(study: Study) -> dict[str, Any]:
     return {
         "name": study.name,
         "folder": str(study.folder),
-        "errors_of_points": [_pack_error(error) for error in study.errors],
+        "errors_of_points": [pack_error(error) for error in study.errors],
         "document": study.document,
         "notes": study.notes,
         "columns": describe(metrics),
@@ -96,7 +95,7 @@ def _packed(point: RunPoint, values: _Values) -> list[Any]:
 
 
 def unpack_study(study: dict[str, Any]) -> StudyRuns:
-    """The study that `loaded` returned."""
+    """The study that `packed_study` returned."""
     values = [json.loads(text) for text in study["values"]]
     folder = Path(study["folder"])
     return StudyRuns(
@@ -122,7 +121,8 @@ def unpack_study(study: dict[str, Any]) -> StudyRuns:
     )
 
 
-def _pack_error(error: InputError) -> dict[str, Any]:
+def pack_error(error: InputError) -> dict[str, Any]:
+    """An error as plain data."""
     return {
         "message": error.message,
         "file": None if error.file is None else str(error.file),
@@ -133,7 +133,7 @@ def _pack_error(error: InputError) -> dict[str, Any]:
 
 
 def unpack_error(fault: Mapping[str, Any]) -> InputError:
-    """An error that `loaded` returned."""
+    """An error that `pack_error` returned."""
     return InputError(
         fault["message"], file=fault["file"], line=fault["line"], column=fault["column"], hint=fault["hint"]
     )

@@ -19,7 +19,7 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.study import unpack
 from mrpbench_core.engine.json_values import jsonable
-from mrpbench_core.engine.loading.runs import loaded
+from mrpbench_core.engine.loading.runs import pack_error
 from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.origins import owner_of, title, with_origin
 from mrpbench_core.engine.pipeline import execute
@@ -44,18 +44,25 @@ def execute_job(connection: socket.socket, hooks: Hooks, executed: Callable[[], 
     assert job is not None
     redirect(job["log"])
     tell_imports(lambda plugin: channel.send({"importing": plugin}))
-    if "folder" in job:
+    if "call" in job:
         os.chdir(job["folder"])
-    if "study" in job:
-        found = {"study": loaded(job["study"], job["overrides"])}
-    elif "call" in job:
-        module, _, name = job["call"].partition(":")
-        found = {"returned": getattr(importlib.import_module(module), name)(*job["arguments"])}
+        found = _call(job["call"], job["arguments"])
     else:
         found = _run(job, channel, hooks)
     flush()
     executed()
     channel.send(found)
+
+
+def _call(function: str, arguments: list[Any]) -> dict[str, Any]:
+    """Call `module:function`; return its result, or the user's mistakes that it found."""
+    module, _, name = function.partition(":")
+    try:
+        return {"returned": getattr(importlib.import_module(module), name)(*arguments)}
+    except InputErrors as several:
+        return {"errors": list(map(pack_error, several.errors))}
+    except InputError as error:
+        return {"errors": [pack_error(error)]}
 
 
 def _run(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, Any]:

@@ -1,0 +1,65 @@
+"""Calls a function of the core in a worker process, where plugins may be imported."""
+
+import os
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from mrpbench_core.engine.loading.runs import unpack_error
+from mrpbench_core.engine.processes.child import WorkerDied
+from mrpbench_core.engine.processes.slots import ask_in_slot
+from mrpbench_core.files.errors import InputErrors
+from mrpbench_core.model.runs.status import RunStatus
+
+LIMIT_S = 120.0
+"""Wall seconds that a call may take by default."""
+MEMORY = 4 * 2**30
+"""Bytes that the processes of one call may hold."""
+
+
+class CallFailedError(Exception):
+    """The call has no result; the message says why."""
+
+    def __init__(self, message: str, *, late: bool = False) -> None:
+        super().__init__(message)
+        self.late = late
+        """It was ended because of its time limit."""
+
+
+def call(
+    slots: str, function: Callable[..., Any], *arguments: Any, limit_s: float = LIMIT_S, memory_bytes: int = MEMORY
+) -> Any:
+    """Call a function of a module in a fresh process of `slots`; arguments and result are plain data.
+
+    What plugins print there goes to standard error.
+
+    Raises:
+        CallFailedError: there is no process, it crashed, or it exceeded a limit.
+        InputErrors: the function found mistakes of the user.
+    """
+    with tempfile.TemporaryDirectory(prefix="mrpbench-") as folder:
+        log = Path(folder, "log.txt")
+        job = {
+            "call": f"{function.__module__}:{function.__qualname__}",
+            "arguments": arguments,
+            "folder": os.getcwd(),  # noqa: PTH109
+            "log": str(log),
+            "wall_s": limit_s,
+            "memory_bytes": memory_bytes,
+        }
+        try:
+            answer = ask_in_slot(slots, job)
+        except (WorkerDied, OSError, TypeError, ValueError) as error:  # the last two: arguments that are no plain data
+            raise CallFailedError(str(error)) from error
+        finally:
+            if log.exists():  # a plugin's output is not part of ours
+                sys.stderr.write(log.read_text(errors="replace"))
+    if "failure" in answer:
+        late = answer["failure"]["status"] == RunStatus.WALL_TIMEOUT
+        message = str(answer["failure"]["message"]).replace("limits.memory allows", "allowed are")
+        raise CallFailedError(f"did not end within {limit_s:g} s and was ended" if late else message, late=late)
+    if "errors" in answer:
+        raise InputErrors(*map(unpack_error, answer["errors"]))
+    return answer.get("returned")
