@@ -58,7 +58,7 @@ def test_a_damaged_line_is_named_and_costs_only_its_own_run(folder, caplog):
     assert said == [str(error) for error in results.damaged]
     assert f"{folder.shard('1')}:2: is not a record: " in said[0]
     assert f"{folder.shard('1')}:4: is not a record: " in said[1]
-    assert "`mrpbench run` does it again" in said[0]
+    assert "`mrpbench run` repeats it" in said[0]
 
 
 @pytest.mark.parametrize(
