@@ -174,7 +174,7 @@ def test_a_study_survives_the_loss_of_a_worker_and_names_the_repeated_runs(clust
     attempts = {record["run_id"]: record["attempt"] for record in load("there")}
     assert attempts.pop(heard.losses[0][0]) == 2
     assert set(attempts.values()) == {1}
-    # each attempt was executed once: no run was repeated behind our back
+    # each attempt was executed once: no run was repeated without a record of it
     assert len(list((tmp_path / "marks").iterdir())) == 9
     (left,) = [worker for worker in cluster.workers if worker.poll() is None]
     assert not psutil.Process(left.pid).children(recursive=True)  # the cluster is left as it was
