@@ -120,13 +120,14 @@ class Dwb(Controller):
 
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""
-        values = self._values(self._blocks()[0])
+        block, _ = self._blocks()
+        values, critics = self._values(block), self._critics(block)
         idle: dict[str, str] = {}
         if values["discretize_by_time"]:
             idle |= dict.fromkeys(("linear_granularity", "angular_granularity"), "discretize_by_time is on")
         else:
             idle["time_granularity"] = "discretize_by_time is off"
-        if not any(isinstance(critic, RotateToGoal) for critic in self._critics(self._blocks()[0])):
+        if not any(isinstance(critic, RotateToGoal) for critic in critics):
             names = ("xy_goal_tolerance", "trans_stopped_velocity")
             idle |= dict.fromkeys(names, "RotateToGoal, which reads it, is not among the critics")
         if not values["shorten_transformed_plan"]:

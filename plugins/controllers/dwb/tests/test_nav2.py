@@ -3,7 +3,8 @@ import pytest
 from mrpbench_controllers_dwb import BaseObstacle, Dwb, LocalCostmap, PathAlign, PathDist, RotateToGoal, Twirling
 from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE
 
-from mrpbench_core.files.errors import InputError
+from mrpbench_core.config.study import load_study
+from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.files.robot import load_robot
 
 BURGER = load_robot("turtlebot3_burger")
@@ -78,6 +79,18 @@ def write(tmp_path, text):
     path = tmp_path / "params.yaml"
     path.write_text(text)
     return path
+
+
+def test_a_study_reads_a_nav2_file(tmp_path):
+    controller = {"plugin": "dwb", "nav2": str(write(tmp_path, FILE)), "time_granularity": 0.1}
+    settings = {"world": "office", "scenario": {"plugin": "random", "robots": 1}, "planner": "example"}
+    settings |= {"controller": controller, "simulator": "planar"}
+    study = load_study(settings)
+    assert len(study.runs) == 1
+    assert [note for note in study.notes if "time_granularity" in note]
+    controller["nav2"] = str(write(tmp_path, FILE.replace("sim_time", "sim_tine")))
+    with pytest.raises(InputErrors, match="unknown parameter 'sim_tine'"):
+        load_study(settings)
 
 
 def test_a_nav2_file_says_everything(tmp_path):
