@@ -35,10 +35,11 @@ class IdleOptions:
     def __init__(self) -> None:
         self._idle: dict[str, str] = {}
         self._effective: set[str] = set()
+        self._of_components: dict[int, tuple[Component, Mapping[str, str]]] = {}
 
     def add(self, config: RunConfig, root: Item) -> None:
         """Add one run."""
-        idle = _idle(config, root)
+        idle = self._of_run(config, root)
         for key in _named(root):
             reason = next((idle[part] for part in (key, key.partition(".")[0]) if part in idle), None)
             if reason is None:
@@ -51,23 +52,28 @@ class IdleOptions:
         """One line for each option."""
         return tuple(line for key, line in self._idle.items() if key not in self._effective)
 
+    def _of_run(self, config: RunConfig, root: Item) -> dict[str, str]:
+        """Return the reason for each setting without effect in a run, whether the file names it or not."""
+        found = dict(_of_planning_only(config)) if config.simulator is None else dict(_of_executions(config))
+        if config.planner.assigns:
+            found["assigner"] = f"{IDLE}the planner assigns the tasks"
+        for key in root.value:
+            component = getattr(config, key, None)
+            if isinstance(component, Component):
+                found |= {f"{key}.{name}": IDLE + reason for name, reason in self._of_component(component).items()}
+        if all(entry.graph is None or not _is(config.roadmap, "graph") for entry in config.fleet):
+            found |= {
+                f"fleet.{number}.graph": f"{IDLE}only `roadmap: graph` has lanes of graphs"
+                for number, entry in enumerate(config.fleet)
+                if entry.graph is not None
+            }
+        return found
 
-def _idle(config: RunConfig, root: Item) -> dict[str, str]:
-    """Return the reason for each setting without effect in a run, whether the file names it or not."""
-    found = dict(_of_planning_only(config)) if config.simulator is None else dict(_of_executions(config))
-    if config.planner.assigns:
-        found["assigner"] = f"{IDLE}the planner assigns the tasks"
-    for key in root.value:
-        component = getattr(config, key, None)
-        if isinstance(component, Component):
-            found |= {f"{key}.{name}": IDLE + reason for name, reason in component.idle_options().items()}
-    if all(entry.graph is None or not _is(config.roadmap, "graph") for entry in config.fleet):
-        found |= {
-            f"fleet.{number}.graph": f"{IDLE}only `roadmap: graph` has lanes of graphs"
-            for number, entry in enumerate(config.fleet)
-            if entry.graph is not None
-        }
-    return found
+    def _of_component(self, component: Component) -> Mapping[str, str]:
+        """Return the idle options of a component, which runs share and which may read files."""
+        if id(component) not in self._of_components:
+            self._of_components[id(component)] = component, component.idle_options()
+        return self._of_components[id(component)][1]
 
 
 def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:

@@ -4,7 +4,7 @@ Arrays of a wrong shape broadcast, and comparisons with NaN are false: without t
 not stop the run but falsify its numbers.
 """
 
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,9 @@ _LAST_MODE = int(max(Mode))
 
 
 class ContractChecks:
-    """Checks what the components of one execution return; each method returns a copy that no component holds.
+    """Checks what the components of one execution return.
+
+    Each method returns a copy that no component holds, except `scans`, by which nothing is judged.
 
     Args:
         length: i8[n] segments of each robot's path.
@@ -47,7 +49,7 @@ class ContractChecks:
     def state(self, state: State) -> State:
         """Check the state that a simulator returns."""
         kind = "the simulator"
-        self._is(kind, state, State)
+        _require_class(kind, state, State)
         state = own(state)
         self._finite(kind, "pose", state.pose)
         self._finite(kind, "twist", state.twist)
@@ -68,7 +70,7 @@ class ContractChecks:
     def scans(self, batches: tuple[ScanBatch, ...]) -> tuple[ScanBatch, ...]:
         """Check the scans that a simulator returns."""
         for batch in batches:
-            self._is("the simulator", batch, ScanBatch)
+            _require_class("the simulator", batch, ScanBatch)
             if batch.robot.ndim != 1 or batch.ranges.ndim != 2 or len(batch.robot) != len(batch.ranges):
                 _refuse("the simulator", f"ranges of shape {batch.ranges.shape} for robots {batch.robot.tolist()}")
             if np.count_nonzero((batch.robot < 0) | (batch.robot >= self._robots)):
@@ -79,7 +81,7 @@ class ContractChecks:
 
     def estimate(self, estimate: Estimate) -> Estimate:
         """Check the estimate that a localizer returns."""
-        self._is("the localizer", estimate, Estimate)
+        _require_class("the localizer", estimate, Estimate)
         estimate = own(estimate)
         self._finite("the localizer", "pose", estimate.pose)
         if estimate.covariance is not None and np.shape(estimate.covariance) != (self._robots, 3, 3):
@@ -89,7 +91,7 @@ class ContractChecks:
     def orders(self, orders: Orders) -> Orders:
         """Check the orders that a dispatcher returns."""
         kind = "the dispatcher"
-        self._is(kind, orders, Orders)
+        _require_class(kind, orders, Orders)
         orders = own(orders)
         self._one_each(kind, "released", orders.released)
         self._no_robot(kind, "released less than before", orders.released < self._released)
@@ -100,7 +102,7 @@ class ContractChecks:
     def motion(self, motion: Motion) -> Motion:
         """Check the motion that a navigator returns, after the orders of the same period."""
         kind = "the navigator"
-        self._is(kind, motion, Motion)
+        _require_class(kind, motion, Motion)
         motion = own(motion)
         self._finite(kind, "twist", motion.twist)
         for name in ("reached", "cleared", "mode"):
@@ -112,10 +114,6 @@ class ContractChecks:
         self._reached, self._cleared = motion.reached, motion.cleared
         self._no_robot(kind, "a mode that does not exist", motion.mode > _LAST_MODE)
         return motion
-
-    def _is(self, kind: str, returned: object, wanted: type) -> None:
-        if not isinstance(returned, wanted):
-            _refuse(kind, f"{type(returned).__name__} instead of {wanted.__name__}")
 
     def _finite(self, kind: str, name: str, values: NDArray[Any]) -> None:
         if len(values) != self._robots:
@@ -135,10 +133,8 @@ class ContractChecks:
 
 def check_returned(component: Component, returned: Any, wanted: type[T]) -> T:
     """Check the class of what a component returns."""
-    if not isinstance(returned, wanted):
-        kind = kind_of(component.group).replace("_", " ")
-        _refuse(f"the {kind}", f"{type(returned).__name__} instead of {wanted.__name__}")
-    return returned
+    _require_class(f"the {kind_of(component.group).replace('_', ' ')}", returned, wanted)
+    return cast("T", returned)
 
 
 def check_drawn(scenario: Scenario, robots: int) -> Scenario:
@@ -161,6 +157,11 @@ def check_kept(kept: Any, waypoints: int) -> NDArray[np.bool_]:
     if not (kept[0] and kept[-1]):
         _refuse("the plan filter", "a path without its start or its end")
     return kept
+
+
+def _require_class(kind: str, returned: object, wanted: type) -> None:
+    if not isinstance(returned, wanted):
+        _refuse(kind, f"{type(returned).__name__} instead of {wanted.__name__}")
 
 
 def _refuse(kind: str, what: str) -> NoReturn:

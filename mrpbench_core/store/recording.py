@@ -108,6 +108,7 @@ class Recording:
                 if part and channel not in ("", "context"):
                     parts[channel].append(name)
             self._parts = dict(parts)
+            self._times: dict[str, NDArray[Any]] = {}  # by name of a channel of times, which many others share
             if faults := check_names(self._parts):
                 raise self._fault(faults[0])
         except BaseException:
@@ -177,9 +178,10 @@ class Recording:
     def channel(self, name: str) -> NDArray[Any]:
         """All rows of a channel; scans are as wide as the widest lidar's, filled with NaN."""
         with self._naming(f"is damaged: {name!r:.60}"):
-            rows = self._joined(name)
-            time = rows if name == axis_of(name) else self._joined(axis_of(name))
-            self._check(name, rows, time)
+            rows, axis = self._joined(name), axis_of(name)
+            if name != axis and axis not in self._times:
+                self._times[axis] = self._joined(axis)
+            self._check(name, rows, rows if name == axis else self._times[axis])
             return rows
 
     def _joined(self, name: str) -> NDArray[Any]:
