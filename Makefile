@@ -6,7 +6,7 @@ UV := $(shell command -v uv)
 STAMP := $(VENV)/.installed
 JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
-INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
+INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
 .PHONY: help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz
 
@@ -105,5 +105,5 @@ ROS := build/ros/bin
 ros: ## test live ROS 2, with rclpy from PyPI in its own environment (Python 3.11)
 	test -x $(ROS)/python || python3.11 -m venv build/ros
 	$(ROS)/python -m pip install --quiet ros-kilted-rclpy ros-rmw-fastrtps-cpp ros-nav-msgs ros-sensor-msgs ros-diagnostic-msgs ros-visualization-msgs
-	$(ROS)/python -m pip install --quiet pytest pytest-timeout -e . -e plugins/planners/example -e plugins/metrics/standard -e plugins/controllers/pure_pursuit -e plugins/exporters/rosbag2 -e plugins/bridges/ros2
+	$(ROS)/python -m pip install --quiet pytest pytest-timeout -e . ./native -e plugins -e plugins/exporters/rosbag2 -e plugins/bridges/ros2
 	$(ROS)/python -m pytest -p no:cacheprovider plugins/bridges/ros2

@@ -23,7 +23,7 @@ Tables, figures and replays show the columns marked *primary* unless others are 
 
 def page() -> str:
     """The page as Markdown."""
-    project = Path(__file__).parents[1] / "plugins/metrics/standard/pyproject.toml"
+    project = Path(__file__).parents[1] / "plugins/pyproject.toml"
     entries = tomllib.loads(project.read_text())["project"]["entry-points"]["mrpbench.metrics"]
     parts = [HEAD]
     for name, where in sorted(entries.items()):

@@ -12,7 +12,7 @@ from mrpbench_core.plugins.provenance import components_in, origin
 
 
 def title(component: Component) -> str:
-    """Kind, name and origin of a component, e.g. `planner 'cbs' of mrpbench-planners-mapf 0.1`."""
+    """Kind, name and origin of a component, e.g. `planner 'cbs' of mrpbench-standard 0.1`."""
     found = origin(type(component))
     owner = f" of {found['distribution']} {found['version']}" if "distribution" in found else ""
     return f"{found['kind']} '{found['name']}'{owner}"

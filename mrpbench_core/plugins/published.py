@@ -13,22 +13,22 @@ _METRICS = (
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
-    *("pbs", "pibt", "lacam", "lns"),
+    *("pbs", "pibt", "lacam", "lns", "example", "external"),
 )
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
+    "mrpbench-standard": {
+        "mrpbench.controllers": ("dwb", "pure_pursuit"),
+        "mrpbench.critics": _CRITICS,
+        "mrpbench.localizers": ("amcl",),
+        "mrpbench.metrics": _METRICS,
+        "mrpbench.planners": _PLANNERS,
+        "mrpbench.simulators": ("planar",),
+    },
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},
     "mrpbench-assigners-scipy": {"mrpbench.assigners": ("hungarian",)},
     "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},
-    "mrpbench-controllers-dwb": {"mrpbench.controllers": ("dwb",), "mrpbench.critics": _CRITICS},
-    "mrpbench-controllers-pure-pursuit": {"mrpbench.controllers": ("pure_pursuit",)},
     "mrpbench-executors-dask": {"mrpbench.executors": ("dask",)},
     "mrpbench-exporters-rosbag2": {"mrpbench.exporters": ("rosbag2",), "mrpbench.importers": ("rosbag2",)},
-    "mrpbench-localizers-amcl": {"mrpbench.localizers": ("amcl",)},
-    "mrpbench-metrics-standard": {"mrpbench.metrics": _METRICS},
-    "mrpbench-planners-example": {"mrpbench.planners": ("example",)},
-    "mrpbench-planners-external": {"mrpbench.planners": ("external",)},
-    "mrpbench-planners-mapf": {"mrpbench.planners": _PLANNERS},
-    "mrpbench-simulators-planar": {"mrpbench.simulators": ("planar",)},
     "mrpbench-simulators-pybullet": {"mrpbench.simulators": ("pybullet",)},
 }
 """Names by entry-point group, by distribution. Of other distributions nothing is known before they are installed."""

@@ -22,7 +22,7 @@ def test_options_are_shown_with_default_unit_and_help(mrpbench):
     assert (size["default"], size["unit"], size["type"]) == ("0.4", "m", "float")
     assert all(entry["help"] for entry in facts["options"])
     plain = mrpbench("plugins", "show", "example")[1]
-    assert "planner example, from mrpbench-planners-example" in plain
+    assert "planner example, from mrpbench-standard" in plain
     assert "promises: conflict_free, deterministic" in plain
 
 

@@ -26,7 +26,7 @@ def test_a_study_is_run_reported_and_not_done_twice(mrpbench):
     assert (code, errors) == (0, "")
     lines = output.splitlines()
     assert lines[0].startswith("plugins: mrpbench-core ")
-    assert "mrpbench-planners-example" in lines[0]
+    assert "mrpbench-standard" in lines[0]
     assert lines[1].endswith("results/tiny: 2 of 2 runs to do, 0 recorded")
     assert lines[2].startswith("[1/2] ")
     assert lines[2].endswith(" succeeded seed=0")

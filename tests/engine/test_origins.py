@@ -29,7 +29,7 @@ def config():
 def test_a_broken_contract_names_name_and_distribution(config):
     said = "the localizer returned NoneType instead of Estimate"
     assert with_origin(said, config).startswith(f"{said} (localizer 'ground_truth' of mrpbench-core ")
-    assert "(planner 'example' of mrpbench-planners-example " in with_origin("the planner returned x", config)
+    assert "(planner 'example' of mrpbench-standard " in with_origin("the planner returned x", config)
 
 
 def test_a_message_about_no_component_stays_as_it_is(config):
@@ -55,4 +55,4 @@ def test_an_exception_of_the_core_belongs_to_nothing(config):
 
 
 def test_a_component_of_a_distribution_is_titled_with_its_version(config):
-    assert title(config.planner).startswith("planner 'example' of mrpbench-planners-example ")
+    assert title(config.planner).startswith("planner 'example' of mrpbench-standard ")

@@ -16,19 +16,19 @@ PLUGINS = Path(__file__).parents[2] / "plugins"
 
 def test_the_table_is_that_of_the_entry_points():
     found = {}
-    for file in PLUGINS.glob("*/*/pyproject.toml"):
+    for file in PLUGINS.glob("**/pyproject.toml"):
         project = tomllib.loads(file.read_text())["project"]
         found[project["name"]] = {group: set(names) for group, names in project["entry-points"].items()}
     assert {name: {group: set(names) for group, names in offers.items()} for name, offers in PUBLISHED.items()} == found
 
 
 def test_a_plugin_of_a_distribution_that_is_not_installed_names_it(install):
-    with pytest.raises(InputError, match=r"no planner is called 'lacam' \(mrpbench-planners-mapf has it: `pip install"):
+    with pytest.raises(InputError, match=r"no planner is called 'lacam' \(mrpbench-standard has it: `pip install"):
         Registry(Planner).get("lacam")
 
 
 def test_a_plugin_that_is_named_without_its_kind_is_found_too(install):
-    with pytest.raises(InputError, match=r"no plugin is called 'amcl' \(mrpbench-localizers-amcl has it"):
+    with pytest.raises(InputError, match=r"no plugin is called 'amcl' \(mrpbench-standard has it"):
         resolve("amcl")
 
 
