@@ -5,6 +5,8 @@ import inspect
 import tomllib
 from pathlib import Path
 
+from mrpbench_core.api import Column
+
 HEAD = """\
 # Metrics
 `scripts/metrics_page.py` writes this page from the descriptions of the metrics. `planning` and `execution` are
@@ -18,6 +20,8 @@ is null: channels of the recording (see [results folder](results-folder.md)), `p
 path that each robot was to follow is known) or `end` (how the run ended is known). Samples are
 taken at `recording.rate`, so times are exact to one sample.
 Tables, figures and replays show the columns marked *primary* unless others are asked for (`--metrics`).
+Reports call a difference of two means *noticeable* if it reaches the threshold in the column `noticeable`, which the
+metric declares: an amount, and in some cases also a share of the larger mean. Both must then be reached.
 """
 
 
@@ -32,14 +36,25 @@ def page() -> str:
         parts += [f"\n## {name}\n{inspect.getdoc(metric)}\n"]
         if metric.requires:
             parts += [f"\nRequires {_words(metric.requires)}.\n"]
-        parts += ["\n| column | unit | better | definition |\n|---|---|---|---|\n"]
+        parts += ["\n| column | unit | better | noticeable | definition |\n|---|---|---|---|---|\n"]
         for column in metric.columns:
             notes = f" (requires {_words(column.requires)})" if column.requires else ""
             notes += f" (formerly {_words(frozenset(column.aliases))})" if column.aliases else ""
             better = f"{column.better}, primary" if column.primary else column.better
+            threshold = _threshold(column)
             source = f" [{column.source}]" if column.source else ""
-            parts += [f"| `{column.name}` | {column.unit} | {better} | {column.description}{notes}{source} |\n"]
+            parts += [
+                f"| `{column.name}` | {column.unit} | {better} | {threshold} | {column.description}{notes}{source} |\n"
+            ]
     return "".join(parts)
+
+
+def _threshold(column: Column) -> str:
+    if column.threshold is None:
+        return "–"
+    return f"{column.threshold:g} {column.unit}".strip() + f", {column.threshold_share:.0%}" * bool(
+        column.threshold_share
+    )
 
 
 def _words(required: frozenset[str]) -> str:

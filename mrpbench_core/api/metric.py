@@ -15,6 +15,7 @@ Value = float | int | bool | None
 Better = Literal["lower", "higher", "neither"]
 ColumnStage = Literal["planning", "execution"]
 Drawn = Literal["interval", "profile", "cactus"]
+Question = Literal["arrival", "duration", "planning", "proximity"]
 
 
 @attrs.frozen
@@ -44,6 +45,15 @@ class Column:
     """The figures of a primary column: its mean with an interval; also a performance profile (Dolan and Moré 2002); or
     also a profile and a cactus plot, on a logarithmic axis. The last two are for values above 0 of which less is
     better."""
+    answers: Question | None = None
+    """The question at the beginning of a report that it helps to answer: do robots arrive, how long does it take, what
+    does planning cost, how near do robots come? None = a question of its own, if it is shown."""
+    threshold: float | None = None
+    """Smallest difference of two means, in `unit`, that matters in practice (smallest effect size of interest;
+    D. Lakens, "Equivalence Tests", Social Psychological and Personality Science 8, 2017). Reports call no smaller
+    difference noticeable, and none at all if it is None."""
+    threshold_share: float = 0.0
+    """The same as a share of the larger mean; a noticeable difference reaches both thresholds."""
     aliases: tuple[str, ...] = ()
     """Full names (`<metric>.<column>`) under which older records hold the same number; reports read them as this."""
 

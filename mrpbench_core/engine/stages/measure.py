@@ -96,6 +96,9 @@ def describe(metrics: Mapping[str, Metric]) -> dict[str, dict[str, Any]]:
             "primary": column.primary,
             "stage": column.stage,
             "drawn": column.drawn,
+            "answers": column.answers,
+            "threshold": column.threshold,
+            "threshold_share": column.threshold_share,
             "aliases": list(column.aliases),
         }
         for name, metric in metrics.items()

@@ -1,11 +1,12 @@
 """Describes the columns of numbers: unit, direction, meaning, and how reports show them."""
 
 from collections.abc import Iterable, Mapping
+from functools import partial
 from typing import Any, get_args
 
 import attrs
 
-from mrpbench_core.api.metric import Better, Column, ColumnStage, Drawn, Metric
+from mrpbench_core.api.metric import Better, Column, ColumnStage, Drawn, Metric, Question
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.reading.invocations import read_invocations
@@ -16,21 +17,43 @@ from mrpbench_core.store.results import Results
 Columns = Mapping[str, Column]
 """Columns by full name, `<metric>.<column>`."""
 
+_OUTCOME = partial(Column, unit="", better="higher", answers="arrival", threshold=0.05)
 OUTCOME = (
-    Column("succeeded", "", "higher", "share of the runs that planned and arrived, of all that count"),
-    Column("planned", "", "higher", "share of the runs whose planner found a plan that keeps its promises"),
+    _OUTCOME("succeeded", description="share of the runs that planned and arrived, of all that count"),
+    _OUTCOME(
+        "planned",
+        description="share of the runs whose planner found a plan that keeps its promises",
+        stage="planning",
+    ),
 )
-_PLANNING_TIME = "wall time of the planner's call; runs with a plan only"
-_PENALISED = f"the same, where a run without a plan counts {PENALTY:g} times its limit (PAR2)"
-_PLANNING_CPU = "CPU time of the planner's call; runs with a plan only"
-_PLANNING_MEMORY = "memory that planning added; runs with a plan only"
+_PENALISED = f"wall time of the planner's call, where a run without a plan counts {PENALTY:g} times its limit (PAR2)"
+_cost = partial(Column, better="lower", stage="planning", answers="planning")
+_time = partial(_cost, unit="s", threshold=0.1, threshold_share=0.1)
 TIMING = (
-    Column("timing.planning_s", "s", "lower", _PLANNING_TIME, stage="planning", primary=True, drawn="cactus"),
-    Column(PAR2, "s", "lower", _PENALISED, stage="planning", primary=True),
-    Column("timing.planning_cpu_s", "s", "lower", _PLANNING_CPU, stage="planning"),
-    Column("timing.planning_peak_bytes", "B", "lower", _PLANNING_MEMORY, stage="planning"),
-    Column("timing.real_time_factor", "", "higher", "simulated time over wall time of the execution"),
-    Column("timing.clock_bound", "", "lower", "a clock ended the planning", stage="planning"),
+    _time(
+        "timing.planning_s",
+        description="wall time of the planner's call; runs with a plan only",
+        primary=True,
+        drawn="cactus",
+    ),
+    _time(PAR2, description=_PENALISED, primary=True),
+    _time("timing.planning_cpu_s", description="CPU time of the planner's call; runs with a plan only"),
+    _cost(
+        "timing.planning_peak_bytes",
+        unit="B",
+        description="memory that planning added; runs with a plan only",
+        threshold=1e7,
+        threshold_share=0.1,
+    ),
+    Column(
+        "timing.real_time_factor",
+        "",
+        "higher",
+        "simulated time over wall time of the execution",
+        threshold=1.0,
+        threshold_share=0.1,
+    ),
+    Column("timing.clock_bound", "", "lower", "a clock ended the planning", stage="planning", threshold=0.05),
 )
 """The columns that the engine measures, in wall time. Metrics declare all other columns."""
 _KNOWN = {column.name: column for column in (*OUTCOME, *TIMING)}
@@ -51,7 +74,7 @@ def describe_columns(declared: Mapping[str, Any], names: Iterable[str] = ()) -> 
     name completes them. Where none is installed, a column is not primary, and has no unit if none is declared.
     """
     wanted = [name for name in dict.fromkeys([*declared, *names]) if name not in _KNOWN]
-    incomplete = [name for name in wanted if "primary" not in (declared.get(name) or ())]
+    incomplete = [name for name in wanted if "threshold" not in (declared.get(name) or ())]
     installed = {
         name: column
         for metric in dict.fromkeys(map(_metric_of, incomplete))
@@ -92,6 +115,9 @@ def _column(name: str, declared: Any, installed: Column | None) -> Column:
         primary=bool(declared.get("primary", column.primary)),
         stage=_one_of(ColumnStage, declared.get("stage"), column.stage),
         drawn=_one_of(Drawn, declared.get("drawn"), column.drawn),
+        answers=_one_of(Question, declared.get("answers"), column.answers),
+        threshold=_at_least_0(declared.get("threshold", column.threshold), column.threshold),
+        threshold_share=_at_least_0(declared.get("threshold_share"), column.threshold_share) or 0.0,
         aliases=tuple(map(str, aliases)) if isinstance(aliases, list) else column.aliases,
     )
 
@@ -102,8 +128,12 @@ def _timing(name: str) -> tuple[str, Any]:
     return unit, "lower" if unit else "neither"
 
 
-def _one_of(options: Any, value: Any, otherwise: str) -> Any:
+def _one_of(options: Any, value: Any, otherwise: Any) -> Any:
     return value if value in get_args(options) else otherwise
+
+
+def _at_least_0(value: Any, otherwise: Any) -> Any:
+    return value if value is None or (isinstance(value, int | float) and value >= 0) else otherwise
 
 
 def _metric_of(name: str) -> str:

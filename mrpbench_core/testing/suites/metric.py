@@ -35,6 +35,14 @@ class MetricConformance(ComponentConformance):
                 column.drawn == "interval" or column.better == "lower",
                 f"column {column.name}: `drawn` is {column.drawn!r}, which is for columns of which less is better",
             )
+            require(
+                column.threshold is None or column.threshold >= 0,
+                f"column {column.name}: `threshold` is {column.threshold!r}; a difference that matters is at least 0",
+            )
+            require(
+                0 <= column.threshold_share < 1,
+                f"column {column.name}: `threshold_share` is {column.threshold_share!r}; it is a share, such as 0.05",
+            )
 
     def test_requires_channels_that_exist(self) -> None:
         metric = self.make()

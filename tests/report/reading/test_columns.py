@@ -40,3 +40,12 @@ def test_declarations_that_make_no_sense_do_no_harm():
     assert {known[name].stage for name in ("x.a", "x.b", "x.c")} == {"execution"}
     assert {known[name].drawn for name in ("x.a", "x.b", "x.c")} == {"interval"}
     assert not any(name.startswith("x.") for name in names(known))
+    odd = {"threshold": "far", "threshold_share": -1, "answers": "everything"}
+    x = describe_columns({"x.a": OLD | odd})["x.a"]
+    assert (x.threshold, x.threshold_share, x.answers) == (None, 0.0, None)
+
+
+def test_thresholds_of_an_older_version_are_those_of_the_installed_metric():
+    known = describe_columns({"execution.duration_s": OLD, "execution.time_blocked_s": OLD | {"threshold": None}})
+    assert (known["execution.duration_s"].threshold, known["execution.duration_s"].answers) == (1.0, "duration")
+    assert known["execution.time_blocked_s"].threshold is None

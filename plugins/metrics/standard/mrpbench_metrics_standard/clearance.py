@@ -29,12 +29,24 @@ class Clearance(Metric):
 
     columns: ClassVar[tuple[Column, ...]] = (
         *(
-            Column(f"robots_{name}_m", "m", "higher", f"{words} {_SCOPE} nearest disc of another robot on its level")
+            Column(
+                f"robots_{name}_m",
+                "m",
+                "higher",
+                f"{words} {_SCOPE} nearest disc of another robot on its level",
+                answers="proximity",
+                threshold=0.05,
+            )
             for name, (_, words) in SHARES.items()
         ),
         *(
             Column(
-                f"walls_{name}_m", "m", "higher", f"{words} {_SCOPE} outline of the nearest solid thing on its level"
+                f"walls_{name}_m",
+                "m",
+                "higher",
+                f"{words} {_SCOPE} outline of the nearest solid thing on its level",
+                answers="proximity",
+                threshold=0.05,
             )
             for name, (_, words) in SHARES.items()
         ),

@@ -29,9 +29,18 @@ class Delay(Metric):
             "lower",
             "mean over these robots of the time from the start until the first sample at which the last planned move "
             "is completed, minus the time at which the plan completes it; robots that need not move have delay 0",
+            answers="duration",
+            threshold=1.0,
         ),
-        Column("p95_s", "s", "lower", "95th percentile of these delays, linear between robots"),
-        Column("max_s", "s", "lower", "the largest of these delays"),
+        Column(
+            "p95_s",
+            "s",
+            "lower",
+            "95th percentile of these delays, linear between robots",
+            answers="duration",
+            threshold=1.0,
+        ),
+        Column("max_s", "s", "lower", "the largest of these delays", answers="duration", threshold=1.0),
     )
     requires: ClassVar[frozenset[str]] = frozenset({"time", "end", "reached", "plan"})
 

@@ -43,6 +43,9 @@ class Execution(Metric):
             requires=PROGRESS,
             primary=True,
             drawn="profile",
+            answers="duration",
+            threshold=1.0,
+            threshold_share=0.02,
         ),
         Column("goals_reached", "", "higher", "number of robots that completed their path", requires=PROGRESS),
         Column(
@@ -51,7 +54,8 @@ class Execution(Metric):
             "higher",
             "smallest distance between the centres of two robots on the same level",
             requires=frozenset({"level"}),
-            primary=True,
+            answers="proximity",
+            threshold=0.05,
         ),
         Column(
             "min_clearance_m",
@@ -59,6 +63,9 @@ class Execution(Metric):
             "higher",
             "smallest gap between the circumscribed discs of two robots on the same level",
             requires=frozenset({"level"}),
+            primary=True,
+            answers="proximity",
+            threshold=0.05,
         ),
         Column(
             "time_blocked_s",
@@ -68,6 +75,9 @@ class Execution(Metric):
             "less than `blocked_distance` in the last `blocked_window`; planned waits count",
             requires=PROGRESS | {"path"},
             primary=True,
+            answers="duration",
+            threshold=1.0,
+            threshold_share=0.05,
         ),
         Column(
             "time_blocked_max_s",
@@ -83,6 +93,8 @@ class Execution(Metric):
             "episodes of two robots touching; touches of a pair at most `contact_pause` apart are one episode",
             requires=CONTACTS,
             primary=True,
+            answers="proximity",
+            threshold=0.05,
             aliases=("contact.robot_count",),
         ),
         Column(
