@@ -8,7 +8,7 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz
+.PHONY: help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz docs links
 
 help: ## list the targets
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -37,7 +37,7 @@ optima: install ## check all 636 published optima with every planner that promis
 demo: install ## do one small run, end to end: table, picture, bag
 	$(BIN)/mrpbench demo
 
-test: install lint types layers cpp python ## run all checks of CI
+test: install lint types layers docs cpp python ## run all checks of CI
 
 lint: install
 	$(BIN)/ruff check .
@@ -88,6 +88,14 @@ fuzz: install ## give changed inputs to readers of files; COUNT=1000000 READERS=
 
 worlds: install ## drive robots on every built-in world without contacts (ten minutes); CONTROLLER=dwb for another
 	$(BIN)/python benchmarks/worlds.py --controller $(or $(CONTROLLER),pure_pursuit)
+
+DOCS := build/docs
+SPHINX := $(BIN)/sphinx-build --fail-on-warning --keep-going --nitpicky --jobs auto --doctree-dir $(DOCS)/doctrees
+docs: install ## build the documentation site into build/docs/html; warnings are errors
+	$(SPHINX) docs $(DOCS)/html
+
+links: install ## look up all external links of the documentation
+	$(SPHINX) --builder linkcheck docs $(DOCS)/links
 
 format: install ## rewrite the sources in the house style
 	$(BIN)/ruff check --fix .

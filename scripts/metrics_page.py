@@ -1,4 +1,4 @@
-"""Print docs/metrics.md from the columns of the metrics: `python scripts/metrics_page.py > docs/metrics.md`."""
+"""Print `docs/reference/metrics.md` from the columns of the metrics: `python scripts/metrics_page.py`."""
 
 import importlib
 import inspect

@@ -13,7 +13,7 @@ from selenium import webdriver
 from mrpbench_core import run
 from mrpbench_core.cli.main import main as mrpbench
 
-PICTURE = Path(__file__).parents[1] / "docs/replay.png"
+PICTURE = Path(__file__).parents[1] / "docs/images/replay.png"
 STUDY = {
     "name": "hospital",
     "world": "hospital",

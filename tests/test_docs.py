@@ -49,7 +49,7 @@ def test_paths_that_pages_name_exist(page):
 
 
 def test_the_design_page_has_the_layers_of_the_contract(project):
-    block = (ROOT / "docs/design.md").read_text().partition("## Layers")[2].split("```")[1]
+    block = (ROOT / "docs/explanation/design.md").read_text().partition("## Layers")[2].split("```")[1]
     said = [set(layer.split(", ")) for layer in block.strip().split(" → ")]
     (contract,) = (it for it in project["tool"]["importlinter"]["contracts"] if it["name"] == "Layers of the core")
     assert said == [set(layer.split(" | ")) for layer in contract["layers"]]

@@ -20,7 +20,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
         "One row for each configuration, over its seeds and repeats, with 95 % intervals and n; then the same over the"
-        " scenarios that all have in common, and paired tests. docs/statistics.md has every rule."
+        " scenarios that all have in common, and paired tests. docs/explanation/statistics.md has every rule."
     )
     parser.add_argument(
         "folders", nargs="+", metavar="DIR", help="results folders; of one run in several, the later wins"

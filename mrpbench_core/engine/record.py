@@ -18,7 +18,7 @@ class RunError:
 
 @attrs.define(kw_only=True)
 class RunRecord:
-    """The part of a record that the process of the run knows, filled stage by stage; see `docs/results-folder.md`."""
+    """The part of a record that its process knows, filled stage by stage; see `docs/reference/results-folder.md`."""
 
     run_id: str
     scenario_id: str | None = None

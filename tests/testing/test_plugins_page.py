@@ -1,4 +1,4 @@
-"""`docs/plugins.md` tells the truth: its code is saved, checked, run, installed and tested as it says."""
+"""`docs/how-to/planner.md` tells the truth: its code is saved, checked, run, installed and tested as it says."""
 
 import json
 import os
@@ -12,7 +12,7 @@ import pytest
 
 from mrpbench_core.api import hooks
 
-PAGE = Path(__file__).parents[2] / "docs" / "plugins.md"
+PAGE = Path(__file__).parents[2] / "docs" / "how-to" / "planner.md"
 
 
 @pytest.fixture(scope="module")
@@ -100,6 +100,6 @@ def test_the_hook_exists(blocks, capsys):
 def test_files_and_classes_that_the_page_names_exist():
     text = PAGE.read_text()
     for path in re.findall(r"`(mrpbench_core/[\w/.]+)`", text):
-        assert (PAGE.parents[1] / path).exists(), path
+        assert (PAGE.parents[2] / path).exists(), path
     for module in re.findall(r"`(mrpbench_core\.testing\.\w+)`", text):
-        assert (PAGE.parents[1] / (module.replace(".", "/") + ".py")).exists(), module
+        assert (PAGE.parents[2] / (module.replace(".", "/") + ".py")).exists(), module

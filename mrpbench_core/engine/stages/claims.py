@@ -18,7 +18,7 @@ UNCHECKED = frozenset({Feature.HEADINGS})
 
 
 def claims_of(promises: Promises, problem: Problem, result: PlanResult) -> dict[str, Any]:
-    """Return the entry `plan` of the record; see `docs/results-folder.md`.
+    """Return the entry `plan` of the record; see `docs/reference/results-folder.md`.
 
     Args:
         promises: of the planner.

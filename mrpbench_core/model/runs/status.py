@@ -4,7 +4,7 @@ from enum import StrEnum
 
 
 class RunStatus(StrEnum):
-    """The status of a finished run; see `docs/results-folder.md`."""
+    """The status of a finished run; see `docs/reference/results-folder.md`."""
 
     SUCCEEDED = "succeeded"
     """Every robot arrived; without a simulator, the planner found a valid plan."""

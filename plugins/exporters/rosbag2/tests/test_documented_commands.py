@@ -1,4 +1,4 @@
-"""Every command of docs/ros.md runs as it is written there."""
+"""Every command of docs/reference/ros.md runs as it is written there."""
 
 import importlib.util
 import re
@@ -11,7 +11,7 @@ import pytest
 from mrpbench_core.cli.main import main
 from mrpbench_core.files.scenario import read_scenario
 
-PAGE = Path(__file__).parents[4] / "docs" / "ros.md"
+PAGE = Path(__file__).parents[4] / "docs" / "reference" / "ros.md"
 CONFIGURATION = """
 name: office
 world: office
