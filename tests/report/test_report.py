@@ -99,7 +99,7 @@ def test_a_column_that_no_run_has_is_refused(results, record):
 
 
 def test_a_reviewer_recomputes_the_numbers_from_the_lines(results, record, tmp_path):
-    """The lines of docs/explanation/statistics.md, on a study with repeats, failures, and scenarios that only one has."""
+    """Lines of docs/explanation/statistics.md, on a study with repeats, failures, and scenarios that only one has."""
     records = []
     for planner, slow in (("a", 0.0), ("b", 0.7)):
         for seed in range(12):
