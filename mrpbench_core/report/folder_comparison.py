@@ -7,6 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.extras import has, pip
 from mrpbench_core.report.estimation.comparison import Comparison, adjusted, compare_pair
 from mrpbench_core.report.estimation.groups import RunGroup
 from mrpbench_core.report.reading.axes import Axes, name_axes, word
@@ -45,8 +46,10 @@ def compare_folders(
         by: options in which configurations must agree to match; runs that differ in others are pooled.
 
     Raises:
-        InputError: a folder is empty, a name is wrong, or nothing can be paired.
+        InputError: SciPy is missing, a folder is empty, a name is wrong, or nothing can be paired.
     """
+    if not has("scipy"):
+        raise InputError("comparing needs SciPy", hint=pip("statistics"))
     folders = (first, second)
     for results in folders:
         if not len(results):

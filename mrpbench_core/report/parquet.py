@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.extras import pip
 from mrpbench_core.files.jsonl import line
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.report.reading.runs import each_once, read_runs
@@ -24,7 +25,7 @@ def write_parquet(folders: Sequence[Results], file: Path) -> None:
         import pyarrow as pa
         import pyarrow.parquet as pq
     except ImportError:
-        raise InputError("--parquet needs pyarrow", hint="pip install 'mrpbench-core[parquet]'") from None
+        raise InputError("--parquet needs pyarrow", hint=pip("parquet")) from None
     refuted = _refuted(folders)
     kinds: dict[str, set[type]] = {}
     for _, record in each_once(folders):

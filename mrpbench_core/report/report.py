@@ -7,6 +7,7 @@ import numpy as np
 
 from mrpbench_core.api.metric import Column
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.extras import has
 from mrpbench_core.files.suggestions import suggest
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.report.estimation.comparison import Comparison, compare_settings
@@ -17,6 +18,7 @@ from mrpbench_core.report.reading.folders import read_folders
 from mrpbench_core.report.reading.runs import Runs
 from mrpbench_core.report.tables.build import (
     RATES,
+    UNTESTED,
     common_table,
     means_table,
     outcome_table,
@@ -41,17 +43,22 @@ class Report:
     profiled: tuple[Column, ...]
     """Primary and shown columns that have a performance profile."""
     comparisons: tuple[Comparison, ...]
+    """None without SciPy, which does the tests."""
 
     def tables(self, brief: bool = False) -> list[Table]:
         """Return the tables; `brief` counts the comparisons that cannot be significant instead of showing them."""
         means = means_table(self.settings, self.numbers, self.columns, self.runs) if self.columns else None
         common = common_table(self.settings, self.numbers, self.columns, self.runs)
+        if has("scipy"):
+            pairs = pairs_table(self.comparisons, brief=brief)
+        else:
+            pairs = UNTESTED if any(len(setting.groups) > 1 for setting in self.settings) else None
         found = (
             outcome_table(self.runs, self.settings, self.numbers),
             promises_table(self.runs),
             means,
             common,
-            pairs_table(self.comparisons, brief=brief),
+            pairs,
         )
         return [table for table in found if table is not None]
 
@@ -94,7 +101,7 @@ def make_report(
         numbers=tuple(tuple(numbers_of(runs, setting, wanted)) for setting in settings),
         columns=columns,
         profiled=profiled_columns(runs, known, columns),
-        comparisons=tuple(compare_settings(runs, settings, tested(runs, known, columns))),
+        comparisons=tuple(compare_settings(runs, settings, tested(runs, known, columns))) if has("scipy") else (),
     )
 
 

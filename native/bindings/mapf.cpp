@@ -5,11 +5,13 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
 #include "mapf_instance.hpp"
 #include "mrpbench_mapf/algorithms/algorithms.hpp"
+#include "mrpbench_mapf/single_agent/path_lengths.hpp"
 #include "options.hpp"
 
 namespace nb = nanobind;
@@ -99,6 +101,22 @@ Answer solve(const Instance& instance, const std::string& name, const nb::dict& 
   return {instance, solver(instance, limits)};
 }
 
+nb::ndarray<nb::numpy, double> lengths_of_paths(int vertex_count, const Table<std::int32_t>& ends,
+                                                const Vector<double>& length, const Vector<std::int32_t>& sources,
+                                                const Vector<std::int32_t>& targets) {
+  require(ends.shape(1) == 2 && length.size() == ends.shape(0), "edges have two ends and a length each");
+  const auto known = [&](int vertex) { return vertex >= 0 && vertex < vertex_count; };
+  std::vector<WeightedEdge> edges;
+  for (std::size_t e = 0; e < length.size(); ++e) {
+    edges.push_back({ends.data()[2 * e], ends.data()[2 * e + 1], length.data()[e]});
+    require(known(edges[e].tail) && known(edges[e].head), "an edge ends at a vertex that does not exist");
+    require(edges[e].length >= 0.0, "lengths are not below 0");
+  }
+  const auto from = copy<int>(sources), to = copy<int>(targets);
+  for (const auto& named : {from, to}) require(std::ranges::all_of(named, known), "a vertex does not exist");
+  return own<double>(path_lengths(vertex_count, edges, from, to), {from.size(), to.size()});
+}
+
 }  // namespace
 
 NB_MODULE(mapf, module) {
@@ -137,4 +155,6 @@ NB_MODULE(mapf, module) {
              "The algorithm of this name. Raises ValueError if there is none.");
   module.def("solve", &solve, "instance"_a, "algorithm"_a, "options"_a, nb::kw_only(), "wall_s"_a, "memory_bytes"_a,
              "Solve an instance. Raises ValueError for an option that does not exist or that cannot have its value.");
+  module.def("path_lengths", &lengths_of_paths, "vertex_count"_a, "edges"_a, "length"_a, "sources"_a, "targets"_a,
+             "f8[sources,targets], infinite where there is no path; edges i4[E,2], length f8[E] not below 0.");
 }

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from mrpbench_native import mapf
+from scipy.sparse.csgraph import dijkstra
 
 LIMITS = {"wall_s": 1.0, "memory_bytes": 1 << 30}
 NONE = {"first": np.empty(0, "i8"), "element": np.empty(0, "i4")}
@@ -121,3 +122,31 @@ def test_the_stub_names_what_the_module_has():
             assert [argument.arg for argument in arguments] == arguments_of(getattr(mapf, item.name))
     declared = {item.name for item in stub.body if isinstance(item, ast.FunctionDef | ast.ClassDef)}
     assert declared == {name for name in dir(mapf) if not name.startswith("_")}
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_lengths_of_paths_are_those_of_scipy(seed):
+    random = np.random.default_rng(seed)
+    ends, length = random.integers(0, 30, (60, 2)).astype("i4"), random.choice([0.5, 1.0, 2.0, 3.7], 60)
+    sources, targets = random.permutation(30)[:4].astype("i4"), random.integers(0, 30, 7).astype("i4")
+    least = np.full((30, 30), np.inf)  # of parallel edges the shortest counts
+    np.minimum.at(least, (ends[:, 0], ends[:, 1]), length)
+    expected = dijkstra(least, indices=sources)[:, targets]
+    assert mapf.path_lengths(30, ends, length, sources, targets) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    ("changed", "error"),
+    [
+        ({"edges": [[0, 3]]}, "an edge ends at a vertex that does not exist"),
+        ({"edges": [[0, 1, 2]]}, "edges have two ends and a length each"),
+        ({"length": [-1.0]}, "lengths are not below 0"),
+        ({"length": [np.nan]}, "lengths are not below 0"),
+        ({"sources": [-1]}, "a vertex does not exist"),
+        ({"targets": [3]}, "a vertex does not exist"),
+    ],
+)
+def test_paths_on_no_graph_are_refused(changed, error):
+    given = {"edges": [[0, 1]], "length": [1.0], "sources": [0], "targets": [1]} | changed
+    with pytest.raises(ValueError, match=error):
+        mapf.path_lengths(3, *(np.array(value, "f8" if name == "length" else "i4") for name, value in given.items()))

@@ -1,5 +1,7 @@
 """Two results folders, paired."""
 
+import sys
+
 import pytest
 
 from mrpbench_core.files.errors import InputError
@@ -71,3 +73,10 @@ def test_versions_that_differ_are_told(results, record):
     one = results([record()], "a", "versions: {mrpbench-core: 0.1.0}\nmachine: {processor: slow}\n")
     two = results([record()], "b", "versions: {mrpbench-core: 0.2.0}\nmachine: {processor: slow}\n")
     assert compare_folders(one, two).differing == {"mrpbench-core": ("0.1.0", "0.2.0")}
+
+
+def test_comparing_needs_scipy(results, record, monkeypatch):
+    folder = results([record("a", 0)])
+    monkeypatch.setitem(sys.modules, "scipy", None)
+    with pytest.raises(InputError, match=r"^comparing needs SciPy \(`pip install 'mrpbench\[statistics\]'`\)$"):
+        compare_folders(folder, folder)

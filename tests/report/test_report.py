@@ -1,5 +1,7 @@
 """The numbers of a report: by hand on a few records, and recomputed with pandas as a reviewer would."""
 
+import sys
+
 import pandas as pd
 import pytest
 from scipy import stats
@@ -151,3 +153,17 @@ def test_the_heading_says_where_an_assigner_changed_given_goals(results, record)
     changed = [record(seed=0), record(seed=1, reassigned=2), record(seed=2, reassigned=4)]
     title = make_report([results(changed, "changed")]).tables()[0].title
     assert title == "How the runs ended (the assigner changed the scenario's goals in 2 of 3 runs)"
+
+
+def test_without_scipy_only_the_paired_tests_are_missing(results, record, monkeypatch):
+    folder = results([record(p, seed, cost=1.0 + seed) for p in ("a", "b") for seed in range(6)])
+    full = make_report([folder], ["planning.cost"])
+    monkeypatch.setitem(sys.modules, "scipy", None)
+    found = make_report([folder], ["planning.cost"])
+    assert found.numbers == full.numbers
+    assert numbers(found)["a"].overall["planning.cost"].has_interval
+    *others, pairs = found.tables()
+    assert [table.key for table in others] == [table.key for table in full.tables()][:-1]
+    assert (pairs.key, pairs.rows) == ("pairs", ())
+    assert pairs.note == "Paired comparisons need SciPy: `pip install 'mrpbench[statistics]'` installs it."
+    assert "pairs" not in [table.key for table in make_report([results([record("a", 0)])]).tables()]

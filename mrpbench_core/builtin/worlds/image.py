@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.files.errors import InputError, one_line
+from mrpbench_core.files.extras import pip
 from mrpbench_core.model.common.arrays import Bool, Float
 
 PIXELS = 2**26
@@ -38,7 +39,7 @@ def read_image(file: Path, named: Node) -> GreyscaleImage:
     try:
         from PIL import Image
     except ImportError:
-        raise named.error("images need Pillow", "pip install 'mrpbench-core[images]'") from None
+        raise named.error("images need Pillow", pip("images")) from None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", Image.DecompressionBombWarning)

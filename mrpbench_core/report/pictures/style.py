@@ -3,6 +3,7 @@
 from contextlib import AbstractContextManager
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.extras import pip
 
 COLOURS = ("#332288", "#44aa99", "#882255", "#88ccee", "#117733", "#ddcc77", "#aa4499", "#999933")
 """Colours of robots that colour-blind readers can distinguish: Paul Tol, "Colour Schemes", SRON/EPS/TN/09-002, 2021."""
@@ -21,7 +22,7 @@ def own_style() -> AbstractContextManager[None]:
     try:
         import matplotlib
     except ImportError:
-        raise InputError("pictures need matplotlib", hint="pip install 'mrpbench-core[figures]'") from None
+        raise InputError("pictures need matplotlib", hint=pip("figures")) from None
     style: AbstractContextManager[None] = matplotlib.rc_context(
         {"font.family": "sans-serif", "font.size": 7, "text.parse_math": False}
     )

@@ -1,4 +1,5 @@
-"""Estimates and tests, computed by SciPy and statsmodels. They know numbers only, no runs.
+"""Estimates and tests. They know numbers only, no runs.
 
-SciPy and statsmodels take seconds to import, so functions import them when they are called.
+Estimates and their intervals need NumPy only. Paired tests come from SciPy, an extra, which functions import when they
+are called, since that takes a second.
 """

@@ -1,9 +1,13 @@
 """An estimate with its interval."""
 
+from statistics import NormalDist
+
 import attrs
 
 LEVEL = 0.95
 """Confidence level of all intervals."""
+Z = NormalDist().inv_cdf((1 + LEVEL) / 2)
+"""Half the width of a normal interval, in standard errors."""
 
 
 @attrs.frozen

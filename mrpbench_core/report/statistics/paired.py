@@ -19,7 +19,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Float
-from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
+from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate, Z
 from mrpbench_core.report.statistics.means import AT_ONCE, MANY, SEED, mean
 
 FLIPS = 9999
@@ -60,11 +60,9 @@ def compare_rates(first: Float, second: Float) -> Difference | None:
     steps = _steps(first, second)
     if not len(steps):
         return None
-    from scipy.stats import norm
-
     # Bonett and Price add two units, one won by each.
     padded = np.append(steps, (1.0, -1.0))
-    reach = float(norm.ppf((1 + LEVEL) / 2) * np.sqrt(padded.var() / len(padded)))
+    reach = float(Z * np.sqrt(padded.var() / len(padded)))
     centre = float(padded.mean())
     estimate = IntervalEstimate(float(steps.mean()), max(-1.0, centre - reach), min(1.0, centre + reach), len(steps))
     return _difference(estimate, first, second, steps, _flip_test(steps))
@@ -84,13 +82,13 @@ def adjust(found: Sequence[Difference]) -> list[float]:
 
     Tests that cannot be significant, because too few units differ, do not count and get 1.
     """
-    from statsmodels.stats.multitest import multipletests
-
     adjusted = np.ones(len(found))
-    able = [index for index, entry in enumerate(found) if entry.can_be_significant]
-    if able:
-        adjusted[able] = multipletests([found[index].p for index in able], method="holm")[1]
-    return [float(value) for value in adjusted]
+    able = sorted((entry.p, index) for index, entry in enumerate(found) if entry.can_be_significant)
+    least = 0.0
+    for rank, (p, index) in enumerate(able):
+        least = max(least, min(1.0, p * (len(able) - rank)))
+        adjusted[index] = least
+    return adjusted.tolist()
 
 
 def _steps(first: Float, second: Float) -> Float:
@@ -116,13 +114,10 @@ def _flip_test(steps: Float) -> float:
     moved = steps[steps != 0]
     if not len(moved):
         return 1.0
+    from scipy.stats import binomtest, norm, permutation_test
+
     if (np.abs(moved) == 1).all():
-        from statsmodels.stats.contingency_tables import mcnemar
-
-        gains = int((moved > 0).sum())
-        return float(mcnemar([[0, gains], [len(moved) - gains, 0]], exact=True).pvalue)
-    from scipy.stats import norm, permutation_test
-
+        return float(binomtest(int((moved > 0).sum()), len(moved)).pvalue)
     if len(moved) > MANY:
         return float(2 * norm.sf(abs(moved.sum()) / np.sqrt((moved**2).sum())))
     rng = np.random.default_rng(SEED)

@@ -9,7 +9,7 @@ proportions in complex sample surveys", Journal of Survey Statistics and Methodo
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Float
-from mrpbench_core.report.statistics.estimate import LEVEL, IntervalEstimate
+from mrpbench_core.report.statistics.estimate import IntervalEstimate, Z
 
 
 def rate(fractions: Float, runs: int) -> IntervalEstimate | None:
@@ -19,15 +19,14 @@ def rate(fractions: Float, runs: int) -> IntervalEstimate | None:
         fractions: of each unit, the share of its runs that succeeded.
         runs: how many runs all units have together.
     """
-    from statsmodels.stats.proportion import proportion_confint
-
     if not len(fractions):
         return None
     mean = float(fractions.mean())
     size = effective_size(fractions, runs)
-    low, high = proportion_confint(mean * size, size, alpha=1 - LEVEL, method="wilson")
+    centre = (mean + Z**2 / (2 * size)) / (1 + Z**2 / size)
+    reach = Z / (1 + Z**2 / size) * np.sqrt(mean * (1 - mean) / size + Z**2 / (4 * size**2))
     # Rounding errors may leave the mean outside of the interval, at 0 and 1.
-    return IntervalEstimate(mean, min(mean, float(low)), max(mean, float(high)), len(fractions))
+    return IntervalEstimate(mean, min(mean, float(centre - reach)), max(mean, float(centre + reach)), len(fractions))
 
 
 def effective_size(fractions: Float, runs: int) -> float:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mrpbench_core.api.metric import Column
+from mrpbench_core.files.extras import pip
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.comparison import SIGNIFICANT, Comparison
 from mrpbench_core.report.estimation.estimates import Numbers
@@ -21,6 +22,17 @@ MOST_BROKEN = 20
 """Runs that the table of broken promises names."""
 SHORT = 12
 """Characters of a run id; enough to name one."""
+
+
+UNTESTED = Table(
+    key="pairs",
+    title="Pair by pair",
+    headings=("column",),
+    rows=(),
+    keys=1,
+    note=f"Paired comparisons need SciPy: {pip('statistics')} installs it.",
+)
+"""In place of the table of pairs where SciPy is missing."""
 
 
 def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]]) -> Table:

@@ -81,3 +81,12 @@ def solve(
     memory_bytes: int,
 ) -> Answer:
     """Solve an instance. Raises ValueError for an option that does not exist or that cannot have its value."""
+
+def path_lengths(
+    vertex_count: int,
+    edges: NDArray[np.int32],
+    length: NDArray[np.float64],
+    sources: NDArray[np.int32],
+    targets: NDArray[np.int32],
+) -> NDArray[np.float64]:
+    """f8[sources,targets], infinite where there is no path; edges i4[E,2], length f8[E] not below 0."""

@@ -190,5 +190,5 @@ def test_an_unknown_key_is_noted(load):
 def test_without_pillow_the_error_names_the_package_to_install(load, monkeypatch, tmp_path):
     load([[0]])
     monkeypatch.setitem(sys.modules, "PIL", None)
-    with pytest.raises(InputError, match=r"map.yaml:1:8: images need Pillow .*mrpbench-core\[images\]"):
+    with pytest.raises(InputError, match=r"map.yaml:1:8: images need Pillow .*mrpbench\[images\]"):
         RosMap(file=tmp_path / "map.yaml").load()

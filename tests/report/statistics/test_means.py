@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from mrpbench_core.report.statistics.means import LEAST, MANY, mean
+from mrpbench_core.report.statistics.means import LEAST, MANY, RESAMPLES, SEED, mean
 
 
 def test_many_normal_values_have_the_interval_of_student():
@@ -22,6 +22,14 @@ def test_skewed_values_have_a_skewed_interval():
     found = mean(hours)
     assert found.value == pytest.approx(108.083, abs=0.001)
     assert found.high - found.value > 1.5 * (found.value - found.low)
+
+
+@pytest.mark.parametrize("count", [5, 12, 80, 1000])
+def test_intervals_are_those_of_scipy(count):
+    values = np.random.default_rng(count).exponential(size=count)
+    found = mean(values)
+    expected = stats.bootstrap((values,), np.mean, n_resamples=RESAMPLES, rng=np.random.default_rng(SEED), method="BCa")
+    assert (found.low, found.high) == pytest.approx(tuple(expected.confidence_interval), rel=1e-9)
 
 
 def test_intervals_cover_skewed_means():

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from mrpbench_core.builtin.worlds.building.node import Node
+from mrpbench_core.files.extras import pip
 from mrpbench_core.model.common.arrays import Float
 
 
@@ -19,7 +20,7 @@ def projection(system: Node, target: str) -> Callable[[Float], Float]:
         from pyproj import Transformer
         from pyproj.exceptions import ProjError
     except ImportError:
-        raise system.error("coordinate_system 'wgs84' needs pyproj", "pip install 'mrpbench-core[geo]'") from None
+        raise system.error("coordinate_system 'wgs84' needs pyproj", pip("geo")) from None
     if not target:
         raise system.error("coordinate_system 'wgs84' needs the building parameter generate_crs", "such as EPSG:3414")
     try:

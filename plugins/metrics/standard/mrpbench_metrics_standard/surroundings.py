@@ -1,13 +1,10 @@
 """Distances of each robot from the nearest other robot and from the nearest solid thing."""
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16
 from mrpbench_core.model.common.geometry import point_segment_distance
 
-APART = 1e6
-"""metres between levels in the search for neighbours: farther than any two places on one level."""
 TILES = (8.0, 1.0)
 """metres: sides of the tiles within which segments that are nearest to no place are dropped."""
 TOGETHER = 2**20
@@ -17,8 +14,8 @@ TOGETHER = 2**20
 def robot_gaps(position: Float, level: Int16, radii: Float, chosen: Bool) -> Float:
     """Gap in metres between the discs of each chosen robot and of the nearest other robot on its level.
 
-    The result is exact: robots of one radius are searched together, and among them the nearest centre has the nearest
-    surface.
+    The result is exact. Robots are sorted along x, and each looks at the next ones until those are, along x alone,
+    farther than the nearest so far.
 
     Args:
         position: f8[T,n,2] metres.
@@ -29,19 +26,43 @@ def robot_gaps(position: Float, level: Int16, radii: Float, chosen: Bool) -> Flo
     Returns:
         f8[k], by sample and robot; robots that are alone on their level are left out.
     """
-    place = np.concatenate([position, level[..., None] * APART], axis=2)
-    kinds = [(radius, np.flatnonzero(radii == radius)) for radius in np.unique(radii)]
     gaps = [np.empty(0)]
-    for sample in np.flatnonzero(chosen.any(axis=1)):
-        asking = np.flatnonzero(chosen[sample])
-        nearest = np.full(len(asking), np.inf)
-        for radius, kind in kinds:
-            # The nearest of a robot's own kind is the robot itself, or one that stands at the same place.
-            away = np.asarray(cKDTree(place[sample, kind]).query(place[sample, asking], k=[1, 2])[0])
-            away = np.where(radii[asking] == radius, away[:, 1], away[:, 0])
-            nearest = np.minimum(nearest, np.where(away < APART / 2, away - radius, np.inf))
-        gaps.append((nearest - radii[asking])[np.isfinite(nearest)])
+    samples = max(1, TOGETHER // max(1, len(radii)))
+    for begin in range(0, len(position), samples):
+        part = slice(begin, begin + samples)
+        place, gap = position[part].reshape(-1, 2), np.full(chosen[part].size, np.inf)
+        floor = (
+            np.arange(len(level[part]))[:, None] * (int(level.max()) + 1) + level[part]
+        )  # equal on one level at a time
+        order = np.lexsort((place[:, 0], floor.ravel()))
+        x, y = place[order].T
+        radius, asking, here = (
+            np.tile(radii, len(level[part]))[order],
+            chosen[part].ravel()[order],
+            floor.ravel()[order],
+        )
+        _look_ahead(x, y, radius, here, asking, gap)
+        _look_ahead(-x[::-1], y[::-1], radius[::-1], here[::-1], asking[::-1], gap[::-1])
+        gap[order] = gap.copy()
+        gaps.append(gap[np.isfinite(gap)])
     return np.concatenate(gaps)
+
+
+def _look_ahead(x: Float, y: Float, radius: Float, floor: Int, chosen: Bool, gap: Float) -> None:
+    """Lower the gaps of the chosen robots to those of the nearest robots of the same floor that follow in the arrays.
+
+    All arrays are sorted by floor, then by x.
+    """
+    active, ahead = np.flatnonzero(chosen), 0
+    while len(active):
+        ahead += 1
+        active = active[active + ahead < len(x)]
+        near = floor[active + ahead] == floor[active]
+        near &= x[active + ahead] - x[active] - radius[active] - radius.max() < gap[active]
+        active = active[near]
+        other = active + ahead
+        away = np.hypot(x[other] - x[active], y[other] - y[active]) - radius[active] - radius[other]
+        gap[active] = np.minimum(gap[active], away)
 
 
 def solid_distances(points: Float, segments: Float) -> Float:

@@ -128,7 +128,7 @@ def test_a_mistake_in_geographic_coordinates_is_one_line(load, old, new, message
 
 def test_without_pyproj_the_error_names_the_package_to_install(load, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyproj", None)
-    with pytest.raises(InputError, match=r"1:20: coordinate_system 'wgs84' needs pyproj .*mrpbench-core\[geo\]"):
+    with pytest.raises(InputError, match=r"1:20: coordinate_system 'wgs84' needs pyproj .*mrpbench\[geo\]"):
         load(EARTH)
 
 
