@@ -1,108 +1,93 @@
 """`mrpbench new-plugin`: what it writes installs, is found, passes its checks, and is gone when uninstalled."""
 
-import contextlib
+import importlib
 import json
-import os
-import shutil
 import subprocess
 import sys
-import zipfile
+import tomllib
+from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
-from hatchling.build import build_wheel
 
-from mrpbench_core.cli.new_plugin import kinds
+from mrpbench_core.api import KINDS
+from mrpbench_core.cli.scaffold.kinds import kinds
+from mrpbench_core.testing import SUITES, run_checks
 
-OPTIONS = {"scenario": ["robots=2"]}
-
-
-def install(folder: Path, site: Path) -> None:
-    """Put a built wheel on the path: what pip does, which an environment made by uv lacks."""
-    with contextlib.chdir(folder):  # where a build backend is called (PEP 517)
-        wheel = build_wheel(str(site.parent))
-    zipfile.ZipFile(site.parent / wheel).extractall(site)
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
-def command(tmp_path):
-    """Return a function that runs `mrpbench` in a process of its own, which sees what is installed in `site`."""
+def folder(mrpbench, tmp_path):
+    """Return a function that writes a new plugin and returns its folder."""
 
-    def run(*words):
-        environment = {**os.environ, "PYTHONPATH": str(tmp_path / "site"), "PYTHONDONTWRITEBYTECODE": "1"}
-        return subprocess.run(
-            [sys.executable, "-m", "mrpbench_core.cli.main", *words],
-            cwd=tmp_path,
-            env=environment,
-            capture_output=True,
-            text=True,
-            timeout=100,
-        )
+    def write(kind, name, *options):
+        code, _, err = mrpbench("new-plugin", kind, name, "--folder", f"new/{kind}", *options)
+        assert code == 0, err
+        return tmp_path / "new" / kind
 
-    return run
+    return write
+
+
+def test_every_kind_has_a_template():
+    assert set(kinds()) == {*KINDS, *SUITES, "critic", "hook"}
 
 
 @pytest.mark.parametrize("kind", kinds())
-def test_a_new_plugin_works(kind, mrpbench, command, tmp_path):
-    code, out, _ = mrpbench("new-plugin", kind, "acme-first")
-    assert code == 0
-    folder = tmp_path / f"mrpbench-{kind}s-acme-first"
-    assert f"wrote {folder.name}" in out
-    install(folder, tmp_path / "site")
-
-    listed = json.loads(command("plugins", kind, "--json").stdout)
-    (mine,) = [entry for entry in listed if entry["name"] == "acme_first"]
-    assert mine["distribution"] == f"mrpbench-{kind}s-acme-first"
-    assert mine["version"] == "0.1.0"
-    assert mine["problem"] is None
-
-    checked = command("check", f"{kind}:acme_first", *OPTIONS.get(kind, []))
-    assert checked.returncode == 0, checked.stdout + checked.stderr
-    assert " 0 failed" in checked.stdout
-
-
-def test_an_uninstalled_plugin_is_gone(mrpbench, command, tmp_path):
-    mrpbench("new-plugin", "metric", "acme-first")
-    install(tmp_path / "mrpbench-metrics-acme-first", tmp_path / "site")
-    assert "acme_first" in command("plugins", "metric").stdout
-    shutil.rmtree(tmp_path / "site")
-    assert "acme_first" not in command("plugins", "metric").stdout
-    assert command("check", "metric:acme_first").returncode == 2
+def test_a_new_component_passes_the_checks_of_its_kind(kind, folder, monkeypatch, capsys):
+    written = folder(kind, f"fresh-{kind}")
+    monkeypatch.syspath_prepend(str(written))
+    monkeypatch.syspath_prepend(str(written / "tests"))
+    project = tomllib.loads((written / "pyproject.toml").read_text())["project"]
+    ((group, entries),) = project["entry-points"].items()
+    ((name, value),) = entries.items()
+    offered = EntryPoint(name, value, group).load()
+    test = importlib.import_module(f"test_fresh_{kind}")
+    suite = next(each for each in vars(test).values() if isinstance(each, type) and each.__module__ == test.__name__)()
+    assert suite.make() is offered or isinstance(suite.make(), offered)
+    outcomes = list(run_checks(suite))
+    assert not [check for check in outcomes if check.outcome == "failed"]
+    assert sum(check.outcome == "ok" for check in outcomes) > len(outcomes) / 2
+    capsys.readouterr()
 
 
-@pytest.mark.parametrize("kind", kinds())
-def test_written_plugins_pass_the_linter(kind, mrpbench, tmp_path):
-    mrpbench("new-plugin", kind, "neat", "--folder", "here/neat")
-    folder = tmp_path / "here/neat"
-    package = f"mrpbench_{kind}s_neat"
-    assert {path.name for path in folder.iterdir()} == {".gitignore", "README.md", "pyproject.toml", package, "tests"}
-    texts = [path.read_text() for path in folder.rglob("*") if path.is_file()]
-    assert not [text for text in texts if "$" in text]
-    root = Path(__file__).parents[2]
-    ruff = [sys.executable, "-m", "ruff"]
-    config = ["--config", str(root / "pyproject.toml"), "--no-cache"]
-    checked = subprocess.run([*ruff, "check", *config, package], cwd=folder, capture_output=True, text=True)
-    assert checked.returncode == 0, checked.stdout
-    ordered = subprocess.run(
-        [*ruff, "check", "--select", "I", *config, "."], cwd=folder, capture_output=True, text=True
-    )
-    assert ordered.returncode == 0, ordered.stdout
-    formatted = subprocess.run([*ruff, "format", "--check", *config, "."], cwd=folder, capture_output=True, text=True)
-    assert formatted.returncode == 0, formatted.stdout
-
-
-def test_its_test_passes_in_pytest(mrpbench, tmp_path):
-    mrpbench("new-plugin", "metric", "mine")
-    folder = tmp_path / "mrpbench-metrics-mine"
-    words = ["-m", "pytest", "-q", "-p", "no:cacheprovider"]
-    environment = {**os.environ, "PYTHONPATH": str(folder)}
-    done = subprocess.run([sys.executable, *words], cwd=folder, env=environment, capture_output=True, text=True)
+def test_what_is_written_passes_linter_and_types(folder):
+    folders = [folder(kind, f"neat-{kind}") for kind in kinds()]
+    config = ["--config", str(ROOT / "pyproject.toml"), "--no-cache"]
+    for written in folders:
+        texts = [path.read_text() for path in written.rglob("*") if path.is_file()]
+        assert not [text for text in texts if "$" in text]
+        (package,) = written.glob("mrpbench_*")
+        for words in (["check", package.name], ["check", "--select", "I", "."], ["format", "--check", "."]):
+            tool = [sys.executable, "-m", "ruff", *words, *config]
+            done = subprocess.run(tool, cwd=written, capture_output=True, text=True)
+            assert done.returncode == 0, done.stdout
+    files = [str(path) for written in folders for path in (*written.glob("mrpbench_*"), *written.glob("tests/*.py"))]
+    words = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(ROOT / ".mypy_cache/new_plugins"), *files]
+    done = subprocess.run(words, cwd=folders[0].parent, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
-    assert "passed" in done.stdout
 
 
-def test_the_most_asked_kinds_have_templates():
-    assert {"planner", "assigner", "controller", "metric", "dispatcher", "simulator", "scenario"} <= set(kinds())
+def test_a_new_distribution_is_found_checked_tested_and_gone_when_uninstalled(folder, environment, tmp_path):
+    written = folder("metric", "acme")
+    environment("pip", "install", "--quiet", "--no-deps", "--no-build-isolation", written, cwd=tmp_path)
+    listed = json.loads(environment("mrpbench", "plugins", "metric", "--json", cwd=tmp_path).stdout)
+    (mine,) = [entry for entry in listed if entry["name"] == "acme"]
+    assert (mine["distribution"], mine["version"], mine["problem"]) == ("mrpbench-metrics-acme", "0.1.0", None)
+    assert " 0 failed" in environment("mrpbench", "check", "metric:acme", cwd=tmp_path).stdout
+    assert " passed" in environment("python", "-m", "pytest", "-q", "-p", "no:cacheprovider", cwd=written).stdout
+    environment("pip", "uninstall", "--quiet", "--yes", "mrpbench-metrics-acme", cwd=tmp_path)
+    assert environment("mrpbench", "check", "metric:acme", cwd=tmp_path, ok=False).returncode == 2
+
+
+def test_what_to_do_next_is_printed(mrpbench):
+    code, out, _ = mrpbench("new-plugin", "plan_filter", "acme-first")
+    assert code == 0
+    assert out.splitlines() == [
+        "wrote mrpbench-plan-filters-acme-first: a working plan filter. Next:",
+        "  pip install -e mrpbench-plan-filters-acme-first",
+        "  mrpbench check plan_filter:acme_first",
+    ]
 
 
 def test_nothing_is_overwritten(mrpbench, tmp_path):
@@ -116,7 +101,8 @@ def test_nothing_is_overwritten(mrpbench, tmp_path):
 @pytest.mark.parametrize(
     ("words", "line"),
     [
-        (["planer", "mine"], "there is no template for a 'planer' (there are assigner, "),
+        (["planer", "mine"], "there is no template for a 'planer' (did you mean 'planner'?)"),
+        (["qqq", "mine"], "there is no template for a 'qqq' (there are assigner, "),
         (["planner", "Mine"], "'Mine' is not a name"),
         (["planner", "3d"], "'3d' is not a name"),
         (["planner", "../mine"], "'../mine' is not a name"),

@@ -1,0 +1,62 @@
+"""What is particular to the template of each kind; the file `templates/kinds/KIND.py.txt` is the template."""
+
+from collections.abc import Mapping
+from importlib import resources
+from importlib.resources.abc import Traversable
+
+import attrs
+
+TEMPLATES: Traversable = resources.files("mrpbench_core.cli.scaffold").joinpath("templates")
+_IN_CONFIGURATION = "In a configuration: `$kind: {plugin: $name$yaml}`."
+
+
+@attrs.frozen
+class Kind:
+    """Facts about the template of a kind."""
+
+    usage: str = _IN_CONFIGURATION
+    """One sentence for the README: where its name is written."""
+    options: Mapping[str, object] = attrs.field(factory=dict)
+    """Required options, with values for its test."""
+    requires: tuple[str, ...] = ()
+    """Distributions that it needs besides the core, with `$version` and `$next_version`."""
+    suites: str = "mrpbench_core.testing"
+    """The module of its conformance suite."""
+    instance: str = ""
+    """The object that the entry point names instead of the class."""
+
+
+KINDS: Mapping[str, Kind] = {
+    "critic": Kind(
+        usage="In a configuration: `controller: {plugin: dwb, extra_critics: [{plugin: $name, scale: 1.0}]}`.",
+        requires=("mrpbench-standard>=$version,<$next_version",),
+        suites="mrpbench_controllers_dwb.testing",
+    ),
+    "crowd": Kind(
+        usage="No key of a configuration takes a crowd yet: call `$Class().start(world, seed)` in your own code, and "
+        "hand what `step` returns to a simulator as `Inputs.movers`."
+    ),
+    "executor": Kind(usage="On the command line: `mrpbench run STUDY.yaml --workers 4 --executor $name`."),
+    "exporter": Kind(
+        usage="In a configuration: `export: [$name]`; for a finished run: `mrpbench export RUN --to $name`."
+    ),
+    "hook": Kind(
+        usage="It observes every study as soon as it is installed; `MRPBENCH_DISABLE_PLUGINS=$name` turns it off.",
+        instance="hooks",
+    ),
+    "importer": Kind(usage="On the command line: `mrpbench analyze FILE --importer $name`."),
+    "metric": Kind(usage="In a configuration: `metrics: [planning, execution, $name]`."),
+    "recovery": Kind(usage="In a configuration: `navigator: {plugin: waypoints, recoveries: [clear, $name, wait]}`."),
+    "scenario": Kind(options={"robots": 3}),
+}
+"""Kinds that differ from the others."""
+
+
+def kinds() -> list[str]:
+    """Return the kinds that have a template."""
+    return sorted(file.name.removesuffix(".py.txt") for file in TEMPLATES.joinpath("kinds").iterdir())
+
+
+def facts_of(kind: str) -> Kind:
+    """Return what is particular to a kind."""
+    return KINDS.get(kind, Kind())
