@@ -10,6 +10,7 @@
 #include <string>
 
 #include "mapf_instance.hpp"
+#include "mapf_reordering.hpp"
 #include "mrpbench_mapf/algorithms/algorithms.hpp"
 #include "mrpbench_mapf/single_agent/path_lengths.hpp"
 #include "options.hpp"
@@ -48,21 +49,7 @@ struct Answer {
     }
   }
 
-  const char* status() const {
-    switch (result.status) {
-      case Status::solved:
-        return "solved";
-      case Status::timeout:
-        return "timeout";
-      case Status::out_of_memory:
-        return "out_of_memory";
-      case Status::unsolvable:
-        return "unsolvable";
-      case Status::gave_up:
-        break;
-    }
-    return "gave_up";
-  }
+  const char* status() const { return name_of(result.status); }
 
   nb::dict statistics() const {
     const Statistics& it = result.statistics;
@@ -157,4 +144,6 @@ NB_MODULE(mapf, module) {
              "Solve an instance. Raises ValueError for an option that does not exist or that cannot have its value.");
   module.def("path_lengths", &lengths_of_paths, "vertex_count"_a, "edges"_a, "length"_a, "sources"_a, "targets"_a,
              "f8[sources,targets], infinite where there is no path; edges i4[E,2], length f8[E] not below 0.");
+
+  define_reordering(module);
 }

@@ -90,3 +90,55 @@ def path_lengths(
     targets: NDArray[np.int32],
 ) -> NDArray[np.float64]:
     """f8[sources,targets], infinite where there is no path; edges i4[E,2], length f8[E] not below 0."""
+
+class Reordering:
+    """The best order of robots found."""
+
+    @property
+    def status(self) -> Literal["solved", "timeout", "out_of_memory", "unsolvable"]:
+        """`solved`: proved to be the best; `unsolvable`: every order is a cycle."""
+    @property
+    def switched(self) -> NDArray[np.uint8]:
+        """u1[k]: 1 where the switched arc of a pair holds, 0 where the planned one does; [0] without an order."""
+    @property
+    def cost(self) -> int:
+        """Sum of the earliest times of the last events in ticks, -1 without an order."""
+    @property
+    def planned_cost(self) -> int:
+        """That of the planned order, -1 if it is a cycle."""
+    @property
+    def lower_bound(self) -> int: ...
+    @property
+    def expansions(self) -> int: ...
+    @property
+    def probes(self) -> int: ...
+    @property
+    def decisions(self) -> int:
+        """Number of groups of pairs that can only be decided alike."""
+
+def reorder(
+    *,
+    first: NDArray[np.int32],
+    duration: NDArray[np.int32],
+    fixed: NDArray[np.int32],
+    planned: NDArray[np.int32],
+    switched: NDArray[np.int32],
+    wall_s: float,
+    memory_bytes: int,
+) -> Reordering:
+    """Find the order of robots with the least sum of arrivals: graph-based switchable edge search.
+
+    Feng, Paul, Chen and Li, ICAPS 2024; Jiang, Lin and Li, AAAI 2025.
+
+    Args:
+        first: i4[n+1]: the events of robot r are [first[r], first[r + 1]), its first one at time 0.
+        duration: i4[events] least ticks from an event to the next one of its robot, at least 1.
+        fixed: i4[...,3] of (event before, event after, least ticks between them).
+        planned: i4[k,3] arcs of which exactly one holds together with the same row of `switched`.
+        switched: i4[k,3] between the same two robots in the other direction.
+        wall_s: at this limit the best order found is returned.
+        memory_bytes: limit of what the search counts.
+
+    Raises:
+        ValueError: indices out of range, arcs within one robot, or times below 1.
+    """

@@ -1,0 +1,69 @@
+// Python bindings of re-ordering in execution.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "arrays.hpp"
+#include "mrpbench_mapf/reordering/gses.hpp"
+
+namespace mrpbench::bindings {
+
+using Arcs = nb::ndarray<const std::int32_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+
+inline const char* name_of(mapf::Status status) {
+  switch (status) {
+    case mapf::Status::solved:
+      return "solved";
+    case mapf::Status::timeout:
+      return "timeout";
+    case mapf::Status::out_of_memory:
+      return "out_of_memory";
+    case mapf::Status::unsolvable:
+      return "unsolvable";
+    case mapf::Status::gave_up:
+      break;
+  }
+  return "gave_up";
+}
+
+inline mapf::Reordering reorder(const Vector<std::int32_t>& first, const Vector<std::int32_t>& duration,
+                                const Arcs& fixed, const Arcs& planned, const Arcs& switched, double wall_s,
+                                std::int64_t memory_bytes) {
+  static_assert(sizeof(mapf::Arc) == 3 * sizeof(std::int32_t));
+  require(planned.shape(0) == switched.shape(0), "as many switched arcs as planned ones");
+  mapf::AlternativeGraph graph;
+  graph.first.assign(first.data(), first.data() + first.size());
+  graph.duration.assign(duration.data(), duration.data() + duration.size());
+  graph.fixed = copy<mapf::Arc>(fixed);
+  const auto one = rows<mapf::Arc>(planned), other = rows<mapf::Arc>(switched);
+  for (std::size_t k = 0; k < one.size(); ++k) graph.alternatives.push_back({one[k], other[k]});
+  const nb::gil_scoped_release without_python;
+  mapf::Limits limits(wall_s, memory_bytes);
+  return solve_gses(graph, limits);
+}
+
+inline void define_reordering(nb::module_& module) {
+  using namespace nb::literals;
+  using mapf::Reordering;
+  nb::class_<Reordering>(module, "Reordering", "The best order of robots found.")
+      .def_prop_ro("status", [](const Reordering& it) { return name_of(it.status); })
+      .def_prop_ro("switched",
+                   [](const Reordering& it) {
+                     std::vector<std::uint8_t> values(it.switched.begin(), it.switched.end());
+                     return own(std::move(values), {it.switched.size()});
+                   })
+      .def_ro("cost", &Reordering::cost)
+      .def_ro("planned_cost", &Reordering::planned_cost)
+      .def_ro("lower_bound", &Reordering::lower_bound)
+      .def_ro("expansions", &Reordering::expansions)
+      .def_ro("probes", &Reordering::probes)
+      .def_ro("decisions", &Reordering::decisions);
+  module.def("reorder", &reorder, nb::kw_only(), "first"_a, "duration"_a, "fixed"_a, "planned"_a, "switched"_a,
+             "wall_s"_a, "memory_bytes"_a);
+}
+
+}  // namespace mrpbench::bindings

@@ -1,0 +1,106 @@
+#include "mrpbench_mapf/reordering/alternative_graph.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace mrpbench::mapf {
+
+namespace {
+
+class Checker {
+ public:
+  explicit Checker(const AlternativeGraph& graph) : graph_(graph), robot_(graph.events()) {
+    for (int robot = 0; robot < graph.robots(); ++robot) {
+      std::fill(robot_.begin() + graph.first[robot], robot_.begin() + graph.first[robot + 1], robot);
+    }
+  }
+
+  void arc(const Arc& it, const char* list, std::size_t index) const {
+    const auto inside = [&](std::int32_t event) { return event >= 0 && event < graph_.events(); };
+    if (!inside(it.before) || !inside(it.after)) fail(list, index, "names an event that does not exist");
+    if (robot_[it.before] == robot_[it.after]) fail(list, index, "connects two events of one robot");
+    if (it.lag < 1 || it.lag > kLatestTime) fail(list, index, "has a lag below 1 or above 2^28");
+  }
+
+  void pair(const Alternatives& it, std::size_t index) const {
+    arc(it.planned, "alternatives", index);
+    arc(it.switched, "alternatives", index);
+    if (robot_[it.planned.before] != robot_[it.switched.after] ||
+        robot_[it.planned.after] != robot_[it.switched.before]) {
+      fail("alternatives", index, "does not connect the same two robots in both directions");
+    }
+  }
+
+ private:
+  [[noreturn]] static void fail(const char* list, std::size_t index, const char* why) {
+    throw std::invalid_argument(std::string(list) + "[" + std::to_string(index) + "] " + why);
+  }
+
+  const AlternativeGraph& graph_;
+  std::vector<std::int32_t> robot_;
+};
+
+}  // namespace
+
+void AlternativeGraph::check() const {
+  if (first.empty() || first.front() != 0 || duration.size() != static_cast<std::size_t>(first.back())) {
+    throw std::invalid_argument("first begins with 0 and ends with the number of durations");
+  }
+  for (int robot = 0; robot < robots(); ++robot) {
+    if (first[robot + 1] <= first[robot]) {
+      throw std::invalid_argument("robot " + std::to_string(robot) + " has no event");
+    }
+  }
+  for (std::size_t event = 0; event < duration.size(); ++event) {
+    if (duration[event] < 1 || duration[event] > kLatestTime) {
+      throw std::invalid_argument("duration[" + std::to_string(event) + "] is below 1 or above 2^28");
+    }
+  }
+  const Checker checker(*this);
+  for (std::size_t k = 0; k < fixed.size(); ++k) checker.arc(fixed[k], "fixed", k);
+  for (std::size_t k = 0; k < alternatives.size(); ++k) checker.pair(alternatives[k], k);
+}
+
+Cost cost_of_order(const AlternativeGraph& graph, std::span<const char> switched) {
+  std::vector<Arc> arcs = graph.fixed;
+  for (std::size_t k = 0; k < graph.alternatives.size(); ++k) {
+    arcs.push_back(switched[k] ? graph.alternatives[k].switched : graph.alternatives[k].planned);
+  }
+  const int events = graph.events();
+  std::vector<std::int32_t> begin(events + 1), waiting(events, 1), ready;
+  for (const Arc& arc : arcs) {
+    ++begin[arc.before + 1];
+    ++waiting[arc.after];
+  }
+  for (int event = 0; event < events; ++event) begin[event + 1] += begin[event];
+  std::vector<Arc> by_tail(arcs.size());
+  for (std::vector<std::int32_t> next = begin; const Arc& arc : arcs) by_tail[next[arc.before]++] = arc;
+  std::vector<char> is_last(events);
+  for (int robot = 0; robot < graph.robots(); ++robot) {
+    is_last[graph.first[robot + 1] - 1] = true;
+    if (--waiting[graph.first[robot]] == 0) ready.push_back(graph.first[robot]);
+  }
+  std::vector<Tick> time(events);
+  Cost cost = 0;
+  int seen = 0;
+  const auto reach = [&](std::int32_t event, Tick at) {
+    time[event] = std::max(time[event], at);
+    if (--waiting[event] == 0) ready.push_back(event);
+  };
+  while (!ready.empty()) {
+    const std::int32_t event = ready.back();
+    ready.pop_back();
+    ++seen;
+    for (std::int32_t k = begin[event]; k < begin[event + 1]; ++k)
+      reach(by_tail[k].after, time[event] + by_tail[k].lag);
+    if (is_last[event]) {
+      cost += time[event];
+    } else {
+      reach(event + 1, time[event] + graph.duration[event]);
+    }
+  }
+  return seen == events ? cost : -1;
+}
+
+}  // namespace mrpbench::mapf
