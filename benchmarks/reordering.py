@@ -3,7 +3,8 @@
     python benchmarks/reordering.py --data ../shared/data/stpg/situations.zip --time-limit 5 --every 12
 
 Prints one line per map and delay: situations proved within the limit, CPU seconds of one thread (median, 95th
-percentile, greatest), and the largest gap of the others. A time includes the grouping of decisions, not the reading of files.
+percentile, greatest), and the largest gap of the others. A time includes the grouping of decisions, but not the
+reading of files.
 """
 
 import argparse
