@@ -7,11 +7,15 @@ from typing import TYPE_CHECKING
 from mrpbench_core.cli.input.arguments import split_names
 from mrpbench_core.cli.output.table import print_json, print_wide
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.printing import printable
 from mrpbench_core.store.results import load
 
 if TYPE_CHECKING:
+    from mrpbench_core.report.answer.answer import Answer
     from mrpbench_core.report.report import Report
 
+PARTS = 6
+"""Number of settings whose answers are printed."""
 REPLAYS = 8
 """Number of replays that are written by default."""
 
@@ -54,6 +58,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Print or write the tables."""
     from mrpbench_core.cli.output.replays import make_replays
+    from mrpbench_core.report.answer.answer import make_answer
     from mrpbench_core.report.data import PAIR_COLUMNS, groups_of, pairs_of, write_estimates, write_rows
     from mrpbench_core.report.html.page import write_report
     from mrpbench_core.report.report import make_report
@@ -62,6 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     folders = [load(folder) for folder in arguments.folders]
     report = make_report(folders, split_names(arguments.metrics), split_names(arguments.by))
+    answer = make_answer(report)
     tables = report.tables()
     if arguments.csv:
         write_estimates(report, Path(arguments.csv))
@@ -78,13 +84,14 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json(
             {
+                "answer": list(answer.lines(len(answer.parts))),
                 "groups": groups_of(report),
                 "pairs": pairs_of(report.comparisons),
                 "rules": dict(RULES),
             }
         )
     else:
-        _print(report)
+        _print(report, answer)
     if arguments.html != "none" and (arguments.html or not arguments.json):
         page = Path(arguments.html) if arguments.html else folders[0].folder.path / "report.html"
         write_report(report, page, make_replays(report, page, arguments.replays))
@@ -93,9 +100,12 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _print(report: "Report") -> None:
+def _print(report: "Report", answer: "Answer") -> None:
     from mrpbench_core.report.rules import RULES
 
+    for line in answer.lines(PARTS):
+        print(printable(line))
+    print()
     for table in report.tables(brief=True):
         print_wide(table)
     print("Rules:")

@@ -42,6 +42,8 @@ class Report:
     """Columns that are shown in addition to success."""
     profiled: tuple[Column, ...]
     """Primary and shown columns that have a performance profile."""
+    compared: tuple[Column, ...]
+    """Columns that are compared."""
     comparisons: tuple[Comparison, ...]
     """None without SciPy, which does the tests."""
 
@@ -94,6 +96,7 @@ def make_report(
     columns = choose_columns(runs, known, metrics)
     settings = tuple(find_settings(runs, group_runs(runs, by)))
     wanted = [*RATES, *(column.name for column in columns)]
+    compared = tested(runs, known, columns)
     return Report(
         folders=tuple(folders),
         runs=runs,
@@ -101,7 +104,8 @@ def make_report(
         numbers=tuple(tuple(numbers_of(runs, setting, wanted)) for setting in settings),
         columns=columns,
         profiled=profiled_columns(runs, known, columns),
-        comparisons=tuple(compare_settings(runs, settings, tested(runs, known, columns))) if has("scipy") else (),
+        compared=tuple(compared),
+        comparisons=tuple(compare_settings(runs, settings, compared)) if has("scipy") else (),
     )
 
 

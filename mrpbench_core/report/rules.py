@@ -2,6 +2,7 @@
 
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.comparison import SIGNIFICANT
+from mrpbench_core.report.reading.columns import OUTCOME
 from mrpbench_core.report.reading.outcome import PENALTY
 from mrpbench_core.report.reading.runs import PAR2
 from mrpbench_core.report.statistics.estimate import LEVEL
@@ -33,6 +34,12 @@ failures in the success rate.
 
 Overall and normalised: Overall is over all units of a group. Normalised is over the units that all groups of a setting
 have in common (for success, the scenarios for which every group found a plan). Both are given with n.
+
+Answer: Configurations are ranked by their mean over the units that all of them have. One that fails more often, by
+{100 * (OUTCOME[0].threshold or 0):.0f} points or more, comes after the others; its mean is over the units of these that
+it has. A difference is noticeable if test and interval show it, and the means differ at least by the threshold that the
+column declares. Configurations are practically the same if the interval excludes every noticeable difference, and not
+told apart if neither is shown.
 
 Pairs: Groups that differ in one choice are compared on the scenarios that both have. Success is compared by McNemar's
 exact test (interval of Bonett and Price; if scenarios were repeated, by sign flips, {FLIPS} of them with seed {SEED} if

@@ -91,6 +91,41 @@ def find_settings(runs: Runs, groups: Sequence[RunGroup]) -> list[Setting]:
     ]
 
 
+def merge_settings(runs: Runs, settings: Sequence[Setting], samples: str | None = None) -> list[Setting] | None:
+    """Return fewer settings, with the runs of several in each; None if their configurations differ.
+
+    Args:
+        runs: of the settings.
+        settings: of which those are merged that differ only in what `samples` names.
+        samples: options below this name are samples, such as the files of scenarios; None = all options.
+    """
+    names = settings[0].names
+    if len(names) < 2 or any(set(setting.names) != set(names) for setting in settings):
+        return None
+    parts: dict[str, list[Setting]] = {}
+    for setting in settings:
+        axes = (
+            {} if samples is None else {k: v for k, v in _constant(setting.groups).items() if not k.startswith(samples)}
+        )
+        parts.setdefault(repr(axes), []).append(setting)
+    merged = [[_pooled(part, name) for name in names] for part in parts.values()]
+    shared = [_constant(groups) for groups in merged]
+    return [
+        _setting(runs, groups, {key: value for key, value in axes.items() if _differs(key, shared)})
+        for groups, axes in zip(merged, shared, strict=True)
+    ]
+
+
+def _pooled(settings: Sequence[Setting], name: str) -> RunGroup:
+    """Return one group with the runs of all groups of this name."""
+    groups = [setting.groups[setting.names.index(name)] for setting in settings]
+    return RunGroup(
+        axes=_constant(groups),
+        members=np.sort(np.concatenate([group.members for group in groups])),
+        counted=np.sort(np.concatenate([group.counted for group in groups])),
+    )
+
+
 def differing_factors(first: Axes, second: Axes) -> list[str]:
     """Return the blocks in which two groups differ; a planner and its options are one block."""
     one, other = factors(first), factors(second)

@@ -27,6 +27,7 @@ def mean(values: Float) -> IntervalEstimate | None:
     count = len(values)
     if not count:
         return None
+    values = np.sort(values)  # so that no result depends on the order of records
     centre = float(values.mean())
     if count < LEAST:
         return IntervalEstimate(centre, np.nan, np.nan, count)

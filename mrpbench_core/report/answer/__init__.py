@@ -1,0 +1,1 @@
+"""The answer at the beginning of a report: questions, rankings of the configurations, and sentences."""

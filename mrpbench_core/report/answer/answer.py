@@ -1,0 +1,101 @@
+"""The answers of a report, for all settings together and for each of them."""
+
+from collections.abc import Iterator, Sequence
+
+import attrs
+
+from mrpbench_core.files.extras import has
+from mrpbench_core.report.answer.headline import headline
+from mrpbench_core.report.answer.questions import Topic, find_topics
+from mrpbench_core.report.answer.ranking import Compared, Ranking, by_names, rank
+from mrpbench_core.report.answer.wording import sentences
+from mrpbench_core.report.estimation.comparison import Comparison, compare_settings
+from mrpbench_core.report.estimation.groups import Setting, merge_settings
+from mrpbench_core.report.estimation.relation import Relation
+from mrpbench_core.report.reading.runs import Runs
+from mrpbench_core.report.report import Report
+
+MOST_MERGED = 24
+"""Configurations up to which several settings are also compared together: each pair is a test of every column."""
+SAMPLES = "scenario.file"
+"""Files of scenarios are samples of one condition, as the 25 files of a map of the MovingAI benchmarks are."""
+
+
+@attrs.frozen(kw_only=True)
+class TopicAnswer:
+    """The answer to one question."""
+
+    title: str
+    ranking: Ranking
+    sentences: tuple[str, ...]
+
+
+@attrs.frozen(kw_only=True)
+class SettingAnswer:
+    """The answers for one setting, or for several together."""
+
+    name: str
+    setting: Setting
+    headline: str
+    topics: tuple[TopicAnswer, ...]
+
+
+@attrs.frozen(kw_only=True)
+class Answer:
+    """What a report says first."""
+
+    whole: SettingAnswer | None
+    """Of all runs together; None if the settings have different configurations."""
+    parts: tuple[SettingAnswer, ...]
+    """Of each setting, if there are several."""
+
+    def lines(self, parts: int) -> Iterator[str]:
+        """Yield the answer as lines of text, with at most this number of settings."""
+        for number, part in enumerate([*([self.whole] if self.whole else ()), *self.parts[:parts]]):
+            name = part.name or ("all settings together" if self.parts else "")
+            yield f"{name}: {part.headline}" if name else part.headline
+            for topic in part.topics if number == 0 else ():
+                yield f"- {topic.title} {' '.join(topic.sentences)}"
+        if len(self.parts) > parts:
+            yield f"… and {len(self.parts) - parts} more in the page and in --json"
+
+
+def make_answer(report: Report) -> Answer:
+    """Answer the questions for which the runs have values."""
+    runs, topics = report.runs, find_topics(report.runs, report.compared)
+    settings, comparisons = report.settings, report.comparisons
+    columns = [column for topic in topics for column in topic.columns] if has("scipy") else []
+    few = len(settings[0].groups) <= MOST_MERGED
+
+    def answers(settings: Sequence[Setting], comparisons: Sequence[Comparison]) -> list[SettingAnswer]:
+        return [_answer(runs, setting, topics, by_names(comparisons, setting.name)) for setting in settings]
+
+    if (
+        few
+        and len(settings) > 1
+        and (merged := merge_settings(runs, settings, SAMPLES))
+        and len(merged) < len(settings)
+    ):
+        settings = tuple(merged)
+        comparisons = tuple(compare_settings(runs, settings, columns))
+    parts = answers(settings, comparisons)
+    if len(parts) == 1:
+        return Answer(whole=parts[0], parts=())
+    if not few or (whole := merge_settings(runs, settings)) is None:
+        return Answer(whole=None, parts=tuple(parts))
+    (together,) = answers(whole, compare_settings(runs, whole, columns))
+    return Answer(whole=together, parts=tuple(parts))
+
+
+def _answer(runs: Runs, setting: Setting, topics: Sequence[Topic], compared: Compared) -> SettingAnswer:
+    found = []
+    for topic in topics:
+        first, *others = (rank(runs, setting, column, compared) for column in topic.columns)
+        more = (
+            f"{ranking.column.name}: {' '.join(sentences(ranking))}"
+            for ranking in others
+            if ranking.having(Relation.WORSE, Relation.BETTER)
+        )
+        found.append(TopicAnswer(title=topic.title, ranking=first, sentences=(*sentences(first), *more)))
+    asked = [(topic.title, topic.ranking) for topic in found]
+    return SettingAnswer(name=setting.name, setting=setting, headline=headline(asked), topics=tuple(found))

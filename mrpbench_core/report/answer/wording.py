@@ -1,0 +1,89 @@
+"""Sentences about a ranking."""
+
+from collections.abc import Sequence
+
+from mrpbench_core.report.answer.amounts import change, largest, quantity, span
+from mrpbench_core.report.answer.ranking import Place, Ranking
+from mrpbench_core.report.estimation.relation import Relation
+from mrpbench_core.report.statistics.means import LEAST
+
+NAMED = 3
+"""Configurations that a sentence names; of more it gives the number."""
+_ALIKE = (Relation.SAME, Relation.SLIGHT)
+_OPEN = (Relation.OPEN, Relation.NOT_COMPARED)
+
+
+def sentences(ranking: Ranking) -> list[str]:
+    """Say who is first, and what the data show of the others."""
+    first, *others = ranking.places
+    if first.estimate is None:
+        return ["No run has a value."]
+    if not others:
+        told = [f"{quantity(ranking, first.estimate)} over {_units(ranking, first.estimate.n)}."]
+        return [*told, f"Failed runs: {first.failures}."] if first.failures else told
+    told = _first(ranking, first, [place for place in others if place.estimate is not None])
+    apart = ranking.having(Relation.WORSE, Relation.BETTER, Relation.UNRATED)
+    told += [_apart(ranking, place) for place in apart[:NAMED]]
+    if len(apart) > NAMED:
+        told.append(f"{len(apart) - NAMED} more differ.")
+    if without := [place.name for place in others if place.estimate is None]:
+        told.append(f"{listed(without)} {'has' if len(without) == 1 else 'have'} no value.")
+    if ranking.ranked < LEAST:
+        told.append(f"{_units(ranking, ranking.ranked)}: too few for intervals and tests.")
+    return told
+
+
+def listed(words: Sequence[str]) -> str:
+    """Join names, at most `NAMED` of them."""
+    shown = list(words[:NAMED])
+    if len(words) > NAMED:
+        shown.append(f"{len(words) - NAMED} more")
+    return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} and {shown[-1]}"
+
+
+def is_or_are(words: Sequence[str]) -> str:
+    """Return the verb."""
+    return "is" if len(words) == 1 else "are"
+
+
+def _first(ranking: Ranking, first: Place, others: Sequence[Place]) -> list[str]:
+    """Say what is known of the first place, and of those that are not shown to differ from it noticeably."""
+    alike = [place.name for place in others if place.relation in _ALIKE]
+    unknown = [place for place in others if place.relation in _OPEN]
+    everyone = [first.name, *(place.name for place in others)]
+    if others and len(alike) == len(others):
+        all_of_them = listed(everyone) if len(everyone) <= NAMED else f"All {len(everyone)}"
+        return [f"{all_of_them} do not differ noticeably: {span(ranking)}."]
+    assert first.estimate is not None
+    if others and all(place.relation is Relation.OPEN for place in others):
+        possible = largest(ranking, unknown)
+        more = [f"Differences of up to {possible} remain possible."] if possible else []
+        if all(place.estimate == first.estimate for place in others):
+            return [f"All {len(everyone)} have {quantity(ranking, first.estimate)}.", *more]
+        return [f"The data do not tell {listed(everyone)} apart: {span(ranking)}.", *more]
+    told = [f"{first.name} has the best mean: {quantity(ranking, first.estimate)}."]
+    if alike:
+        told.append(f"{listed(alike)} {'does' if len(alike) == 1 else 'do'} not differ noticeably from it.")
+    for kind, link in ((Relation.OPEN, "from"), (Relation.NOT_COMPARED, "with")):
+        found = [place.name for place in unknown if place.relation is kind]
+        told += [f"{listed(found)} {is_or_are(found)} {kind.value} {link} it."] if found else []
+    return told
+
+
+def _apart(ranking: Ranking, place: Place) -> str:
+    """Say how one differs that is shown to differ."""
+    assert place.difference is not None
+    by = change(ranking, place.difference)
+    if place.relation is Relation.WORSE:
+        return f"{place.name} is noticeably worse: {by}{f' ({place.failures})' if place.failures else ''}."
+    if place.relation is Relation.UNRATED:
+        return f"{place.name} has {by}; no threshold says whether that matters."
+    return (
+        f"{place.name} is noticeably better where both have a value: {by}"
+        + ", but it fails more often." * (place.fails_more)
+        + "." * (not place.fails_more)
+    )
+
+
+def _units(ranking: Ranking, count: int) -> str:
+    return f"{count} {ranking.unit if count != 1 else ranking.unit.removesuffix('s')}"
