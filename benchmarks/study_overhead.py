@@ -35,7 +35,7 @@ def main() -> None:
         }
         with slots_of_this_process() as slots:
             began = time.perf_counter()
-            study = read_study(slots, described)
+            study = read_study(described)
             run_study(study, StudyOptions(out=folder / "warm-up", shard=f"0/{RUNS}"), slots)
             start = time.perf_counter() - began
             began = time.perf_counter()

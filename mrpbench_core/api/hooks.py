@@ -1,4 +1,8 @@
-"""Lifecycle hooks, group `mrpbench.hooks`. They only observe; one that raises is disabled for the rest of the run."""
+"""Lifecycle hooks, group `mrpbench.hooks`. They only observe; one that raises is disabled for the rest of the run.
+
+The hooks of a study are called in a process that each plugin has for the whole study, the others in the process of the
+run.
+"""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -20,28 +24,28 @@ hookimpl = pluggy.HookimplMarker("mrpbench")
 def mrpbench_check() -> str | None:
     """Return in one line what keeps the plugin from doing what its settings ask for, or None if nothing does.
 
-    The line is printed as a warning before the first run of a study (invoking process).
+    The line is printed as a warning before the first run of a study (a process of its own).
     """
 
 
 @hookspec
 def mrpbench_study_started(study: Mapping[str, Any], runs: int) -> None:
-    """A study begins with its configuration and the number of runs to do (invoking process)."""
+    """A study begins with its configuration and the number of runs to do (the plugin's process of the study)."""
 
 
 @hookspec
 def mrpbench_run_started(run_id: str, config: Mapping[str, Any]) -> None:
-    """A run was handed to a worker (invoking process)."""
+    """A run was handed to a worker (the plugin's process of the study)."""
 
 
 @hookspec
 def mrpbench_run_finished(record: Mapping[str, Any]) -> None:
-    """A run's record was stored (invoking process)."""
+    """A run's record was stored (the plugin's process of the study)."""
 
 
 @hookspec
 def mrpbench_study_finished(records: int) -> None:
-    """Every run of the study has a record (invoking process)."""
+    """Every run of the study has a record (the plugin's process of the study)."""
 
 
 @hookspec

@@ -21,11 +21,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         " when it first comes within --tolerance of it. Patterns for topics are options of the importer:"
         " `mrpbench plugins show importer:rosbag2`."
     )
-    parser.add_argument("bag", type=Path, metavar="BAG", help="a rosbag2: a folder, or one .mcap or .db3 file")
+    parser.add_argument("bag", metavar="BAG", help="a rosbag2: a folder, or one .mcap or .db3 file")
     parser.add_argument("--world", metavar="FILE|NAME", help="file of a world, or name of a built-in world")
     parser.add_argument(
         "--scenario",
-        type=Path,
         metavar="FILE",
         help="scenario file, as `mrpbench scenario CONFIG --write FILE` writes it",
     )
@@ -61,12 +60,22 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--option", action="append", default=[], metavar="K=V", help="option of the importer")
     parser.add_argument("--label", default="recorded", help="value of `simulator` in tables (default: %(default)s)")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="results folder (default: results/<name of BAG>)")
+    parser.add_argument("--out", metavar="DIR", help="results folder (default: results/<name of BAG>)")
     parser.add_argument("--json", action="store_true", help="print the record as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure the bag, store the record and print it."""
+    from mrpbench_core.engine.processes.call import in_worker
+
+    out = arguments.out or str(Path("results", Path(arguments.bag).resolve().stem))
+    record = in_worker(f"{arguments.bag} cannot be analyzed", analyzed, {**vars(arguments), "out": out})
+    print_json(record) if arguments.json else _print(record, out)
+    return 0
+
+
+def analyzed(words: dict[str, Any]) -> dict[str, Any]:
+    """In a worker process: measure the bag and store the record; return it."""
     from mrpbench_core.api.importer import Importer
     from mrpbench_core.api.metric import Metric
     from mrpbench_core.cli.input.world import world_source
@@ -74,6 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
     from mrpbench_core.engine.analysis.analysis import Analysis, analyze
     from mrpbench_core.engine.analysis.observed_run import Sampling
 
+    arguments = argparse.Namespace(**words)
     for name in ("rate", "max_gap", "tolerance"):
         if not 0 < getattr(arguments, name) < float("inf"):
             raise InputError(f"--{name.replace('_', '-')}: must be above 0, got {getattr(arguments, name):g}")
@@ -82,11 +92,11 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.fleet is not None:
         options["fleet"] = arguments.fleet
     analysis = Analysis(
-        bag=arguments.bag,
+        bag=Path(arguments.bag),
         importer=_component(Importer, options, "--importer"),
         metrics={name: _component(Metric, {"plugin": name}, "--metrics") for name in metrics},
         world=None if arguments.world is None else world_source(arguments.world),
-        scenario=arguments.scenario,
+        scenario=None if arguments.scenario is None else Path(arguments.scenario),
         robot=arguments.robot,
         robots=_names(arguments.robots),
         sampling=Sampling(
@@ -97,14 +107,9 @@ def run(arguments: argparse.Namespace) -> int:
             until=arguments.end_time,
         ),
         label=arguments.label,
-        out=arguments.out or Path("results") / arguments.bag.resolve().stem,
+        out=Path(arguments.out),
     )
-    record = analyze(analysis)
-    if arguments.json:
-        print_json(record)
-    else:
-        _print(record, analysis.out)
-    return 0
+    return analyze(analysis)
 
 
 def _names(text: str) -> tuple[str, ...]:
@@ -118,7 +123,7 @@ def _component(kind: Any, options: dict[str, Any], key: str) -> Any:
     return structure_component(kind, from_data(options, Location()), key, Path.cwd())
 
 
-def _print(record: dict[str, Any], out: Path) -> None:
+def _print(record: dict[str, Any], out: str) -> None:
     reasons = record["unmeasured"]
     rows = []
     for key, value in record["metrics"].items():

@@ -38,7 +38,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Do the run and print where its results are."""
     with slots_of_this_process() as slots:
-        study = read_study(slots, _configuration())
+        study = read_study(_configuration())
         print(plugins_line([study]), flush=True)
         done = run_study(study, StudyOptions(out=arguments.out, rerun="all", progress=Printed()), slots)
     if done.mistakes:

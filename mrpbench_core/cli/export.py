@@ -2,12 +2,14 @@
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from mrpbench_core.api.exporter import Exporter
 from mrpbench_core.cli.input.arguments import read_options
 from mrpbench_core.cli.input.run_reference import HELP, find_run
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
+from mrpbench_core.engine.processes.call import in_worker
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -22,19 +24,22 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the run's recording in another format."""
-    results, record = find_run(arguments.run)
-    block = from_data({"plugin": arguments.to, **read_options(arguments.option, "--option")}, Location())
-    exporter = structure_component(Exporter, block, "--to", Path.cwd())  # type: ignore[type-abstract]
+    options = {"plugin": arguments.to, **read_options(arguments.option, "--option")}
+    written = in_worker(f"{arguments.run} cannot be exported", export, arguments.run, options, arguments.out)
+    print("wrote " + " ".join(written))
+    return 0
+
+
+def export(run: str, options: dict[str, Any], out: str | None) -> list[str]:
+    """In a worker process: export a run; return the files and folders written."""
+    results, record = find_run(run)
+    exporter = structure_component(Exporter, from_data(options, Location()), "--to", Path.cwd())  # type: ignore[type-abstract]
     recording = results.recording(record["run_id"])
-    destination = (
-        results.paths(record["run_id"]).exports / arguments.to if arguments.out is None else Path(arguments.out)
-    )
+    destination = results.paths(record["run_id"]).exports / options["plugin"] if out is None else Path(out)
     destination.parent.mkdir(parents=True, exist_ok=True)
     session = exporter.open(recording.first_context(), destination)
     for chunk in recording.chunks():
         session.write(chunk)
     session.close()
     recording.close()
-    written = sorted(destination.parent.glob(f"{destination.name}*"))
-    print("wrote " + " ".join(map(str, written)))
-    return 0
+    return [str(file) for file in sorted(destination.parent.glob(f"{destination.name}*"))]

@@ -45,14 +45,9 @@ def run(arguments: argparse.Namespace) -> int:
 def _show(name: str, as_json: bool) -> None:
     """Show a plugin, which is imported in a process of its own: a module may do anything when it is imported."""
     from mrpbench_core.cli.output.plugin import facts_of, print_facts
-    from mrpbench_core.engine.processes.call import CallFailedError, call
-    from mrpbench_core.engine.processes.slots import slots_of_this_process
+    from mrpbench_core.engine.processes.call import in_worker
 
-    with slots_of_this_process() as slots:
-        try:
-            facts = call(slots, facts_of, name)
-        except CallFailedError as failure:
-            raise InputError(f"{name} cannot be shown: {failure}") from failure
+    facts = in_worker(f"{name} cannot be shown", facts_of, name)
     print_json(facts) if as_json else print_facts(facts)
 
 

@@ -72,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
         progress=Printed(),
     )
     with slots_of_this_process() as slots:
-        studies = read_studies(slots, files, overrides)
+        studies = read_studies(files, overrides)
         for error in (error for study in studies for error in study.errors):
             sys.stderr.write(f"{error}\n")
         for note in dict.fromkeys(note for study in studies for note in study.notes):

@@ -4,6 +4,7 @@ import argparse
 
 from mrpbench_core.cli.output.table import print_json
 from mrpbench_core.config.schema import schema
+from mrpbench_core.engine.processes.call import in_worker
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -16,5 +17,5 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(_: argparse.Namespace) -> int:
     """Print the schema."""
-    print_json(schema())
+    print_json(in_worker("the schema cannot be made", schema))
     return 0

@@ -6,6 +6,7 @@ from tempfile import TemporaryDirectory
 
 from mrpbench_core.cli.input.run_reference import HELP, find_run
 from mrpbench_core.cli.output.replays import write_replay
+from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import file_name
 from mrpbench_core.report.replay.pair import write_pair
@@ -25,8 +26,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the page, and the picture and the animation if requested."""
-    if arguments.other is not None:
-        return _view_pair(arguments)
+    with slots_of_this_process():  # one worker for all that imports plugins
+        return _view(arguments) if arguments.other is None else _view_pair(arguments)
+
+
+def _view(arguments: argparse.Namespace) -> int:
     results, record = find_run(arguments.run)
     run_id = record["run_id"]
     page = Path(arguments.out) if arguments.out else results.folder.replay(run_id)

@@ -2,8 +2,11 @@
 
 import argparse
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import attrs
 
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
@@ -11,7 +14,6 @@ from mrpbench_core.files.text import counted
 
 if TYPE_CHECKING:
     from mrpbench_core.api.roadmap import RoadmapBuilder
-    from mrpbench_core.checking.world import WorldFacts
     from mrpbench_core.model.planning.roadmap import Roadmap
     from mrpbench_core.model.worlds.occupancy import Occupancy
     from mrpbench_core.model.worlds.world import World
@@ -40,13 +42,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--render",
-        type=Path,
         metavar="PNG",
         help="draw the world and its roadmap; further levels get files of their own",
     )
     parser.add_argument(
         "--convert",
-        type=Path,
         metavar="FILE",
         help="write all solid things as a ROS map (.yaml and .pgm), or the raster of the roadmap as a MovingAI .map",
     )
@@ -55,11 +55,21 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Load and check the world; print, draw and convert it as requested."""
+    from mrpbench_core.engine.processes.call import in_worker
+
+    facts = in_worker(f"{arguments.world} cannot be checked", examined, vars(arguments))
+    print_json(facts) if arguments.json else _print(facts)
+    return 0
+
+
+def examined(words: dict[str, Any]) -> dict[str, Any]:
+    """In a worker process: draw and convert a world as requested; return its facts."""
     from mrpbench_core.checking.world import check_world
     from mrpbench_core.cli.input.world import world_source
     from mrpbench_core.files.robot import load_robot
     from mrpbench_core.model.common.fleet import Fleet
 
+    arguments = argparse.Namespace(**words)
     fleet = Fleet(robots=(load_robot(arguments.robot),))
     world = world_source(arguments.world, arguments.level).load()
     roadmap = _builder(arguments, world).build(world, fleet)
@@ -68,19 +78,13 @@ def run(arguments: argparse.Namespace) -> int:
         from mrpbench_core.report.pictures.world import draw_world
 
         for index, level in enumerate(world.levels):
-            file = arguments.render
+            file = Path(arguments.render)
             if index:
                 file = file.with_name(f"{file.stem}-{level.name}{file.suffix}")
             draw_world(world, roadmap=roadmap, file=file, level=index)
     if arguments.convert is not None:
-        _convert(arguments.convert, world, roadmap, arguments.cell_size)
-    if arguments.json:
-        import attrs
-
-        print_json(attrs.asdict(facts))
-    else:
-        _print(facts)
-    return 0
+        _convert(Path(arguments.convert), world, roadmap, arguments.cell_size)
+    return attrs.asdict(facts)
 
 
 def _builder(arguments: argparse.Namespace, world: "World") -> "RoadmapBuilder":
@@ -134,29 +138,29 @@ def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
     return Occupancy(blocked=blocked, cell_size=roadmap.grid.cell_size, origin=roadmap.grid.origin)
 
 
-def _print(facts: "WorldFacts") -> None:
+def _print(facts: Mapping[str, Any]) -> None:
     rows: list[tuple[str, Any]] = [
-        ("size", f"{facts.width:.2f} × {facts.height:.2f} m"),
-        ("levels, lifts", f"{facts.levels}, {facts.lifts}"),
-        ("walls, doors, furniture", f"{facts.walls}, {facts.doors}, {facts.obstacles}"),
-        ("vertices", facts.vertices),
-        ("edges", facts.edges),
-        ("components", facts.components),
-        ("cells", facts.cells),
-        ("free", facts.free),
-        ("blocked", facts.blocked),
+        ("size", f"{facts['width']:.2f} × {facts['height']:.2f} m"),
+        ("levels, lifts", f"{facts['levels']}, {facts['lifts']}"),
+        ("walls, doors, furniture", f"{facts['walls']}, {facts['doors']}, {facts['obstacles']}"),
+        ("vertices", facts["vertices"]),
+        ("edges", facts["edges"]),
+        ("components", facts["components"]),
+        ("cells", facts["cells"]),
+        ("free", facts["free"]),
+        ("blocked", facts["blocked"]),
         (
             "roadmap",
-            f"{facts.roadmap_vertices} vertices, {facts.roadmap_edges} edges, "
-            + counted(facts.roadmap_components, "part"),
+            f"{facts['roadmap_vertices']} vertices, {facts['roadmap_edges']} edges, "
+            + counted(facts["roadmap_components"], "part"),
         ),
     ]
-    print_table(["fact", "value"], rows, facts.name)
+    print_table(["fact", "value"], rows, facts["name"])
     for title, sentences in (
-        ("faults", facts.faults),
-        ("narrow passages", facts.narrow),
-        ("doors", facts.sweeps),
-        ("notes", facts.notes),
+        ("faults", facts["faults"]),
+        ("narrow passages", facts["narrow"]),
+        ("doors", facts["sweeps"]),
+        ("notes", facts["notes"]),
     ):
         if sentences:
             print(f"{title}:")

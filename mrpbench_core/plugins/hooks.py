@@ -3,7 +3,7 @@
 import copy
 import logging
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import attrs
@@ -114,14 +114,21 @@ class Hooks:
         LOG.warning("hook plugin %r is not used: %s", name, reason)
 
 
-def load_hooks(disabled: Iterable[str] | None = None) -> Hooks:
-    """Load the installed hook plugins except the `disabled` ones (default: `MRPBENCH_DISABLE_PLUGINS`)."""
-    listed = os.environ.get(DISABLE, "").split(",") if disabled is None else disabled
-    names = {canonicalize_name(name.strip()) for name in listed}
+def enabled_hooks() -> list[Provider]:
+    """The installed hook plugins except those that `MRPBENCH_DISABLE_PLUGINS` names."""
+    names = {canonicalize_name(name.strip()) for name in os.environ.get(DISABLE, "").split(",")}
+    return [
+        provider
+        for provider in providers(HOOKS)
+        if names.isdisjoint({canonicalize_name(provider.name), canonicalize_name(provider.distribution)})
+    ]
+
+
+def load_hooks() -> Hooks:
+    """Load the enabled hook plugins."""
     hooks = Hooks()
-    for provider in providers(HOOKS):
-        if names.isdisjoint({canonicalize_name(provider.name), canonicalize_name(provider.distribution)}):
-            hooks.load(provider)
+    for provider in enabled_hooks():
+        hooks.load(provider)
     return hooks
 
 

@@ -10,8 +10,11 @@ import attrs
 
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.config.canonical import json_scalar
+from mrpbench_core.engine.processes.call import in_worker
+from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import load as load_yaml
+from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.local import is_local
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.reading.columns import Columns, describe_columns
@@ -47,16 +50,24 @@ def _planner(block: Any) -> str:
     if not isinstance(block, dict):
         return str(block)
     name = str(block["plugin"])
-    if is_local(name):  # its file may have changed or gone
+    plain = {key: value for key, value in block.items() if key != "plugin" and isinstance(value, str | int | float)}
+    installed = {provider.name for provider in providers(Planner.group)}
+    if not plain or is_local(name) or name.partition("@")[0] not in installed:
         return name
     try:
-        planner: Any = Registry(Planner).get(name)  # type: ignore[type-abstract]
-    except InputError:
+        defaults = in_worker(f"the replay shows no options of {name}", defaults_of, name)
+    except InputError as error:
+        _LOG.warning("%s", error)
         return name
-    defaults = {field.alias: json_scalar(field.default) for field in attrs.fields(planner)}
-    plain = {key: value for key, value in block.items() if isinstance(value, str | int | float)}
     chosen = [f"{key}={value}" for key, value in plain.items() if key in defaults and value != defaults[key]]
     return " ".join([name, *chosen])
+
+
+def defaults_of(planner: str) -> dict[str, Any]:
+    """In a worker process: the default of each option of an installed planner."""
+    cls: Any = Registry(Planner).get(planner)  # type: ignore[type-abstract]
+    found = {field.alias: json_scalar(field.default) for field in attrs.fields(cls)}
+    return {key: value for key, value in found.items() if isinstance(value, str | int | float)}
 
 
 def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
@@ -77,17 +88,18 @@ def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
             found[run_id] = _address(file, page)
         elif recorded[folder] and len(lacking) < most and results.paths(run_id).recording.is_file():
             lacking.append((results, run_id, file))
-    for results, run_id, file in lacking:
-        try:
-            recording = results.recording(run_id)
+    with slots_of_this_process():  # one worker for all replays
+        for results, run_id, file in lacking:
             try:
-                write_replay(recording, results, results[run_id], file)
-            finally:
-                recording.close()
-        except InputError as error:  # a damaged recording costs its replay, not the report
-            _LOG.warning("%s", error)
-            continue
-        found[run_id] = _address(file, page)
+                recording = results.recording(run_id)
+                try:
+                    write_replay(recording, results, results[run_id], file)
+                finally:
+                    recording.close()
+            except InputError as error:  # a damaged recording costs its replay, not the report
+                _LOG.warning("%s", error)
+                continue
+            found[run_id] = _address(file, page)
     return found
 
 

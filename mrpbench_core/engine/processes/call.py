@@ -7,16 +7,20 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import psutil
+
 from mrpbench_core.engine.loading.runs import unpack_error
 from mrpbench_core.engine.processes.child import WorkerDied
-from mrpbench_core.engine.processes.slots import ask_in_slot
-from mrpbench_core.files.errors import InputErrors
+from mrpbench_core.engine.processes.slots import ask_in_slot, slots_of_this_process
+from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.model.runs.status import RunStatus
 
 LIMIT_S = 120.0
 """Wall seconds that a call may take by default."""
 MEMORY = 4 * 2**30
 """Bytes that the processes of one call may hold."""
+COMMAND_S = 24 * 3600.0
+"""Wall seconds that the work of a command may take; Ctrl-C ends it earlier."""
 
 
 class CallFailedError(Exception):
@@ -37,7 +41,7 @@ def call(
 
     Raises:
         CallFailedError: there is no process, it crashed, or it exceeded a limit.
-        InputErrors: the function found mistakes of the user.
+        InputError, InputErrors: the function found mistakes of the user.
     """
     with tempfile.TemporaryDirectory(prefix="mrpbench-") as folder:
         log = Path(folder, "log.txt")
@@ -60,6 +64,25 @@ def call(
         late = answer["failure"]["status"] == RunStatus.WALL_TIMEOUT
         message = str(answer["failure"]["message"]).replace("limits.memory allows", "allowed are")
         raise CallFailedError(f"did not end within {limit_s:g} s and was ended" if late else message, late=late)
+    if "raised" in answer:
+        raise CallFailedError(answer["raised"])
+    if "error" in answer:
+        raise unpack_error(answer["error"])
     if "errors" in answer:
         raise InputErrors(*map(unpack_error, answer["errors"]))
     return answer.get("returned")
+
+
+def in_worker(failed: str, function: Callable[..., Any], *arguments: Any) -> Any:
+    """Call the part of a command that imports plugins; see `call`. All memory of the machine is allowed.
+
+    Raises:
+        InputError: the call failed: `failed`, and why; or the function found a mistake of the user.
+        InputErrors: the function found several.
+    """
+    memory = psutil.virtual_memory().total
+    with slots_of_this_process() as slots:
+        try:
+            return call(slots, function, *arguments, limit_s=COMMAND_S, memory_bytes=memory)
+        except CallFailedError as failure:
+            raise InputError(f"{failed}: {failure}") from failure

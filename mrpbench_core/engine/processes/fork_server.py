@@ -96,8 +96,9 @@ def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], 
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     os.setsid()  # Ctrl-C reaches the invoker only
     tell_imports(lambda plugin: channel.send({"importing": plugin}))
-    hooks = load_hooks()
+    hooks = Hooks()
     if "parcel" in job:
+        hooks = load_hooks()
         with suppress(InputError, InputErrors):  # the run reports them
             for entry in unpack(job["parcel"]).fleet:
                 robot_model(entry)

@@ -62,7 +62,11 @@ def _call(function: str, arguments: list[Any]) -> dict[str, Any]:
     except InputErrors as several:
         return {"errors": list(map(pack_error, several.errors))}
     except InputError as error:
-        return {"errors": [pack_error(error)]}
+        return {"error": pack_error(error)}
+    except BaseException as error:  # noqa: BLE001 - a plugin may raise anything, even SystemExit
+        if os.environ.get("MRPBENCH_TRACEBACK"):
+            traceback.print_exc()
+        return {"raised": describe(error)}
 
 
 def _run(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, Any]:

@@ -85,7 +85,7 @@ def measure_recording(metrics: Mapping[str, Metric], file: Path) -> tuple[dict[s
         recording.close()
 
 
-def describe(metrics: Mapping[str, Metric]) -> dict[str, dict[str, Any]]:
+def describe(metrics: Mapping[str, Metric | type[Metric]]) -> dict[str, dict[str, Any]]:
     """The declaration of each column, by `<metric>.<column>`, for readers of records."""
     return {
         f"{name}.{column.name}": {

@@ -26,7 +26,7 @@ def run(config: Path | str | Mapping[str, Any], *overrides: str, **options: Any)
     """
     chosen = StudyOptions(overrides=overrides, **options)
     with slots_of_this_process() as slots:
-        study = read_study(slots, config, chosen.overrides)
+        study = read_study(config, chosen.overrides)
         done = run_study(study, chosen, slots)
     mistakes = [InputError(mistake) for mistake in dict.fromkeys(done.mistakes.values())]
     if study.errors or mistakes:

@@ -9,9 +9,11 @@ import attrs
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import structure_component
+from mrpbench_core.engine.processes.call import in_worker
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.engine.study.selection import Rerun, read_shard_option
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.installed import CORE, providers
 
 
 def _at_least_one(_options: Any, _field: Any, workers: int) -> None:
@@ -20,6 +22,19 @@ def _at_least_one(_options: Any, _field: Any, workers: int) -> None:
 
 
 def _executor(chosen: str | Mapping[str, Any]) -> ExecutorSource:
+    """The executor. It works in this process, so its module is tried in a worker before."""
+    name = chosen if isinstance(chosen, str) else chosen.get("plugin")
+    if not any(provider.name == name and provider.distribution == CORE for provider in providers(ExecutorSource.group)):
+        in_worker(f"executor {name!r} cannot be used", tried, chosen)
+    return _structured(chosen)
+
+
+def tried(chosen: str | Mapping[str, Any]) -> None:
+    """In a worker process: import an executor and read its options."""
+    _structured(chosen)
+
+
+def _structured(chosen: str | Mapping[str, Any]) -> ExecutorSource:
     block = from_data(chosen, Location())
     return structure_component(ExecutorSource, block, "executor", Path.cwd())  # type: ignore[type-abstract]
 

@@ -13,9 +13,9 @@ from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.engine.processes.job import Failure, Job, JobOutcome
 from mrpbench_core.engine.processes.slots import close_slots, progress_in_slots, run_in_slot
 from mrpbench_core.engine.study.commits import Commits, EndedRun
+from mrpbench_core.engine.study.hooks import StudyHooks
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.model.runs.status import RunStatus, Stage
-from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.store.folder import ResultsFolder
 
 LOSSES = 3
@@ -33,7 +33,7 @@ class RunQueue:
     workers: int
     folder: ResultsFolder
     commits: Commits
-    hooks: Hooks
+    hooks: StudyHooks
     progress: StudyProgress
     mistakes: dict[str, str] = attrs.field(factory=dict)
     """The errors of refused runs, by run id."""
@@ -70,7 +70,6 @@ class RunQueue:
         """Give runs to idle workers; tell whether any run is being executed."""
         while self.waiting and len(self._going) < self.workers:
             point, attempt = self.waiting.popleft()
-            self.hooks.enable()
             self.hooks.call("mrpbench_run_started", run_id=point.run_id, config=point.canonical)
             self.progress.started(point)
             try:

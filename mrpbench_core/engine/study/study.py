@@ -11,13 +11,13 @@ import attrs
 from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.engine.study.commits import Commits
+from mrpbench_core.engine.study.hooks import StudyHooks
 from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.run_queue import RunQueue
 from mrpbench_core.engine.study.selection import Selection, select
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import Writer
 from mrpbench_core.files.output import sync_folder
-from mrpbench_core.plugins.hooks import load_hooks
 from mrpbench_core.store.folder import ResultsFolder, new_invocation
 from mrpbench_core.store.invocation import write_document
 from mrpbench_core.store.lock import locked
@@ -73,8 +73,6 @@ def _do(
 ) -> dict[str, str]:
     """Execute the selected runs; returns the mistakes in those that were refused."""
     invocation = new_invocation()
-    hooks = load_hooks()
-    hooks.check()
     try:
         digest = write_document(folder.invocation(invocation), _facts(study, options, invocation))
         write_document(folder.study, study.document)
@@ -82,7 +80,7 @@ def _do(
         sync_folder(shard.path.parent)
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror}", file=error.filename or folder.path) from error
-    with closing(shard), options.executor.open(options.workers) as executor:
+    with closing(shard), StudyHooks() as hooks, options.executor.open(options.workers) as executor:
         schedule = RunQueue(
             slots=slots,
             waiting=deque(selection.todo),

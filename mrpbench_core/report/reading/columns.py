@@ -1,18 +1,23 @@
 """Describes the columns of numbers: unit, direction, meaning, and how reports show them."""
 
+import logging
 from collections.abc import Iterable, Mapping
 from functools import partial
 from typing import Any, get_args
 
-import attrs
-
 from mrpbench_core.api.metric import Better, Column, ColumnStage, Drawn, Metric, Question
+from mrpbench_core.engine.processes.call import in_worker
+from mrpbench_core.engine.processes.slots import slots_of_this_process
+from mrpbench_core.engine.stages.measure import describe
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.reading.invocations import read_invocations
 from mrpbench_core.report.reading.outcome import PENALTY
 from mrpbench_core.report.reading.runs import PAR2
 from mrpbench_core.store.results import Results
+
+_LOG = logging.getLogger(__name__)
 
 Columns = Mapping[str, Column]
 """Columns by full name, `<metric>.<column>`."""
@@ -75,14 +80,10 @@ def describe_columns(declared: Mapping[str, Any], names: Iterable[str] = ()) -> 
     """
     wanted = [name for name in dict.fromkeys([*declared, *names]) if name not in _KNOWN]
     incomplete = [name for name in wanted if "threshold" not in (declared.get(name) or ())]
-    installed = {
-        name: column
-        for metric in dict.fromkeys(map(_metric_of, incomplete))
-        for name, column in _installed(metric).items()
-    }
+    installed = _installed(dict.fromkeys(map(_metric_of, incomplete)))
     place = {name: number for number, name in enumerate([*declared, *installed])}
     wanted.sort(key=lambda name: place.get(name, len(place)))  # as declared, not as values happen to come
-    return {name: _column(name, declared.get(name), installed.get(name)) for name in wanted} | _KNOWN
+    return {name: _column(name, installed.get(name), declared.get(name)) for name in wanted} | _KNOWN
 
 
 def primary_columns(known: Columns) -> list[Column]:
@@ -102,23 +103,23 @@ def heading(column: Column) -> str:
     return column.name if says_unit else f"{column.name} [{column.unit}]"
 
 
-def _column(name: str, declared: Any, installed: Column | None) -> Column:
-    column = installed or Column(name, *_timing(name), "")
-    if not isinstance(declared, dict):
-        return column
+def _column(name: str, *declarations: Any) -> Column:
+    """The column that declarations describe; later ones count more."""
+    declared = {key: value for each in declarations if isinstance(each, dict) for key, value in each.items()}
+    unit, better = _timing(name)
     aliases = declared.get("aliases")
-    return attrs.evolve(
-        column,
-        unit=str(declared.get("unit") or ""),
-        better=_one_of(Better, declared.get("better"), "neither"),
-        description=str(declared.get("description") or ""),
-        primary=bool(declared.get("primary", column.primary)),
-        stage=_one_of(ColumnStage, declared.get("stage"), column.stage),
-        drawn=_one_of(Drawn, declared.get("drawn"), column.drawn),
-        answers=_one_of(Question, declared.get("answers"), column.answers),
-        threshold=_at_least_0(declared.get("threshold", column.threshold), column.threshold),
-        threshold_share=_at_least_0(declared.get("threshold_share"), column.threshold_share) or 0.0,
-        aliases=tuple(map(str, aliases)) if isinstance(aliases, list) else column.aliases,
+    return Column(
+        name,
+        str(declared.get("unit") or unit),
+        _one_of(Better, declared.get("better"), better),
+        str(declared.get("description") or ""),
+        primary=bool(declared.get("primary")),
+        stage=_one_of(ColumnStage, declared.get("stage"), "execution"),
+        drawn=_one_of(Drawn, declared.get("drawn"), "interval"),
+        answers=_one_of(Question, declared.get("answers"), None),
+        threshold=_at_least_0(declared.get("threshold"), None),
+        threshold_share=_at_least_0(declared.get("threshold_share"), None) or 0.0,
+        aliases=tuple(map(str, aliases)) if isinstance(aliases, list) else (),
     )
 
 
@@ -140,10 +141,19 @@ def _metric_of(name: str) -> str:
     return name.partition(".")[0]
 
 
-def _installed(metric: str) -> dict[str, Column]:
-    """The columns of the installed metric of this name, by full name; none if there is no such metric."""
-    try:
-        found = Registry(Metric).get(metric)  # type: ignore[type-abstract]
-    except InputError:
-        return {}
-    return {f"{metric}.{column.name}": attrs.evolve(column, name=f"{metric}.{column.name}") for column in found.columns}
+def _installed(metrics: Iterable[str]) -> dict[str, Any]:
+    """The declarations of the installed ones of these metrics, by name of the column."""
+    there = {provider.name for provider in providers(Metric.group)}
+    found: dict[str, Any] = {}
+    with slots_of_this_process():  # one worker for all metrics
+        for metric in filter(there.__contains__, metrics):
+            try:
+                found |= in_worker(f"the columns of {metric} are not described", declarations_of, metric)
+            except InputError as error:
+                _LOG.warning("%s", error)
+    return found
+
+
+def declarations_of(metric: str) -> dict[str, Any]:
+    """In a worker process: the declarations of the columns of an installed metric."""
+    return describe({metric: Registry(Metric).get(metric)})  # type: ignore[type-abstract]

@@ -3,17 +3,13 @@
 import json
 import os
 import shutil
-import types
 from pathlib import Path
 
 import pytest
 
 from mrpbench_core import load, run
-from mrpbench_core.api import hookimpl
-from mrpbench_core.engine.study import study as study_module
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.files.yaml import load as load_yaml
-from mrpbench_core.plugins.hooks import Hooks
 
 
 def attempts(results):
@@ -106,28 +102,6 @@ def test_an_invocation_keeps_the_files_that_repeat_it(study):
     assert "mrpbench-core" in facts["versions"]
     assert load_yaml("out/study.yaml").data == study
     assert f"{facts['invocation']}.jsonl" in shards()
-
-
-def test_hooks_watch_the_invoking_process_and_cannot_write_into_records(study, monkeypatch):
-    calls = []
-
-    def finished(record):
-        calls.append(("run_finished", record["status"]))
-        record["status"] = "succeeded"
-
-    watcher = types.SimpleNamespace(
-        mrpbench_study_started=hookimpl(lambda runs: calls.append(("study_started", runs))),
-        mrpbench_run_started=hookimpl(lambda run_id: calls.append(("run_started",))),
-        mrpbench_run_finished=hookimpl(finished),
-        mrpbench_study_finished=hookimpl(lambda records: calls.append(("study_finished", records))),
-    )
-    hooks = Hooks()
-    hooks.register(watcher, "watcher")
-    monkeypatch.setattr(study_module, "load_hooks", lambda: hooks)
-    (record,) = run(study, out="out")
-    status = "plan_unsolvable"
-    assert record["status"] == status
-    assert calls == [("study_started", 1), ("run_started",), ("run_finished", status), ("study_finished", 1)]
 
 
 def test_records_survive_a_round_trip_through_json_and_are_complete(study):
