@@ -34,8 +34,15 @@ OPTIMA := "cbs" "ita_cbs" "cbs_ta" "ecbs w=1.0" "ecbs w=1.2" "eecbs w=1.0" "eecb
 optima: install ## check all 636 published optima with every planner that promises them (hours); OPTIMA='"cbs"' ARGS="--limit 1"
 	for planner in $(OPTIMA); do $(BIN)/python plugins/planners/mapf/tests/soak_optima.py --shared ../shared/data --planner "$$planner" $(ARGS) || exit 1; done
 
-demo: install ## do one small run, end to end: table, picture, bag
-	$(BIN)/mrpbench demo
+DEMO := $(if $(wildcard $(STAMP)),$(VENV),build/demo)
+demo: ## do one small run, end to end: table, picture, bag; installs only what that needs, unless .venv is there
+ifdef UV
+	test -e $(STAMP) || UV_PROJECT_ENVIRONMENT=$(DEMO) UV_PYTHON_DOWNLOADS=never uv sync --quiet --locked --no-default-groups --group demo --python $(PYTHON)
+else
+	test -x $(DEMO)/bin/python || $(PYTHON) -m venv $(DEMO)
+	test -e $(STAMP) || $(DEMO)/bin/python -m pip install --quiet --disable-pip-version-check --constraint pinned.txt '.[figures]' ./native ./plugins ./plugins/exporters/rosbag2
+endif
+	$(DEMO)/bin/mrpbench demo
 
 test: install lint types layers docs cpp python ## run all checks of CI
 

@@ -1,3 +1,8 @@
-"""The version of the core."""
+"""The version of the core, from the metadata of its distribution."""
 
-__version__ = "0.1.0"
+from importlib.metadata import PackageNotFoundError, version
+
+try:
+    __version__ = version("mrpbench-core")
+except PackageNotFoundError:  # a folder on the path, not an installation
+    __version__ = "0+unknown"

@@ -1,7 +1,6 @@
 """`mrpbench demo`: run the whole stack once, on a small scenario."""
 
 import argparse
-import importlib.util
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +12,11 @@ from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.extras import has
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.kinds import group_of
+from mrpbench_core.plugins.published import remedy
 from mrpbench_core.report.html.page import write_report
 from mrpbench_core.report.report import make_report
 from mrpbench_core.store.recording import Recording
@@ -24,7 +25,7 @@ from mrpbench_core.store.results import Results
 WANTED = {
     "assigner": ("ortools_mip", "hungarian", "identity"),
     "planner": ("cbs", "prioritized", "example"),
-    "simulator": ("pybullet", "kinematic"),
+    "simulator": ("pybullet", "planar", "kinematic"),
     "controller": ("pure_pursuit",),
 }
 """Plugins of each kind in order of preference: the demo uses the first that works here."""
@@ -53,7 +54,7 @@ def _configuration() -> dict[str, Any]:
     for kind, names in WANTED.items():
         chosen[kind] = next((name for name in names if _works(kind, name)), names[-1])
         if chosen[kind] != names[0]:
-            print(f"{kind} {names[0]} is not available here ({_why(names[0])}); the demo uses {chosen[kind]}")
+            print(f"{kind} {names[0]} is not available here ({_why(kind, names[0])}); the demo uses {chosen[kind]}")
     return {
         "name": "demo",
         "world": "office",
@@ -67,12 +68,17 @@ def _configuration() -> dict[str, Any]:
 
 
 def _works(kind: str, name: str) -> bool:
-    offered = any(provider.name == name and not provider.problem for provider in providers(group_of(kind)))
-    return offered and (name != "pybullet" or importlib.util.find_spec("pybullet") is not None)
+    return _is_offered(kind, name) and (name != "pybullet" or has("pybullet"))
 
 
-def _why(name: str) -> str:
-    return "no PyBullet for this Python" if name == "pybullet" else "not installed"
+def _is_offered(kind: str, name: str) -> bool:
+    return any(provider.name == name and not provider.problem for provider in providers(group_of(kind)))
+
+
+def _why(kind: str, name: str) -> str:
+    if _is_offered(kind, name):
+        return "PyBullet has no wheel for this Python or machine"
+    return remedy(name, group_of(kind)) or "not installed"
 
 
 def _show(results: Results) -> None:

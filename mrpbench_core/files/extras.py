@@ -8,6 +8,6 @@ def has(module: str) -> bool:
     return find_spec(module) is not None
 
 
-def pip(extra: str) -> str:
-    """Return the command that installs an extra of the distribution `mrpbench`, for errors and notes."""
-    return f"`pip install 'mrpbench[{extra}]'`"
+def pip(extra: str = "") -> str:
+    """Return the command that installs the distribution `mrpbench` with an extra, for errors and notes."""
+    return f"`pip install 'mrpbench[{extra}]'`" if extra else "`pip install mrpbench`"

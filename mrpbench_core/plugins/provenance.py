@@ -1,8 +1,6 @@
 """The origin of components, which records keep."""
 
-import functools
 import hashlib
-import json
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +10,7 @@ import attrs
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.files.text import read_bytes
-from mrpbench_core.plugins.installed import distribution
+from mrpbench_core.plugins.checkout import direct_url
 from mrpbench_core.plugins.local import source_of
 from mrpbench_core.plugins.registry import Registry
 
@@ -53,7 +51,7 @@ def origin(cls: type[Component], folder: Path | None = None) -> dict[str, Any]:
         return found | {"file": Path(file).name, "sha256": hashlib.sha256(read_bytes(file)).hexdigest()}
     if provider is not None:
         found |= {"distribution": provider.distribution, "version": provider.version}
-        if url := _direct_url(provider.distribution):
+        if url := direct_url(provider.distribution):
             found["direct_url"] = url
     return found
 
@@ -61,12 +59,3 @@ def origin(cls: type[Component], folder: Path | None = None) -> dict[str, Any]:
 def kind_class(cls: type[Component]) -> type[Component]:
     """Return the class that defines the group of `cls`."""
     return next(owner for owner in cls.__mro__ if "group" in vars(owner))
-
-
-@functools.cache
-def _direct_url(name: str) -> Any:
-    text = distribution(name).read_text("direct_url.json")
-    try:
-        return json.loads(text) if text else None
-    except ValueError:
-        return None

@@ -3,6 +3,8 @@
 A test compares this table with the entry points of the distributions.
 """
 
+from mrpbench_core.files.extras import pip
+
 _CRITICS = (
     *("RotateToGoal", "Oscillation", "BaseObstacle", "ObstacleFootprint", "GoalAlign"),
     *("PathAlign", "PathDist", "GoalDist", "PreferForward", "Twirling"),
@@ -34,9 +36,21 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
 """Names by entry-point group, by distribution. Of other distributions nothing is known before they are installed."""
 
 
-def distribution_of(name: str, group: str | None = None) -> str | None:
-    """Return the distribution of this project that offers a plugin, of any group if none is given, or None."""
+EXTRAS = {
+    "mrpbench-standard": "",
+    "mrpbench-assigners-ortools": "ortools",
+    "mrpbench-assigners-scipy": "scipy",
+    "mrpbench-bridges-ros2": "ros2",
+    "mrpbench-executors-dask": "dask",
+    "mrpbench-exporters-rosbag2": "rosbag2",
+    "mrpbench-simulators-pybullet": "pybullet",
+}
+"""The extra of the distribution `mrpbench` that installs each; empty: `mrpbench` alone does."""
+
+
+def remedy(name: str, group: str | None = None) -> str | None:
+    """Return which distribution of this project has a plugin and how to install it, of any group if none is given."""
     for owner, offers in PUBLISHED.items():
         if any(name in names for offered, names in offers.items() if group in (None, offered)):
-            return owner
+            return f"{owner} has it: {pip(EXTRAS[owner])}"
     return None

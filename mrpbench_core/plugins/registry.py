@@ -16,7 +16,7 @@ from mrpbench_core.plugins.contract import violation
 from mrpbench_core.plugins.installed import Provider, load, providers
 from mrpbench_core.plugins.kinds import kind_of
 from mrpbench_core.plugins.local import is_local, load_local, source_of
-from mrpbench_core.plugins.published import distribution_of
+from mrpbench_core.plugins.published import remedy
 
 C = TypeVar("C", bound=Component)
 
@@ -95,8 +95,8 @@ class Registry(Generic[C]):
         return cast("type[C]", cls)
 
     def _unknown(self, name: str, part: str, known: list[str]) -> InputError:
-        if part not in known and (owner := distribution_of(part, self.base.group)):
-            return InputError(f"no {self.kind} is called {name!r}", hint=f"{owner} has it: `pip install {owner}`")
+        if part not in known and (hint := remedy(part, self.base.group)):
+            return InputError(f"no {self.kind} is called {name!r}", hint=hint)
         found = closest(part, known)
         hint = f"did you mean {name.replace(part, found)!r}? " if found else ""
         listed = f"`mrpbench plugins` lists what is installed: {', '.join(sorted(set(known))) or 'none'}"

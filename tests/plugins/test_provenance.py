@@ -2,10 +2,13 @@
 
 import hashlib
 import json
+import subprocess
 
 import attrs
+import pytest
 
 from mrpbench_core.api import Planner
+from mrpbench_core.plugins.checkout import version_of
 from mrpbench_core.plugins.provenance import provenance
 from mrpbench_core.plugins.registry import Registry
 
@@ -78,3 +81,39 @@ def test_a_class_named_by_its_module_is_listed_with_the_modules_hash(install):
             "sha256": hashlib.sha256(CODE.encode()).hexdigest(),
         }
     ]
+
+
+def checkout(folder):
+    """A repository with one commit; returns the commit."""
+    git = ["git", "-C", str(folder), "-c", "user.name=me", "-c", "user.email=me@example.org"]
+    (folder / "mine.py").write_text("")
+    for words in (["init", "-q"], ["add", "mine.py"], ["commit", "-qm", "first"]):
+        subprocess.run([*git, *words], check=True)
+    return subprocess.run([*git, "rev-parse", "HEAD"], check=True, capture_output=True, text=True).stdout[:12]
+
+
+@pytest.mark.parametrize(
+    ("version", "expected"),
+    [("1.0", "1.0+g{}"), ("0.2.1.dev7+g012345678", "0.2.1.dev0+g{}"), ("0.3rc1", "0.3rc1+g{}"), ("odd", "odd")],
+)
+def test_an_editable_installation_has_the_version_of_its_checkout(install, tmp_path, version, expected):
+    folder = tmp_path / "checkout"
+    folder.mkdir()
+    commit = checkout(folder)
+    url = json.dumps({"url": folder.as_uri(), "dir_info": {"editable": True}})
+    name = f"acme-{len(version)}"
+    pure = {"direct_url.json": url, "WHEEL": "Root-Is-Purelib: true\n"}
+    install(name, {}, version=version, files=pure)
+    assert version_of(name) == expected.format(commit)
+    install(f"{name}-compiled", {}, version=version, files=pure | {"WHEEL": "Root-Is-Purelib: false\n"})
+    assert version_of(f"{name}-compiled") == version
+
+
+def test_changed_files_of_a_checkout_make_another_version(install, tmp_path):
+    folder = tmp_path / "checkout"
+    folder.mkdir()
+    commit = checkout(folder)
+    (folder / "mine.py").write_text("changed = True")
+    url = json.dumps({"url": folder.as_uri(), "dir_info": {"editable": True}})
+    install("acme-changed", {}, files={"direct_url.json": url, "WHEEL": "Root-Is-Purelib: true\n"})
+    assert version_of("acme-changed") == f"1.0+g{commit}.dirty"

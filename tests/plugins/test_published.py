@@ -1,14 +1,15 @@
 """A plugin that is not installed is found by the table of this project's distributions."""
 
+import runpy
 import tomllib
 from pathlib import Path
 
 import pytest
 
-from mrpbench_core.api import Planner
+from mrpbench_core.api import Assigner, Planner
 from mrpbench_core.cli.input.plugin_name import resolve
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.published import PUBLISHED
+from mrpbench_core.plugins.published import EXTRAS, PUBLISHED
 from mrpbench_core.plugins.registry import Registry
 
 PLUGINS = Path(__file__).parents[2] / "plugins"
@@ -22,9 +23,17 @@ def test_the_table_is_that_of_the_entry_points():
     assert {name: {group: set(names) for group, names in offers.items()} for name, offers in PUBLISHED.items()} == found
 
 
+def test_the_extras_are_those_of_the_distribution_mrpbench():
+    pins = runpy.run_path(str(PLUGINS.parent / "metapackage/hatch_build.py"))
+    extras = {owner: extra for extra, owner in pins["EXTRAS"].items() if not owner.startswith("mrpbench-core[")}
+    assert {**dict.fromkeys(pins["DEFAULT"], ""), **extras} == {"mrpbench-core": "", "mrpbench-native": "", **EXTRAS}
+
+
 def test_a_plugin_of_a_distribution_that_is_not_installed_names_it(install):
-    with pytest.raises(InputError, match=r"no planner is called 'lacam' \(mrpbench-standard has it: `pip install"):
+    with pytest.raises(InputError, match=r"no planner is called 'lacam' \(mrpbench-standard has it: `pip install m"):
         Registry(Planner).get("lacam")
+    with pytest.raises(InputError, match=r"ortools has it: `pip install 'mrpbench\[ortools\]'`\)$"):
+        Registry(Assigner).get("ortools_mip")
 
 
 def test_a_plugin_that_is_named_without_its_kind_is_found_too(install):

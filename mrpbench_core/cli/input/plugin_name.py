@@ -10,7 +10,7 @@ from mrpbench_core.plugins.installed import Provider, installed, load, providers
 from mrpbench_core.plugins.kinds import HOOKS, kind_of, singular
 from mrpbench_core.plugins.local import is_local, load_local
 from mrpbench_core.plugins.provenance import kind_class
-from mrpbench_core.plugins.published import distribution_of
+from mrpbench_core.plugins.published import remedy
 
 
 def resolve(name: str) -> tuple[type[Component], str]:
@@ -37,9 +37,8 @@ def resolve(name: str) -> tuple[type[Component], str]:
             f"several kinds have a plugin {name!r}", hint="write " + " or ".join(f"{each}:{name}" for each in kinds)
         )
     if not kinds:
-        hint = suggest(name, {provider.name for provider in offers}, "`mrpbench plugins` lists what is installed:")
-        if owner := distribution_of(name.partition("@")[0]):
-            hint = f"{owner} has it: `pip install {owner}`"
+        known = {provider.name for provider in offers}
+        hint = remedy(name.partition("@")[0]) or suggest(name, known, "`mrpbench plugins` lists what is installed:")
         raise InputError(f"no plugin is called {name!r}", hint=hint)
     (found,) = kinds
     return KINDS.get(found) or _own_kind(found, name), name

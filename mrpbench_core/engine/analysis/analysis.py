@@ -17,7 +17,7 @@ from mrpbench_core.api.world import WorldSource
 from mrpbench_core.config.canonical import canonical
 from mrpbench_core.config.settings import FleetEntry
 from mrpbench_core.engine.analysis.observed_run import ObservedRun, Sampling, observe, observe_own
-from mrpbench_core.engine.loading.versions import versions
+from mrpbench_core.engine.loading.versions import with_versions
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.engine.record import RunError, RunRecord, StoredRecord
 from mrpbench_core.engine.stages.measure import describe, measure
@@ -201,10 +201,7 @@ def _identity(analysis: Analysis, found: ObservedRun) -> str:
 
 
 def _code(analysis: Analysis) -> dict[str, Any]:
-    components = provenance([analysis.importer, analysis.world, *analysis.metrics.values()], Path.cwd())
-    for entry in components:
-        entry.pop("direct_url", None)
-    return {"components": components, "versions": versions(components)}
+    return with_versions(provenance([analysis.importer, analysis.world, *analysis.metrics.values()], Path.cwd()))
 
 
 def _keep(analysis: Analysis, found: ObservedRun, record: StoredRecord) -> StoredRecord:

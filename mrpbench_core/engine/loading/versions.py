@@ -11,9 +11,9 @@ from packaging.requirements import InvalidRequirement, Requirement
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.plugins.checkout import version_of
 from mrpbench_core.plugins.installed import CORE, distribution
 from mrpbench_core.plugins.provenance import components_in, origin
-from mrpbench_core.version import __version__
 
 
 def code_of(config: RunConfig, folder: Path) -> dict[str, Any]:
@@ -23,15 +23,23 @@ def code_of(config: RunConfig, folder: Path) -> dict[str, Any]:
 
 @functools.lru_cache(maxsize=256)
 def _code(classes: tuple[type[Component], ...], folder: Path) -> dict[str, Any]:
-    components = [origin(cls, folder) for cls in classes]
-    for entry in components:  # the place of a checkout says nothing about the code
-        entry.pop("direct_url", None)
+    return with_versions([origin(cls, folder) for cls in classes])
+
+
+def with_versions(origins: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
+    """Components as records keep them, without their places, and versions; those of editable checkouts are of now."""
+    components: list[dict[str, Any]] = []
+    for found in origins:
+        entry = {key: value for key, value in found.items() if key != "direct_url"}
+        if "distribution" in entry:
+            entry["version"] = version_of(entry["distribution"])
+        components.append(entry)
     return {"components": components, "versions": versions(components)}
 
 
 def versions(components: Iterable[Mapping[str, Any]]) -> dict[str, str]:
     """Versions by distribution: the core, those that offer the components, and what these require directly."""
-    found = {CORE: __version__, "numpy": metadata.version("numpy")}
+    found = {name: version_of(name) for name in (CORE, "numpy")}
     for name in {entry["distribution"] for entry in components if "distribution" in entry}:
         found |= _with_requirements(name)
     return dict(sorted(found.items()))
@@ -40,14 +48,14 @@ def versions(components: Iterable[Mapping[str, Any]]) -> dict[str, str]:
 @functools.cache
 def _with_requirements(name: str) -> dict[str, str]:
     owner = distribution(name)
-    found = {name: owner.version}
+    found = {name: version_of(name)}
     if name == CORE:
         return found
     for text in owner.requires or ():
         try:
             requirement = Requirement(text)
             if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
-                found[requirement.name] = metadata.version(requirement.name)
+                found[requirement.name] = version_of(requirement.name)
         except (InvalidRequirement, UndefinedEnvironmentName, metadata.PackageNotFoundError):
             continue
     return found

@@ -54,7 +54,7 @@ class Bullet:
                 missing = sys.version_info >= (3, 12)
                 raise InputError(
                     f"no PyBullet wheel for Python {version}" if missing else f"PyBullet cannot be imported: {error}",
-                    hint="use `simulator: kinematic`, or Python 3.11" if missing else "use `simulator: kinematic`",
+                    hint="use `simulator: planar`, or Python 3.11" if missing else "use `simulator: planar`",
                 ) from None
             self.module: Any = pybullet
             self._client: int = pybullet.connect(pybullet.DIRECT)

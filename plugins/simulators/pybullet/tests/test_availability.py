@@ -27,7 +27,7 @@ def test_without_pybullet_the_error_is_one_line_with_a_remedy(monkeypatch, versi
     monkeypatch.setattr(sys, "version_info", type("V", (tuple,), {"major": version[0], "minor": version[1]})(version))
     with pytest.raises(InputError, match=message) as caught:
         open_one()
-    assert "kinematic" in str(caught.value)
+    assert "planar" in str(caught.value)
     assert "\n" not in str(caught.value)
 
 

@@ -1,0 +1,31 @@
+"""The requirements of the distribution `mrpbench`: all distributions of the project in the version of this one."""
+
+from typing import Any
+
+from hatchling.metadata.plugin.interface import MetadataHookInterface
+
+DEFAULT = ("mrpbench-core", "mrpbench-native", "mrpbench-standard")
+EXTRAS = {
+    "dask": "mrpbench-executors-dask",
+    "figures": "mrpbench-core[figures]",
+    "geo": "mrpbench-core[geo]",
+    "images": "mrpbench-core[images]",
+    "ortools": "mrpbench-assigners-ortools",
+    "parquet": "mrpbench-core[parquet]",
+    "pybullet": "mrpbench-simulators-pybullet",
+    "ros2": "mrpbench-bridges-ros2",
+    "rosbag2": "mrpbench-exporters-rosbag2",
+    "scipy": "mrpbench-assigners-scipy",
+    "statistics": "mrpbench-core[statistics]",
+}
+
+
+class Pins(MetadataHookInterface):
+    """Pins every requirement, so that `pip install mrpbench==X` gives all parts of one release."""
+
+    def update(self, metadata: dict[str, Any]) -> None:
+        """Add the requirements."""
+        version = metadata["version"]
+        extras = {extra: [f"{name}=={version}"] for extra, name in EXTRAS.items()}
+        metadata["dependencies"] = [f"{name}=={version}" for name in DEFAULT]
+        metadata["optional-dependencies"] = extras | {"all": [pin for pins in extras.values() for pin in pins]}
