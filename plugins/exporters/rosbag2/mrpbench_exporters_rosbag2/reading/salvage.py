@@ -10,6 +10,8 @@ import struct
 from contextlib import closing, suppress
 from pathlib import Path
 
+from mrpbench_exporters_rosbag2.reading.bounds import COMPUTED, LARGEST
+
 MAGIC = b"\x89MCAP0\r\n"
 FOOTER, DATA_END = 0x02, 0x0F
 END = struct.pack("<BQI", DATA_END, 4, 0) + struct.pack("<BQQQI", FOOTER, 20, 0, 0, 0) + MAGIC
@@ -28,8 +30,12 @@ def _sqlite(file: Path, folder: Path) -> Path:
         closing(sqlite3.connect(copy)) as new,
         suppress(sqlite3.DatabaseError),
     ):
+        old.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST)
+        computed = {name for (name,) in old.execute(COMPUTED)}
         tables = old.execute("SELECT name, sql FROM sqlite_schema WHERE type = 'table'").fetchall()
         for name, text in sorted(tables, key=lambda table: table[0] == "messages"):  # the damage is most likely there
+            if name in computed:
+                continue
             new.execute(text)
             with suppress(sqlite3.DatabaseError):
                 for row in old.execute(f'SELECT * FROM "{name}"'):  # noqa: S608 - its own table

@@ -13,6 +13,7 @@ from rosbags.typesys.store import Typestore
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_exporters_rosbag2.messages import TYPES
+from mrpbench_exporters_rosbag2.reading.bounds import bound, check_index
 from mrpbench_exporters_rosbag2.reading.salvage import salvage
 
 STORAGES = (".mcap", ".db3")
@@ -130,8 +131,10 @@ class Stream:
 
     def _reader(self, path: Path) -> Reader:
         try:
+            bound()
             reader = Reader(path)
             self._stack.enter_context(reader)
+            check_index(reader)
         except Exception as error:  # as in `messages`
             raise InputError(_words(error), file=path) from error
         return reader

@@ -1,0 +1,81 @@
+"""Small bags that would grow large."""
+
+import sqlite3
+import struct
+import tracemalloc
+
+import lz4.frame
+import pytest
+from mrpbench_exporters_rosbag2.reading.bounds import LARGEST, inflate
+from mrpbench_exporters_rosbag2.reading.salvage import END, MAGIC
+from mrpbench_exporters_rosbag2.reading.stream import Stream
+from rosbags.rosbag2 import ReaderError, storage_mcap
+
+from mrpbench_core.files.errors import InputError
+
+PACK = {"zstd": storage_mcap.zstd.compress, "lz4": lz4.frame.compress}
+BOMB = bytes(LARGEST + 2**20)
+
+
+def record(opcode, content):
+    return struct.pack("<BQ", opcode, len(content)) + content
+
+
+def text(word):
+    return struct.pack("<I", len(word)) + word.encode()
+
+
+def chunked(file, content, size, compression):
+    """Write an mcap with one chunk, whose declared size is `size`."""
+    data = PACK[compression](content)
+    chunk = struct.pack("<QQQI", 0, 1, size, 0) + text(compression) + struct.pack("<Q", len(data)) + data
+    file.write_bytes(MAGIC + record(1, text("ros2") + text("")) + record(6, chunk) + END)
+    assert file.stat().st_size < 2**22
+    return file
+
+
+@pytest.mark.parametrize("compression", PACK)
+@pytest.mark.parametrize(
+    ("size", "said"), [(100, "more than 100 bytes"), (len(BOMB), "larger than"), (2**63, "larger than")]
+)
+def test_a_chunk_that_would_grow_beyond_what_is_read_takes_no_memory(tmp_path, compression, size, said):
+    file = chunked(tmp_path / "a.mcap", BOMB, size, compression)
+    tracemalloc.start()
+    try:
+        with pytest.raises(InputError) as caught:
+            Stream(file)
+        assert said in str(caught.value)
+        assert tracemalloc.get_traced_memory()[1] < 2**26
+    finally:
+        tracemalloc.stop()
+
+
+@pytest.mark.parametrize("compression", PACK)
+def test_a_chunk_that_is_what_it_declares_is_read(tmp_path, compression):
+    with Stream(chunked(tmp_path / "a.mcap", record(5, bytes(22 + 2**20)), 9 + 22 + 2**20, compression)) as stream:
+        assert stream.complete
+
+
+def test_several_frames_are_bounded_together():
+    frames = PACK["zstd"](bytes(1000)) * 3
+    assert inflate(frames, 3000) == bytes(3000)
+    with pytest.raises(ReaderError, match="more than 2999 bytes"):
+        inflate(frames, 2999)
+    with pytest.raises(ReaderError, match="ends early"):
+        inflate(frames[:-2], 3000)
+
+
+def test_a_table_whose_messages_are_computed_is_refused(tmp_path):
+    file = tmp_path / "a.db3"
+    with sqlite3.connect(file) as database:
+        database.execute("CREATE TABLE topics(id INTEGER, name TEXT, type TEXT, serialization_format TEXT)")
+        database.execute(
+            "CREATE TABLE messages(id INTEGER, topic_id INTEGER, timestamp INTEGER, data AS (zeroblob(900000000)))"
+        )
+        database.execute("INSERT INTO topics VALUES (1, '/a', 'std_msgs/msg/String', 'cdr')")
+        database.executemany(
+            "INSERT INTO messages(id, topic_id, timestamp) VALUES (?, 1, ?)", [(i, i) for i in range(9)]
+        )
+    database.close()
+    with pytest.raises(InputError, match="table messages computes its values"):
+        Stream(file)
