@@ -8,7 +8,7 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz docs links
+.PHONY: help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz wheels docs links
 
 help: ## list the targets
 	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -103,6 +103,12 @@ docs: install ## build the documentation site into build/docs/html; warnings are
 
 links: install ## look up all external links of the documentation
 	$(SPHINX) --builder linkcheck docs $(DOCS)/links
+
+WHEELS := build/wheels/bin
+wheels: ## build all distributions twice, check them, and drive a first study from the wheels alone on each Python; ARGS="--once"
+	test -x $(WHEELS)/python || $(PYTHON) -m venv build/wheels
+	$(WHEELS)/python -m pip install --quiet --disable-pip-version-check build twine check-wheel-contents abi3audit auditwheel
+	$(WHEELS)/python scripts/wheels.py $(ARGS)
 
 format: install ## rewrite the sources in the house style
 	$(BIN)/ruff check --fix .

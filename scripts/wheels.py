@@ -1,8 +1,8 @@
 """Build every distribution, check it, and try the wheels in empty environments of each version of Python.
 
-`make wheels` runs this. Distributions are built twice, in isolation, the wheel from the sdist, and must be equal byte by
-byte. Then only the wheels are installed into an empty environment of each Python that is found, and a first study is
-written, run and reported there, outside of the checkout.
+`make wheels` runs this. Distributions are built twice, in isolation, the wheel from the sdist, and must be equal byte
+for byte. Then only the wheels are installed into an empty environment of each Python that is found, and a first study
+is written, run and reported there, outside of the checkout.
 """
 
 import argparse
