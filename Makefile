@@ -107,7 +107,7 @@ links: install ## look up all external links of the documentation
 WHEELS := build/wheels/bin
 wheels: ## build all distributions twice, check them, and drive a first study from the wheels alone on each Python; ARGS="--once"
 	test -x $(WHEELS)/python || $(PYTHON) -m venv build/wheels
-	$(WHEELS)/python -m pip install --quiet --disable-pip-version-check build twine check-wheel-contents abi3audit auditwheel
+	$(WHEELS)/python -m pip install --quiet --disable-pip-version-check build twine check-wheel-contents abi3audit auditwheel cffconvert
 	$(WHEELS)/python scripts/wheels.py $(ARGS)
 
 format: install ## rewrite the sources in the house style

@@ -52,6 +52,7 @@ def check(out: Path) -> None:
     files = list(map(str, sorted(out.iterdir())))
     native = [file for file in files if "abi3" in file]
     for command in (
+        ["cffconvert.cli.cli", "--validate", "--infile", str(ROOT / "CITATION.cff")],
         ["twine", "check", "--strict", *files],
         # mrpbench has no modules (W007, W008), mrpbench-standard several packages (W009)
         ["check_wheel_contents", "--ignore", "W007,W008,W009", *(file for file in files if file.endswith(".whl"))],

@@ -1,12 +1,13 @@
-"""Prints a table: with rich on a terminal, as aligned plain text elsewhere, or as JSON."""
+"""Prints a table: folded to the width of a terminal, in whole lines elsewhere, or as JSON."""
 
 import json
 import shutil
 import sys
+import textwrap
 from collections.abc import Sequence
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
-from mrpbench_core.cli.output.terminal import unescaped
 from mrpbench_core.files.printing import printable
 
 if TYPE_CHECKING:
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
 
 GAP = 2
 """Blanks between columns."""
+NARROW = 8
+"""Width below which no column is folded."""
 
 
 def print_table(columns: Sequence[str], rows: Sequence[Sequence[Any]], title: str = "") -> None:
@@ -21,19 +24,21 @@ def print_table(columns: Sequence[str], rows: Sequence[Sequence[Any]], title: st
     columns = list(map(printable, columns))
     cells = [["–" if cell is None else printable(str(cell)) for cell in row] for row in rows]
     right = [all(_is_number(row[index]) for row in cells) for index in range(len(columns))]
-    if sys.stdout.isatty():
-        _print_rich(columns, cells, right, title)
-        return
     if title:
-        print(title)
+        print(printable(title))
     lines = [columns, *cells]
     widths = [max(len(line[index]) for line in lines) for index in range(len(columns))]
-    for line in lines:
-        parts = (
-            cell.rjust(width) if flush else cell.ljust(width)
-            for cell, width, flush in zip(line, widths, right, strict=True)
-        )
-        print((" " * GAP).join(parts).rstrip())
+    if sys.stdout.isatty():
+        columns = [name.replace("_", " ").replace(".", " ") for name in columns]
+        heads = [max(map(len, name.split()), default=0) for name in columns]  # headings break between words
+        widths = [max([head, *(len(row[i]) for row in cells)]) for i, head in enumerate(heads)]
+        widths = _fitted(widths, shutil.get_terminal_size().columns)
+        _print_row(columns, widths, right)
+        print("─" * (sum(widths) + GAP * (len(widths) - 1)))
+    else:
+        _print_row(columns, widths, right)
+    for row in cells:
+        _print_row(row, widths, right)
 
 
 def print_wide(table: "Table") -> None:
@@ -66,19 +71,25 @@ def _parts(widths: Sequence[int], keys: int, limit: int | None) -> list[list[int
     return parts
 
 
-def _print_rich(columns: Sequence[str], cells: Sequence[Sequence[str]], right: Sequence[bool], title: str) -> None:
-    from rich import box
-    from rich.console import Console
-    from rich.markup import escape
-    from rich.table import Table
+def _print_row(row: Sequence[str], widths: Sequence[int], right: Sequence[bool]) -> None:
+    """Print the cells of a row, each in as many lines as its width needs."""
+    folded = [
+        textwrap.wrap(cell, width) if len(cell) > width else [cell] for cell, width in zip(row, widths, strict=True)
+    ]
+    for line in zip_longest(*folded, fillvalue=""):
+        parts = (
+            cell.rjust(width) if flush else cell.ljust(width)
+            for cell, width, flush in zip(line, widths, right, strict=True)
+        )
+        print((" " * GAP).join(parts).rstrip())
 
-    table = Table(title=escape(printable(title)) or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for name, flush in zip(columns, right, strict=True):  # broken between words where the terminal is narrow
-        heading = escape(name.replace("_", " ").replace(".", " "))
-        table.add_column(heading, justify="right" if flush else "left", overflow="fold")
-    for row in cells:
-        table.add_row(*map(escape, row))
-    Console(file=unescaped()).print(table)
+
+def _fitted(widths: Sequence[int], limit: int) -> list[int]:
+    """Widths whose sum with the gaps is at most `limit`, if it can be: the widest columns are narrowed."""
+    fitted = list(widths)
+    while sum(fitted) + GAP * (len(fitted) - 1) > limit and max(fitted, default=0) > NARROW:
+        fitted[fitted.index(max(fitted))] -= 1
+    return fitted
 
 
 def _is_number(cell: str) -> bool:
