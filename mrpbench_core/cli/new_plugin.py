@@ -5,13 +5,16 @@ from pathlib import Path
 
 from mrpbench_core.cli.scaffold.distribution import write
 from mrpbench_core.cli.scaffold.kinds import kinds
-from mrpbench_core.cli.scaffold.plugin import named
+from mrpbench_core.cli.scaffold.plugin import Form, named
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("kind", metavar="KIND", help=", ".join(kinds()))
     parser.add_argument("name", metavar="NAME", help="name in configurations: lower-case letters, digits, _")
+    form = parser.add_mutually_exclusive_group()
+    form.add_argument("--native", action="store_true", help="a planner in C++, built against mrpbench-native")
+    form.add_argument("--external", action="store_true", help="a planner that runs a program")
     parser.add_argument(
         "--folder", metavar="DIR", type=Path, help="folder to create (default: the name of the distribution)"
     )
@@ -19,10 +22,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the folder."""
-    plugin = named(arguments.kind, arguments.name)
+    form: Form = "native" if arguments.native else "external" if arguments.external else "python"
+    plugin = named(arguments.kind, arguments.name, form)
     folder = arguments.folder or Path(plugin.distribution)
     write(plugin, folder)
     print(f"wrote {folder}: a working {plugin.kind.replace('_', ' ')}. Next:")
-    print(f"  pip install -e {folder}")
+    print(f"  pip install {'-e ' if form != 'native' else ''}{folder}")
     print(f"  mrpbench check {plugin.kind}:{plugin.name}{plugin.options}")
     return 0

@@ -8,27 +8,12 @@
 #include <vector>
 
 #include "arrays.hpp"
+#include "mapf_solvers.hpp"
 #include "mrpbench_mapf/reordering/gses.hpp"
 
 namespace mrpbench::bindings {
 
 using Arcs = nb::ndarray<const std::int32_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
-
-inline const char* name_of(mapf::Status status) {
-  switch (status) {
-    case mapf::Status::solved:
-      return "solved";
-    case mapf::Status::timeout:
-      return "timeout";
-    case mapf::Status::out_of_memory:
-      return "out_of_memory";
-    case mapf::Status::unsolvable:
-      return "unsolvable";
-    case mapf::Status::gave_up:
-      break;
-  }
-  return "gave_up";
-}
 
 inline mapf::Reordering reorder(const Vector<std::int32_t>& first, const Vector<std::int32_t>& duration,
                                 const Arcs& fixed, const Arcs& planned, const Arcs& switched, double wall_s,

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <stdexcept>
 #include <string>
@@ -62,6 +64,49 @@ inline OptionValues from_python(const nb::dict& given, const std::vector<Paramet
 template <class Options>
 Options configured_by(const nb::dict& given, const Description<Options>& rows = Options::description()) {
   return configured(rows, from_python(given, parameters(rows, Options{})), Options{});
+}
+
+/// The Python type that a row stands for.
+inline const char* type_name(OptionInfo::Type type) {
+  switch (type) {
+    case OptionInfo::Type::boolean:
+      return "bool";
+    case OptionInfo::Type::integer:
+      return "int";
+    case OptionInfo::Type::real:
+      return "float";
+    case OptionInfo::Type::choice:
+      break;
+  }
+  return "str";
+}
+
+/// Give a module the class of options.
+inline void bind_options(nb::module_& module) {
+  nb::class_<Parameter>(module, "Option", "An option of a component.")
+      .def_prop_ro(
+          "name", [](const Parameter& it) { return it.info.name; }, "The word that sets it.")
+      .def_prop_ro(
+          "type", [](const Parameter& it) { return type_name(it.info.type); }, "bool, int, float or str.")
+      .def_prop_ro(
+          "optional", [](const Parameter& it) { return it.info.optional; }, "It may be None.")
+      .def_prop_ro(
+          "default", [](const Parameter& it) { return to_python(it.preset); }, "Its value unless it is set.")
+      .def_prop_ro(
+          "least", [](const Parameter& it) { return it.info.range.least; }, "Of numbers, None if unbounded.")
+      .def_prop_ro(
+          "above", [](const Parameter& it) { return it.info.range.above; }, "`least` itself is excluded.")
+      .def_prop_ro(
+          "most", [](const Parameter& it) { return it.info.range.most; }, "Of numbers, None if unbounded.")
+      .def_prop_ro(
+          "unit", [](const Parameter& it) { return it.info.range.unit; }, "Of numbers, an empty text if none.")
+      .def_prop_ro(
+          "choices", [](const Parameter& it) { return it.info.choices; }, "The words it may be; [] for other types.")
+      .def_prop_ro(
+          "help", [](const Parameter& it) { return it.info.help; }, "One sentence, without a full stop.")
+      .def_prop_ro(
+          "paper", [](const Parameter& it) { return it.info.paper; }, "Short citation, or an empty text.")
+      .def_ro("fixed", &Parameter::fixed, "The name of the component decides it; plugins do not offer it.");
 }
 
 /// Lets a module return options, whose Python class is in `mrpbench_native.options`.

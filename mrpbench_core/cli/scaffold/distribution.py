@@ -1,20 +1,46 @@
 """The files of a new distribution."""
 
+from collections.abc import Mapping
 from pathlib import Path
 from string import Template
 
 from mrpbench_core.cli.scaffold.kinds import TEMPLATES
-from mrpbench_core.cli.scaffold.plugin import Plugin
+from mrpbench_core.cli.scaffold.plugin import Form, Plugin
 from mrpbench_core.files.errors import InputError
 
 _LIBRARIES = {"attrs": "attrs>=24.2", "numpy": "numpy>=1.26"}
 """Libraries that templates may import, and what the distribution then requires."""
-_SHARED = {
+_SHARED = {".gitignore": "shared/gitignore.txt", "tests/test_{name}.py": "shared/test.py.txt"}
+_PURE = _SHARED | {
     "pyproject.toml": "shared/pyproject.toml.txt",
     "README.md": "shared/README.md.txt",
-    ".gitignore": "shared/gitignore.txt",
     "{package}/__init__.py": "shared/init.py.txt",
+    "{package}/py.typed": "shared/py.typed.txt",
 }
+_FILES: Mapping[Form, Mapping[str, str]] = {
+    "python": _PURE | {"{package}/{name}.py": "kinds/{kind}.py.txt"},
+    "external": _PURE
+    | {
+        "README.md": "external/README.md.txt",
+        "{package}/{name}.py": "external/planner.py.txt",
+        "tests/test_{name}.py": "external/test.py.txt",
+        "tests/stand_in.py": "external/stand_in.py.txt",
+    },
+    "native": _SHARED
+    | {
+        "pyproject.toml": "native/pyproject.toml.txt",
+        "README.md": "native/README.md.txt",
+        "CMakeLists.txt": "native/CMakeLists.txt.txt",
+        "src/{name}.hpp": "native/planner.hpp.txt",
+        "src/{name}.cpp": "native/planner.cpp.txt",
+        "src/module.cpp": "native/module.cpp.txt",
+        "python/{package}/__init__.py": "shared/init.py.txt",
+        "python/{package}/py.typed": "shared/py.typed.txt",
+        "python/{package}/{name}.py": "native/planner.py.txt",
+        "python/{package}/_solver.pyi": "native/solver.pyi.txt",
+    },
+}
+"""The files of each form, and their templates. A kind may have a template of its test."""
 
 
 def write(plugin: Plugin, folder: Path) -> None:
@@ -38,22 +64,22 @@ def write(plugin: Plugin, folder: Path) -> None:
 
 def contents(plugin: Plugin) -> dict[str, str]:
     """Return the text of each file, by its path in the folder."""
+    names = {"package": plugin.package, "name": plugin.name, "kind": plugin.kind}
+    templates = {file.format_map(names): path.format_map(names) for file, path in _FILES[plugin.form].items()}
+    if (own := f"tests/{plugin.kind}.py.txt") and TEMPLATES.joinpath(own).is_file():
+        templates[f"tests/test_{plugin.name}.py"] = own
     placeholders = plugin.placeholders | {"requires": _requires(plugin)}
-    files = {file.format(package=plugin.package, name=plugin.name): path for file, path in _SHARED.items()}
-    texts = {file: _filled(_text(path), placeholders) for file, path in files.items()}
-    texts[f"{plugin.package}/{plugin.name}.py"] = _filled(plugin.module, placeholders)
-    own = TEMPLATES.joinpath("tests", f"{plugin.kind}.py.txt")
-    test = own if own.is_file() else TEMPLATES.joinpath("shared/test.py.txt")
-    texts[f"tests/test_{plugin.name}.py"] = _filled(test.read_text(encoding="utf-8"), placeholders)
-    texts[f"{plugin.package}/py.typed"] = ""
-    return texts
+    return {file: _filled(_text(path), placeholders) for file, path in templates.items()}
 
 
 def _requires(plugin: Plugin) -> str:
     """The requirements as lines of a TOML list, in alphabetical order."""
     imported = [requirement for name, requirement in _LIBRARIES.items() if f"import {name}" in plugin.module]
-    lines = sorted({*imported, "mrpbench-core>=$version,<$next_version", *plugin.facts.requires})
-    return "\n".join(f'    "{_filled(line, plugin.placeholders)}",' for line in lines)
+    standard = plugin.form != "python" or plugin.facts.standard
+    own = ["mrpbench-core", "mrpbench-standard"] if standard else ["mrpbench-core"]
+    versions = _filled(">=$version,<$next_version", plugin.placeholders)
+    lines = sorted([*imported, *(name + versions for name in own)])
+    return "\n".join(f'    "{line}",' for line in lines)
 
 
 def _filled(text: str, placeholders: dict[str, str]) -> str:

@@ -18,8 +18,8 @@ class Kind:
     """One sentence for the README: where its name is written."""
     options: Mapping[str, object] = attrs.field(factory=dict)
     """Required options, with values for its test."""
-    requires: tuple[str, ...] = ()
-    """Distributions that it needs besides the core, with `$version` and `$next_version`."""
+    standard: bool = False
+    """It needs `mrpbench-standard`."""
     suites: str = "mrpbench_core.testing"
     """The module of its conformance suite."""
     instance: str = ""
@@ -29,7 +29,7 @@ class Kind:
 KINDS: Mapping[str, Kind] = {
     "critic": Kind(
         usage="In a configuration: `controller: {plugin: dwb, extra_critics: [{plugin: $name, scale: 1.0}]}`.",
-        requires=("mrpbench-standard>=$version,<$next_version",),
+        standard=True,
         suites="mrpbench_controllers_dwb.testing",
     ),
     "crowd": Kind(

@@ -6,6 +6,7 @@ from string import Template
 from typing import Literal
 
 import attrs
+from packaging.version import Version
 
 from mrpbench_core.cli.scaffold.kinds import TEMPLATES, Kind, facts_of, kinds
 from mrpbench_core.files.errors import InputError
@@ -66,7 +67,7 @@ class Plugin:
     @property
     def placeholders(self) -> dict[str, str]:
         """Values of the placeholders in the templates."""
-        major, minor = __version__.split(".")[:2]
+        core = Version(__version__)
         options = self.facts.options
         arguments = ", ".join(f"{key}={value}" for key, value in options.items())
         exported = self.facts.instance or self.class_name
@@ -84,8 +85,8 @@ class Plugin:
             "made_type": "object" if self.facts.instance else self.class_name,
             "Suite": "".join(word.capitalize() for word in self.kind.split("_")) + "Conformance",
             "suites": self.facts.suites,
-            "version": f"{major}.{minor}",
-            "next_version": f"{major}.{int(minor) + 1}",
+            "version": f"{core.major}.{core.minor}{'.dev0' if core.is_prerelease else ''}",
+            "next_version": f"{core.major}.{core.minor + 1}",
             "example": self.options,
             "yaml": "".join(f", {key}: {value}" for key, value in options.items()),
         }

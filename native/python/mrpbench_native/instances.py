@@ -1,6 +1,7 @@
 """The input of the solvers. Values that a caller omits have the simplest defaults."""
 
 from collections.abc import Iterable, Sequence
+from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
@@ -76,8 +77,11 @@ def build_instance(
     resources: Sequence[SolverResource] = (),
     following_forbidden: bool = False,
     disappear_at_goal: bool = False,
+    module: ModuleType = mapf,
 ) -> mapf.Instance:
     """Join the lists of all robots and resources into the arrays that C++ takes.
+
+    The instance is one of `module`: `mrpbench_native.mapf`, or a module of solvers that is built against its headers.
 
     Raises:
         ValueError: the data make no sense; the message names the robot or the array.
@@ -85,7 +89,7 @@ def build_instance(
     """
     count = len(robots.start)
     committed = robots.committed or [Segments(*(np.empty(0, kind) for kind in ("i4", "i8", "i8")))] * count
-    return mapf.Instance(
+    instance: mapf.Instance = module.Instance(
         roadmap=roadmap._asdict(),
         robots={
             "start": robots.start,
@@ -109,6 +113,7 @@ def build_instance(
         following_forbidden=following_forbidden,
         disappear_at_goal=disappear_at_goal,
     )
+    return instance
 
 
 def _first(lengths: Iterable[int]) -> NDArray[np.int64]:

@@ -26,20 +26,6 @@ Fixed all_but(Names names) {
   return [names](const std::string& name) { return std::ranges::count(names, name) == 0; };
 }
 
-/// `preset` holds the defaults under this name; `fixed` tells which options the name decides.
-template <class Options>
-Algorithm make(std::string name, std::string help, Result (*solve)(const Instance&, const Options&, Limits&),
-               Options preset = {}, const Fixed& fixed = only({})) {
-  const Description<Options> rows = Options::description();
-  Algorithm made{std::move(name), std::move(help), parameters(rows, preset), {}};
-  for (Parameter& option : made.options) option.fixed = fixed(option.info.name);
-  made.configure = [rows, preset, solve](const OptionValues& values) -> Algorithm::Solver {
-    const Options options = configured(rows, values, preset);
-    return [options, solve](const Instance& instance, Limits& limits) { return solve(instance, options, limits); };
-  };
-  return made;
-}
-
 constexpr double kW = 1.2;
 constexpr StateOrder kWeighted{.distance_weight = 1.2, .conflict_weight = 20.0};
 
@@ -71,26 +57,28 @@ Fixed fixed(Names more) {
 
 std::vector<Algorithm> make_all() {
   return {
-      make("astar", "Plans every robot alone: shortest paths that may conflict.", solve_astar),
-      make("cbs", "Finds the least sum of costs by conflict-based search.", solve_cbs, {}, fixed({"w"})),
-      make("cbs_ta", "Finds the least sum of costs over all assignments, with one tree per assignment.", solve_cbs,
-           {.goals = GoalChoice::ranked}, fixed({"w"})),
-      make("ecbs", "Finds at most w times the least sum of costs by focal search on both levels.", solve_cbs, ecbs(),
-           all_but({"w"})),
-      make("ecbs_ta",
-           "Finds at most w times the least sum of costs over all assignments, with one tree per assignment.",
-           solve_cbs, assigning(GoalChoice::ranked), fixed({"heuristic"})),
-      make("eecbs", "Finds at most w times the least sum of costs by explicit estimation search.", solve_cbs, eecbs(),
-           only({"goal_choice", "selection"})),
-      make("ita_cbs", "Finds the least sum of costs over all assignments, with a single tree.", solve_cbs,
-           {.goals = GoalChoice::by_node}, fixed({"w", "heuristic"})),
-      make("ita_ecbs", "Finds at most w times the least sum of costs over all assignments, with a single tree.",
-           solve_cbs, assigning(GoalChoice::by_node), fixed({"heuristic"})),
-      make("lacam", "Finds a plan soon by a search over configurations, then improves it.", solve_lacam),
-      make("lns", "Replans groups of robots until there is no conflict, then to improve the plan.", solve_lns),
-      make("pbs", "Plans robots in turn, by a search over priorities.", solve_pbs),
-      make("pibt", "Plans all robots tick by tick, by priority inheritance with backtracking.", solve_pibt),
-      make("prioritized", "Plans robots in turn by safe interval path planning.", solve_prioritized),
+      make_algorithm("astar", "Plans every robot alone: shortest paths that may conflict.", solve_astar),
+      make_algorithm("cbs", "Finds the least sum of costs by conflict-based search.", solve_cbs, {}, fixed({"w"})),
+      make_algorithm("cbs_ta", "Finds the least sum of costs over all assignments, with one tree per assignment.",
+                     solve_cbs, {.goals = GoalChoice::ranked}, fixed({"w"})),
+      make_algorithm("ecbs", "Finds at most w times the least sum of costs by focal search on both levels.", solve_cbs,
+                     ecbs(), all_but({"w"})),
+      make_algorithm("ecbs_ta",
+                     "Finds at most w times the least sum of costs over all assignments, with one tree per assignment.",
+                     solve_cbs, assigning(GoalChoice::ranked), fixed({"heuristic"})),
+      make_algorithm("eecbs", "Finds at most w times the least sum of costs by explicit estimation search.", solve_cbs,
+                     eecbs(), only({"goal_choice", "selection"})),
+      make_algorithm("ita_cbs", "Finds the least sum of costs over all assignments, with a single tree.", solve_cbs,
+                     {.goals = GoalChoice::by_node}, fixed({"w", "heuristic"})),
+      make_algorithm("ita_ecbs",
+                     "Finds at most w times the least sum of costs over all assignments, with a single tree.",
+                     solve_cbs, assigning(GoalChoice::by_node), fixed({"heuristic"})),
+      make_algorithm("lacam", "Finds a plan soon by a search over configurations, then improves it.", solve_lacam),
+      make_algorithm("lns", "Replans groups of robots until there is no conflict, then to improve the plan.",
+                     solve_lns),
+      make_algorithm("pbs", "Plans robots in turn, by a search over priorities.", solve_pbs),
+      make_algorithm("pibt", "Plans all robots tick by tick, by priority inheritance with backtracking.", solve_pibt),
+      make_algorithm("prioritized", "Plans robots in turn by safe interval path planning.", solve_prioritized),
   };
 }
 
@@ -101,9 +89,9 @@ const std::vector<Algorithm>& algorithms() {
   return all;
 }
 
-const Algorithm& algorithm(const std::string& name) {
-  const auto found = std::ranges::find(algorithms(), name, &Algorithm::name);
-  if (found == algorithms().end()) throw std::invalid_argument("there is no algorithm '" + name + "'");
+const Algorithm& find(const std::vector<Algorithm>& algorithms, const std::string& name) {
+  const auto found = std::ranges::find(algorithms, name, &Algorithm::name);
+  if (found == algorithms.end()) throw std::invalid_argument("there is no algorithm '" + name + "'");
   return *found;
 }
 

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Mapping
 from itertools import pairwise
+from types import ModuleType
 
 import numpy as np
 from mrpbench_native import mapf
@@ -21,12 +22,14 @@ from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, 
 from mrpbench_core.model.planning.problem import Feature, Problem
 
 
-def solve(problem: Problem, budget: Budget, algorithm: str, options: Mapping[str, object]) -> PlanResult:
-    """Run an algorithm with its options, within what is left of `budget` after the conversion."""
+def solve(
+    problem: Problem, budget: Budget, algorithm: str, options: Mapping[str, object], module: ModuleType = mapf
+) -> PlanResult:
+    """Run an algorithm of `module` with its options, within what is left of `budget` after the conversion."""
     start = time.monotonic()
-    instance = _instance(problem)
+    instance = _instance(problem, module)
     converted = time.monotonic() - start
-    answer = mapf.solve(
+    answer: mapf.Answer = module.solve(
         instance,
         algorithm,
         dict(options),
@@ -47,7 +50,7 @@ def solve(problem: Problem, budget: Budget, algorithm: str, options: Mapping[str
     )
 
 
-def _instance(problem: Problem) -> mapf.Instance:
+def _instance(problem: Problem, module: ModuleType) -> mapf.Instance:
     roadmap = problem.roadmap
     robots = Robots(
         start=problem.start,
@@ -73,6 +76,7 @@ def _instance(problem: Problem) -> mapf.Instance:
         resources=resources,
         following_forbidden=problem.rules.following == "forbidden",
         disappear_at_goal=problem.rules.at_goal == "disappear",
+        module=module,
     )
 
 

@@ -1,10 +1,11 @@
-"""Planners whose search is in C++. Their options follow from what `mrpbench_native` says about the algorithm."""
+"""Planners whose search is in C++. Their options follow from what the module of solvers says about the algorithm."""
 
 from collections.abc import Callable
+from types import ModuleType
 from typing import Any, ClassVar, TypeVar
 
 import attrs
-from mrpbench_native import describe
+from mrpbench_native import mapf
 from mrpbench_native.options import Option
 
 from mrpbench_core.api.component import option
@@ -28,18 +29,20 @@ SUPPORTED = frozenset(
 
 
 class NativePlanner(Planner):
-    """A planner that runs one algorithm of `mrpbench_native`; concrete ones are decorated `@native_planner(...)`."""
+    """A planner that runs one algorithm in C++; concrete ones are decorated `@native_planner(...)`."""
 
     algorithm: ClassVar[str]
+    solvers: ClassVar[ModuleType]
+    """The module with the algorithm."""
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return solve(problem, budget, self.algorithm, self._options(budget))
+        return solve(problem, budget, self.algorithm, self._options(budget), self.solvers)
 
     def _options(self, budget: Budget) -> dict[str, Any]:
         """The options of the algorithm: fields of this recipe, and what the budget sets."""
         options: dict[str, Any] = {}
-        for row in describe(self.algorithm).options:
+        for row in self.solvers.describe(self.algorithm).options:
             if row.name == "iterations":
                 options["iterations"] = budget.iterations
             elif not row.fixed:
@@ -49,16 +52,18 @@ class NativePlanner(Planner):
         return options
 
 
-def native_planner(algorithm: str) -> Callable[[type[P]], type[P]]:
+def native_planner(algorithm: str, solvers: ModuleType = mapf) -> Callable[[type[P]], type[P]]:
     """Make a class the recipe of an algorithm: each option that the algorithm offers becomes a field.
+
+    `solvers` is `mrpbench_native.mapf`, or a module that is built against the headers of `mrpbench-native`.
 
     The fields come before those of the class. `iterations` is no field, because `Budget.iterations` sets it, and
     `seed` is None by default, which stands for `Budget.seed`.
     """
 
     def decorate(cls: type[P]) -> type[P]:
-        offered = [it for it in describe(algorithm).options if not it.fixed and it.name != "iterations"]
-        cls.algorithm = algorithm
+        offered = [it for it in solvers.describe(algorithm).options if not it.fixed and it.name != "iterations"]
+        cls.algorithm, cls.solvers = algorithm, solvers
         return attrs.frozen(kw_only=True)(described(offered, _declare)(cls))
 
     return decorate
