@@ -29,6 +29,8 @@ COMMANDS = {
     "view": "write a replay of a run as an HTML page",
     "export": "write a stored run in another format",
     "analyze": "compute metrics of a bag from a real fleet or another simulator",
+    "publish": "write results as a bundle that others can verify",
+    "verify": "check published results, and repeat a sample of their runs",
     "scenario": "write the scenarios of a study to files, for publication",
     "world": "print the facts and faults of a map, draw it, convert it",
     "plugins": "list installed plugins, or show the options of one",

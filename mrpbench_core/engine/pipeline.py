@@ -73,7 +73,7 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
     result, failure = _plan(inputs, problem, record)
     if assigned is None:
         assigned = (-1,) * len(problem) if result.plan is None else tasks_of_plan(instance, problem, result.plan)
-    router = _router(config, instance, assigned, problem)
+    router = router_of(config, instance, assigned, problem)
     context = _context(inputs, record.run_id, instance, router, result, assigned)
     if failure is None and config.simulator is not None:
         record.true_poses = granted_localizer(config)
@@ -128,7 +128,8 @@ def _unsolved(config: RunConfig, result: PlanResult, timing: Mapping[str, Any]) 
     return f"the planner ended with {result.status}"
 
 
-def _router(config: RunConfig, instance: RunInstance, assigned: tuple[int, ...], problem: Problem) -> Router:
+def router_of(config: RunConfig, instance: RunInstance, assigned: tuple[int, ...], problem: Problem) -> Router:
+    """Return what turns plans of a problem into routes."""
     yaw = np.array([instance.scenario.tasks[task].goals[-1, 2] if task >= 0 else np.nan for task in assigned])
     return Router(problem, yaw, speed_limits(instance.world, instance.roadmap), config.plan_filter)
 

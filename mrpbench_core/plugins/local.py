@@ -20,6 +20,7 @@ from mrpbench_core.plugins.importing import watched
 from mrpbench_core.plugins.siblings import importing, sibling_imports
 
 _PREFIX = "mrpbench_local_"
+_refused = False
 
 
 @attrs.frozen
@@ -47,6 +48,12 @@ def is_local(name: str) -> bool:
     return ":" in name
 
 
+def refuse_local() -> None:
+    """From now on, load no local plugins in this process: the configurations that it reads come from others."""
+    global _refused
+    _refused = True
+
+
 def load_local(name: str, folder: Path, sources: Mapping[str, str] | None = None) -> Any:
     """Import the object that `name` refers to.
 
@@ -56,8 +63,10 @@ def load_local(name: str, folder: Path, sources: Mapping[str, str] | None = None
         sources: texts by file, as written in `name`, which replace the content of the file.
 
     Raises:
-        InputError: there is no such file, module or class, or importing it fails.
+        InputError: there is no such file, module or class, or importing it fails; or this process refuses them.
     """
+    if _refused:
+        raise InputError(f"{name!r} is code of the configuration's author, which is not executed here")
     where, _, attribute = name.partition(":")
     if not where or not attribute.isidentifier():
         raise InputError(f"{name!r} does not name a class", hint="write ./file.py:Class or package.module:Class")

@@ -103,6 +103,10 @@ class Results:
             assert entry is not None
         return read_at(entry.shard, entry.offset)
 
+    def is_last(self, run_id: str, shard: Path, offset: int) -> bool:
+        """Tell whether the record at this place is the one of its run that counts."""
+        return self._index.is_at(run_id, shard, offset)
+
     def entry(self, run_id: str) -> Entry | None:
         """Facts about a run's record without reading it, or None."""
         return self._index.get(run_id)

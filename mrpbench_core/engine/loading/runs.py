@@ -46,10 +46,10 @@ def packed_study(source: str | Mapping[str, Any], overrides: Sequence[str]) -> d
     Raises:
         InputErrors, InputError: see `mrpbench_core.config.study.load_study`.
     """
-    return _pack(load_study(source, overrides))
+    return pack_study(load_study(source, overrides))
 
 
-def _pack(study: Study) -> dict[str, Any]:
+def pack_study(study: Study) -> dict[str, Any]:
     """A study as plain data; values that several runs share are given once."""
     values = _Values()
     metrics = {name: metric for point in study.runs for name, metric in point.config.metrics.items()}

@@ -1,0 +1,1 @@
+"""Bundles of results: publishes them, and verifies those of others."""

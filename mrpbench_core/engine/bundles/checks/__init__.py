@@ -1,0 +1,1 @@
+"""The checks of a bundle, one file for each kind of evidence."""
