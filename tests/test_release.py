@@ -133,3 +133,13 @@ def test_the_citation_is_of_this_release():
     assert {"cff-version", "message", "title", "authors"} <= set(citation)  # what version 1.2.0 requires
     assert citation["license"] == project(ROOT / "pyproject.toml")["project"]["license"]
     assert f"## [{citation['version']}]" in (ROOT / "CHANGELOG.md").read_text()
+
+
+def test_workflows_call_targets_that_exist():
+    targets = set(re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(), re.MULTILINE))
+    called = set()
+    for file in (ROOT / ".github/workflows").glob("*.yml"):
+        jobs = yaml.safe_load(file.read_text())["jobs"].values()
+        steps = [step.get("run", "") for job in jobs for step in job["steps"]]
+        called |= {words[1] for words in map(str.split, steps) if words[:1] == ["make"]}
+    assert {"test", "wheels"} <= called <= targets
