@@ -16,6 +16,10 @@ if TYPE_CHECKING:
 
 def __getattr__(name: str) -> Any:
     """Import the two functions when they are used: plugins and `mrpbench --help` need only the version."""
+    if name in __all__:
+        from mrpbench_core.files.platforms import require_posix
+
+        require_posix()
     if name == "run":
         from mrpbench_core.engine.study.invoke import run
 

@@ -18,6 +18,7 @@ from typing import NoReturn
 from mrpbench_core.cli.output.terminal import escaped_output
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.platforms import require_posix
 from mrpbench_core.version import __version__
 
 COMMANDS = {
@@ -60,6 +61,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _main(words: list[str]) -> int:
     logging.basicConfig(format="%(message)s", level=logging.WARNING)
     try:
+        require_posix()
         code = _dispatch(words)
         sys.stdout.flush()
     except InputErrors as several:

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from mrpbench_core.engine.processes.job import Job, JobOutcome
 from mrpbench_core.engine.processes.slot import Slot, SlotStopped
+from mrpbench_core.files.platforms import require_linux
 
 T = TypeVar("T")
 _LOCK = threading.Lock()
@@ -20,6 +21,7 @@ class Slots:
     """As many slots as runs are executed at once; an idle slot executes the next run."""
 
     def __init__(self) -> None:
+        require_linux()
         self._lock = threading.Lock()
         self._idle: list[Slot] = []
         self._busy: set[Slot] = set()
