@@ -57,10 +57,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print or write the tables."""
-    from mrpbench_core.cli.output.replays import make_replays
     from mrpbench_core.report.answer.answer import make_answer
     from mrpbench_core.report.data import PAIR_COLUMNS, groups_of, pairs_of, write_estimates, write_rows
-    from mrpbench_core.report.html.page import write_report
     from mrpbench_core.report.report import make_report
     from mrpbench_core.report.rules import RULES
     from mrpbench_core.report.tables.write import latex, markdown
@@ -94,10 +92,25 @@ def run(arguments: argparse.Namespace) -> int:
         _print(report, answer)
     if arguments.html != "none" and (arguments.html or not arguments.json):
         page = Path(arguments.html) if arguments.html else folders[0].folder.path / "report.html"
-        write_report(report, page, make_replays(report, page, arguments.replays))
+        _write_page(report, answer, page, arguments.replays)
         if not arguments.json:
             print(f"wrote {page}")
     return 0
+
+
+def _write_page(report: "Report", answer: "Answer", page: Path, most: int) -> None:
+    from mrpbench_core.cli.output.replays import make_pair, make_replays
+    from mrpbench_core.report.answer.examples import choose_examples
+    from mrpbench_core.report.html.examples import examples_section
+    from mrpbench_core.report.html.page import write_report
+
+    examples = choose_examples(report, answer)
+    replays = make_replays(report, page, most, [example.run for entry in examples for example in entry.runs])
+    pairs: dict[tuple[str, str], str] = {}
+    for contrast in (entry.contrast for entry in examples if entry.contrast and most > 0):
+        if address := make_pair(report, page, contrast.first, contrast.second):
+            pairs[report.runs.run_id[contrast.first], report.runs.run_id[contrast.second]] = address
+    write_report(report, page, replays, answer, examples_section(report, examples, replays, pairs))
 
 
 def _print(report: "Report", answer: "Answer") -> None:

@@ -2,14 +2,12 @@
 
 import argparse
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from mrpbench_core.cli.input.run_reference import HELP, find_run
-from mrpbench_core.cli.output.replays import write_replay
+from mrpbench_core.cli.output.replays import write_replay, write_replays
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import file_name
-from mrpbench_core.report.replay.pair import write_pair
 from mrpbench_core.store.recording import Recording
 
 
@@ -53,15 +51,7 @@ def _view_pair(arguments: argparse.Namespace) -> int:
     runs = [find_run(run) for run in (arguments.run, arguments.other)]
     names = [record["run_id"][:12] for _, record in runs]
     out = Path(arguments.out) if arguments.out else runs[0][0].folder.replay(*names)
-    with TemporaryDirectory() as folder:
-        pages = [Path(folder) / f"{number}.html" for number in range(len(runs))]
-        for (results, record), page in zip(runs, pages, strict=True):
-            recording = results.recording(record["run_id"])
-            try:
-                write_replay(recording, results, record, page)
-            finally:
-                recording.close()
-        write_pair(pages, names, out)
+    write_replays(runs, names, out)
     print(f"wrote {out}")
     return 0
 

@@ -100,7 +100,7 @@ def test_a_page_is_written_next_to_the_results_or_to_a_given_file(study):
     _, output, _ = study("report", "results/tiny")
     page = Path("results/tiny/report.html").resolve()
     assert output.splitlines()[-1] == f"wrote {page}"
-    assert "4 runs of 2 configurations on 2 scenarios." in page.read_text(encoding="utf-8")
+    assert "4 runs: 2 configurations, 2 scenarios." in page.read_text(encoding="utf-8")
     page.unlink()
     assert study("report", "results/tiny", "--html", "here.html", "--json")[0] == 0
     assert Path("here.html").is_file()

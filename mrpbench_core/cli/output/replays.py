@@ -2,7 +2,9 @@
 
 import logging
 import os
+from collections.abc import Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 from urllib.parse import quote
 
@@ -20,6 +22,7 @@ from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.reading.columns import Columns, describe_columns
 from mrpbench_core.report.replay.facts import numbers_of
 from mrpbench_core.report.replay.page import template, write_page
+from mrpbench_core.report.replay.pair import pair_template, write_pair
 from mrpbench_core.report.report import Report
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
@@ -31,6 +34,19 @@ def write_replay(recording: Recording, results: Results, record: dict[str, Any],
     """Write the page of a recorded run, with the units of its metrics and the options of its planner."""
     planner = _planner(record["config"].get("planner", "none"))
     write_page(recording, record, page, columns=_columns(results, record), planner=planner)
+
+
+def write_replays(runs: Sequence[tuple[Results, dict[str, Any]]], names: Sequence[str], page: Path) -> None:
+    """Write the page of two recorded runs side by side."""
+    with TemporaryDirectory() as folder:
+        pages = [Path(folder) / f"{number}.html" for number in range(len(runs))]
+        for (results, record), part in zip(runs, pages, strict=True):
+            recording = results.recording(record["run_id"])
+            try:
+                write_replay(recording, results, record, part)
+            finally:
+                recording.close()
+        write_pair(pages, names, page)
 
 
 def _columns(results: Results, record: dict[str, Any]) -> Columns:
@@ -70,17 +86,18 @@ def defaults_of(planner: str) -> dict[str, Any]:
     return {key: value for key, value in found.items() if isinstance(value, str | int | float)}
 
 
-def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
+def make_replays(report: Report, page: Path, most: int, first: Sequence[int] = ()) -> dict[str, str]:
     """Write replays of up to `most` runs without one; return the addresses of all replays, relative to `page`.
 
-    Failed runs come first, and every configuration gets one before another gets a second one. A page that may run
-    other scripts than those of this version counts as none.
+    The runs `first` come first, then failed ones, and every configuration gets one before another gets a second one. A
+    page that may run other scripts than those of this version counts as none.
     """
     found: dict[str, str] = {}
     lacking: list[tuple[Results, str, Path]] = []
     there = [{file.name for file in results.folder.path.glob("replay-*.html")} for results in report.folders]
     recorded = [any((results.folder.path / "recordings").glob("*.zip")) for results in report.folders]
-    for index in report.failures_first().tolist() if any(there) or any(recorded) else ():
+    order = dict.fromkeys([*first, *report.failures_first().tolist()]) if any(there) or any(recorded) else ()
+    for index in order:
         run_id, folder = report.runs.run_id[index], int(report.runs.folder[index])
         results = report.folders[folder]
         file = results.folder.replay(run_id)
@@ -101,6 +118,21 @@ def make_replays(report: Report, page: Path, most: int) -> dict[str, str]:
                 continue
             found[run_id] = _address(file, page)
     return found
+
+
+def make_pair(report: Report, page: Path, first: int, second: int) -> str | None:
+    """Write two runs side by side unless the page is there, and return its address; None if a recording is damaged."""
+    ids = [report.runs.run_id[index] for index in (first, second)]
+    folders = [report.folders[int(report.runs.folder[index])] for index in (first, second)]
+    file = folders[0].folder.replay(*ids)
+    if not pair_template().wrote(file):
+        try:
+            runs = [(results, results[run_id]) for results, run_id in zip(folders, ids, strict=True)]
+            write_replays(runs, [run_id[:12] for run_id in ids], file)
+        except InputError as error:
+            _LOG.warning("%s", error)
+            return None
+    return _address(file, page)
 
 
 def _address(file: Path, page: Path) -> str:

@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 
 from mrpbench_core.report.answer.ranking import Place, Ranking
+from mrpbench_core.report.reading.columns import direction
 from mrpbench_core.report.statistics.estimate import IntervalEstimate
 from mrpbench_core.report.tables.table import decimals, fixed
 
@@ -44,6 +45,18 @@ def largest(ranking: Ranking, places: Sequence[Place]) -> str | None:
     return _bare(ranking, widest, points=True)
 
 
+def reading(ranking: Ranking) -> str:
+    """Say over what the means are, which way is better, and which differences do not matter."""
+    column = ranking.column
+    told = f"Mean over {ranking.ranked} {ranking.unit}, 95 % intervals."
+    told += {1: " More is better.", -1: " Less is better."}.get(direction(column), "")
+    if column.threshold is None:
+        return f"{told} The metric states no threshold."
+    least = f"{100 * column.threshold:g} points" if ranking.is_rate else f"{column.threshold:g} {column.unit}".strip()
+    share = f" or {100 * column.threshold_share:g} %" if column.threshold_share else ""
+    return f"{told} Differences below {least}{share} do not matter (grey band)."
+
+
 def scale(ranking: Ranking, largest: float) -> tuple[float, str]:
     """Return the factor and the unit in which numbers up to `largest` are written."""
     if ranking.is_rate:
@@ -66,6 +79,7 @@ def _written(ranking: Ranking, found: IntervalEstimate, way: str = "", *, points
     elif interval:
         places = decimals(value, interval[1] - interval[0])
     else:
+        value = float(f"{value:.{_DIGITS}g}")
         places = max(0, decimals(value, math.nan) - 4 + _DIGITS)  # of which `decimals` gives four
     number = fixed(value, places)
     text = f"{number} {unit}".strip() + way

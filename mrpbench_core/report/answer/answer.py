@@ -97,5 +97,5 @@ def _answer(runs: Runs, setting: Setting, topics: Sequence[Topic], compared: Com
             if ranking.having(Relation.WORSE, Relation.BETTER)
         )
         found.append(TopicAnswer(title=topic.title, ranking=first, sentences=(*sentences(first), *more)))
-    asked = [(topic.title, topic.ranking) for topic in found]
+    asked = [(topic.noun, entry.ranking) for topic, entry in zip(topics, found, strict=True)]
     return SettingAnswer(name=setting.name, setting=setting, headline=headline(asked), topics=tuple(found))

@@ -1,10 +1,10 @@
 """The first sentence of an answer: which configurations nothing noticeable speaks against."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from mrpbench_core.files.extras import has, pip
-from mrpbench_core.report.answer.ranking import Ranking
-from mrpbench_core.report.answer.wording import NAMED, is_or_are, listed
+from mrpbench_core.report.answer.ranking import Place, Ranking
+from mrpbench_core.report.answer.wording import NAMED, listed
 from mrpbench_core.report.estimation.relation import Relation
 
 _ALIKE = (None, Relation.SAME, Relation.SLIGHT)
@@ -14,7 +14,7 @@ def headline(rankings: Sequence[tuple[str, Ranking]]) -> str:
     """Sum up the rankings of some configurations.
 
     Args:
-        rankings: question and ranking of the same configurations.
+        rankings: a noun for the question, and the ranking of the same configurations.
     """
     if not rankings:
         return "No column shown has a direction, so nothing is ranked."
@@ -26,17 +26,21 @@ def headline(rankings: Sequence[tuple[str, Ranking]]) -> str:
         return (
             f"The configurations are ranked by their means, and not compared: that needs SciPy ({pip('statistics')})."
         )
-    behind = {name: [title for title, ranking in rankings if _is_behind(ranking, name)] for name in names}
-    good = [name for name in names if not behind[name]]
+    worse = {name: _in(rankings, name, lambda place: place.relation is Relation.WORSE) for name in names}
+    without = {name: _in(rankings, name, lambda place: place.estimate is None) for name in names}
+    good = [name for name in names if not worse[name] and not without[name]]
     if len(good) == len(names):
         return _undecided(rankings, len(names))
     if not good:
-        return f"No configuration is good in everything. {_leads(rankings)}"
-    told = [f"{listed(good)} {is_or_are(good)} not shown to be noticeably worse than the best in any question."]
-    bad = [name for name in names if behind[name]]
-    told += [f"{name} is, in: {' '.join(behind[name])}" for name in bad[:NAMED]]
+        return f"Every configuration is noticeably worse than another one in something. {_leads(rankings)}."
+    who = listed(good) if len(good) <= NAMED else f"{len(good)} of the {len(names)} configurations"
+    told = [f"No noticeable disadvantage is shown for {who}."]
+    bad = [name for name in names if name not in good]
+    for name in bad[:NAMED]:
+        told += [f"{name} is noticeably worse in {listed(worse[name])}."] if worse[name] else []
+        told += [f"{name} has no value of {listed(without[name])}."] if without[name] and not worse[name] else []
     if len(bad) > NAMED:
-        told.append(f"{len(bad) - NAMED} more are, in at least one.")
+        told.append(f"{len(bad) - NAMED} more are noticeably worse in something, or lack values.")
     return " ".join(told)
 
 
@@ -52,13 +56,16 @@ def _undecided(rankings: Sequence[tuple[str, Ranking]], count: int) -> str:
 def _leads(rankings: Sequence[tuple[str, Ranking]]) -> str:
     """Name the best mean of each question in which another configuration is noticeably worse."""
     leads: dict[str, list[str]] = {}
-    for title, ranking in rankings:
+    for noun, ranking in rankings:
         if ranking.having(Relation.WORSE):
-            leads.setdefault(ranking.places[0].name, []).append(title)
-    return " ".join(f"{name} has the best mean in: {' '.join(titles)}" for name, titles in leads.items())
+            leads.setdefault(ranking.places[0].name, []).append(noun)
+    return "; ".join(f"{name} has the best mean in {listed(nouns)}" for name, nouns in leads.items())
 
 
-def _is_behind(ranking: Ranking, name: str) -> bool:
-    """True if a configuration is noticeably worse than the first one, or has no value although that one has."""
-    place = next(place for place in ranking.places if place.name == name)
-    return place.relation is Relation.WORSE or (place.estimate is None and ranking.places[0].estimate is not None)
+def _in(rankings: Sequence[tuple[str, Ranking]], name: str, holds: Callable[[Place], bool]) -> list[str]:
+    """Return the questions in which something holds for a configuration, of those that another one has values for."""
+    return [
+        noun
+        for noun, ranking in rankings
+        if ranking.places[0].estimate and any(place.name == name and holds(place) for place in ranking.places)
+    ]

@@ -7,6 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.metric import Column, Question
+from mrpbench_core.report.reading.axes import word
 from mrpbench_core.report.reading.columns import heading
 from mrpbench_core.report.reading.runs import Runs
 
@@ -16,7 +17,14 @@ TITLES: dict[str, str] = {
     "planning": "What does planning cost?",
     "proximity": "How near do robots come?",
 }
-_PLANS_ONLY = "Is a plan found?"
+NOUNS: dict[str, str] = {
+    "arrival": "arrivals",
+    "duration": "time",
+    "planning": "cost of planning",
+    "proximity": "distance between robots",
+}
+"""What a headline calls the questions."""
+_PLANS_ONLY = "Is a plan found?", "plans found"
 
 
 @attrs.frozen(kw_only=True)
@@ -24,6 +32,8 @@ class Topic:
     """A question, and what answers it."""
 
     title: str
+    noun: str
+    """For sentences about several questions."""
     columns: tuple[Column, ...]
     """The first one ranks the configurations."""
 
@@ -46,11 +56,12 @@ def find_topics(runs: Runs, compared: Sequence[Column]) -> list[Topic]:
         # What happened counts more than what was planned.
         ranking = next((c for c in found if c.stage == "execution"), found[0])
         others = (c for c in found if c is not ranking and (c.stage == ranking.stage or question == "arrival"))
-        title = _PLANS_ONLY if question == "arrival" and _never_driven(runs) else TITLES[question]
-        topics.append(Topic(title=title, columns=(ranking, *others)))
+        named = TITLES[question], NOUNS[question]
+        title, noun = _PLANS_ONLY if question == "arrival" and _never_driven(runs) else named
+        topics.append(Topic(title=title, noun=noun, columns=(ranking, *others)))
     own = (column for column in having if column.primary and column.answers is None)
-    return [*topics, *(Topic(title=heading(column), columns=(column,)) for column in own)]
+    return [*topics, *(Topic(title=heading(column), noun=column.name, columns=(column,)) for column in own)]
 
 
 def _never_driven(runs: Runs) -> bool:
-    return all(config.get("simulator", "unknown") is None for config in runs.configs)
+    return all(word(config.get("simulator", "unknown")) == "none" for config in runs.configs)

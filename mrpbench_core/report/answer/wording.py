@@ -41,8 +41,7 @@ def listed(words: Sequence[str]) -> str:
     return shown[0] if len(shown) == 1 else f"{', '.join(shown[:-1])} and {shown[-1]}"
 
 
-def is_or_are(words: Sequence[str]) -> str:
-    """Return the verb."""
+def _is_or_are(words: Sequence[str]) -> str:
     return "is" if len(words) == 1 else "are"
 
 
@@ -66,7 +65,7 @@ def _first(ranking: Ranking, first: Place, others: Sequence[Place]) -> list[str]
         told.append(f"{listed(alike)} {'does' if len(alike) == 1 else 'do'} not differ noticeably from it.")
     for kind, link in ((Relation.OPEN, "from"), (Relation.NOT_COMPARED, "with")):
         found = [place.name for place in unknown if place.relation is kind]
-        told += [f"{listed(found)} {is_or_are(found)} {kind.value} {link} it."] if found else []
+        told += [f"{listed(found)} {_is_or_are(found)} {kind.value} {link} it."] if found else []
     return told
 
 

@@ -89,7 +89,7 @@ def intervals(
             line = f'<line x1="{low:.1f}" x2="{high:.1f}" y1="{middle}" y2="{middle}"/>'
         parts.append(
             f'<g class="mark s{style % STYLES}"><title>{escape(words)}</title>{line}'
-            f"{_mark(style, x.at(entry.value * factor), middle)}</g>"
+            f"{mark(style, x.at(entry.value * factor), middle)}</g>"
         )
     return _figure(parts, _WIDTH, height, label)
 
@@ -99,7 +99,7 @@ def legend(names: Sequence[str]) -> str:
     entries = []
     for style, name in enumerate(names):
         sample = f'<svg width="34" height="14" aria-hidden="true"><path class="line s{style % STYLES}" d="M0,7H34"/>'
-        sample += f'<g class="mark s{style % STYLES}">{_mark(style, 17, 7)}</g></svg>'
+        sample += f'<g class="mark s{style % STYLES}">{mark(style, 17, 7)}</g></svg>'
         entries.append(f"<li>{sample} {escape(name)}</li>")
     return f'<ul class="legend">{"".join(entries)}</ul>'
 
@@ -133,7 +133,8 @@ def _vertical(x: Scale, top: float, bottom: float) -> str:
     return "".join(parts)
 
 
-def _mark(style: int, x: float, y: float) -> str:
+def mark(style: int, x: float, y: float) -> str:
+    """Draw the mark of a group."""
     shapes = (
         f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5"/>',
         f'<rect x="{x - 4.5:.1f}" y="{y - 4.5:.1f}" width="9" height="9"/>',

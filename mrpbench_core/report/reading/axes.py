@@ -96,10 +96,12 @@ def _varying(flat: Sequence[Axes]) -> list[str]:
 
 
 def _without_implied(varying: Sequence[str], flat: Sequence[Axes]) -> list[str]:
-    """Leave out options that follow from the plugin that their block names, such as the plugin's own defaults."""
+    """Leave out options that follow from the plugin that their block names, such as its defaults, or from a path."""
     kept = []
     for key in varying:
         plugins = [f"{block}.plugin" for block in _with_blocks(key)[:-1]]
+        if key.endswith(".sha256"):  # of a file, which its path names
+            plugins = [f"{key.removesuffix('.sha256')}.path"]
         plugins = [name for name in plugins if name in varying and name != key]
         values: dict[str, set[str]] = {}
         for entry in flat:

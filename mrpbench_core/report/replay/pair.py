@@ -2,6 +2,7 @@
 
 import html
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 
 from mrpbench_core.report.replay.page import FOLDER, template
@@ -23,5 +24,10 @@ def write_pair(replays: Sequence[Path], titles: Sequence[str], file: Path) -> No
         f'<iframe title="{html.escape(title)}" srcdoc="{html.escape(page.read_text(encoding="utf-8"))}"></iframe>'
         for page, title in zip(replays, titles, strict=True)
     ]
-    page = PageTemplate(FOLDER / "pair.html", frames=template())  # frames are subject to the policy of their page too
-    page.write(file, " and ".join(titles), {"frames": "\n".join(frames)})
+    pair_template().write(file, " and ".join(titles), {"frames": "\n".join(frames)})
+
+
+@cache
+def pair_template() -> PageTemplate:
+    """The template of these pages. Frames are subject to the policy of their page too."""
+    return PageTemplate(FOLDER / "pair.html", frames=template())

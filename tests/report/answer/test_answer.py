@@ -60,7 +60,7 @@ def test_a_noticeable_difference_leads(answer, record):
     assert [place.name for place in duration.ranking.places] == ["fast", "slow"]
     assert duration.sentences[1].startswith("slow is noticeably worse: 22.8 s more [")
     assert found.whole.headline.startswith(
-        "fast is not shown to be noticeably worse than the best in any question. slow is"
+        "No noticeable disadvantage is shown for fast. slow is noticeably worse in time."
     )
 
 

@@ -1,16 +1,7 @@
 // The list of runs: filtered, sorted, a part at a time. Data as `listing.py` packs it.
 "use strict";
 const PART = 200;
-const root = document.documentElement;
 const element = (id) => document.getElementById(id);
-
-const theme = element("theme");
-function setTheme(dark) {
-  root.dataset.theme = dark ? "dark" : "light";
-  theme.textContent = dark ? "Light" : "Dark";
-}
-setTheme(matchMedia("(prefers-color-scheme: dark)").matches);
-theme.addEventListener("click", () => setTheme(root.dataset.theme !== "dark"));
 
 async function read() {
   const letters = atob(element("data").textContent.trim());
@@ -101,7 +92,8 @@ function list(runs) {
       for (const { name, number, measured, of } of columns) {
         const value = of(i);
         const kind = number ? "number" : name === "status" ? runs.tones[runs.status[i]] : name === "message" ? "message" : "words";
-        cell(row, value === null ? "–" : name === "status" ? value.replaceAll("_", " ") : `${value}${measured && runs.partial[runs.status[i]] ? " (partial)" : ""}`, kind);
+        const made = cell(row, value === null ? "–" : name === "status" ? value.replaceAll("_", " ") : `${value}${measured && runs.partial[runs.status[i]] ? " (partial)" : ""}`, kind);
+        made.dataset.label = name;
       }
       if (i === state.open) detail(body, i);
     }
@@ -124,7 +116,7 @@ function list(runs) {
   for (const [index, { name, number }] of columns.entries()) {
     const head = document.createElement("th");
     head.scope = "col";
-    head.append(...name.split(/(?<=\.)/).flatMap((part) => [document.createElement("wbr"), part])); // may break at dots
+    head.append(...name.split(/(?<=[._])/).flatMap((part) => [document.createElement("wbr"), part])); // may break there
     head.tabIndex = 0;
     head.className = number ? "number" : "words";
     const sort = () => {
@@ -142,6 +134,10 @@ function list(runs) {
   }
   element("search").addEventListener("input", select);
   element("filters").addEventListener("submit", (event) => event.preventDefault());
+  element("export").addEventListener("click", () => {
+    const text = (value) => (value === null ? "" : String(value));
+    saveCsv("runs", [columns.map(({ name }) => name), ...state.found.map((i) => columns.map(({ of }) => text(of(i))))]);
+  });
   element("more").addEventListener("click", () => {
     state.shown += PART;
     draw();
