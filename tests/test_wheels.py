@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from hatchling.build import build_sdist, build_wheel
 
+pytestmark = pytest.mark.filterwarnings("ignore:.*is shallow:UserWarning")  # versions come from tags
+
 ROOT = Path(__file__).parent.parent
 PURE = [ROOT, *sorted(file.parent for file in ROOT.glob("plugins/**/pyproject.toml"))]
 
