@@ -32,6 +32,7 @@ COMMANDS = {
     "analyze": "compute metrics of a bag from a real fleet or another simulator",
     "publish": "write results as a bundle that others can verify",
     "verify": "check published results, and repeat a sample of their runs",
+    "site": "make a static site of published results, with ranks",
     "scenario": "write the scenarios of a study to files, for publication",
     "world": "print the facts and faults of a map, draw it, convert it",
     "plugins": "list installed plugins, or show the options of one",

@@ -1,0 +1,159 @@
+"""Boards: the configurations that share scenarios, with their ranks, as data for pages and files."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.metric import Column
+from mrpbench_core.report.estimation.estimates import Numbers
+from mrpbench_core.report.estimation.groups import Setting
+from mrpbench_core.report.estimation.ranks import Rank, rank_groups
+from mrpbench_core.report.reading.axes import word
+from mrpbench_core.report.reading.columns import direction, heading
+from mrpbench_core.report.report import Report
+from mrpbench_core.report.statistics.estimate import IntervalEstimate
+from mrpbench_core.report.tables.table import Shown
+
+
+@attrs.frozen(kw_only=True)
+class Cell:
+    """A column of a row."""
+
+    estimate: IntervalEstimate | None
+    rate: bool
+    rank: Rank | None
+
+    @property
+    def text(self) -> str:
+        """Value with interval and n."""
+        return "–" if self.estimate is None else str(Shown(self.estimate, percent=self.rate))
+
+
+@attrs.frozen(kw_only=True)
+class Row:
+    """One configuration of a board."""
+
+    name: str
+    runs: int
+    bundles: tuple[int, ...]
+    """Numbers of the bundles that have its runs."""
+    run_ids: tuple[str, ...]
+    cells: tuple[Cell, ...]
+
+
+@attrs.frozen(kw_only=True)
+class Board:
+    """Configurations that share scenarios: one world, one number of robots."""
+
+    number: int
+    world: str
+    robots: str
+    options: str
+    """What else distinguishes it from other boards."""
+    unit: str
+    columns: tuple[Column, ...]
+    rows: tuple[Row, ...]
+
+    @property
+    def address(self) -> str:
+        """Address of its page, relative to the site."""
+        return f"boards/{self.number}.html"
+
+    @property
+    def leaders(self) -> tuple[str, ...]:
+        """The configurations that may be the first in the first column."""
+        return tuple(row.name for row in self.rows if row.cells[0].rank is not None and row.cells[0].rank.best == 1)
+
+    def document(self) -> dict[str, Any]:
+        """The board as plain data."""
+        return {
+            "world": self.world,
+            "robots": self.robots,
+            "options": self.options,
+            "unit": self.unit,
+            "columns": [heading(column) for column in self.columns],
+            "rows": [
+                {"configuration": row.name, "runs": row.runs, "cells": [_plain(cell) for cell in row.cells]}
+                for row in self.rows
+            ],
+        }
+
+
+def make_boards(report: Report) -> list[Board]:
+    """Return a board for each setting of a report, whose folders are the bundles."""
+    return [
+        _board(report, number, setting, entries)
+        for number, (setting, entries) in enumerate(zip(report.settings, report.numbers, strict=True), 1)
+    ]
+
+
+def _board(report: Report, number: int, setting: Setting, entries: Sequence[Numbers]) -> Board:
+    runs = report.runs
+    columns = tuple(column for column in report.compared if any(column.name in found.common for found in entries))
+    columns += tuple(column for column in report.columns if column not in columns)
+    ranks = {
+        column.name: rank_groups(
+            setting.names,
+            (it for it in report.comparisons if it.setting == setting.name and it.column.name == column.name),
+        )
+        for column in columns
+        if direction(column)
+    }
+    rows = [
+        Row(
+            name=name,
+            runs=len(group.members),
+            bundles=tuple(np.unique(runs.folder[group.members]).tolist()),
+            run_ids=tuple(runs.run_id[index] for index in group.members),
+            cells=tuple(
+                Cell(
+                    estimate=found.common.get(column.name) or found.overall.get(column.name),
+                    rate=column.name in runs.flags,
+                    rank=ranks[column.name][name] if column.name in ranks else None,
+                )
+                for column in columns
+            ),
+        )
+        for name, group, found in zip(setting.names, setting.groups, entries, strict=True)
+    ]
+    config = runs.configs[runs.config[setting.groups[0].members[0]]]
+    return Board(
+        number=number,
+        world=word(config.get("world")),
+        robots=_robots(config),
+        options=setting.name,
+        unit=setting.unit,
+        columns=columns,
+        rows=tuple(sorted(rows, key=_order)),
+    )
+
+
+def _order(row: Row) -> tuple[float, ...]:
+    """By rank in each column, never by means alone."""
+    return tuple(float(part) for cell in row.cells for part in _limits(cell.rank))
+
+
+def _limits(rank: Rank | None) -> Iterator[int]:
+    if rank is not None:
+        yield from (rank.best, rank.worst)
+
+
+def _robots(config: Any) -> str:
+    scenario = config.get("scenario")
+    count = scenario.get("robots") if isinstance(scenario, dict) else None
+    if isinstance(count, int):
+        return str(count)
+    counts = [entry.get("count") for entry in config.get("fleet") or () if isinstance(entry, dict)]
+    known = [number for number in counts if isinstance(number, int)]
+    return str(sum(known)) if known and len(known) == len(counts) else "as the scenario says"
+
+
+def _plain(cell: Cell) -> dict[str, Any]:
+    found = cell.estimate
+    numbers = None if found is None else {"value": found.value, "n": found.n}
+    if found is not None and numbers is not None and found.has_interval:
+        numbers |= {"low": found.low, "high": found.high}
+    rank = None if cell.rank is None else [cell.rank.best, cell.rank.worst]
+    return {"estimate": numbers, "rank": rank}
