@@ -8,10 +8,10 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz wheels docs links
+.PHONY: results-site help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz wheels docs links
 
 help: ## list the targets
-	@grep -hE '^[a-z]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
+	@grep -hE '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
 
 install: $(STAMP) ## install everything into .venv, with uv if it is installed, else with pip
 
@@ -128,3 +128,8 @@ ros: ## test live ROS 2, with rclpy from PyPI in its own environment (Python 3.1
 	$(ROS)/python -m pip install --quiet ros-kilted-rclpy ros-rmw-fastrtps-cpp ros-nav-msgs ros-sensor-msgs ros-diagnostic-msgs ros-visualization-msgs
 	$(ROS)/python -m pip install --quiet pytest pytest-timeout -e . ./native -e plugins -e plugins/exporters/rosbag2 -e plugins/bridges/ros2
 	$(ROS)/python -m pytest -p no:cacheprovider plugins/bridges/ros2
+
+SEEDS ?= 3000..3053
+RESULTS_SITE := build/results-site
+results-site: install ## run the studies of the paper, verify their bundles and make a site of them (days; SEEDS=3000..3002 for less)
+	$(BIN)/python scripts/results_site.py --seeds $(SEEDS) --out $(RESULTS_SITE) $(ARGS)

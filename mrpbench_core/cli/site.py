@@ -124,7 +124,8 @@ def _with_replays(entry: "Entry", report: "Report", place: int, out: Path, most:
 
     from mrpbench_core.cli.output.replays import write_replay
 
-    results, found = report.folders[place], {}
+    results = report.folders[place]
+    found: dict[str, str] = {}
     (out / "replays").mkdir(exist_ok=True)
     for index in report.failures_first().tolist():
         if len(found) == most:

@@ -24,11 +24,13 @@ class Cell:
     estimate: IntervalEstimate | None
     rate: bool
     rank: Rank | None
+    usual: int
+    """Number of units that most cells of the row have."""
 
     @property
     def text(self) -> str:
-        """Value with interval and n."""
-        return "–" if self.estimate is None else str(Shown(self.estimate, percent=self.rate))
+        """Value with interval, and n where it is another one than usual."""
+        return "–" if self.estimate is None else str(Shown(self.estimate, percent=self.rate, usual=self.usual))
 
 
 @attrs.frozen(kw_only=True)
@@ -92,7 +94,6 @@ def make_boards(report: Report) -> list[Board]:
 def _board(report: Report, number: int, setting: Setting, entries: Sequence[Numbers]) -> Board:
     runs = report.runs
     columns = tuple(column for column in report.compared if any(column.name in found.common for found in entries))
-    columns += tuple(column for column in report.columns if column not in columns)
     ranks = {
         column.name: rank_groups(
             setting.names,
@@ -112,6 +113,7 @@ def _board(report: Report, number: int, setting: Setting, entries: Sequence[Numb
                     estimate=found.common.get(column.name) or found.overall.get(column.name),
                     rate=column.name in runs.flags,
                     rank=ranks[column.name][name] if column.name in ranks else None,
+                    usual=len(np.unique(setting.units[group.counted])),
                 )
                 for column in columns
             ),

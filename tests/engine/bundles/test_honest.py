@@ -44,6 +44,13 @@ def test_failures_pass_and_are_equal_when_they_are_repeated(failures, bundle, ju
     assert judged(Path("failures.zip"), rerun=1.0, seed="1", trusted=True) == {}
 
 
+def test_plans_that_the_dispatcher_refuses_pass(honest, bundle, judged, tmp_path):
+    run(honest / "tiny.yaml", "planner=astar", "scenario.robots=6", "seed=0..3", out=tmp_path / "out")
+    assert "execution_aborted" in load(tmp_path / "out").statuses()
+    bundle(tmp_path / "out", tmp_path / "refused.zip", inputs=honest)
+    assert judged(tmp_path / "refused.zip") == {}
+
+
 def test_local_plugins_are_not_executed_unless_they_are_trusted(study, bundle, judged):
     run(study, out="out")
     Path("odd.py").write_text(Path("odd.py").read_text())

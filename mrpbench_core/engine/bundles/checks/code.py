@@ -40,9 +40,11 @@ def code_faults(bundle: Opened, asked: Asked, records: Sequence[Stored]) -> Iter
 
 
 def _differences(made: dict[str, Any], here: dict[str, Any]) -> Iterator[str]:
+    other = set()
     for name in dict.fromkeys([*made["versions"], *here["versions"]]):
         claimed, installed = made["versions"].get(name), here["versions"].get(name)
         if claimed != installed:
+            other.add((name, claimed))
             yield f"was made with {name} {claimed}; {installed or 'none'} is installed here"
     known = {(entry["kind"], entry["name"]): entry for entry in here["components"]}
     for entry in made["components"]:
@@ -50,7 +52,7 @@ def _differences(made: dict[str, Any], here: dict[str, Any]) -> Iterator[str]:
             yield "lists a component that is none"
             continue
         mine = known.pop((entry.get("kind"), entry.get("name")), None)
-        if mine != entry:
+        if mine != entry and (entry.get("distribution"), entry.get("version")) not in other:
             what = f"{entry.get('kind')} {entry.get('name')!r:.80}"
             yield f"was made with another {what}: {_origin(entry)}, here {_origin(mine)}"
     for entry in known.values():

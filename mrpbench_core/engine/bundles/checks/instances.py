@@ -108,6 +108,10 @@ def _plan_faults(
 def _motion_faults(
     config: RunConfig, record: Mapping[str, Any], recording: Recording, first: RunContext
 ) -> Iterator[str]:
+    if "time" not in recording.channels:  # the dispatcher refused the plan
+        if record["status"] != RunStatus.EXECUTION_ABORTED:
+            yield f"has the status {record['status']}, and nothing was recorded"
+        return
     time, truth = recording.channel("time"), recording.channel("truth")
     period = 1 / config.control_rate
     step = max(1, round(1 / (config.recording.rate * period))) * period

@@ -1,0 +1,57 @@
+"""Run the studies of the paper, publish and verify them, and make a site of the bundles: `make results-site`.
+
+Runs that have a record are not repeated, so that an interrupted call continues.
+"""
+
+import argparse
+import subprocess
+import sys
+from pathlib import Path
+
+STUDIES = Path(__file__).parents[1] / "studies"
+CHOSEN = ("table2", "table4", "fig5", "safe", "table3")
+
+
+def main() -> int:
+    """Make the site; return 1 if a bundle has findings."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, required=True, help="folder for results, bundles and site")
+    parser.add_argument("--seeds", default="3000..3053", help="seeds of the scenarios")
+    parser.add_argument("--studies", nargs="*", default=CHOSEN, help="names of files in studies/")
+    parser.add_argument(
+        "--workers", default="1", help="number of runs at a time; with 1, times are what they are alone"
+    )
+    parser.add_argument("--rerun", default="5%", help="share of the runs that the verification repeats")
+    arguments = parser.parse_args()
+    out: Path = arguments.out
+    out.mkdir(parents=True, exist_ok=True)
+    bundles, findings = [], 0
+    for name in arguments.studies:
+        results, bundle = str(out / name), out / f"{name}.zip"
+        mrpbench(
+            "run",
+            str(STUDIES / f"{name}.yaml"),
+            f"seed={arguments.seeds}",
+            "--out",
+            results,
+            "--workers",
+            arguments.workers,
+        )
+        mrpbench("publish", results, "--out", str(bundle), "--recordings", "5%", "--inputs", str(STUDIES))
+        verdict = str(bundle.with_name(f"{bundle.name}.verdict.json"))
+        findings |= mrpbench("verify", str(bundle), "--rerun", arguments.rerun, "--out", verdict)
+        bundles.append(str(bundle))
+    mrpbench("site", *bundles, "--out", str(out / "site"), "--title", "mrpbench: the studies of the paper")
+    return findings
+
+
+def mrpbench(*words: str) -> int:
+    """Run a command; its exit code is 0 or 1, and everything else ends the script."""
+    code = subprocess.run([sys.executable, "-m", "mrpbench_core.cli.main", *words]).returncode
+    if code > 1:
+        sys.exit(code)
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main())
