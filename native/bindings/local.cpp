@@ -10,14 +10,16 @@
 #include <stdexcept>
 
 #include "arrays.hpp"
+#include "mrpbench_local/costmap/footprint.hpp"
 #include "mrpbench_local/fleet.hpp"
-#include "mrpbench_local/footprint.hpp"
 #include "options.hpp"
 
 namespace nb = nanobind;
 using namespace mrpbench::bindings;
 using namespace nb::literals;
 using namespace mrpbench::local;
+using mrpbench::OptionValues;
+using mrpbench::Parameter;
 
 namespace {
 
@@ -44,15 +46,33 @@ Path whole(const Matrix<2>& path) {
   return {all[0], all.subspan(1)};
 }
 
-void add(Fleet& self, const nb::dict& settings, const Matrix<2>& footprint, const Critics& critics) {
-  auto options = configured_by<RobotOptions>(settings);
+/// The entries of `given` that are among `options`, or those that are not.
+nb::dict selected(const nb::dict& given, const std::vector<Parameter>& options, bool among) {
+  nb::dict found;
+  for (const auto& [key, value] : given) {
+    const auto name = nb::cast<std::string>(key);
+    const auto is_it = [&](const Parameter& it) { return it.info.name == name; };
+    if (std::ranges::any_of(options, is_it) == among) found[key] = value;
+  }
+  return found;
+}
+
+void add(Fleet& self, const std::string& controller, const nb::dict& settings, const Matrix<2>& footprint,
+         const Critics& critics) {
+  const ControllerKind& kind = controller_kind(controller);
+  const std::vector<Parameter> of_robots = parameters(RobotOptions::description());
+  auto options = configured_by<RobotOptions>(selected(settings, of_robots, true));
   options.costmap.footprint = padded(options.by_radius ? rounded(options.robot_radius) : copy<Point>(footprint),
                                      options.costmap.footprint_padding);
-  std::vector<Dwb::Weighted> weighted;
-  for (const auto& [name, scale, given] : critics) {
-    weighted.push_back({name, scale, make_critic(name, from_python(given, critic_kind(name).options))});
+  std::vector<CriticChoice> chosen;
+  for (const auto& [name, weight, given] : critics) {
+    require(static_cast<bool>(kind.critic_options), "this controller has no critics");
+    chosen.push_back({name, weight, from_python(given, kind.critic_options(name))});
   }
-  self.add(options, std::move(weighted));
+  std::vector<Parameter> own = kind.nav2;
+  for (const auto* group : {&kind.further, &kind.derived}) own.insert(own.end(), group->begin(), group->end());
+  const OptionValues values = from_python(selected(settings, of_robots, false), own);
+  self.add(options, kind.make(values, options, self.size(), chosen));
 }
 
 void see(Fleet& self, double now, const Vector<std::int32_t>& robots, const Matrix<3>& poses,
@@ -65,30 +85,10 @@ void see(Fleet& self, double now, const Vector<std::int32_t>& robots, const Matr
   self.see(now, rows<std::int32_t>(robots), rows<Pose>(poses), {ranges.data(), ranges.size()});
 }
 
-/// One trajectory after the other, each padded with its last pose: f8[m,p,3].
-Output poses_array(const Trajectories& all) {
-  std::vector<std::vector<Pose>> walked(all.size());
-  std::size_t longest = 1;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    all.walk(i, [&](Pose pose) {
-      walked[i].push_back(pose);
-      return true;
-    });
-    longest = std::max(longest, walked[i].size());
-  }
-  std::vector<double> values;
-  values.reserve(all.size() * longest * 3);
-  for (auto& poses : walked) {
-    poses.resize(longest, poses.back());
-    for (const Pose& it : poses) values.insert(values.end(), {it.x, it.y, it.yaw});
-  }
-  return own(std::move(values), {all.size(), longest, 3});
-}
-
-Output twists_array(const Trajectories& all) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < all.size(); ++i) values.insert(values.end(), {all.twist(i).ahead, all.twist(i).turn});
-  return own(std::move(values), {all.size(), 2});
+Output array_of(const Array& array) {
+  auto* const kept = new std::vector<double>(array.values);
+  const nb::capsule owner(kept, [](void* it) noexcept { delete static_cast<std::vector<double>*>(it); });
+  return Output(kept->data(), array.shape.size(), array.shape.data(), owner);
 }
 
 /// `seen` is an object with the attributes of `Observations`.
@@ -115,11 +115,11 @@ Output command(Fleet& self, nb::handle seen, const nb::object& score) {
                     speed.data()[i], tolerance};
     requests[i] = {static_cast<std::size_t>(robot.data()[i]), rows<Pose>(pose)[i], rows<Twist>(twist)[i], path};
   }
-  Extra extra;
+  ExtraOfRobot extra;
   if (!score.is_none()) {
-    extra = [&](std::size_t index, const Trajectories& found, std::span<double> totals) {
+    extra = [&](std::size_t index, const Samples& found, std::span<double> totals) {
       const nb::gil_scoped_acquire acquire;
-      const auto added = nb::cast<Vector<double>>(score(index, twists_array(found), poses_array(found)));
+      const auto added = nb::cast<Vector<double>>(score(index, array_of(found.twist), array_of(found.pose)));
       require(added.size() == totals.size(), "one score for each trajectory");
       for (std::size_t i = 0; i < totals.size(); ++i) totals[i] += added.data()[i];
     };
@@ -133,25 +133,10 @@ Output command(Fleet& self, nb::handle seen, const nb::object& score) {
 }
 
 nb::dict explain(const Fleet& self, std::size_t robot) {
-  const Dwb& dwb = self.dwb(robot);
-  const std::size_t count = dwb.trajectories().size();
+  const Explanation found = self.explain(robot);
   nb::dict result;
-  nb::list critics, reasons;
-  for (const auto& it : dwb.critics()) critics.append(it.name);
-  for (std::size_t i = 0; i < count; ++i) {
-    const int critic = dwb.droppers()[i];
-    if (critic < 0) {
-      reasons.append("");
-    } else {
-      reasons.append(dwb.critics()[static_cast<std::size_t>(critic)].name + ": " + dwb.reasons()[i]);
-    }
-  }
-  result["critics"] = critics;
-  result["twist"] = twists_array(dwb.trajectories());
-  result["pose"] = poses_array(dwb.trajectories());
-  result["score"] = own(dwb.scores(), {dwb.critics().size(), count});
-  result["total"] = own(dwb.totals(), {count});
-  result["reason"] = reasons;
+  for (const auto& [name, array] : found.arrays) result[name.c_str()] = array_of(array);
+  for (const auto& [name, words] : found.words) result[name.c_str()] = nb::cast(words);
   return result;
 }
 
@@ -167,7 +152,7 @@ std::tuple<Output, double, double, double> costmap(const Fleet& self, std::size_
 
 NB_MODULE(local, module) {
   use_options();
-  module.doc() = "Local navigation in C++: costmaps, and Nav2's DWB.";
+  module.doc() = "Local navigation in C++: costmaps, and Nav2's controllers.";
 
   nb::class_<Fleet>(module, "Fleet")
       .def(
@@ -176,7 +161,7 @@ NB_MODULE(local, module) {
             new (self) Fleet(copy<Segment>(walls), reach, threads);
           },
           nb::kw_only(), "walls"_a, "reach"_a, "threads"_a)
-      .def("add", &add, nb::kw_only(), "settings"_a, "footprint"_a, "critics"_a)
+      .def("add", &add, nb::kw_only(), "controller"_a, "settings"_a, "footprint"_a, "critics"_a = Critics{})
       .def("see", &see, "now"_a, "robots"_a, "pose"_a, "ranges"_a)
       .def("command", &command, "seen"_a, "score"_a = nb::none())
       .def("clear", &Fleet::clear, "robot"_a)
@@ -194,5 +179,19 @@ NB_MODULE(local, module) {
       .def("costmap", &costmap, "robot"_a);
 
   module.def("robot_options", &robot_parameters, "group"_a);
-  module.def("critic_options", [](const std::string& name) { return critic_kind(name).options; }, "name"_a);
+  module.def(
+      "controller_options",
+      [](const std::string& name, bool further) {
+        const ControllerKind& kind = controller_kind(name);
+        return further ? kind.further : kind.nav2;
+      },
+      "name"_a, "further"_a = false);
+  module.def(
+      "critic_options",
+      [](const std::string& controller, const std::string& name) {
+        const ControllerKind& kind = controller_kind(controller);
+        require(static_cast<bool>(kind.critic_options), "this controller has no critics");
+        return kind.critic_options(name);
+      },
+      "controller"_a, "name"_a);
 }

@@ -11,7 +11,8 @@ SQUARE = np.array([(0.1, 0.1), (-0.1, 0.1), (-0.1, -0.1), (0.1, -0.1)])
 
 def fleet(settings=None, critics=(("PathDist", 1.0, {}),)):
     found = Fleet(walls=np.empty((0, 4)), reach=4.0, threads=1)
-    found.add(settings={"robot_radius": 0.1} | (settings or {}), footprint=SQUARE, critics=list(critics))
+    settings = {"robot_radius": 0.1} | (settings or {})
+    found.add(controller="dwb", settings=settings, footprint=SQUARE, critics=list(critics))
     return found
 
 
@@ -78,6 +79,11 @@ def test_critics_and_options_that_do_not_exist_are_refused():
         fleet(critics=[("PreferForward", 1.0, {"penalti": 1.0})])
     with pytest.raises(ValueError, match="aggregation_type must be one of last, sum, product, not 'best'"):
         fleet(critics=[("PathDist", 1.0, {"aggregation_type": "best"})])
+
+
+def test_controllers_that_do_not_exist_are_refused():
+    with pytest.raises(ValueError, match="there is no controller dbw"):
+        Fleet(walls=np.empty((0, 4)), reach=4.0, threads=1).add(controller="dbw", settings={}, footprint=SQUARE)
 
 
 def test_observations_of_the_wrong_type_are_refused():

@@ -2,8 +2,8 @@
 #include <limits>
 
 #include "check.hpp"
-#include "mrpbench_local/costmap.hpp"
-#include "mrpbench_local/footprint.hpp"
+#include "mrpbench_local/costmap/costmap.hpp"
+#include "mrpbench_local/costmap/footprint.hpp"
 
 using namespace mrpbench::local;
 

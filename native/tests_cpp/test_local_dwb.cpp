@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "check.hpp"
-#include "mrpbench_local/dwb.hpp"
-#include "mrpbench_local/footprint.hpp"
+#include "mrpbench_local/costmap/footprint.hpp"
+#include "mrpbench_local/dwb/dwb.hpp"
 
 using namespace mrpbench::local;
 

@@ -1,10 +1,10 @@
-// The local controllers of a fleet: a costmap and a DWB per robot, with one call for all.
+// The local controllers of a fleet: a costmap and a controller per robot, with one call for all.
 #pragma once
 
 #include <memory>
 
-#include "mrpbench_local/reroute.hpp"
-#include "mrpbench_local/robot_options.hpp"
+#include "mrpbench_local/controller.hpp"
+#include "mrpbench_local/path/reroute.hpp"
 
 namespace mrpbench::local {
 
@@ -16,8 +16,8 @@ struct Request {
   Path path;
 };
 
-/// Scores that the caller adds for a robot.
-using Extra = std::function<void(std::size_t robot, const Trajectories&, std::span<double>)>;
+/// Scores that the caller adds to those of the trajectories of a robot.
+using ExtraOfRobot = std::function<void(std::size_t robot, const Samples&, std::span<double>)>;
 
 class Fleet {
  public:
@@ -26,26 +26,27 @@ class Fleet {
   Fleet(const Fleet&) = delete;
   Fleet& operator=(const Fleet&) = delete;
 
-  void add(const RobotOptions& options, std::vector<Dwb::Weighted> critics);
+  void add(const RobotOptions& options, std::unique_ptr<Controller> controller);
   std::size_t size() const { return robots_.size(); }
 
   /// Keep scans for the next update: row i of `ranges` is from `robots[i]`, which is at `poses[robots[i]]`.
   void see(double now, std::span<const std::int32_t> robots, std::span<const Pose> poses,
            std::span<const double> ranges);
   /// Commands, NaN where none is admissible. `extra` is called in this thread only.
-  void command(double now, std::span<const Request> requests, std::span<Twist> commands, const Extra& extra = {});
+  void command(double now, std::span<const Request> requests, std::span<Twist> commands,
+               const ExtraOfRobot& extra = {});
 
   void clear(std::size_t robot) { robots_.at(robot)->costmap.clear(); }
   bool is_free(std::size_t robot, Pose pose) const;
   std::optional<std::vector<Point>> reroute(std::size_t robot, Point place, const Path& path) const;
   std::optional<std::vector<Point>> approach(std::size_t robot, Point place, const Path& path, double tolerance) const;
   const Costmap& costmap(std::size_t robot) const { return robots_.at(robot)->costmap; }
-  const Dwb& dwb(std::size_t robot) const { return robots_.at(robot)->dwb; }
+  Explanation explain(std::size_t robot) const { return robots_.at(robot)->controller->explain(); }
 
  private:
   struct Robot {
     Costmap costmap;
-    Dwb dwb;
+    std::unique_ptr<Controller> controller;
     RobotOptions options;
     double updated = -1e9;
   };

@@ -1,13 +1,12 @@
-// Everything that the local controller of one robot needs to know.
+// What all local controllers need to know of a robot: its costmap, lidar and shape.
 #pragma once
 
-#include "mrpbench_local/dwb.hpp"
+#include "mrpbench_local/costmap/costmap.hpp"
 
 namespace mrpbench::local {
 
 struct RobotOptions {
   CostmapOptions costmap;
-  DwbOptions dwb;
   Sensor sensor;
   /// Check collisions at the centre instead of along the outline, of a disc of this radius.
   bool by_radius = true;
@@ -16,11 +15,11 @@ struct RobotOptions {
 
   /// Options that Nav2 does not have.
   static Description<RobotOptions> further();
-  /// All options, including those that follow from the robot and the control period.
+  /// All options, including those that follow from the robot.
   static Description<RobotOptions> description();
 };
 
-/// The options of the groups "dwb", "dwb_further", "costmap_grid", "inflation" and "observation".
+/// The options of the groups "costmap_grid", "inflation", "observation" and "further".
 /// Throws std::invalid_argument if there is no such group.
 std::vector<Parameter> robot_parameters(const std::string& group);
 

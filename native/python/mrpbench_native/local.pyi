@@ -1,4 +1,4 @@
-"""Local navigation in C++: costmaps, and Nav2's DWB. Plain arrays in, new arrays out; metres, radians, seconds.
+"""Local navigation in C++: costmaps, and Nav2's controllers. Plain arrays in, new arrays out; metres, radians, seconds.
 
 All functions raise ValueError for invalid data. `see` and `command` let other threads run; only one thread at a time
 may use a `Fleet`.
@@ -20,11 +20,14 @@ class Fleet:
     def add(
         self,
         *,
+        controller: str,
         settings: dict[str, Any],
         footprint: NDArray[np.float64],
-        critics: list[tuple[str, float, dict[str, Any]]],
+        critics: list[tuple[str, float, dict[str, Any]]] = ...,
     ) -> None:
-        """Add a robot: options by Nav2's names, footprint f8[k,2], critics with scale and options."""
+        """Add a robot: the name of its controller, options of robot and controller by Nav2's names, footprint f8[k,2],
+        critics with weight and options.
+        """
     def see(
         self, now: float, robots: NDArray[np.int32], pose: NDArray[np.float64], ranges: NDArray[np.float64]
     ) -> None:
@@ -37,7 +40,8 @@ class Fleet:
         """Commands f8[k,2], NaN where none is admissible.
 
         `seen` has the attributes of `mrpbench_core.model.execution.observation.Observations`.
-        `score` gets a robot, twists f8[m,2] and poses f8[m,p,3], and returns f8[m], which is added to their totals.
+        `score` gets a robot, twists and poses of the m trajectories that its controller samples, and returns f8[m],
+        which is added to their totals. Of `dwb`, twists are f8[m,2] and poses f8[m,p,3].
         """
     def clear(self, robot: int) -> None:
         """Remove the marks of scans."""
@@ -52,12 +56,15 @@ class Fleet:
         metres from it; None = the end is free, or there is no such path.
         """
     def explain(self, robot: int) -> dict[str, Any]:
-        """Trajectories, scores and reasons behind the last command."""
+        """What the controller computed for the last command, by name: arrays and lists of words."""
     def costmap(self, robot: int) -> tuple[NDArray[np.float64], float, float, float]:
         """Costs f8[rows,columns], x and y of the lower left corner, inscribed radius."""
 
 def robot_options(group: str) -> list[Option]:
-    """The options of the groups `dwb`, `dwb_further`, `costmap_grid`, `inflation` and `observation`."""
+    """The options of the groups `costmap_grid`, `inflation`, `observation` and `further`, of all controllers."""
 
-def critic_options(name: str) -> list[Option]:
-    """The options of a critic. Raises ValueError if there is no critic of this name."""
+def controller_options(name: str, further: bool = False) -> list[Option]:
+    """The options of a controller that Nav2 has, or `further` ones. Raises ValueError if there is none."""
+
+def critic_options(controller: str, name: str) -> list[Option]:
+    """The options of a critic of a controller. Raises ValueError if there is none of this name."""

@@ -5,14 +5,15 @@
 #include <limits>
 #include <thread>
 
+#include "mrpbench_local/costmap/collision.hpp"
+
 namespace mrpbench::local {
 
 Fleet::Fleet(std::vector<Segment> walls, double reach, int threads)
     : walls_(std::make_shared<const StaticMap>(std::move(walls), reach)), threads_(std::max(1, threads)) {}
 
-void Fleet::add(const RobotOptions& options, std::vector<Dwb::Weighted> critics) {
-  robots_.push_back(
-      std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), Dwb(options.dwb, std::move(critics)), options}));
+void Fleet::add(const RobotOptions& options, std::unique_ptr<Controller> controller) {
+  robots_.push_back(std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), std::move(controller), options}));
 }
 
 /// Call `work(i)` once for every i below `count`, in several threads.
@@ -59,15 +60,17 @@ void Fleet::see(double now, std::span<const std::int32_t> robots, std::span<cons
   });
 }
 
-void Fleet::command(double now, std::span<const Request> requests, std::span<Twist> commands, const Extra& extra) {
+void Fleet::command(double now, std::span<const Request> requests, std::span<Twist> commands,
+                    const ExtraOfRobot& extra) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto answer = [&](std::size_t i) {
     const Request& it = requests[i];
     Robot& robot = *robots_[it.robot];
     refresh(robot, now, it.pose);
-    Dwb::Extra more;
-    if (extra) more = [&](const Trajectories& all, std::span<double> totals) { extra(it.robot, all, totals); };
-    commands[i] = robot.dwb.command(now, it.pose, it.twist, it.path, robot.costmap, more).value_or(Twist{nan, nan});
+    Extra more;
+    if (extra) more = [&](const Samples& all, std::span<double> totals) { extra(it.robot, all, totals); };
+    const Situation situation{now, it.pose, it.twist, it.path, &robot.costmap};
+    commands[i] = robot.controller->command(situation, more).value_or(Twist{nan, nan});
   };
   if (extra) {
     for (std::size_t i = 0; i < requests.size(); ++i) answer(i);

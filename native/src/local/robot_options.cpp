@@ -37,76 +37,17 @@ Description<CostmapOptions> CostmapOptions::layers() {
           {"inflation_layer", &C::inflation_layer, "costs decrease around obstacles"}};
 }
 
-Description<MotionOptions> MotionOptions::description() {
-  using M = MotionOptions;
-  return {
-      {"min_vel_x", &M::min_vel_x, any("m/s"), "lowest speed; negative = may drive back"},
-      {"max_vel_x", &M::max_vel_x, above(0, "m/s"), "highest speed; by default the robot's"},
-      {"max_vel_theta", &M::max_vel_theta, above(0, "rad/s"), "highest turn rate, within the robot's limit"},
-      {"min_speed_xy", &M::min_speed_xy, any("m/s"),
-       "samples with a lower speed must turn faster than min_speed_theta"},
-      {"max_speed_xy", &M::max_speed_xy, any("m/s"), "highest speed in the plane; by default max_vel_x"},
-      {"min_speed_theta", &M::min_speed_theta, any("rad/s"),
-       "samples that turn slower than this must drive faster than min_speed_xy"},
-      {"acc_lim_x", &M::acc_lim_x, above(0), "acceleration, m/s^2; by default the robot's"},
-      {"acc_lim_theta", &M::acc_lim_theta, above(0), "acceleration, rad/s^2; by default the robot's"},
-      {"decel_lim_x", &M::decel_lim_x, "deceleration, negative; by default the robot's"},
-      {"decel_lim_theta", &M::decel_lim_theta, "deceleration, negative; by default the robot's"},
-      {"vx_samples", &M::vx_samples, within(1, 1000), "number of speeds that are sampled"},
-      {"vtheta_samples", &M::vtheta_samples, within(1, 1000), "number of turn rates that are sampled"},
-      {"sim_time", &M::sim_time, above(0, "s"), "duration of a trajectory"},
-      {"linear_granularity", &M::linear_granularity, above(0, "m"), "longest step of a trajectory"},
-      {"angular_granularity", &M::angular_granularity, above(0), "largest turn in a step of a trajectory, radians"},
-      {"discretize_by_time", &M::discretize_by_time, "step by time_granularity instead of by way and angle"},
-      {"time_granularity", &M::time_granularity, above(0, "s"), "longest step of a trajectory"},
-      {"include_last_point", &M::include_last_point, "count the last pose twice where scores are summed"},
-      {"trajectory_generator_name", &M::limited,
-       Choices<bool>{{"dwb_plugins::StandardTrajectoryGenerator", false}, {"dwb_plugins::LimitedAccelGenerator", true}},
-       "accelerate to sampled velocities along the trajectory, or sample only what one period can reach"}};
-}
-
-Description<DwbOptions> DwbOptions::nav2() {
-  Description<DwbOptions> rows;
-  append(rows, MotionOptions::description(), &DwbOptions::motion);
-  append(rows,
-         Description<Pruning>{{"prune_distance", &Pruning::prune_distance, above(0, "m"),
-                               "ignore parts of the path that are farther away"},
-                              {"shorten_transformed_plan", &Pruning::shorten,
-                               "use prune_distance; if false, half the size of the costmap"}},
-         &DwbOptions::pruning);
-  rows.push_back({"short_circuit_trajectory_evaluation", &DwbOptions::short_circuit,
-                  "stop scoring a trajectory that cannot win; false = score all in full, for `explain`"});
-  return rows;
-}
-
-Description<DwbOptions> DwbOptions::further() {
-  return {
-      {{"beyond_end", &Pruning::beyond_end, at_least(0, "m"),
-        "prolong the path straight beyond its end by this, for critics that measure distances to it, so that a robot "
-        "comes nearer to the end than the 0.25 m of Nav2; 0 = as in Nav2"},
-       &DwbOptions::pruning},
-      {"rotate_to_path", &DwbOptions::rotate_to_path, at_least(0),
-       "turn on the spot first where a new path leads off the heading by more than this, radians, as the rotation "
-       "shim of Nav2 does; 0 = never, as DWB alone"}};
-}
-
 Description<RobotOptions> RobotOptions::further() {
-  Description<RobotOptions> rows;
-  append(rows, DwbOptions::further(), &RobotOptions::dwb);
-  rows.push_back(
-      {"max_detour", &RobotOptions::max_detour, at_least(0, "m"), "largest distance of a detour from a blocked path"});
-  return rows;
+  return {
+      {"max_detour", &RobotOptions::max_detour, at_least(0, "m"), "largest distance of a detour from a blocked path"}};
 }
 
 Description<RobotOptions> RobotOptions::description() {
   Description<RobotOptions> rows = further();
-  append(rows, DwbOptions::nav2(), &RobotOptions::dwb);
   for (const auto& group :
        {CostmapOptions::grid(), CostmapOptions::inflation(), CostmapOptions::observation(), CostmapOptions::layers()}) {
     append(rows, group, &RobotOptions::costmap);
   }
-  const Option<MotionOptions> period{"period", &MotionOptions::period, above(0, "s"), "control period"};
-  rows.push_back({Option<DwbOptions>(period, &DwbOptions::motion), &RobotOptions::dwb});
   const Option<Point> forward{"lidar_forward", &Point::x, any("m"), "place of the lidar ahead of the robot's origin"};
   const Option<Point> leftward{"lidar_leftward", &Point::y, any("m"), "place of the lidar left of the robot's origin"};
   rows.push_back({Option<Sensor>(forward, &Sensor::mount), &RobotOptions::sensor});
@@ -118,11 +59,10 @@ Description<RobotOptions> RobotOptions::description() {
 }
 
 std::vector<Parameter> robot_parameters(const std::string& group) {
-  if (group == "dwb") return parameters(DwbOptions::nav2());
-  if (group == "dwb_further") return parameters(RobotOptions::further());
   if (group == "costmap_grid") return parameters(CostmapOptions::grid());
   if (group == "inflation") return parameters(CostmapOptions::inflation());
   if (group == "observation") return parameters(CostmapOptions::observation());
+  if (group == "further") return parameters(RobotOptions::further());
   throw std::invalid_argument("there is no group of options '" + group + "'");
 }
 

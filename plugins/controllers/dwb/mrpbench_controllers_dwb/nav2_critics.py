@@ -1,16 +1,15 @@
-"""The critics of Nav2 by its names, options and defaults. They run in C++ (`native/src/local/critic_*.cpp`)."""
+"""The critics of Nav2 by its names, options and defaults. They run in C++ (`native/src/local/dwb/critic_*.cpp`)."""
 
 from typing import Any, Self, TypeVar
 
 import attrs
+from mrpbench_controllers_local import NativeCritic as AnyNativeCritic
 from mrpbench_native.local import critic_options
 
-from mrpbench_controllers_dwb.critic import Critic, CriticSession
+from mrpbench_controllers_dwb.critic import Critic
 from mrpbench_core.api.described import described
 from mrpbench_core.api.nav2 import check_parameter
 from mrpbench_core.files.nav2 import Nav2Block
-from mrpbench_core.model.common.fleet import RobotModel
-from mrpbench_core.model.worlds.world import World
 
 N = TypeVar("N", bound="NativeCritic")
 OF_CONTROLLER = ("xy_goal_tolerance", "trans_stopped_velocity")
@@ -29,12 +28,8 @@ IN_CODE = "in_code"
 
 
 @attrs.frozen(kw_only=True)
-class NativeCritic(Critic):
+class NativeCritic(AnyNativeCritic, Critic):
     """A critic that runs in C++."""
-
-    def start(self, robot: RobotModel, world: World) -> CriticSession:  # noqa: ARG002
-        """Raise TypeError: `Dwb` passes these critics to the native part instead."""
-        raise TypeError(f"{type(self).__name__} runs in C++")
 
     @property
     def parameters(self) -> dict[str, Any]:
@@ -64,7 +59,7 @@ class NativeCritic(Critic):
 
 def _native(cls: type[N]) -> type[N]:
     """Give a critic the options that its C++ class describes; RotateToGoal gets two of them from `Dwb`."""
-    rows = [row for row in critic_options(cls.__name__) if row.name not in OF_CONTROLLER]
+    rows = [row for row in critic_options("dwb", cls.__name__) if row.name not in OF_CONTROLLER]
     return attrs.frozen(kw_only=True, field_transformer=_with_defaults)(described(rows)(cls))
 
 

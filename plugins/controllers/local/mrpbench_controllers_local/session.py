@@ -1,15 +1,14 @@
-"""DWB for a fleet, in C++."""
+"""A controller of a fleet, in C++."""
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 from mrpbench_native.local import Fleet
 
-from mrpbench_controllers_dwb.critic import CriticSession, Trajectories
-from mrpbench_controllers_dwb.nav2_critics import NativeCritic, RotateToGoal
-from mrpbench_controllers_dwb.settings import RobotSettings
+from mrpbench_controllers_local.critics import CriticSession, NativeCritic, Trajectories
+from mrpbench_controllers_local.settings import RobotSettings
 from mrpbench_core.api import FleetControllerSession
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.files.errors import InputError
@@ -20,22 +19,24 @@ from mrpbench_core.model.worlds.solids import segments
 from mrpbench_core.model.worlds.world import World
 
 
-class DwbSession(FleetControllerSession):
+class LocalSession(FleetControllerSession):
     """Controls all robots in one call, and explains its commands.
 
     Args:
+        name: of the controller in the native part.
         robots: each with its settings.
-        goal: parameters of the critic `RotateToGoal` that Nav2 reads from the controller.
         world: the static map.
         threads: threads that share the robots.
+        parameters_of: returns the options of a critic for the native part.
     """
 
     def __init__(
         self,
+        name: str,
         robots: Sequence[tuple[RobotModel, RobotSettings]],
-        goal: dict[str, float],
         world: World,
         threads: int,
+        parameters_of: Callable[[NativeCritic], dict[str, Any]],
     ) -> None:
         super().__init__(())
         # Controllers are not told the level of their robot, so the walls of several levels cannot be used.
@@ -52,19 +53,13 @@ class DwbSession(FleetControllerSession):
         for robot, settings in robots:
             native = [critic for critic in settings.critics if isinstance(critic, NativeCritic)]
             self._fleet.add(
+                controller=name,
                 settings=settings.values,
                 footprint=np.ascontiguousarray(settings.footprint, float),
-                critics=[
-                    (
-                        type(critic).__name__,
-                        critic.scale,
-                        critic.parameters | (goal if isinstance(critic, RotateToGoal) else {}),
-                    )
-                    for critic in native
-                ],
+                critics=[(type(critic).__name__, critic.weight, parameters_of(critic)) for critic in native],
             )
-            in_python = [critic for critic in settings.critics if not isinstance(critic, NativeCritic) and critic.scale]
-            started = [(type(critic).__name__, critic.scale, critic.start(robot, world)) for critic in in_python]
+            others = [critic for critic in settings.critics if not isinstance(critic, NativeCritic) and critic.weight]
+            started = [(type(critic).__name__, critic.weight, critic.start(robot, world)) for critic in others]
             self._in_python.append(started)
         self._seen: Observations | None = None
         self._row: dict[int, int] = {}
@@ -100,15 +95,15 @@ class DwbSession(FleetControllerSession):
 
     def failure_reason(self, robot: int) -> str:
         """Return why the last trajectories of a robot were rejected, the most frequent reasons first."""
-        reasons = Counter(self.explain(robot)["reason"])
+        reasons = Counter(self.explain(robot).get("reason", ()))
         return ", ".join(f"{count} × {reason}" for reason, count in reasons.most_common(3) if reason)
 
     def explain(self, robot: int) -> dict[str, Any]:
-        """Return the trajectories from which the last command of a robot was chosen.
+        """Return what led to the last command of a robot, by name.
 
-        `critics`: names; `twist` f8[m,2]; `pose` f8[m,p,3]; `score` f8[critics,m] raw; `total` f8[m]; `reason`: why
-        each was rejected, or an empty text. Trajectories that cannot win are scored in part only, unless
-        `short_circuit_trajectory_evaluation` is false.
+        `reason`: why trajectories, or the command, were rejected, empty texts for the others. Of `dwb`: `critics`:
+        names; `twist` f8[m,2]; `pose` f8[m,p,3]; `score` f8[critics,m] raw; `total` f8[m]. Trajectories that cannot win
+        are scored in part only, unless `short_circuit_trajectory_evaluation` is false.
         """
         return dict(self._fleet.explain(robot))
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <string_view>
 
-#include "mrpbench_local/costmap.hpp"
-#include "mrpbench_local/path_grid.hpp"
-#include "mrpbench_local/trajectories.hpp"
+#include "mrpbench_local/costmap/costmap.hpp"
+#include "mrpbench_local/dwb/trajectories.hpp"
+#include "mrpbench_local/path/path_grid.hpp"
 
 namespace mrpbench::local {
 

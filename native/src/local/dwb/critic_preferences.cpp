@@ -1,7 +1,7 @@
 // Preferences for commands that do not depend on the path.
 #include <cmath>
 
-#include "mrpbench_local/critics.hpp"
+#include "mrpbench_local/dwb/critics.hpp"
 
 namespace mrpbench::local {
 

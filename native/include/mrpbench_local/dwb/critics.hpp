@@ -1,7 +1,7 @@
 // The critics of Nav2's DWB, by their names, parameters and defaults.
 #pragma once
 
-#include "mrpbench_local/critic.hpp"
+#include "mrpbench_local/dwb/critic.hpp"
 
 namespace mrpbench::local {
 

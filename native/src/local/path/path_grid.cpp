@@ -1,4 +1,4 @@
-#include "mrpbench_local/path_grid.hpp"
+#include "mrpbench_local/path/path_grid.hpp"
 
 #include <algorithm>
 

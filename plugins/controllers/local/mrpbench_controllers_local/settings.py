@@ -2,7 +2,7 @@
 
 from typing import Any, NamedTuple
 
-from mrpbench_controllers_dwb.critic import Critic
+from mrpbench_controllers_local.critics import Critic
 from mrpbench_core.model.common.arrays import Float
 
 
@@ -10,7 +10,7 @@ class RobotSettings(NamedTuple):
     """Settings of one robot, from the recipe, its Nav2 file and the robot's limits."""
 
     values: dict[str, Any]
-    """Options of DWB and the costmap, by name."""
+    """Options of the controller and the costmap, by name."""
     footprint: Float
     """f8[k,2] metres."""
-    critics: tuple[Critic, ...]
+    critics: tuple[Critic, ...] = ()

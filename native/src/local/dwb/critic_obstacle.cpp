@@ -1,8 +1,9 @@
 // Costs of trajectories on the costmap: those of the robot's centre, or of the outline of its footprint.
 #include <algorithm>
 
-#include "mrpbench_local/critics.hpp"
-#include "mrpbench_local/footprint.hpp"
+#include "mrpbench_local/costmap/collision.hpp"
+#include "mrpbench_local/costmap/footprint.hpp"
+#include "mrpbench_local/dwb/critics.hpp"
 
 namespace mrpbench::local {
 
@@ -89,17 +90,9 @@ struct Outline {
     const Frame& frame = costmap.frame();
     if (!frame.holds(frame.cell({pose.x, pose.y}))) return kOff;
     place(costmap.options().footprint, pose, corners);
-    for (const Point& p : corners) {
-      if (!frame.holds(frame.cell(p))) return kOff;
-    }
-    std::uint8_t worst = 0;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      line(frame.cell(corners[i]), frame.cell(corners[(i + 1) % corners.size()]), [&](Cell c) {
-        worst = std::max(worst, costmap.at(c));
-        return true;
-      });
-    }
-    return worst >= kLethal ? kHit : worst;
+    const auto worst = outline_cost(costmap, corners);
+    if (!worst) return kOff;
+    return *worst >= kLethal ? kHit : *worst;
   }
 
   void ends(const Scene& scene, const Trajectories& all, std::span<double> raw) {

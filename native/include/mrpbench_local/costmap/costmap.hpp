@@ -3,10 +3,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "mrpbench_local/grid.hpp"
+#include "mrpbench_local/costmap/grid.hpp"
 #include "mrpbench_options/options.hpp"
 #include "mrpbench_sim/segment_buckets.hpp"
 

@@ -2,7 +2,7 @@
 // along rows and columns. The two alignment critics measure it at a point ahead of the robot.
 #include <cmath>
 
-#include "mrpbench_local/critics.hpp"
+#include "mrpbench_local/dwb/critics.hpp"
 
 namespace mrpbench::local {
 

@@ -1,10 +1,8 @@
-#include "mrpbench_local/reroute.hpp"
+#include "mrpbench_local/path/reroute.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <queue>
-
-#include "mrpbench_local/footprint.hpp"
 
 namespace mrpbench::local {
 
@@ -109,25 +107,6 @@ std::vector<Cell> straightened(const Ground& ground, const std::vector<Cell>& wa
   }
   return result;
 }
-
-}  // namespace
-
-bool is_free(const Costmap& costmap, Pose pose, bool by_radius) {
-  const Frame& frame = costmap.frame();
-  const Cell centre = frame.cell({pose.x, pose.y});
-  if (!costmap.knows() || !frame.holds(centre)) return true;
-  if (by_radius) return costmap.is_free(centre, {pose.x, pose.y});
-  std::vector<Point> corners;
-  place(costmap.options().footprint, pose, corners);
-  bool free = costmap.at(centre) < kLethal;
-  for (std::size_t i = 0; free && i < corners.size(); ++i) {
-    free = line(frame.cell(corners[i]), frame.cell(corners[(i + 1) % corners.size()]),
-                [&](Cell c) { return !frame.holds(c) || costmap.at(c) < kLethal; });
-  }
-  return free;
-}
-
-namespace {
 
 /// Corners of the cheapest way to a cell, as points.
 std::vector<Point> points_to(const Ground& ground, const Ways& ways, Cell c) {

@@ -1,9 +1,37 @@
-#include "mrpbench_local/trajectories.hpp"
+#include "mrpbench_local/dwb/trajectories.hpp"
 
 #include <algorithm>
 #include <limits>
 
 namespace mrpbench::local {
+
+Description<MotionOptions> MotionOptions::description() {
+  using M = MotionOptions;
+  return {
+      {"min_vel_x", &M::min_vel_x, any("m/s"), "lowest speed; negative = may drive back"},
+      {"max_vel_x", &M::max_vel_x, above(0, "m/s"), "highest speed; by default the robot's"},
+      {"max_vel_theta", &M::max_vel_theta, above(0, "rad/s"), "highest turn rate, within the robot's limit"},
+      {"min_speed_xy", &M::min_speed_xy, any("m/s"),
+       "samples with a lower speed must turn faster than min_speed_theta"},
+      {"max_speed_xy", &M::max_speed_xy, any("m/s"), "highest speed in the plane; by default max_vel_x"},
+      {"min_speed_theta", &M::min_speed_theta, any("rad/s"),
+       "samples that turn slower than this must drive faster than min_speed_xy"},
+      {"acc_lim_x", &M::acc_lim_x, above(0), "acceleration, m/s^2; by default the robot's"},
+      {"acc_lim_theta", &M::acc_lim_theta, above(0), "acceleration, rad/s^2; by default the robot's"},
+      {"decel_lim_x", &M::decel_lim_x, "deceleration, negative; by default the robot's"},
+      {"decel_lim_theta", &M::decel_lim_theta, "deceleration, negative; by default the robot's"},
+      {"vx_samples", &M::vx_samples, within(1, 1000), "number of speeds that are sampled"},
+      {"vtheta_samples", &M::vtheta_samples, within(1, 1000), "number of turn rates that are sampled"},
+      {"sim_time", &M::sim_time, above(0, "s"), "duration of a trajectory"},
+      {"linear_granularity", &M::linear_granularity, above(0, "m"), "longest step of a trajectory"},
+      {"angular_granularity", &M::angular_granularity, above(0), "largest turn in a step of a trajectory, radians"},
+      {"discretize_by_time", &M::discretize_by_time, "step by time_granularity instead of by way and angle"},
+      {"time_granularity", &M::time_granularity, above(0, "s"), "longest step of a trajectory"},
+      {"include_last_point", &M::include_last_point, "count the last pose twice where scores are summed"},
+      {"trajectory_generator_name", &M::limited,
+       Choices<bool>{{"dwb_plugins::StandardTrajectoryGenerator", false}, {"dwb_plugins::LimitedAccelGenerator", true}},
+       "accelerate to sampled velocities along the trajectory, or sample only what one period can reach"}};
+}
 
 std::vector<double> samples(double current, double lowest, double highest, double acceleration, double deceleration,
                             double time, int count) {

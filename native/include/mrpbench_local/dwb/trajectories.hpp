@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "mrpbench_local/grid.hpp"
+#include "mrpbench_local/costmap/grid.hpp"
 #include "mrpbench_options/options.hpp"
 
 namespace mrpbench::local {

@@ -1,4 +1,4 @@
-#include "mrpbench_local/footprint.hpp"
+#include "mrpbench_local/costmap/footprint.hpp"
 
 #include <limits>
 #include <numbers>

@@ -1,9 +1,9 @@
-#include "mrpbench_local/critic.hpp"
+#include "mrpbench_local/dwb/critic.hpp"
 
 #include <map>
 #include <string>
 
-#include "mrpbench_local/critics.hpp"
+#include "mrpbench_local/dwb/critics.hpp"
 
 namespace mrpbench::local {
 

@@ -1,11 +1,11 @@
-#include "mrpbench_local/costmap.hpp"
+#include "mrpbench_local/costmap/costmap.hpp"
 
 #include <algorithm>
 #include <cstring>
 #include <numbers>
 #include <stdexcept>
 
-#include "mrpbench_local/footprint.hpp"
+#include "mrpbench_local/costmap/footprint.hpp"
 
 namespace mrpbench::local {
 

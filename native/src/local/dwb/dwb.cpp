@@ -1,20 +1,13 @@
-#include "mrpbench_local/dwb.hpp"
+#include "mrpbench_local/dwb/dwb.hpp"
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
-#include "mrpbench_local/reroute.hpp"
+#include "mrpbench_local/costmap/collision.hpp"
 
 namespace mrpbench::local {
 
 namespace {
-
-/// Whether a path leads to another place than the one before.
-bool is_new(const std::optional<Pose>& before, const Pose& goal) {
-  if (!before || before->x != goal.x || before->y != goal.y) return true;
-  return before->yaw != goal.yaw && !(std::isnan(before->yaw) && std::isnan(goal.yaw));
-}
 
 double thresholded(double speed, double threshold) {
   return std::abs(speed) < threshold ? 0 : speed;
@@ -38,10 +31,60 @@ double off(Pose pose, const Path& path) {
   }
   const Point away = at - Point{pose.x, pose.y};
   if (sim::length(away) < kAhead / 3) return 0;  // a robot that has nearly arrived need not turn
-  return std::remainder(std::atan2(away.y, away.x) - pose.yaw, 2 * std::numbers::pi);
+  return wrapped(std::atan2(away.y, away.x) - pose.yaw);
+}
+
+/// Twists f8[m,2], and poses f8[m,p,3]: one trajectory after the other, each padded with its last pose.
+Samples samples_of(const Trajectories& all) {
+  std::vector<std::vector<Pose>> walked(all.size());
+  std::size_t longest = 1;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all.walk(i, [&](Pose pose) {
+      walked[i].push_back(pose);
+      return true;
+    });
+    longest = std::max(longest, walked[i].size());
+  }
+  Samples found{{{}, {all.size(), 2}}, {{}, {all.size(), longest, 3}}};
+  found.pose.values.reserve(all.size() * longest * 3);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    found.twist.values.insert(found.twist.values.end(), {all.twist(i).ahead, all.twist(i).turn});
+    walked[i].resize(longest, walked[i].back());
+    for (const Pose& it : walked[i]) found.pose.values.insert(found.pose.values.end(), {it.x, it.y, it.yaw});
+  }
+  return found;
 }
 
 }  // namespace
+
+Description<DwbOptions> DwbOptions::nav2() {
+  Description<DwbOptions> rows;
+  append(rows, MotionOptions::description(), &DwbOptions::motion);
+  append(rows,
+         Description<Pruning>{{"prune_distance", &Pruning::prune_distance, above(0, "m"),
+                               "ignore parts of the path that are farther away"},
+                              {"shorten_transformed_plan", &Pruning::shorten,
+                               "use prune_distance; if false, half the size of the costmap"}},
+         &DwbOptions::pruning);
+  rows.push_back({"short_circuit_trajectory_evaluation", &DwbOptions::short_circuit,
+                  "stop scoring a trajectory that cannot win; false = score all in full, for `explain`"});
+  return rows;
+}
+
+Description<DwbOptions> DwbOptions::further() {
+  return {
+      {{"beyond_end", &Pruning::beyond_end, at_least(0, "m"),
+        "prolong the path straight beyond its end by this, for critics that measure distances to it, so that a robot "
+        "comes nearer to the end than the 0.25 m of Nav2; 0 = as in Nav2"},
+       &DwbOptions::pruning},
+      {"rotate_to_path", &DwbOptions::rotate_to_path, at_least(0),
+       "turn on the spot first where a new path leads off the heading by more than this, radians, as the rotation "
+       "shim of Nav2 does; 0 = never, as DWB alone"}};
+}
+
+Description<DwbOptions> DwbOptions::derived() {
+  return {{{"period", &MotionOptions::period, above(0, "s"), "control period"}, &DwbOptions::motion}};
+}
 
 Dwb::Dwb(const DwbOptions& options, std::vector<Weighted> critics)
     : options_(options), critics_(std::move(critics)), all_(options.motion) {
@@ -60,25 +103,25 @@ Dwb::Dwb(const DwbOptions& options, std::vector<Weighted> critics)
       "there must be 1 to 1000 samples of each speed");
 }
 
-std::optional<Twist> Dwb::command(double now, Pose pose, Twist twist, const Path& path, const Costmap& costmap,
-                                  const Extra& extra) {
-  const Frame& frame = costmap.frame();
-  const Point end = path.rest.empty() ? path.first : path.rest.back();
-  const Pose goal{end.x, end.y, path.yaw};
-  if (is_new(goal_, goal)) {
-    goal_ = goal;
-    for (const Weighted& it : critics_) it.critic->reset();
+std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
+  const Path& path = it.path;
+  const Pose& pose = it.pose;
+  const Frame& frame = it.costmap->frame();
+  const Point end = path.end();
+  if (is_new(goal_, path)) {
+    goal_ = {end.x, end.y, path.yaw};
+    for (const Weighted& each : critics_) each.critic->reset();
     turning_ = options_.rotate_to_path > 0 && std::abs(off(pose, path)) > options_.rotate_to_path;
   }
   if (std::isnan(path.yaw) && sim::length({pose.x - end.x, pose.y - end.y}) <= frame.resolution) return Twist{};
-  if (const auto turn = turn_first(pose, path, costmap)) return turn;
+  if (const auto turn = turn_first(pose, path, *it.costmap)) return turn;
   path_.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
   if (!path_.empty()) path_.spread(frame);
-  const Twist measured{thresholded(twist.ahead, options_.min_x_velocity_threshold),
-                       thresholded(twist.turn, options_.min_theta_velocity_threshold)};
+  const Twist measured{thresholded(it.twist.ahead, options_.min_x_velocity_threshold),
+                       thresholded(it.twist.turn, options_.min_theta_velocity_threshold)};
   all_.generate(pose, measured, path.speed);
   EndCells ends(frame, all_);
-  const Scene scene{now, pose, measured, goal, path.tolerance, &costmap, &path_, &ends};
+  const Scene scene{it.now, pose, measured, *goal_, path.tolerance, it.costmap, &path_, &ends};
   score(scene, extra);
   const auto chosen = best(scene);
   const Twist command = chosen ? all_.twist(*chosen) : Twist{};
@@ -126,7 +169,7 @@ void Dwb::score(const Scene& scene, const Extra& extra) {
       fault_[i] = kLegal;
     }
   }
-  if (extra) extra(all_, total_);
+  if (extra) extra(samples_of(all_), total_);
 }
 
 /// Check all poses of a trajectory.
@@ -170,6 +213,42 @@ std::optional<std::size_t> Dwb::best(const Scene& scene) {
     if (order_.empty()) return std::nullopt;
     if (passes(scene, order_.front())) return order_.front();
   }
+}
+
+Explanation Dwb::explain() const {
+  const std::size_t count = all_.size();
+  Samples samples = samples_of(all_);
+  Explanation found;
+  found.arrays = {{"twist", std::move(samples.twist)},
+                  {"pose", std::move(samples.pose)},
+                  {"score", {raw_, {critics_.size(), count}}},
+                  {"total", {total_, {count}}}};
+  for (const Weighted& it : critics_) found.words["critics"].push_back(it.name);
+  std::vector<std::string>& reasons = found.words["reason"];
+  for (std::size_t i = 0; i < count; ++i) {
+    const int critic = dropped_[i];
+    reasons.push_back(critic < 0 ? "" : critics_[static_cast<std::size_t>(critic)].name + ": " + why_[i]);
+  }
+  return found;
+}
+
+ControllerKind dwb() {
+  Description<DwbOptions> rows = DwbOptions::nav2();
+  for (const auto& group : {DwbOptions::further(), DwbOptions::derived()}) {
+    rows.insert(rows.end(), group.begin(), group.end());
+  }
+  ControllerKind kind;
+  kind.make = [rows](const OptionValues& values, const RobotOptions&, std::size_t,
+                     std::span<const CriticChoice> critics) {
+    std::vector<Dwb::Weighted> weighted;
+    for (const CriticChoice& it : critics) weighted.push_back({it.name, it.weight, make_critic(it.name, it.options)});
+    return std::make_unique<Dwb>(configured(rows, values, DwbOptions{}), std::move(weighted));
+  };
+  kind.nav2 = parameters(DwbOptions::nav2());
+  kind.further = parameters(DwbOptions::further());
+  kind.derived = parameters(DwbOptions::derived());
+  kind.critic_options = [](const std::string& name) { return critic_kind(name).options; };
+  return kind;
 }
 
 }  // namespace mrpbench::local

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "mrpbench_local/critics.hpp"
+#include "mrpbench_local/dwb/critics.hpp"
 
 namespace mrpbench::local {
 

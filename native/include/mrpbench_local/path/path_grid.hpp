@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "mrpbench_local/grid.hpp"
+#include "mrpbench_local/costmap/grid.hpp"
 
 namespace mrpbench::local {
 

@@ -1,0 +1,57 @@
+// Nav2's DWB: the velocity whose trajectory has the best score of its critics. Written from Nav2's documentation
+// (navigation.ros.org, "DWB Controller") and parameters.
+#pragma once
+
+#include "mrpbench_local/controller.hpp"
+#include "mrpbench_local/dwb/critic.hpp"
+
+namespace mrpbench::local {
+
+struct DwbOptions {
+  MotionOptions motion;
+  Pruning pruning;
+  double min_x_velocity_threshold = 0.001, min_theta_velocity_threshold = 0.001;
+  bool short_circuit = true;
+  double rotate_to_path = 0.4;
+
+  static Description<DwbOptions> nav2();
+  static Description<DwbOptions> further();
+  static Description<DwbOptions> derived();
+};
+
+class Dwb : public Controller {
+ public:
+  struct Weighted {
+    std::string name;
+    double scale = 1;
+    std::unique_ptr<Critic> critic;
+  };
+
+  Dwb(const DwbOptions& options, std::vector<Weighted> critics);
+
+  std::optional<Twist> command(const Situation& now, const Extra& extra) override;
+
+  /// The trajectories from which the last command was chosen: names of the `critics`, `twist`, `pose`, raw `score` of
+  /// each critic, `total`, and the `reason` why each was dropped. Totals of those that were not fully checked are
+  /// partial.
+  Explanation explain() const override;
+
+ private:
+  std::optional<Twist> turn_first(Pose pose, const Path& path, const Costmap& costmap);
+  void score(const Scene& scene, const Extra& extra);
+  bool passes(const Scene& scene, std::size_t i);
+  std::optional<std::size_t> best(const Scene& scene);
+
+  DwbOptions options_;
+  std::vector<Weighted> critics_;
+  Trajectories all_;
+  PathGrid path_;
+  std::optional<Pose> goal_;
+  bool turning_ = false;
+  std::vector<double> raw_, total_;
+  std::vector<Reason> why_, fault_;
+  std::vector<int> dropped_;
+  std::vector<std::size_t> order_;
+};
+
+}  // namespace mrpbench::local
