@@ -19,7 +19,7 @@ _PLANNERS = (
 )
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
-        "mrpbench.controllers": ("dwb", "pure_pursuit"),
+        "mrpbench.controllers": ("dwb", "graceful", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
         "mrpbench.localizers": ("amcl",),
         "mrpbench.metrics": _METRICS,

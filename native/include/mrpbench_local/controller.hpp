@@ -95,5 +95,7 @@ ControllerKind controller_of() {
 const ControllerKind& controller_kind(const std::string& name);
 
 ControllerKind dwb();
+ControllerKind graceful();
+ControllerKind rpp();
 
 }  // namespace mrpbench::local

@@ -8,6 +8,8 @@ namespace mrpbench::local {
 const ControllerKind& controller_kind(const std::string& name) {
   static const std::map<std::string, ControllerKind> kinds{
       {"dwb", dwb()},
+      {"graceful", graceful()},
+      {"rpp", rpp()},
   };
   const auto kind = kinds.find(name);
   if (kind == kinds.end()) throw std::invalid_argument("there is no controller " + name);

@@ -19,6 +19,7 @@ struct Pose {
 /// Metres per second ahead, radians per second counter-clockwise.
 struct Twist {
   double ahead = 0, turn = 0;
+  bool operator==(const Twist&) const = default;
 };
 
 /// Column and row, counted over the whole plane or within a grid.

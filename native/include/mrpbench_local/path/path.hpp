@@ -24,6 +24,9 @@ bool is_new(const std::optional<Pose>& goal, const Path& path);
 /// The points of a path in the frame of a robot: x ahead, y to the left.
 std::vector<Point> in_frame_of(Pose robot, const Path& path);
 
+/// The rest of a polyline from the point that is nearest to the origin, among those in the first `search` metres.
+std::vector<Point> from_nearest(std::span<const Point> points, double search);
+
 /// Length of a polyline, in metres.
 double length_of(std::span<const Point> points);
 

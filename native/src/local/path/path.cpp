@@ -24,6 +24,24 @@ std::vector<Point> in_frame_of(Pose robot, const Path& path) {
   return points;
 }
 
+std::vector<Point> from_nearest(std::span<const Point> points, double search) {
+  std::size_t leg = 1;
+  Point nearest = points.front();
+  double passed = 0, least = sim::length(nearest);
+  for (std::size_t i = 1; i < points.size() && passed < search; ++i) {
+    const Point p = sim::gap({points[i - 1], points[i]}, {0, 0}) * -1;
+    if (sim::length(p) < least) {
+      least = sim::length(p);
+      nearest = p;
+      leg = i;
+    }
+    passed += sim::length(points[i] - points[i - 1]);
+  }
+  std::vector<Point> rest{nearest};
+  rest.insert(rest.end(), points.begin() + static_cast<std::ptrdiff_t>(std::min(leg, points.size())), points.end());
+  return rest;
+}
+
 double length_of(std::span<const Point> points) {
   double total = 0;
   for (std::size_t i = 1; i < points.size(); ++i) total += sim::length(points[i] - points[i - 1]);

@@ -67,9 +67,12 @@ class LocalController(Controller):
         """
         values = settle(self, block)
         if block is not None:
-            plugin = block.take("plugin", str, self.nav2_plugin)
+            key, plugin = "plugin", block.take("plugin", str, self.nav2_plugin)
+            if plugin == _SHIM:  # the parameters of the controller in the shim are in the same block
+                key, plugin = "primary_controller", block.take("primary_controller", str, self.nav2_plugin)
+                block.ignore(*_OF_SHIM)
             if plugin != self.nav2_plugin:
-                raise block.error(f"is not {self.nav2_plugin}", "plugin")
+                raise block.error(f"is not {self.nav2_plugin}", key)
             block.ignore(*self.ignored)
         return values
 
@@ -140,6 +143,13 @@ def limited(value: float | None, limit: float) -> float:
     return limit if value is None else min(value, limit)
 
 
+_SHIM = "nav2_rotation_shim_controller::RotationShimController"
+_OF_SHIM = (
+    *("forward_sampling_distance", "angular_dist_threshold", "angular_disengage_threshold", "max_angular_accel"),
+    *("rotate_to_heading_angular_vel", "simulate_ahead_time", "rotate_to_goal_heading", "rotate_to_heading_once"),
+    *("closed_loop", "use_path_orientations"),
+)
+"""Parameters of Nav2's rotation shim, which the plugin `rotation_shim` reads."""
 SOME_ROBOT = RobotModel(
     name="any", footprint=np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)]), max_speed=1.0, max_turn_rate=1.0
 )
