@@ -73,6 +73,15 @@ struct Law {
   }
 };
 
+/// The direction of the last leg of a polyline that has a length, radians.
+double direction_of_end(const std::vector<Point>& points) {
+  for (std::size_t i = points.size(); i-- > 1;) {
+    const Point leg = points[i] - points[i - 1];
+    if (sim::length(leg) > 1e-6) return std::atan2(leg.y, leg.x);
+  }
+  return std::atan2(points.back().y, points.back().x);
+}
+
 class Graceful : public Controller {
  public:
   using Options = GracefulOptions;
@@ -92,7 +101,9 @@ class Graceful : public Controller {
       goal_ = {end.x, end.y, now.path.yaw};
       turning_ = options_.initial_rotation;
     }
-    const std::vector<Point> path = from_nearest(in_frame_of(now.pose, now.path), now.costmap->options().width / 2);
+    const std::vector<Point> whole = in_frame_of(now.pose, now.path);
+    const std::vector<Point> path = from_nearest(whole, now.costmap->options().width / 2);
+    last_leg_ = direction_of_end(whole);
     const double away = sim::length(path.back());
     // The goal checker of the navigator judges by the same distance, so stop a little later than it is satisfied.
     if (away <= now.path.tolerance / 2) {
@@ -129,7 +140,7 @@ class Graceful : public Controller {
   Pose aimed(const Situation& now, const std::vector<Point>& path, const std::vector<Point>& ahead,
              std::size_t i) const {
     const Point p = ahead[i], leg = p - ahead[i - 1];
-    double yaw = sim::length(leg) > 0 ? std::atan2(leg.y, leg.x) : std::atan2(p.y, p.x);
+    double yaw = sim::length(leg) > 1e-6 ? std::atan2(leg.y, leg.x) : last_leg_;
     const bool last = sim::length(p - path.back()) < 1e-9;
     if (last && !options_.prefer_final_rotation && !std::isnan(now.path.yaw))
       yaw = wrapped(now.path.yaw - now.pose.yaw);
@@ -161,7 +172,11 @@ class Graceful : public Controller {
                        now.pose.yaw + at.yaw};
       if (!is_free(*now.costmap, place, by_radius_)) return false;
       const Point away = Point{target.x, target.y} - Point{at.x, at.y};
-      if (sim::length(away) <= resolution) return true;
+      if (sim::length(away) <= resolution) {
+        const Pose end{now.pose.x + cosine * target.x - sine * target.y,
+                       now.pose.y + sine * target.x + cosine * target.y, now.pose.yaw + target.yaw};
+        return is_free(*now.costmap, end, by_radius_);
+      }
       const double c = std::cos(at.yaw), s = std::sin(at.yaw);
       const Pose seen{c * away.x + s * away.y, c * away.y - s * away.x, wrapped(target.yaw - at.yaw)};
       const Twist twist = law.command(seen, back);
@@ -177,6 +192,7 @@ class Graceful : public Controller {
   std::optional<Pose> goal_;
   bool turning_ = false;
   Pose target_;
+  double last_leg_ = 0;
   const char* fault_ = "";
 };
 

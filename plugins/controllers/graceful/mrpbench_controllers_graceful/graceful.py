@@ -32,8 +32,9 @@ class Graceful(LocalController):
         """Return the values of the options of Nav2, which calls `lambda_` without the underscore."""
         values = super().settled(block)
         if block is not None:
-            given = block.take("lambda", float, values["lambda_"])
-            values["lambda_"] = given if self.lambda_ is None else self.lambda_
+            given = block.take("lambda", float)
+            own = attrs.asdict(self, recurse=False)["lambda_"]
+            values["lambda_"] = values["lambda_"] if given is None or own is not None else given
         return values
 
     def limits(self, values: dict[str, Any], robot: RobotModel, period: float) -> dict[str, Any]:

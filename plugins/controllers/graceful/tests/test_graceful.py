@@ -104,7 +104,7 @@ def test_it_aims_at_the_farthest_target_to_which_the_way_is_free():
     assert 0.9 < session.explain(0)["target"][0] <= 1.0
     session.command(seen(path, ranges=0.8, now=1.0))
     assert 0.1 < session.explain(0)["target"][0] < 0.75
-    assert np.isnan(session.command(seen(path, ranges=0.2, now=2.0))).all()
+    assert np.isnan(session.command(seen(path, ranges=0.24, now=2.0))).all()
     assert session.failure_reason(0)
 
 

@@ -31,7 +31,7 @@ class Rpp(LocalController):
     def settled(self, block: Nav2Block | None) -> dict[str, Any]:
         """Return the values of the options of Nav2; older ones say `desired_linear_vel`."""
         values = super().settled(block)
-        if block is not None and self.max_linear_vel is None:
+        if block is not None and attrs.asdict(self, recurse=False)["max_linear_vel"] is None:
             values["max_linear_vel"] = block.take("desired_linear_vel", float, values["max_linear_vel"])
         return values
 
