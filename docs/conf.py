@@ -3,6 +3,7 @@
 import os
 import posixpath
 import re
+import sys
 from importlib import metadata
 from pathlib import Path
 
@@ -11,9 +12,16 @@ from sphinx.application import Sphinx
 project = "mrpbench"
 author = "The mrpbench authors"
 project_copyright = author
-release = metadata.version("mrpbench-core")
+release = metadata.version("mrpbench-core").partition("+")[0]
 
-extensions = ["myst_parser", "sphinx.ext.intersphinx", "sphinx_copybutton"]
+sys.path.insert(0, str(Path(__file__).parent / "extensions"))
+extensions = [
+    "generated",
+    "python_modules",
+    "myst_parser",
+    "sphinx.ext.intersphinx",
+    "sphinx_copybutton",
+]
 exclude_patterns = ["README.md"]
 nitpicky = True
 
@@ -45,16 +53,36 @@ PAGES_OF_FILES = {
 """Files outside this folder that pages of `project/` include, and these pages."""
 
 
-def lead_links_to_pages(_app: Sphinx, path: Path, _page: str, content: list[str]) -> None:
-    """Let the links of an included file, which are relative to the file, lead to pages of the site."""
+def lead_links_to_pages(folder: str, page: str, content: list[str]) -> None:
+    """Let links to files outside this folder lead to their pages.
+
+    Args:
+        folder: to which the links are relative, in the checkout.
+        page: the folder of the page, in the checkout.
+        content: the text, which is replaced.
+    """
 
     def led(link: re.Match[str]) -> str:
-        target = posixpath.normpath(posixpath.join("docs", path.parent, link[1]))
-        return f"]({PAGES_OF_FILES.get(target, posixpath.join('..', posixpath.relpath(target, 'docs')))}"
+        target = posixpath.normpath(posixpath.join(folder, link[1]))
+        if target in PAGES_OF_FILES:
+            target = posixpath.join("docs/project", PAGES_OF_FILES[target])
+        return f"]({posixpath.relpath(target, page)}"
 
     content[0] = re.sub(r"\]\((?!https?:|mailto:|#)([^)#\s]+)", led, content[0])
 
 
+def read_page(_app: Sphinx, page: str, content: list[str]) -> None:
+    """Lead the links of a page."""
+    folder = posixpath.dirname(f"docs/{page}")
+    lead_links_to_pages(folder, folder, content)
+
+
+def read_included(_app: Sphinx, path: Path, _page: str, content: list[str]) -> None:
+    """Lead the links of a file that a page of `project/` includes."""
+    lead_links_to_pages(posixpath.dirname(posixpath.normpath(posixpath.join("docs", path))), "docs/project", content)
+
+
 def setup(app: Sphinx) -> None:
     """Register what this file defines."""
-    app.connect("include-read", lead_links_to_pages)
+    app.connect("source-read", read_page)
+    app.connect("include-read", read_included)

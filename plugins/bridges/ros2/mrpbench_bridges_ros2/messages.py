@@ -1,4 +1,4 @@
-"""Build ROS 2 messages from data of the execution. Frames and units are those of bags: docs/reference/ros.md."""
+"""Build ROS 2 messages from data of the execution. Frames and units are those of bags: docs/reference/bags.md."""
 
 from array import array
 from collections.abc import Iterable

@@ -14,7 +14,7 @@ NOT_ON_PYPI = {"tf2_msgs", "rmf_fleet_msgs"}
 
 @pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")  # a parser that ROS brings along
 def test_ros_reads_every_message_and_writes_the_same(tmp_path, monkeypatch):
-    serialization = pytest.importorskip("rclpy.serialization", reason="ROS 2 is not here: see docs/reference/ros.md")
+    serialization = pytest.importorskip("rclpy.serialization", reason="ROS 2 is not here: see docs/how-to/live-ros.md")
     typesys = pytest.importorskip("rosbags.typesys")
     types = typesys.get_typestore(typesys.Stores.ROS2_KILTED)
     monkeypatch.chdir(tmp_path)

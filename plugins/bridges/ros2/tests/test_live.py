@@ -14,7 +14,7 @@ from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
 
-pytest.importorskip("rclpy", reason="ROS 2 is not here: see docs/reference/ros.md, or `make ros`")
+pytest.importorskip("rclpy", reason="ROS 2 is not here: see docs/how-to/live-ros.md, or `make ros`")
 
 MAP = "type octile\nheight 6\nwidth 8\nmap\n" + "........\n" * 6
 STUDY = {

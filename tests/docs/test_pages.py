@@ -1,0 +1,37 @@
+"""The pages tell the truth: a reader who does what a page says, in an empty folder, finds that it works."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+HERE = Path(__file__).parent
+ROOT = HERE.parents[1]
+PAGES = [
+    page
+    for part in ("tutorial", "how-to", "reference", "explanation")
+    for page in sorted((ROOT / "docs" / part).glob("*.md"))
+    if "\n```" in page.read_text()
+]
+
+
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: f"{page.parent.name}/{page.stem}")
+def test_what_a_page_says_works(page, tmp_path):
+    site, folder = tmp_path / "site", tmp_path / "folder"
+    site.mkdir()
+    folder.mkdir()
+    environment = os.environ | {
+        "PATH": f"{HERE}{os.pathsep}{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
+        "PYTHONPATH": f"{folder}{os.pathsep}{site}",
+        "PYTHONDONTWRITEBYTECODE": "1",
+        "SITE": str(site),
+        "CHECKOUT": str(ROOT),
+        "COLUMNS": "120",
+    }
+    done = subprocess.run(
+        [sys.executable, HERE / "reader.py", page], cwd=folder, env=environment, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
