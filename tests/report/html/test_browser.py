@@ -93,7 +93,52 @@ def test_it_is_light_and_dark(shown):
 
 
 def test_charts_have_size_and_nothing_is_wider_than_the_window(shown):
+    shown.execute_script("document.querySelector('#figures details').open = true")
     charts = shown.find_elements(By.CSS_SELECTOR, "svg.chart")
     assert len(charts) >= 5
     assert all(chart.size["width"] > 200 and chart.size["height"] > 60 for chart in charts)
     assert shown.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")
+
+
+def unfolded(browser, name):
+    table = browser.find_element(By.CSS_SELECTOR, f"table.data[data-name={name}]")
+    browser.execute_script("arguments[0].closest('details').open = true", table)
+    return table
+
+
+def test_tables_are_folded_sorted_and_filtered(shown):
+    assert not shown.find_element(By.CSS_SELECTOR, "table.data[data-name=pairs]").is_displayed()
+    table = unfolded(shown, "pairs")
+    heads = table.find_elements(By.TAG_NAME, "th")
+    place = [head.text for head in heads].index("p")
+    heads[place].click()
+    found = [
+        row.find_elements(By.TAG_NAME, "td")[place].text for row in table.find_elements(By.CSS_SELECTOR, "tbody tr")
+    ]
+    assert found == sorted(found)
+    table.find_element(By.XPATH, "../preceding-sibling::div//input").send_keys("planning.cost")
+    assert [row.is_displayed() for row in table.find_elements(By.CSS_SELECTOR, "tbody tr")].count(True) == 1
+
+
+def test_cells_of_csv_are_quoted_and_no_formulas(shown):
+    cells = ["=1+1", "-5.2", 'a,"b"', "plain"]
+    written = [shown.execute_script("return csvCell(arguments[0])", cell) for cell in cells]
+    assert written == ["'=1+1", "-5.2", '"a,""b"""', "plain"]
+
+
+@pytest.mark.parametrize("width", [1280, 390])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_is_cut_off_when_everything_is_unfolded(browser, page, width, scheme):
+    screen = {"width": width, "height": 844, "deviceScaleFactor": 1, "mobile": False}
+    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
+    scheme = {"features": [{"name": "prefers-color-scheme", "value": scheme}]}
+    browser.execute_cdp_cmd("Emulation.setEmulatedMedia", scheme)
+    try:
+        browser.get(page.as_uri())
+        browser.execute_script("for (const part of document.querySelectorAll('details')) part.open = true")
+        assert browser.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")
+        headline = browser.find_element(By.CSS_SELECTOR, ".headline")
+        assert headline.location["y"] + headline.size["height"] < 844
+    finally:
+        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen | {"width": 1280, "height": 800})
+        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})

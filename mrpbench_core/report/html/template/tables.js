@@ -58,7 +58,7 @@ function enliven(table) {
       const rows = [...body.rows].map((row) => [key(row, column), row]);
       rows.sort(([one], [other]) => {
         if (one === null || other === null) return (one === null) - (other === null);
-        const order = typeof one === "number" && typeof other === "number" ? one - other : String(one).localeCompare(other);
+        const order = typeof one === "number" && typeof other === "number" ? one - other : String(one).localeCompare(other, undefined, { numeric: true });
         return down ? -order : order;
       });
       body.append(...rows.map(([, row]) => row));

@@ -19,11 +19,15 @@
   unfold();
 
   let folded = [];
+  let dark = false;
   addEventListener("beforeprint", () => {
+    dark = root.dataset.theme === "dark";
+    set(false);
     folded = [...document.querySelectorAll("details:not([open])")];
     for (const details of folded) details.open = true;
   });
   addEventListener("afterprint", () => {
+    set(dark);
     for (const details of folded) details.open = false;
   });
 }
