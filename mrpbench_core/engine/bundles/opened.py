@@ -43,6 +43,17 @@ class Stored:
         return self.record.get("provenance") or {}
 
     @property
+    def machine(self) -> dict[str, Any]:
+        """The machine that it says it was made on."""
+        found = self.provenance.get("machine")
+        return found if isinstance(found, dict) else {}
+
+    def block(self, key: str) -> dict[str, Any]:
+        """A block of its configuration; empty for anything else."""
+        found = self.record["config"].get(key)
+        return found if isinstance(found, dict) else {}
+
+    @property
     def files(self) -> list[str]:
         """SHA-256 and name of each file that the record names."""
         found = self.provenance.get("files")

@@ -39,7 +39,7 @@ def clock_faults(pairs: Sequence[Pair]) -> Iterator[str]:
         return
     ratios = np.array([_ratio(pair) for pair in found])
     middle = float(np.median(ratios))
-    same = {_processor(stored.provenance.get("machine")) for stored, _ in found} == {_processor(machine())}
+    same = {_processor(stored.machine) for stored, _ in found} == {_processor(machine())}
     if middle > (SAME_MACHINE if same else ANY_MACHINE):
         whose = "the same processor" if same else "this processor"
         yield f"planning takes {middle:.1f} times the CPU time on {whose} (median of {len(found)} runs)"
@@ -82,7 +82,7 @@ def _timing(record: Any) -> dict[str, Any]:
 
 
 def _processor(facts: Any) -> str:
-    return str(facts.get("processor")) if isinstance(facts, dict) else ""
+    return str(facts.get("processor"))
 
 
 def _planner(config: Any) -> str:

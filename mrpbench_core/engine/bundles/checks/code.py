@@ -44,15 +44,15 @@ def _differences(made: dict[str, Any], here: dict[str, Any]) -> Iterator[str]:
     for name in dict.fromkeys([*made["versions"], *here["versions"]]):
         claimed, installed = made["versions"].get(name), here["versions"].get(name)
         if claimed != installed:
-            other.add((name, claimed))
+            other.add(f"{name} {claimed}")
             yield f"was made with {name} {claimed}; {installed or 'none'} is installed here"
-    known = {(entry["kind"], entry["name"]): entry for entry in here["components"]}
+    known = {f"{entry['kind']} {entry['name']}": entry for entry in here["components"]}
     for entry in made["components"]:
         if not isinstance(entry, dict):
             yield "lists a component that is none"
             continue
-        mine = known.pop((entry.get("kind"), entry.get("name")), None)
-        if mine != entry and (entry.get("distribution"), entry.get("version")) not in other:
+        mine = known.pop(f"{entry.get('kind')} {entry.get('name')}", None)
+        if mine != entry and f"{entry.get('distribution')} {entry.get('version')}" not in other:
             what = f"{entry.get('kind')} {entry.get('name')!r:.80}"
             yield f"was made with another {what}: {_origin(entry)}, here {_origin(mine)}"
     for entry in known.values():

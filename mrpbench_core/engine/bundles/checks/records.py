@@ -96,10 +96,10 @@ def timing_faults(stored: Stored) -> Iterator[str]:
         yield "has a time or size that is no number of 0 or more"
         return
     wall, cpu = times.get("planning_s"), times.get("planning_cpu_s")
-    cores = (stored.provenance.get("machine") or {}).get("cores")
+    cores = stored.machine.get("cores")
     if wall is not None and cpu is not None and isinstance(cores, int) and cpu > cores * wall + CPU_MARGIN_S:
         yield "its planning took more CPU time than its cores have in its wall time"
-    limit = (record["config"].get("limits") or {}).get("planning")
+    limit = stored.block("limits").get("planning")
     if wall is not None and isinstance(limit, int | float) and status in PLANNED and wall > limit + LATE_S:
         yield "has a plan that came after the limit"
     if status == RunStatus.PLAN_TIMEOUT and wall is not None and not timing.get("clock_bound"):
@@ -109,13 +109,13 @@ def timing_faults(stored: Stored) -> Iterator[str]:
 
 def copy_faults(records: Iterable[Stored]) -> Iterator[Fault]:
     """Yield runs whose measured times are those of another run: clocks have nanoseconds, so times do not repeat."""
-    seen: dict[tuple[Any, ...], Stored] = {}
+    seen: dict[str, Stored] = {}
     for stored in records:
         timing = stored.record.get("timing") or {}
         times = tuple(timing.get(key) for key in _CLOCKS)
         if not any(times) or sum(isinstance(value, float) and value > 0 for value in times) < 2:
             continue
-        other = seen.setdefault(times, stored)
+        other = seen.setdefault(repr(times), stored)
         if other is not stored:
             yield stored.run_id, f"has the times of run {other.run_id} to the last digit: it is a copy"
 
@@ -141,7 +141,7 @@ def scenario_key(config: Mapping[str, Any]) -> str:
 
 
 def _recording_fault(stored: Stored, status: RunStatus) -> str | None:
-    keep = (stored.record["config"].get("recording") or {}).get("keep")
+    keep = stored.block("recording").get("keep")
     wanted = keep == "all" or (keep == "failed" and status != RunStatus.SUCCEEDED)
     if wanted == (stored.recording is not None):
         return None

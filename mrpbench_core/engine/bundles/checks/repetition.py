@@ -52,7 +52,7 @@ def is_comparable(pair: Pair) -> bool:
 
 def same_platform(stored: Stored) -> bool:
     """Tell whether a record was made with the C library of this machine, on which the last digits depend."""
-    return bool((stored.provenance.get("machine") or {}).get("libc") == machine()["libc"])
+    return bool(stored.machine.get("libc") == machine()["libc"])
 
 
 def repetition_faults(pairs: Sequence[Pair]) -> Iterator[Fault]:
@@ -64,7 +64,7 @@ def repetition_faults(pairs: Sequence[Pair]) -> Iterator[Fault]:
 def _differences(stored: Stored, again: Mapping[str, Any]) -> Iterator[str]:
     record = stored.record
     if not is_comparable((stored, dict(again))):
-        yield from _clock_differences(record, again)
+        yield from _clock_differences(stored, again)
         return
     statuses = {record["status"], again["status"]}
     if statuses & _OF_THE_MACHINE:
@@ -85,11 +85,12 @@ def _differences(stored: Stored, again: Mapping[str, Any]) -> Iterator[str]:
         yield "its recording differs when the run is repeated"
 
 
-def _clock_differences(record: Mapping[str, Any], again: Mapping[str, Any]) -> Iterator[str]:
+def _clock_differences(stored: Stored, again: Mapping[str, Any]) -> Iterator[str]:
     """What a run may not claim although the clock decided its plan."""
-    if record.get("scenario_id") != again.get("scenario_id"):
+    if stored.record.get("scenario_id") != again.get("scenario_id"):
         yield "its scenario_id differs when the run is repeated"
     here = again.get("timing") or {}
-    limit = ((record.get("config") or {}).get("limits") or {}).get("planning") or 0
+    found = stored.block("limits").get("planning")
+    limit = found if isinstance(found, int | float) else 0.0
     if not here.get("clock_bound") and here.get("planning_s", limit) < _EARLY * limit:
         yield "says that the clock ended its planning, which ends by itself here, long before the limit"
