@@ -57,7 +57,7 @@ def test_headers_of_the_libraries_do_not_use_python():
 def test_a_new_planner_in_cpp_is_built_checked_and_plans(mrpbench, environment, tmp_path, monkeypatch):
     code, out, err = mrpbench("new-plugin", "planner", "fleet_cpp", "--native", "--folder", "cpp")
     assert code == 0, err
-    assert "  pip install cpp\n" in out
+    assert "  cd cpp\n  pip install .\n" in out
     monkeypatch.setenv("SKBUILD_CMAKE_BUILD_TYPE", "Debug")  # compiles in a third of the time
     words = ["--quiet", "--no-deps", "--no-build-isolation", "./cpp"]
     environment("pip", "install", *words, cwd=tmp_path, timeout=500)
