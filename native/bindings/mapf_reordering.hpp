@@ -3,8 +3,11 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "arrays.hpp"
@@ -17,7 +20,7 @@ using Arcs = nb::ndarray<const std::int32_t, nb::shape<-1, 3>, nb::c_contig, nb:
 
 inline mapf::Reordering reorder(const Vector<std::int32_t>& first, const Vector<std::int32_t>& duration,
                                 const Arcs& fixed, const Arcs& planned, const Arcs& switched, double wall_s,
-                                std::int64_t memory_bytes) {
+                                std::int64_t memory_bytes, std::optional<std::int64_t> probe_limit) {
   static_assert(sizeof(mapf::Arc) == 3 * sizeof(std::int32_t));
   require(planned.shape(0) == switched.shape(0), "as many switched arcs as planned ones");
   mapf::AlternativeGraph graph;
@@ -28,7 +31,7 @@ inline mapf::Reordering reorder(const Vector<std::int32_t>& first, const Vector<
   for (std::size_t k = 0; k < one.size(); ++k) graph.alternatives.push_back({one[k], other[k]});
   const nb::gil_scoped_release without_python;
   mapf::Limits limits(wall_s, memory_bytes);
-  return solve_gses(graph, limits);
+  return solve_gses(graph, limits, probe_limit.value_or(std::numeric_limits<std::int64_t>::max()));
 }
 
 inline void define_reordering(nb::module_& module) {
@@ -36,11 +39,13 @@ inline void define_reordering(nb::module_& module) {
   using mapf::Reordering;
   nb::class_<Reordering>(module, "Reordering", "The best order of robots found.")
       .def_prop_ro("status", [](const Reordering& it) { return name_of(it.status); })
-      .def_prop_ro("switched",
-                   [](const Reordering& it) {
-                     std::vector<std::uint8_t> values(it.switched.begin(), it.switched.end());
-                     return own(std::move(values), {it.switched.size()});
-                   })
+      .def_prop_ro(
+          "switched",
+          [](const Reordering& it) {
+            std::vector<std::uint8_t> values(it.switched.begin(), it.switched.end());
+            return own(std::move(values), {it.switched.size()});
+          },
+          nb::rv_policy::automatic)
       .def_ro("cost", &Reordering::cost)
       .def_ro("planned_cost", &Reordering::planned_cost)
       .def_ro("lower_bound", &Reordering::lower_bound)
@@ -48,7 +53,7 @@ inline void define_reordering(nb::module_& module) {
       .def_ro("probes", &Reordering::probes)
       .def_ro("decisions", &Reordering::decisions);
   module.def("reorder", &reorder, nb::kw_only(), "first"_a, "duration"_a, "fixed"_a, "planned"_a, "switched"_a,
-             "wall_s"_a, "memory_bytes"_a);
+             "wall_s"_a, "memory_bytes"_a, "probe_limit"_a = nb::none());
 }
 
 }  // namespace mrpbench::bindings

@@ -94,6 +94,24 @@ TEST("a search without time keeps the planned order, and bounds it") {
   }
 }
 
+TEST("a search of few probes finds the same order again, and bounds it") {
+  std::mt19937 random(3);
+  int limited = 0;
+  for (int round = 0; round < 1000; ++round) {
+    const AlternativeGraph graph = drawn(random, 2 + round % 5, 2 + round % 4);
+    Limits enough = unlimited(), one = unlimited(), other = unlimited();
+    const Reordering found = solve_gses(graph, enough);
+    if (found.planned_cost < 0) continue;
+    const Reordering few = solve_gses(graph, one, round % 7), again = solve_gses(graph, other, round % 7);
+    CHECK(few.switched == again.switched && few.lower_bound == again.lower_bound);
+    CHECK(few.probes <= round % 7);
+    CHECK(few.cost == cost_of_order(graph, few.switched) && few.cost <= few.planned_cost);
+    CHECK(few.lower_bound <= found.cost && found.cost <= few.cost);
+    limited += few.status == Status::timeout;
+  }
+  CHECK(limited > 10);
+}
+
 TEST("graphs that make no sense are refused") {
   const AlternativeGraph sound{{0, 2, 4}, {1, 1, 1, 1}, {}, {{{1, 2, 1}, {3, 0, 1}}}};
   const auto refused = [](AlternativeGraph graph) {

@@ -125,6 +125,7 @@ def reorder(
     switched: NDArray[np.int32],
     wall_s: float,
     memory_bytes: int,
+    probe_limit: int | None = None,
 ) -> Reordering:
     """Find the order of robots with the least sum of arrivals: graph-based switchable edge search.
 
@@ -138,6 +139,8 @@ def reorder(
         switched: i4[k,3] between the same two robots in the other direction.
         wall_s: at this limit the best order found is returned.
         memory_bytes: limit of what the search counts.
+        probe_limit: number of probes at which the best order found is returned, which does not depend on the clock;
+            None = no limit.
 
     Raises:
         ValueError: indices out of range, arcs within one robot, or times below 1.

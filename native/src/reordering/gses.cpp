@@ -28,9 +28,10 @@ struct Known {
 
 class Search {
  public:
-  Search(const AlternativeGraph& graph, Limits& limits)
+  Search(const AlternativeGraph& graph, Limits& limits, std::int64_t probe_limit)
       : graph_(graph),
         limits_(limits),
+        probe_limit_(probe_limit),
         decisions_(graph),
         schedule_(graph, decisions_, limits),
         known_(2 * decisions_.count()) {
@@ -190,7 +191,7 @@ class Search {
     const std::size_t index = 2 * static_cast<std::size_t>(choice.decision) + choice.side;
     const std::int64_t times = schedule_.times_around(choice);
     if (known_[index] && (!known_[index]->possible || known_[index]->times == times)) return *known_[index];
-    ++result_.probes;
+    count_probe(result_.probes);
     auto fresh = std::make_shared<Known>();
     auto arrivals = schedule_.probe(choice);
     fresh->possible = arrivals.has_value();
@@ -199,6 +200,12 @@ class Search {
     learnt_.emplace_back(index, std::move(known_[index]));
     known_[index] = std::move(fresh);
     return *known_[index];
+  }
+
+  /// Count a probe before it is made; the limit holds for both kinds together.
+  void count_probe(std::int64_t& count) {
+    if (result_.probes + dive_probes_ >= probe_limit_) throw LimitReached{Status::timeout};
+    ++count;
   }
 
   void forget(std::size_t until) {
@@ -235,8 +242,8 @@ class Search {
           schedule_.pending(), {}, [&](std::int32_t it) { return std::pair{schedule_.begins(it), it}; });
       std::array<Cost, 2> more = {kNone, kNone};
       for (const Side side : {Side{0}, Side{1}}) {
+        count_probe(dive_probes_);
         if (const auto arrivals = schedule_.probe({decision, side})) more[side] = later(*arrivals);
-        ++dive_probes_;
       }
       possible = std::min(more[0], more[1]) < kNone;
       if (possible) schedule_.decide({decision, static_cast<Side>(more[1] < more[0])});
@@ -256,6 +263,7 @@ class Search {
 
   const AlternativeGraph& graph_;
   Limits& limits_;
+  std::int64_t probe_limit_;
   Decisions decisions_;
   Schedule schedule_;
   Reordering result_;
@@ -273,9 +281,9 @@ class Search {
 
 }  // namespace
 
-Reordering solve_gses(const AlternativeGraph& graph, Limits& limits) {
+Reordering solve_gses(const AlternativeGraph& graph, Limits& limits, std::int64_t probe_limit) {
   graph.check();
-  return Search(graph, limits).run();
+  return Search(graph, limits, probe_limit).run();
 }
 
 }  // namespace mrpbench::mapf

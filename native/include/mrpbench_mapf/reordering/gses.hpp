@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "mrpbench_mapf/common/limits.hpp"
@@ -32,7 +33,9 @@ struct Reordering {
   std::int32_t decisions = 0;  // groups of pairs that are decided alike
 };
 
-/// The best order found within `limits`; the planned one if none is better.
-Reordering solve_gses(const AlternativeGraph& graph, Limits& limits);
+/// The best order found within `limits` and by at most `probe_limit` probes; the planned one if none is better. The
+/// number of probes, unlike the clock, ends the search at the same order on every machine (status `timeout`).
+Reordering solve_gses(const AlternativeGraph& graph, Limits& limits,
+                      std::int64_t probe_limit = std::numeric_limits<std::int64_t>::max());
 
 }  // namespace mrpbench::mapf
