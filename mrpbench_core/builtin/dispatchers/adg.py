@@ -6,108 +6,20 @@ Delays therefore cause neither collisions nor deadlocks.
 """
 
 import attrs
-import numpy as np
 
-from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
-from mrpbench_core.builtin.dispatchers.dependency_graph import REACHED, DependencyGraph
-from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.common.arrays import Int, Int32, frozen_array
-from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.dispatching.order_keeping import OrderKeepingDispatcher, OrderKeepingSession
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 
 
 @attrs.frozen(kw_only=True)
-class Adg(Dispatcher):
+class Adg(OrderKeepingDispatcher):
     """Releases each move once the moves that precede it in the plan are out of its way."""
 
-    group_margin: float = option(
-        0.03,
-        help="distance beyond their radii that two robots of a rotation must keep if they move exactly in step; the "
-        "navigator waypoints needs 0.0283 m, other navigators may need more",
-        unit="m",
-        validator=attrs.validators.ge(0),
-    )
-    lookahead: int = option(
-        8,
-        help="segments released at most beyond the one under way; a new plan must keep the released segments",
-        validator=attrs.validators.ge(1),
-    )
-
-    request_ahead: int = option(
-        2,
-        help="segments before a door, lift or mutex at which a robot asks for it, once the robots before it have left",
-        validator=attrs.validators.ge(0),
-    )
-
-    def start(self, problem: Problem, plan: Plan) -> "AdgSession":
+    def start(self, problem: Problem, plan: Plan) -> OrderKeepingSession:
         """Begin to release a plan.
 
         Raises:
-            DispatchError: the plan has faults or conflicts, or robots wait for one another in a cycle that is not a
-                rotation, or in a rotation that their footprints and `group_margin`, or a door, lift or mutex, do not
-                allow.
+            DispatchError: as `OrderKeepingSession.adopt`.
         """
-        return AdgSession(self, problem, plan)
-
-
-class AdgSession(DispatcherSession):
-    """Releases one plan after another."""
-
-    def __init__(self, options: Adg, problem: Problem, plan: Plan) -> None:
-        self.options = options
-        self.seen = np.zeros((2, len(problem)), np.int64)
-        self.released: Int32 = np.zeros(len(problem), np.int32)
-        self.plan = plan
-        self.adopt(problem, plan)
-
-    def adopt(self, problem: Problem, plan: Plan) -> None:
-        """Continue with `plan`; released segments remain released.
-
-        Raises:
-            DispatchError: as `Adg.start`, or the plan does not contain the released segments, or it lets a robot pass
-                first where another one is on its way already. The session then continues with its old plan.
-        """
-        _check(problem, plan)
-        for robot, count in enumerate(self.released.tolist()):
-            if not np.array_equal(plan.paths[robot].edge[:count], self.plan.paths[robot].edge[:count]):
-                raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
-        committed: Int32 = np.maximum(self.released, [len(path) for path in problem.commitments] or 0)
-        graph = DependencyGraph(problem, plan, self.options.group_margin, self.options.request_ahead)
-        graph.update(self.seen, np.arange(len(problem)))
-        graph.commit(committed)
-        self.plan, self.graph = plan, graph
-        self.orders: Orders | None = None
-        self.released = committed
-        self._release()
-
-    def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - only the order counts
-        """Release the moves that no longer wait for anything, given the progress of the robots."""
-        seen = np.maximum(self.seen, (view.reached, view.cleared))
-        changed = (seen != self.seen).any(axis=0).nonzero()[0]
-        if self.orders is None or len(changed) or self.graph.requests:
-            self.orders = self._orders(view, seen, changed)
-        return self.orders
-
-    def _orders(self, view: FleetView, seen: Int, changed: Int) -> Orders:
-        if len(changed):
-            self.seen = seen
-            self.graph.update(seen, changed)
-        requested = self.graph.request(seen, view.granted)
-        if requested or len(changed):
-            self._release()
-        requests = self.graph.requests.pairs()
-        in_step = self.graph.in_step(seen[REACHED])
-        return Orders(
-            released=self.released, requests=requests, in_step=in_step, replan=self.graph.replan_reason(seen[REACHED])
-        )
-
-    def _release(self) -> None:
-        ahead = (self.seen[REACHED] + 1 + self.options.lookahead).astype(np.int32)
-        self.released = frozen_array(np.maximum(self.released, np.minimum(self.graph.released, ahead)), "i4")
-
-
-def _check(problem: Problem, plan: Plan) -> None:
-    report = check_plan(problem, plan, conflict_limit=3)
-    if not report.valid:
-        raise DispatchError("; ".join(map(str, report.faults[:3] + report.conflicts)))
+        return OrderKeepingSession(self, problem, plan)

@@ -68,7 +68,7 @@ def type2_edges(problem: Problem, moves: Moves, resources: Type2Edges) -> Type2E
     found = [_at_vertices(problem, moves), resources]
     if Feature.FOOTPRINTS in problem.features:
         found += _between_footprints(problem, moves)
-    return _without_implied(moves, Type2Edges(*(np.concatenate(parts) for parts in zip(*found, strict=True))))
+    return without_implied(moves, Type2Edges(*(np.concatenate(parts) for parts in zip(*found, strict=True))))
 
 
 def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
@@ -128,7 +128,7 @@ def _between_footprints(problem: Problem, moves: Moves) -> list[Type2Edges]:
     return found
 
 
-def _without_implied(moves: Moves, all_of: Type2Edges) -> Type2Edges:
+def without_implied(moves: Moves, all_of: Type2Edges) -> Type2Edges:
     """Leave out the edges that those of a robot's earlier moves imply."""
     before, after, completed = all_of
     order = np.lexsort((-before, after, completed, moves.robot[before], moves.robot[after]))

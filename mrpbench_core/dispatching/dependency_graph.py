@@ -6,8 +6,8 @@ Terms are those of Hönig et al., "Persistent and Robust Execution of MAPF Sched
 import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
-from mrpbench_core.builtin.dispatchers.resource_requests import ResourceRequests
-from mrpbench_core.builtin.dispatchers.rotations import rotations
+from mrpbench_core.dispatching.resource_requests import ResourceRequests
+from mrpbench_core.dispatching.rotations import rotations
 from mrpbench_core.model.common.arrays import Int, Int32
 from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
 from mrpbench_core.model.planning.plan import Plan
@@ -26,10 +26,18 @@ class DependencyGraph:
     it is met. A wait is released with the move after it.
     """
 
-    def __init__(self, problem: Problem, plan: Plan, group_margin: float, ahead: int) -> None:
+    def __init__(
+        self, problem: Problem, plan: Plan, group_margin: float, ahead: int, order: Type2Edges | None = None
+    ) -> None:
+        """Prepare the release of a plan in an `order` of its moves, None = its own.
+
+        Raises:
+            DispatchError: the order has a cycle that is not a rotation, or a rotation without enough room.
+        """
         moves = moves_of(problem, plan)
-        occupations = occupations_of(problem, moves) if problem.roadmap.resources else []
-        order = type2_edges(problem, moves, resource_edges(problem, occupations))
+        occupations = occupations_of(problem, moves)
+        if order is None:
+            order = type2_edges(problem, moves, resource_edges(problem, occupations))
         self.requests = ResourceRequests(len(problem), moves, occupations, ahead)
         self.granted: frozenset[tuple[int, str]] = frozenset()
         self.granted_at = np.zeros((2, len(problem)), np.int64)
