@@ -21,6 +21,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
         "mrpbench.controllers": ("dwb", "graceful", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
+        "mrpbench.dispatchers": ("gses",),
         "mrpbench.localizers": ("amcl",),
         "mrpbench.metrics": _METRICS,
         "mrpbench.planners": _PLANNERS,

@@ -1,0 +1,5 @@
+"""Dispatchers that change the order of a plan when robots are late."""
+
+from mrpbench_dispatchers_reordering.gses import Gses
+
+__all__ = ["Gses"]

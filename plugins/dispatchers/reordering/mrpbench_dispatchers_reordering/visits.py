@@ -1,0 +1,154 @@
+"""Visits of vertices and edges, and the pairs of them that robots must not make at the same time.
+
+A path alternates vertices and edges. A visit of an edge is the move along it. A visit of a vertex lasts from the
+beginning of the move into it to the move out of it: until that is *cleared*, or where the rules ask for it *completed*.
+Visits of one vertex conflict (rules 1 to 4 of `mrpbench_core.model.planning.conflicts`), and with footprints those of
+elements that are near one another (rule 5). Of two conflicting visits, one ends before the other one begins. Every
+order of all pairs that has no cycle keeps these rules, as `mrpbench_core.model.planning.type2_edges` explains for that
+of the plan.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Bool, Int
+from mrpbench_core.model.planning.conflicts import Exclusions, exclusions
+from mrpbench_core.model.planning.problem import Feature, Problem
+from mrpbench_core.model.planning.type2_edges import Moves, Type2Edges
+
+NONE = -1
+
+
+class Visits(NamedTuple):
+    """Visits of robots, all [v]."""
+
+    robot: Int
+    element: Int
+    """Vertex v < V, or V + e for edge e."""
+    begin: Int
+    """The move with which the visit begins, `NONE` = the robot starts there."""
+    end: Int
+    """The move that must be cleared or completed before another robot's visit may begin, `NONE` = the robot stays."""
+    cleared: Bool
+    """The visit does not end before the move is cleared."""
+    completed: Bool
+    """The visit does not end before the move is completed."""
+    arrival: Int
+    """Tick of the plan at which the first move ends."""
+
+
+class Pairs(NamedTuple):
+    """Conflicting visits i8[k]; the plan lets the visit `first` end before the visit `second` begins."""
+
+    first: Int
+    second: Int
+
+
+def visits_of(problem: Problem, moves: Moves) -> Visits:
+    """All visits that a plan completes until its horizon."""
+    robots, count, index = np.arange(len(problem)), np.diff(moves.first), np.arange(len(moves.robot))
+    is_last = np.append(moves.robot[1:] != moves.robot[:-1], True)[: len(index)]
+    robot = np.concatenate([robots, moves.robot])
+    begin = np.concatenate([np.full(len(robots), NONE), index])
+    end = np.concatenate([np.where(count > 0, moves.first[:-1], NONE), np.where(is_last, NONE, index + 1)])
+    disappears = (end == NONE) & (problem.rules.at_goal == "disappear")
+    end = np.where(disappears, begin, end)  # a robot that never moves disappears at once
+    footprints = Feature.FOOTPRINTS in problem.features
+    completed = disappears | footprints | (problem.rules.following == "forbidden")
+    there = Visits(
+        robot=robot,
+        element=np.concatenate([problem.start, moves.head]).astype(np.int64),
+        begin=begin,
+        end=end,
+        cleared=~disappears & (not footprints),
+        completed=completed,
+        arrival=np.concatenate([np.zeros(len(robots), np.int64), moves.leave]),
+    )
+    kept = ~(disappears & (begin == NONE))
+    there = _chosen(there, kept)
+    if footprints:
+        on = np.ones(len(index), bool)
+        ways = Visits(moves.robot, len(problem.roadmap.position) + moves.edge, index, index, ~on, on, moves.leave)
+        there = Visits(*(np.concatenate(columns) for columns in zip(there, ways, strict=True)))
+    if problem.horizon is not None:
+        there = _chosen(there, there.arrival <= problem.horizon)
+    return there
+
+
+def _chosen(visits: Visits, kept: Bool) -> Visits:
+    return Visits._make(column[kept] for column in visits)
+
+
+def conflicting(problem: Problem, visits: Visits) -> Pairs:
+    """Every pair of conflicting visits of different robots."""
+    one, other = _near(problem, visits) if Feature.FOOTPRINTS in problem.features else _of_one_element(visits)
+    differ = visits.robot[one] != visits.robot[other]
+    one, other = one[differ], other[differ]
+    ahead = visits.arrival[one] < visits.arrival[other]
+    return Pairs(np.where(ahead, one, other), np.where(ahead, other, one))
+
+
+def _of_one_element(visits: Visits) -> tuple[Int, Int]:
+    order = np.argsort(visits.element, kind="stable")
+    there = visits.element[order]
+    at = np.arange(len(order))
+    return _expanded(order, order, at + 1, np.searchsorted(there, there, side="right"))
+
+
+def _near(problem: Problem, visits: Visits) -> tuple[Int, Int]:
+    """Pairs of visits of near elements, one pair of sizes of robots at a time."""
+    radius = problem.radius[visits.robot]
+    sizes = np.unique(radius).tolist()
+    ones, others = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
+    for mine in sizes:
+        for theirs in (size for size in sizes if size >= mine):
+            near = exclusions(problem.roadmap, mine + theirs)
+            left, right = np.flatnonzero(radius == mine), np.flatnonzero(radius == theirs)
+            right = right[np.argsort(visits.element[right], kind="stable")]
+            there = visits.element[right]
+            rows = visits.element[left]
+            one, at = _expanded(left, np.arange(len(near.element)), near.first[rows], near.first[rows + 1])
+            element = near.element[at].astype(np.int64)
+            begin, end = np.searchsorted(there, element), np.searchsorted(there, element, side="right")
+            one, other = _expanded(one, right, begin, end)
+            once = (one < other) if mine == theirs else np.ones(len(one), bool)
+            once &= ~_implied(problem, near, visits.element[one], visits.element[other])
+            ones.append(one[once])
+            others.append(other[once])
+    return np.concatenate(ones), np.concatenate(others)
+
+
+def _implied(problem: Problem, near: Exclusions, one: Int, other: Int) -> Bool:
+    """Tell which pairs of elements need no decision, because an end of an edge is near the other element too."""
+    vertices = len(problem.roadmap.position)
+    rows = np.repeat(np.arange(len(near.first) - 1), np.diff(near.first))
+    keys = rows * len(near.first) + near.element
+    found = np.zeros(len(one), bool)
+    for edge, element in ((one, other), (other, one)):
+        on_edge = np.flatnonzero(edge >= vertices)
+        for end in problem.roadmap.edges[edge[on_edge] - vertices].astype(np.int64).T:
+            key = end * len(near.first) + element[on_edge]
+            at = np.minimum(np.searchsorted(keys, key), len(keys) - 1)
+            found[on_edge] |= keys[at] == key
+    return found
+
+
+def _expanded(values: Int, lists: Int, begin: Int, end: Int) -> tuple[Int, Int]:
+    """Each of `values` as often as there are elements in `lists[begin:end]`, and these elements."""
+    size = end - begin
+    at = np.arange(int(size.sum())) + np.repeat(begin - np.cumsum(size) + size, size)
+    return np.repeat(values, size), lists[at]
+
+
+def order_of(visits: Visits, pairs: Pairs, switched: Bool, resources: Type2Edges) -> Type2Edges:
+    """The type-2 edges of an order: for each pair that is `switched` bool[k], the second visit comes first."""
+    first = np.where(switched, pairs.second, pairs.first)
+    second = np.where(switched, pairs.first, pairs.second)
+    before, after = visits.end[first], visits.begin[second]
+    some = (before != NONE) & (after != NONE)
+    before, after, first = before[some], after[some], first[some]
+    parts = [resources]
+    for kind, needed in ((False, visits.cleared[first]), (True, visits.completed[first])):
+        parts.append(Type2Edges(before[needed], after[needed], np.full(int(needed.sum()), kind)))
+    return Type2Edges(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))

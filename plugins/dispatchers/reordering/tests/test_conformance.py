@@ -1,0 +1,12 @@
+"""`gses` passes the checks of every dispatcher."""
+
+from mrpbench_dispatchers_reordering import Gses
+
+from mrpbench_core.testing.suites.dispatcher import DispatcherConformance
+
+
+class TestGses(DispatcherConformance):
+    keeps_apart = True
+
+    def make(self):
+        return Gses()

@@ -1,0 +1,68 @@
+"""Plans drain under random delays in a changed order: no robot waits forever, and robots keep apart."""
+
+import pytest
+from hypothesis import event, given, settings
+from hypothesis import strategies as st
+from mrpbench_dispatchers_reordering import Gses, gses
+
+from mrpbench_core.api import DispatchError
+from mrpbench_core.builtin.dispatchers.adg import Adg
+from mrpbench_core.testing.execution.drawn_executions import drained
+
+SEEDS = st.integers(0, 2**32 - 1)
+EAGER = Gses(period=0, lateness=0, gain=0.001, lookahead=1)
+"""Searches as often as possible."""
+
+
+@pytest.fixture(autouse=True)
+def no_order_is_refused(monkeypatch):
+    """Fail where the search has found an order with a cycle: the session would go on in the old order."""
+    keep = gses.GsesSession.keep
+
+    def checked(self, problem, plan, order=None):
+        try:
+            keep(self, problem, plan, order)
+        except DispatchError as refusal:
+            if order is not None:
+                raise AssertionError(f"the order found is refused: {refusal}") from refusal
+            raise
+
+    monkeypatch.setattr(gses.GsesSession, "keep", checked)
+
+
+@settings(deadline=None, max_examples=12)
+@given(SEEDS)
+@pytest.mark.parametrize("dispatcher", [Gses(), EAGER])
+def test_plans_of_chance_drain(dispatcher, seed):
+    ended = drained(dispatcher, seed)
+    event(f"reordered: {ended and ended.reordered}")
+
+
+@settings(deadline=None, max_examples=12)
+@given(SEEDS)
+def test_plans_through_resources_drain(seed):
+    ended = drained(EAGER, seed, resources=True)
+    event(f"reordered: {ended and ended.reordered}")
+
+
+@settings(deadline=None, max_examples=12)
+@given(SEEDS)
+@pytest.mark.parametrize("resources", [False, True])
+def test_plans_that_change_on_the_way_drain(resources, seed):
+    ended = drained(EAGER, seed, resources, replans=3)
+    event(f"reordered: {ended and ended.reordered}")
+
+
+def test_orders_change_and_robots_arrive_earlier_than_in_the_order_of_the_plan():
+    pairs = [
+        (kept, changed) for seed in range(60) if (kept := drained(Adg(), seed)) and (changed := drained(Gses(), seed))
+    ]
+    assert not any(kept.reordered for kept, _ in pairs)
+    assert sum(changed.reordered for _, changed in pairs) >= 3
+    assert sum(changed.sum_of_arrivals for _, changed in pairs) < sum(kept.sum_of_arrivals for kept, _ in pairs)
+
+
+def test_an_execution_repeats_bit_by_bit_where_the_search_is_cut_short():
+    for seed in range(4):
+        dispatcher = Gses(period=0, lateness=0, gain=0.001, probe_limit=seed)
+        assert drained(dispatcher, seed) == drained(dispatcher, seed)
