@@ -52,7 +52,13 @@ def run(arguments: argparse.Namespace) -> int:
 def _configuration() -> dict[str, Any]:
     chosen = {}
     for kind, names in WANTED.items():
-        chosen[kind] = next((name for name in names if _works(kind, name)), names[-1])
+        working = [name for name in names if _works(kind, name)]
+        if not working:
+            raise InputError(
+                f"the demo needs a {kind}, and none of {', '.join(names)} is installed",
+                hint=remedy(names[0], group_of(kind)),
+            )
+        chosen[kind] = working[0]
         if chosen[kind] != names[0]:
             print(f"{kind} {names[0]} is not available here ({_why(kind, names[0])}); the demo uses {chosen[kind]}")
     return {

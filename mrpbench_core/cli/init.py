@@ -4,6 +4,9 @@ import argparse
 from pathlib import Path
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.installed import providers
+from mrpbench_core.plugins.kinds import group_of
+from mrpbench_core.plugins.published import remedy
 
 TEMPLATE = """\
 # A study. Every key except world and planner has a default. `mrpbench plugins` lists the plugins, and
@@ -54,13 +57,17 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError("exists already", file=file, hint="choose another NAME") from None
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror}", file=file) from error
+    for kind, name in choices.items():
+        if name not in _offered(kind):
+            print(f"{kind} {name} is not installed: {remedy(name, group_of(kind))}")
     print(f"wrote {file}; run it with `mrpbench run {file}`")
     return 0
 
 
 def _first_installed(kind: str, names: tuple[str, ...]) -> str:
-    from mrpbench_core.plugins.installed import providers
-    from mrpbench_core.plugins.kinds import group_of
-
-    offered = [provider.name for provider in providers(group_of(kind)) if not provider.problem]
+    offered = _offered(kind)
     return next((name for name in (*names, *offered) if name in offered), names[0])
+
+
+def _offered(kind: str) -> list[str]:
+    return [provider.name for provider in providers(group_of(kind)) if not provider.problem]

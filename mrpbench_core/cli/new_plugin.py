@@ -27,6 +27,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = arguments.folder or Path(plugin.distribution)
     write(plugin, folder)
     print(f"wrote {folder}: a working {plugin.kind.replace('_', ' ')}. Next:")
-    print(f"  pip install {'-e ' if form != 'native' else ''}{folder}")
+    print(f"  cd {folder}")
+    print(f"  pip install {'.' if form == 'native' else '-e .'}")
     print(f"  mrpbench check {plugin.kind}:{plugin.name}{plugin.options}")
     return 0

@@ -4,6 +4,8 @@ import json
 from pathlib import Path
 
 from mrpbench_core.cli import demo
+from mrpbench_core.plugins.installed import providers
+from mrpbench_core.plugins.kinds import GROUPS
 
 
 def test_the_whole_stack_runs_and_leaves_something_to_see(mrpbench, monkeypatch):
@@ -28,3 +30,14 @@ def test_the_whole_stack_runs_and_leaves_something_to_see(mrpbench, monkeypatch)
     code, _, errors = mrpbench("export", "results/demo:zz", "--to", "rosbag2")
     assert code == 2
     assert errors.startswith("results/demo:zz: no runs begin with 'zz'")
+
+
+def test_the_core_alone_says_what_to_install(mrpbench, monkeypatch):
+    own = {group: [it for it in providers(group) if it.distribution == "mrpbench-core"] for group in GROUPS.values()}
+    monkeypatch.setattr(demo, "providers", own.get)
+    code, _, errors = mrpbench("demo")
+    assert code == 2
+    assert errors.endswith(
+        "the demo needs a planner, and none of cbs, prioritized, example is installed"
+        " (mrpbench-standard has it: `pip install mrpbench`)\n"
+    )

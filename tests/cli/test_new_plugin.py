@@ -22,9 +22,9 @@ def folder(mrpbench, tmp_path):
     """Return a function that writes a new plugin and returns its folder."""
 
     def write(kind, name, *options):
-        code, _, err = mrpbench("new-plugin", kind, name, "--folder", f"new/{kind}", *options)
+        code, _, err = mrpbench("new-plugin", kind, name, "--folder", f"new/{name}", *options)
         assert code == 0, err
-        return tmp_path / "new" / kind
+        return tmp_path / "new" / name
 
     return write
 
@@ -33,16 +33,16 @@ def test_every_kind_has_a_template():
     assert set(kinds()) == {*KINDS, *SUITES, "critic", "hook"}
 
 
-@pytest.mark.parametrize("kind", kinds())
-def test_a_new_component_passes_the_checks_of_its_kind(kind, folder, monkeypatch, capsys):
-    written = folder(kind, f"fresh-{kind}")
+@pytest.mark.parametrize(("kind", "options"), [*((kind, ()) for kind in kinds()), ("planner", ("--external",))])
+def test_a_new_component_passes_the_checks_of_its_kind(kind, options, folder, monkeypatch, capsys):
+    name = "_".join(["fresh", kind, *(option.removeprefix("--") for option in options)])
+    written = folder(kind, name, *options)
     monkeypatch.syspath_prepend(str(written))
     monkeypatch.syspath_prepend(str(written / "tests"))
     project = tomllib.loads((written / "pyproject.toml").read_text())["project"]
     ((group, entries),) = project["entry-points"].items()
-    ((name, value),) = entries.items()
-    offered = EntryPoint(name, value, group).load()
-    test = importlib.import_module(f"test_fresh_{kind}")
+    offered = EntryPoint(name, entries[name], group).load()
+    test = importlib.import_module(f"test_{name}")
     suite = next(each for each in vars(test).values() if isinstance(each, type) and each.__module__ == test.__name__)()
     assert suite.make() is offered or isinstance(suite.make(), offered)
     outcomes = list(run_checks(suite))
@@ -52,7 +52,7 @@ def test_a_new_component_passes_the_checks_of_its_kind(kind, folder, monkeypatch
 
 
 def test_what_is_written_passes_linter_and_types(folder):
-    folders = [folder(kind, f"neat-{kind}") for kind in kinds()]
+    folders = [folder(kind, f"neat-{kind}") for kind in kinds()] + [folder("planner", "neat_runs", "--external")]
     config = ["--config", str(ROOT / "pyproject.toml"), "--no-cache"]
     for written in folders:
         texts = [path.read_text() for path in written.rglob("*") if path.is_file()]
@@ -68,6 +68,7 @@ def test_what_is_written_passes_linter_and_types(folder):
     assert done.returncode == 0, done.stdout
 
 
+@pytest.mark.timeout(600)
 def test_a_new_distribution_is_found_checked_tested_and_gone_when_uninstalled(folder, environment, tmp_path):
     written = folder("metric", "acme")
     environment("pip", "install", "--quiet", "--no-deps", "--no-build-isolation", written, cwd=tmp_path)
@@ -85,7 +86,8 @@ def test_what_to_do_next_is_printed(mrpbench):
     assert code == 0
     assert out.splitlines() == [
         "wrote mrpbench-plan-filters-acme-first: a working plan filter. Next:",
-        "  pip install -e mrpbench-plan-filters-acme-first",
+        "  cd mrpbench-plan-filters-acme-first",
+        "  pip install -e .",
         "  mrpbench check plan_filter:acme_first",
     ]
 

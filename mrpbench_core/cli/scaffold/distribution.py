@@ -56,6 +56,8 @@ def write(plugin: Plugin, folder: Path) -> None:
             path = folder / file
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text, encoding="utf-8")
+            if text.startswith("#!"):
+                path.chmod(0o755)
     except FileExistsError:
         raise InputError("exists already and is not overwritten", file=folder) from None
     except OSError as error:
@@ -75,8 +77,7 @@ def contents(plugin: Plugin) -> dict[str, str]:
 def _requires(plugin: Plugin) -> str:
     """The requirements as lines of a TOML list, in alphabetical order."""
     imported = [requirement for name, requirement in _LIBRARIES.items() if f"import {name}" in plugin.module]
-    standard = plugin.form != "python" or plugin.facts.standard
-    own = ["mrpbench-core", "mrpbench-standard"] if standard else ["mrpbench-core"]
+    own = ["mrpbench-core", "mrpbench-standard"] if plugin.facts.standard else ["mrpbench-core"]
     versions = _filled(">=$version,<$next_version", plugin.placeholders)
     lines = sorted([*imported, *(name + versions for name in own)])
     return "\n".join(f'    "{line}",' for line in lines)

@@ -51,12 +51,18 @@ KINDS: Mapping[str, Kind] = {
 }
 """Kinds that differ from the others."""
 
+FORMS: Mapping[str, Kind] = {
+    "native": Kind(standard=True),
+    "external": Kind(options={"binary": "tests/stand_in.py"}, standard=True),
+}
+"""Forms of planners other than those in Python."""
+
 
 def kinds() -> list[str]:
     """Return the kinds that have a template."""
     return sorted(file.name.removesuffix(".py.txt") for file in TEMPLATES.joinpath("kinds").iterdir())
 
 
-def facts_of(kind: str) -> Kind:
-    """Return what is particular to a kind."""
-    return KINDS.get(kind, Kind())
+def facts_of(kind: str, form: str) -> Kind:
+    """Return what is particular to a kind, or to a form of it."""
+    return FORMS.get(form) or KINDS.get(kind, Kind())

@@ -51,7 +51,7 @@ class Plugin:
     @property
     def facts(self) -> Kind:
         """What is particular to its kind."""
-        return facts_of(self.kind)
+        return facts_of(self.kind, self.form)
 
     @property
     def options(self) -> str:

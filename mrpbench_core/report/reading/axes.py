@@ -28,7 +28,7 @@ def find_axes(configs: Sequence[dict[str, Any]], by: Sequence[str] | None = None
     Raises:
         InputError: an option in `by` is in no configuration.
     """
-    flat = [_flat(config) for config in configs]
+    flat = [_flat(config) for config in (_labelled(configs) if by is None else configs)]
     if by is not None:
         known = {part for entry in flat for key in entry for part in _with_blocks(key)}
         for name in by:
@@ -67,6 +67,26 @@ def word(value: Any) -> str:
     if isinstance(value, list | tuple):
         return "[" + ",".join(map(word, value)) + "]"
     return str(value)
+
+
+def _labelled(configs: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Name each block by its option `label` alone, unless blocks that differ have the same label."""
+    blocks: dict[tuple[str, str], set[str]] = {}
+    for config in configs:
+        for key, block in config.items():
+            if label := _label(block):
+                blocks.setdefault((key, label), set()).add(repr(block))
+    clear = {name for name, found in blocks.items() if len(found) == 1}
+    return [
+        {key: {"plugin": _label(block)} if (key, _label(block)) in clear else block for key, block in config.items()}
+        for config in configs
+    ]
+
+
+def _label(block: Any) -> str:
+    """The label of a block, or an empty text."""
+    label = block.get("label") if isinstance(block, dict) else None
+    return label if isinstance(label, str) else ""
 
 
 def _flat(config: dict[str, Any]) -> Axes:

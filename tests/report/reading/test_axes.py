@@ -48,3 +48,20 @@ def test_rows_can_be_made_by_some_options_only():
 def test_axes_are_named_in_few_words():
     assert name_axes({"planner.plugin": "ecbs", "planner.w": 1.2, "scenario.robots": 9}) == "ecbs w=1.2 robots=9"
     assert name_axes({"fleet": [{"robot": "burger", "count": 2}]}) == "fleet=[burger[count=2]]"
+
+
+def test_a_block_with_a_label_is_named_by_it_alone():
+    one, other = ({"plugin": "external", "label": label, "binary": label} for label in ("EECBS", "LaCAM3"))
+    axes = find_axes([config(CBS), config(one), config(other)])
+    assert [name_axes(entry) for entry in axes] == ["cbs", "EECBS", "LaCAM3"]
+
+
+def test_options_of_blocks_that_share_a_label_are_shown():
+    one, other = ({"plugin": "external", "label": "mine", "w": w} for w in (1.2, 1.5))
+    assert [entry["planner.w"] for entry in find_axes([config(one), config(other)])] == [1.2, 1.5]
+
+
+def test_blocks_without_a_label_are_shown_as_before():
+    plain = {"plugin": "external", "label": "", "w": 1.2}
+    axes = find_axes([config(plain), config({**plain, "w": 1.5})])
+    assert [name_axes(entry) for entry in axes] == ["w=1.2", "w=1.5"]

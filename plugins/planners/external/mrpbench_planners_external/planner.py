@@ -2,11 +2,12 @@
 
 import itertools
 import os
+import re
 import shlex
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import attrs
 import numpy as np
@@ -17,12 +18,15 @@ from mrpbench_core.model.planning.plan import Path as TimedPath
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_planners_external.movingai import vertex_at, why_not, write_map, write_scen
 from mrpbench_planners_external.outputs import READERS, Cells, UnreadableError
+from mrpbench_planners_external.presets import GENERAL, PRESETS, Output, PresetName
 from mrpbench_planners_external.process import run
 
-FIELDS = ("map", "scen", "paths", "agents", "seconds", "seed")
+FIELDS = ("map", "scen", "paths", "agents", "seconds", "seed", "w")
 """Names that the arguments may contain in braces."""
 _MARGIN_S = 0.5
 """Time beyond its own limit that a solver gets to write its answer."""
+_UNSOLVED = re.compile(r"^solved=0\s*$", re.MULTILINE)
+"""A line with which PIBT2 and LaCAM say that they found no paths."""
 
 
 def _runs(_: Any, __: "attrs.Attribute[Path]", value: Path) -> None:
@@ -30,7 +34,14 @@ def _runs(_: Any, __: "attrs.Attribute[Path]", value: Path) -> None:
         raise ValueError(f"{value} is not an executable program")
 
 
-def _names_fields(_: Any, __: "attrs.Attribute[str]", value: str) -> None:
+def _splits(_: Any, __: "attrs.Attribute[str]", value: str) -> None:
+    if value:
+        _names_fields(_, __, "{map} " + value)
+
+
+def _names_fields(_: Any, __: Any, value: str | None) -> None:
+    if value is None:
+        return
     try:
         shlex.split(value.format_map(dict.fromkeys(FIELDS, "")))
     except (KeyError, ValueError, IndexError) as error:
@@ -38,6 +49,13 @@ def _names_fields(_: Any, __: "attrs.Attribute[str]", value: str) -> None:
         raise ValueError(f"cannot be filled in: {error}; it may use {known}") from error
     if "{map}" not in value:
         raise ValueError("must hand over {map}")
+
+
+def _is_given_where_needed(planner: "External", _: "attrs.Attribute[float | None]", value: float | None) -> None:
+    if value is None and "{w}" in planner.command_line:
+        raise ValueError("w is missing: the arguments hand over {w}")
+    if value is None and Promise.BOUNDED in planner.promised:
+        raise ValueError("w is missing: the promise `bounded` refers to it")
 
 
 @attrs.frozen(kw_only=True)
@@ -49,23 +67,54 @@ class External(Planner):
     """
 
     supports: ClassVar[frozenset[Feature]] = frozenset()
-    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE})
 
     binary: Path = option(help="the program to run", validator=_runs)
-    arguments: str = option(
-        "-m {map} -a {scen} -o {paths} -k {agents} -t {seconds}",
+    preset: PresetName | None = option(
+        None, help="take arguments and output of a known program: EECBS, CBSH2-RTC, MAPF-LNS2, or LaCAM, also 2 and 3"
+    )
+    label: str = option("", help="name of this planner in reports, instead of its options; part of the run's identity")
+    arguments: str | None = option(
+        None,
         help="its arguments: {map} and {scen} are the files to read, {paths} the file to write, {agents} the number of "
-        "robots, {seconds} the time limit in seconds, {seed} a seed",
+        "robots, {seconds} the time limit in seconds, {seed} a seed, {w} the option w; none = of the preset, or "
+        f"`{GENERAL.arguments}`",
         validator=_names_fields,
     )
-    output: Literal["agents", "steps", "schedule"] = option(
-        "agents", help="format of the paths: as CBSH2-RTC and EECBS, as PIBT2 and LaCAM, or as libMultiRobotPlanning"
+    more_arguments: str = option("", help="further arguments after these", validator=_splits)
+    output: Output | None = option(
+        None,
+        help="format of the paths: as CBSH2-RTC and EECBS, as PIBT2 and LaCAM, or as libMultiRobotPlanning; none = of "
+        "the preset, or `agents`",
+    )
+    w: float | None = option(
+        None,
+        help="factor of suboptimality, for the arguments and the promise `bounded`",
+        validator=attrs.validators.and_(attrs.validators.optional(attrs.validators.ge(1)), _is_given_where_needed),
+    )
+    promised: tuple[Promise, ...] = option(
+        (Promise.CONFLICT_FREE,), help="what every plan of the program keeps; runs and reports check it"
     )
     seed: int | None = option(
         None,
         help="handed to the program as {seed}; without it drawn from the run's seed and repeat, below 2^31",
         validator=attrs.validators.optional(attrs.validators.ge(0)),
     )
+
+    @property
+    def promises(self) -> frozenset[Promise]:  # type: ignore[override]
+        """What the option `promised` says."""
+        return frozenset(self.promised)
+
+    @property
+    def command_line(self) -> str:
+        """The arguments, with placeholders."""
+        known = PRESETS[self.preset] if self.preset else GENERAL
+        return f"{self.arguments or known.arguments} {self.more_arguments}".rstrip()
+
+    @property
+    def format(self) -> Output:
+        """The format of the paths."""
+        return self.output or (PRESETS[self.preset] if self.preset else GENERAL).output
 
     def skip(self, problem: Problem) -> str | None:
         """See `Planner.skip`; also problems that cannot be written as a map of cells."""
@@ -93,15 +142,15 @@ class External(Planner):
                 raise RuntimeError(f"{self.binary.name} ended with exit code {ended.code}: {last}")
             answer = folder / "paths.txt"
             text = answer.read_text(errors="replace") if answer.is_file() else ""
-            if "{paths}" not in self.arguments:
+            if "{paths}" not in self.command_line:
                 text = ended.output
-        if not text.strip():
+        if not text.strip() or (self.format == "steps" and _UNSOLVED.search(text)):
             return PlanResult(status=PlanStatus.GAVE_UP, statistics=statistics)
         try:
-            plan = Plan(paths=tuple(_paths(problem, READERS[self.output](text))))
+            plan = Plan(paths=tuple(_paths(problem, READERS[self.format](text))))
         except UnreadableError as error:
             raise RuntimeError(
-                f"the output of {self.binary.name} is not in the format {self.output!r}: {error}"
+                f"the output of {self.binary.name} is not in the format {self.format!r}: {error}"
             ) from error
         return PlanResult(status=PlanStatus.SOLVED, plan=plan, statistics=statistics)
 
@@ -113,8 +162,9 @@ class External(Planner):
             "agents": robots,
             "seconds": f"{max(0.1, budget.wall_s - _MARGIN_S):g}",
             "seed": budget.seed if self.seed is None else self.seed,
+            "w": "" if self.w is None else f"{self.w:g}",
         }
-        return [str(self.binary.resolve()), *(word.format_map(fields) for word in shlex.split(self.arguments))]
+        return [str(self.binary.resolve()), *(word.format_map(fields) for word in shlex.split(self.command_line))]
 
 
 def _paths(problem: Problem, cells: Cells) -> Iterable[TimedPath]:
