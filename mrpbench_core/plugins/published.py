@@ -9,6 +9,10 @@ _CRITICS = (
     *("RotateToGoal", "Oscillation", "BaseObstacle", "ObstacleFootprint", "GoalAlign"),
     *("PathAlign", "PathDist", "GoalDist", "PreferForward", "Twirling"),
 )
+_MPPI_CRITICS = (
+    *("ConstraintCritic", "CostCritic", "GoalAngleCritic", "GoalCritic", "ObstaclesCritic", "PathAlignCritic"),
+    *("PathAngleCritic", "PathFollowCritic", "PreferForwardCritic", "TwirlingCritic", "VelocityDeadbandCritic"),
+)
 _METRICS = (
     *("planning", "execution", "clearance", "contact", "deadlock", "delay", "efficiency"),
     *("fairness", "smoothness", "stops", "throughput", "tracking", "waiting"),
@@ -19,11 +23,12 @@ _PLANNERS = (
 )
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
-        "mrpbench.controllers": ("dwb", "graceful", "pure_pursuit", "rotation_shim", "rpp"),
+        "mrpbench.controllers": ("dwb", "graceful", "mppi", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
         "mrpbench.dispatchers": ("gses",),
         "mrpbench.localizers": ("amcl",),
         "mrpbench.metrics": _METRICS,
+        "mrpbench.mppi_critics": _MPPI_CRITICS,
         "mrpbench.planners": _PLANNERS,
         "mrpbench.simulators": ("planar",),
     },

@@ -96,6 +96,7 @@ const ControllerKind& controller_kind(const std::string& name);
 
 ControllerKind dwb();
 ControllerKind graceful();
+ControllerKind mppi_controller();
 ControllerKind rpp();
 
 }  // namespace mrpbench::local

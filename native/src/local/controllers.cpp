@@ -9,6 +9,7 @@ const ControllerKind& controller_kind(const std::string& name) {
   static const std::map<std::string, ControllerKind> kinds{
       {"dwb", dwb()},
       {"graceful", graceful()},
+      {"mppi", mppi_controller()},
       {"rpp", rpp()},
   };
   const auto kind = kinds.find(name);

@@ -1,0 +1,70 @@
+// The trajectories that MPPI samples in one period, and what its critics know.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "mrpbench_local/costmap/costmap.hpp"
+
+namespace mrpbench::local::mppi {
+
+/// One number per sample, in rows of a step each: vectors run over the samples.
+struct Table {
+  std::size_t steps = 0, samples = 0;
+  std::vector<float> values;
+
+  void resize(std::size_t rows, std::size_t columns) {
+    steps = rows;
+    samples = columns;
+    values.assign(rows * columns, 0.0f);
+  }
+  float* operator[](std::size_t t) { return values.data() + t * samples; }
+  const float* operator[](std::size_t t) const { return values.data() + t * samples; }
+};
+
+/// The highest speeds now, and the shape of turns.
+struct Limits {
+  float vx_max = 0.5f, vx_min = -0.35f, wz_max = 1.9f;
+  /// Of Ackermann steering; 0 = the robot turns on the spot.
+  float min_turning_r = 0;
+};
+
+/// The local plan in the frame of the robot: points of equal spacing, only the last step may be shorter.
+struct LocalPath {
+  std::vector<float> x, y, yaw;
+  std::vector<char> free;
+  float spacing = 0.05f;
+  float length = 0;
+
+  std::size_t size() const { return x.size(); }
+};
+
+/// The input of critics. Poses are in the frame of the robot at the start of the period.
+struct Batch {
+  float dt = 0.05f;
+  Limits limits;
+  Table vx, wz, x, y, yaw;
+  LocalPath path;
+  /// Yaw at the end of the path; nothing = any.
+  std::optional<float> goal_yaw;
+  float tolerance = 0.1f;
+  const Costmap* costmap = nullptr;
+  Pose robot;
+  bool by_radius = true;
+  /// The farthest point of the path that is the nearest one to the end of a sample, among those that the sample can
+  /// reach by its length.
+  std::size_t furthest = 0;
+
+  std::size_t steps() const { return vx.steps; }
+  std::size_t samples() const { return vx.samples; }
+  Pose in_map(float px, float py, float heading) const;
+  /// Compute `furthest`.
+  void find_furthest();
+
+ private:
+  std::vector<float> along_, nearest_;
+  std::vector<std::int32_t> index_;
+};
+
+}  // namespace mrpbench::local::mppi

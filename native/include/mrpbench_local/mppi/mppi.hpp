@@ -1,0 +1,63 @@
+// Nav2's MPPI controller.
+#pragma once
+
+#include <array>
+
+#include "mrpbench_local/controller.hpp"
+#include "mrpbench_local/mppi/critic.hpp"
+#include "mrpbench_local/mppi/rollout.hpp"
+
+namespace mrpbench::local {
+
+struct MppiOptions {
+  int batch_size = 1000, time_steps = 56, iteration_count = 1, retry_attempt_limit = 1, sgf_order = 2;
+  double model_dt = 0.05, temperature = 0.3, gamma = 0.015, vx_std = 0.2, wz_std = 0.4;
+  double vx_max = 0.5, vx_min = -0.35, wz_max = 1.9, ax_max = 3, ax_min = -3, az_max = 3.5;
+  double prune_distance = 2, collision_lookahead_time = 2;
+  bool open_loop = false, regenerate_noises = false, clamp_raw_controls = false;
+  double path_spacing = 0;
+  std::int64_t seed = 0;
+  double period = 0.05;
+
+  static Description<MppiOptions> nav2();
+  static Description<MppiOptions> further();
+  static Description<MppiOptions> derived();
+};
+
+class Mppi : public Controller {
+ public:
+  Mppi(const MppiOptions& options, const RobotOptions& robot, std::size_t index,
+       std::vector<mppi::WeightedCritic> critics);
+
+  std::optional<Twist> command(const Situation& now, const Extra& extra) override;
+
+  /// Every fifth sample and third step as `twist` and `pose`; of all samples the raw `score` of each critic, and
+  /// `total`; the `plan` f8[T,2] of velocities; names of the `critics`; the `reason` why there is no command.
+  Explanation explain() const override;
+
+ private:
+  void draw();
+  void reset();
+  void prepare(const Situation& now);
+  bool improve(const Extra& extra);
+  void begin_plan();
+  bool score(const Extra& extra);
+  void constrain();
+  bool is_safe() const;
+  Twist send();
+  Samples trajectories(std::size_t every, std::size_t step) const;
+
+  MppiOptions options_;
+  std::size_t index_;
+  std::vector<mppi::WeightedCritic> critics_;
+  bool shift_ = true, drawn_fresh_ = false;
+  std::uint64_t drawn_ = 0;
+  Twist start_, last_;
+  mppi::Batch batch_;
+  mppi::Table noise_vx_, noise_wz_, control_vx_, control_wz_;
+  std::vector<float> plan_vx_, plan_wz_, total_, raw_, weight_, ones_;
+  std::array<float, 4> past_vx_{}, past_wz_{};
+  const char* fault_ = "";
+};
+
+}  // namespace mrpbench::local

@@ -1,0 +1,27 @@
+#include "mrpbench_local/mppi/critic.hpp"
+
+#include <map>
+#include <stdexcept>
+
+namespace mrpbench::local::mppi {
+
+const CriticKind& critic_kind(const std::string& name) {
+  static const std::map<std::string, CriticKind> kinds{
+      {"ConstraintCritic", constraint_critic()},
+      {"CostCritic", cost_critic()},
+      {"GoalCritic", goal_critic()},
+      {"GoalAngleCritic", goal_angle_critic()},
+      {"ObstaclesCritic", obstacles_critic()},
+      {"PathAlignCritic", path_align_critic()},
+      {"PathAngleCritic", path_angle_critic()},
+      {"PathFollowCritic", path_follow_critic()},
+      {"PreferForwardCritic", prefer_forward_critic()},
+      {"TwirlingCritic", twirling_critic()},
+      {"VelocityDeadbandCritic", velocity_deadband_critic()},
+  };
+  const auto kind = kinds.find(name);
+  if (kind == kinds.end()) throw std::invalid_argument("there is no critic " + name);
+  return kind->second;
+}
+
+}  // namespace mrpbench::local::mppi

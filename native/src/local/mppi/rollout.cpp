@@ -1,0 +1,98 @@
+#include "mrpbench_local/mppi/rollout.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace mrpbench::local::mppi {
+
+void sine_cosine(const float* angle, float* sine, float* cosine, std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const float a = angle[k];
+    const auto quarter = static_cast<std::int32_t>(a * 0.636619772f + (a < 0 ? -0.5f : 0.5f));
+    const auto n = static_cast<float>(quarter);
+    const float r = ((a - n * 1.5703125f) - n * 4.8351287841796875e-4f) - n * 3.13855707645416259765625e-7f;
+    const float z = r * r;
+    const float s = ((-1.9515295891e-4f * z + 8.3321608736e-3f) * z - 1.6666654611e-1f) * z * r + r;
+    const float c =
+        ((2.443315711809948e-5f * z - 1.388731625493765e-3f) * z + 4.166664568298827e-2f) * z * z - 0.5f * z + 1.0f;
+    const bool odd = (quarter & 1) != 0;
+    const float sign_s = static_cast<float>(1 - (quarter & 2));
+    const float sign_c = static_cast<float>(1 - ((quarter + 1) & 2));
+    sine[k] = (odd ? c : s) * sign_s;
+    cosine[k] = (odd ? s : c) * sign_c;
+  }
+}
+
+void limit(const Table& wanted_vx, const Table& wanted_wz, float vx, float wz, Change change, Table& out_vx,
+           Table& out_wz) {
+  const std::size_t count = wanted_vx.samples;
+  std::fill_n(out_vx[0], count, vx);
+  std::fill_n(out_wz[0], count, wz);
+  for (std::size_t t = 1; t < wanted_vx.steps; ++t) {
+    const float *from = out_vx[t - 1], *wanted = wanted_vx[t - 1];
+    float* to = out_vx[t];
+    for (std::size_t k = 0; k < count; ++k) {
+      const bool forward = from[k] > 0;
+      const float up = forward ? change.speed_up : change.slow_down;
+      const float down = forward ? change.slow_down : change.speed_up;
+      to[k] = std::min(std::max(wanted[k], from[k] - down), from[k] + up);
+    }
+    from = out_wz[t - 1];
+    wanted = wanted_wz[t - 1];
+    to = out_wz[t];
+    for (std::size_t k = 0; k < count; ++k) {
+      to[k] = std::min(std::max(wanted[k], from[k] - change.turn), from[k] + change.turn);
+    }
+  }
+}
+
+void roll_out(const Table& vx, const Table& wz, float dt, Table& x, Table& y, Table& yaw) {
+  const std::size_t count = vx.samples;
+  std::vector<float> sine(count, 0.0f), cosine(count, 1.0f);
+  for (std::size_t t = 0; t < vx.steps; ++t) {
+    const float *v = vx[t], *w = wz[t];
+    const float *before_x = t > 0 ? x[t - 1] : nullptr, *before_y = t > 0 ? y[t - 1] : nullptr;
+    const float* before_yaw = t > 0 ? yaw[t - 1] : nullptr;
+    float *now_x = x[t], *now_y = y[t], *now_yaw = yaw[t];
+    if (t == 0) {
+      for (std::size_t k = 0; k < count; ++k) {
+        now_x[k] = v[k] * dt;
+        now_y[k] = 0;
+        now_yaw[k] = w[k] * dt;
+      }
+      continue;
+    }
+    sine_cosine(before_yaw, sine.data(), cosine.data(), count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const float step = v[k] * dt;
+      now_x[k] = before_x[k] + step * cosine[k];
+      now_y[k] = before_y[k] + step * sine[k];
+      now_yaw[k] = before_yaw[k] + w[k] * dt;
+    }
+  }
+}
+
+float weighted_sum(const float* weights, const float* values, std::size_t count) {
+  float sums[8] = {};
+  const std::size_t whole = count / 8 * 8;
+  for (std::size_t k = 0; k < whole; k += 8) {
+    for (std::size_t j = 0; j < 8; ++j) sums[j] += weights[k + j] * values[k + j];
+  }
+  for (std::size_t k = whole; k < count; ++k) sums[k - whole] += weights[k] * values[k];
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+}
+
+void smooth(std::span<float> values, const std::array<float, 4>& past, int order) {
+  if (values.size() < 21) return;
+  static constexpr std::array<float, 9> quadratic{-21, 14, 39, 54, 59, 54, 39, 14, -21};
+  std::vector<float> row(past.begin(), past.end());
+  row.insert(row.end(), values.begin(), values.end());
+  row.insert(row.end(), 4, values.back());
+  for (std::size_t t = 0; t + 1 < values.size(); ++t) {
+    float sum = 0;
+    for (std::size_t j = 0; j < 9; ++j) sum += row[t + j] * (order == 1 ? 1.0f / 9 : quadratic[j] / 231);
+    values[t] = sum;
+  }
+}
+
+}  // namespace mrpbench::local::mppi

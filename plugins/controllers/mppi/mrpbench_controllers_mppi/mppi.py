@@ -1,0 +1,77 @@
+"""The recipe: MPPI with the names and defaults of Nav2 (lyrical 1.5), limits from the robot.
+
+Williams, Drews, Goldfain, Rehg and Theodorou, "Aggressive driving with model predictive path integral control", ICRA
+2016.
+"""
+
+from typing import Any, ClassVar
+
+import attrs
+from mrpbench_controllers_local import Critic, LocalController, limited
+from mrpbench_native.local import controller_options
+
+from mrpbench_controllers_mppi.critic import MppiCritic
+from mrpbench_controllers_mppi.nav2_critics import DEFAULT, NATIVE
+from mrpbench_core.api import option
+from mrpbench_core.api.described import described
+from mrpbench_core.api.nav2 import as_parameter
+from mrpbench_core.files.nav2 import Nav2Block
+from mrpbench_core.model.common.fleet import RobotModel
+
+
+@attrs.frozen(kw_only=True)
+@described(controller_options("mppi"), as_parameter)
+@described(controller_options("mppi", further=True))
+class Mppi(LocalController):
+    """Samples trajectories around the last plan and averages them by their scores (model predictive path integral)."""
+
+    native: ClassVar[str] = "mppi"
+    nav2_plugin: ClassVar[str] = "nav2_mppi_controller::MPPIController"
+    ignored: ClassVar[tuple[str, ...]] = (
+        *("visualize", "TrajectoryVisualizer", "publish_critics_stats", "publish_optimal_trajectory", "Visualization"),
+        *("transform_tolerance", "max_robot_pose_search_dist", "reset_period", "vy_std", "vy_max", "ay_max", "ay_min"),
+        *("AckermannConstraints", "enforce_path_inversion", "inversion_xy_tolerance", "inversion_yaw_tolerance"),
+        *("minimum_rotation_angle", "advanced", "TrajectoryValidator"),
+    )
+
+    critics: tuple[MppiCritic, ...] | None = option(
+        None,
+        help="critics that score trajectories, in order; default, with weights: "
+        + ", ".join(f"{type(critic).__name__} {critic.weight:g}" for critic in DEFAULT),
+    )
+
+    def settled(self, block: Nav2Block | None) -> dict[str, Any]:
+        """Return the values of the options of Nav2; robots are differential drives."""
+        values = super().settled(block)
+        if block is not None and block.take("motion_model", str, "DiffDrive") != "DiffDrive":
+            raise block.error("must be DiffDrive, robots turn on the spot and cannot drive sideways", "motion_model")
+        for name in ("model_delay_vx", "model_delay_vy", "model_delay_wz"):
+            if block is not None and block.take(name, float, 0.0):
+                raise block.error("must be 0, delays are not modelled", name)
+        return values
+
+    def limits(self, values: dict[str, Any], robot: RobotModel, period: float) -> dict[str, Any]:
+        """Return the values within the limits of a robot."""
+        for name, limit in (
+            ("vx_max", robot.max_speed),
+            ("wz_max", robot.max_turn_rate),
+            ("ax_max", robot.acceleration),
+            ("az_max", robot.turn_acceleration),
+        ):
+            values[name] = limited(values[name], limit)
+        values["ax_min"] = max(values["ax_min"], -robot.acceleration)
+        values["vx_min"] = max(values["vx_min"], -robot.max_speed)
+        return values | {"period": period}
+
+    def chosen_critics(self, block: Nav2Block | None) -> tuple[Critic, ...]:
+        """Return the critics of the options, or else of the block, or else of the default."""
+        if block is None:
+            return self.critics or DEFAULT
+        names = block.take_names("critics")
+        for name in names:
+            if name not in NATIVE:
+                raise block.error(f"there is no critic {name!r}", "critics", hint=f"known critics: {', '.join(NATIVE)}")
+        found = tuple(NATIVE[name].from_nav2(block) for name in names)
+        block.ignore(*(name for name in NATIVE if name not in names))
+        block.refuse_unknown()
+        return self.critics or found or DEFAULT

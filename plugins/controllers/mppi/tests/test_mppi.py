@@ -1,0 +1,70 @@
+import numpy as np
+import pytest
+from mrpbench_controllers_mppi import CostCritic, Mppi, PathAlignCritic
+from mrpbench_controllers_mppi.nav2_critics import DEFAULT
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.testing.fixtures.following import NOWHERE, SPRINTER, seen
+
+PERIOD = 0.05
+PATH = [(0.0, 0.0), (4.0, 0.0)]
+
+
+def drive(options, cycles=20, robots=1, path=PATH):
+    session = Mppi(**options).start_fleet((SPRINTER,) * robots, NOWHERE, PERIOD)
+    twist, said = np.zeros(2), []
+    for step in range(cycles):
+        twist = session.command(seen(path, twist=tuple(twist), now=step * PERIOD))[0]
+        said.append(twist)
+    return np.array(said), session
+
+
+def test_equal_runs_agree_to_the_last_bit():
+    one, other = (drive({"threads": threads})[0] for threads in (1, 2))
+    assert one.tobytes() == other.tobytes()
+    assert one.tobytes() != drive({"seed": 1})[0].tobytes()
+
+
+def test_commands_keep_speeds_and_accelerations():
+    said, _ = drive({}, cycles=40, path=[(0.0, 0.0), (1.0, 3.0)])
+    assert (said[:, 0] <= 0.5 + 1e-6).all()
+    assert (np.abs(said[:, 1]) <= 1.9 + 1e-6).all()
+    change = np.abs(np.diff(said, axis=0))
+    assert (change <= np.array([3.0, 3.5]) * PERIOD + 1e-5).all()
+
+
+def test_samples_are_velocities_within_accelerations_and_their_poses():
+    _, session = drive({}, cycles=5)
+    why = session.explain(0)
+    twist, pose = why["twist"], why["pose"]
+    assert pose.shape == (200, 19, 3)
+    assert twist.shape == (200, 19, 2)
+    assert (np.abs(np.diff(twist, axis=1)) <= np.array([3.0, 3.5]) * 3 * PERIOD + 1e-5).all()
+    assert why["score"].shape == (len(DEFAULT), 1000)
+
+
+def test_it_drives_along_a_free_path_and_keeps_from_obstacles():
+    said, _ = drive({}, cycles=40)
+    assert said[-1, 0] > 0.3
+    session = Mppi().start_fleet((SPRINTER,), NOWHERE, PERIOD)
+    session.command(seen(PATH, ranges=0.6))
+    assert session.explain(0)["score"][1].max() > 0
+
+
+def test_a_nav2_file_is_read():
+    block = {
+        "plugin": Mppi.nav2_plugin,
+        "batch_size": 2000,
+        "motion_model": "DiffDrive",
+        "visualize": False,
+        "critics": ["CostCritic", "PathAlignCritic"],
+        "CostCritic.cost_weight": 4.0,
+        "PathAlignCritic": {"enabled": True, "cost_weight": 14.0, "offset_from_furthest": 20},
+    }
+    found = Mppi(FollowPath=block).settings(SPRINTER, PERIOD)
+    assert found.values["batch_size"] == 2000
+    assert found.critics == (CostCritic(cost_weight=4.0), PathAlignCritic(cost_weight=14.0))
+    with pytest.raises(InputError, match="must be DiffDrive"):
+        Mppi(FollowPath={"motion_model": "Omni"})
+    with pytest.raises(InputError, match="there is no critic 'CostCrtic'"):
+        Mppi(FollowPath={"critics": ["CostCrtic"]})
