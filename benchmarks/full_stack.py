@@ -29,7 +29,7 @@ PARTS = {
     "controller": ("session.py", "command"),
     "pure_pursuit": ("pure_pursuit.py", "command"),
     "navigator": ("session.py", "step"),
-    "dispatcher": ("adg.py", "update"),
+    "dispatcher": ("order_keeping.py", "update"),
     "localizer": ("ground_truth.py", "update"),
     "checks": ("contract_checks.py", ""),
     "recorder": ("recorder.py", ""),

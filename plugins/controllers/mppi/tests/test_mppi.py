@@ -1,3 +1,4 @@
+import attrs
 import numpy as np
 import pytest
 from mrpbench_controllers_mppi import CostCritic, Mppi, PathAlignCritic
@@ -19,10 +20,34 @@ def drive(options, cycles=20, robots=1, path=PATH):
     return np.array(said), session
 
 
-def test_equal_runs_agree_to_the_last_bit():
-    one, other = (drive({"threads": threads})[0] for threads in (1, 2))
+def fleet_of(count, **options):
+    """Commands of robots that see the same."""
+    session = Mppi(**options).start_fleet((SPRINTER,) * count, NOWHERE, PERIOD)
+    alone = seen(PATH)
+    rows = {name: np.repeat(getattr(alone, name), count, axis=0) for name in ("pose", "twist", "yaw", "speed", "foot")}
+    steps = len(PATH) - 1
+    together = attrs.evolve(
+        alone,
+        robot=np.arange(count),
+        fleet_pose=rows["pose"],
+        points=np.tile(alone.points, (count, 1)),
+        begin=np.arange(count) * steps,
+        end=(np.arange(count) + 1) * steps,
+        **rows,
+    )
+    return np.array([session.command(together) for _ in range(5)])
+
+
+def test_equal_runs_agree_to_the_last_bit_with_any_number_of_threads():
+    one, other = (fleet_of(4, threads=threads) for threads in (1, 3))
     assert one.tobytes() == other.tobytes()
-    assert one.tobytes() != drive({"seed": 1})[0].tobytes()
+    assert one.tobytes() != fleet_of(4, threads=1, seed=1).tobytes()
+
+
+def test_each_robot_draws_its_own_noise():
+    said = fleet_of(2)
+    assert (said[:, 0] != said[:, 1]).any()
+    assert said[:, :1].tobytes() == fleet_of(1).tobytes()
 
 
 def test_commands_keep_speeds_and_accelerations():
