@@ -30,7 +30,7 @@ def draw_ranking(ranking: Ranking) -> str:
     if first is None:
         return ""
     factor, unit, axis, band = _axis(ranking, shown)
-    rows = "".join(_row(ranking, place, number, factor, axis, band) for number, place in enumerate(shown, 1))
+    rows = "".join(_row(ranking, place, factor, axis, band) for place in shown)
     hidden = len(ranking.places) - len(shown)
     more = f'<p class="note">{hidden} more configurations are in the tables.</p>' if hidden else ""
     return (
@@ -59,10 +59,11 @@ def _axis(ranking: Ranking, places: tuple[Place, ...]) -> tuple[float, str, Scal
     return factor, unit, Scale(low, high, _EDGE, _WIDTH - _EDGE), band
 
 
-def _row(
-    ranking: Ranking, place: Place, number: int, factor: float, axis: Scale, band: tuple[float, float] | None
-) -> str:
+def _row(ranking: Ranking, place: Place, factor: float, axis: Scale, band: tuple[float, float] | None) -> str:
     kind, tag = _TAGS[place.relation] if place.estimate else ("none", "")
+    equal = [index for index, other in enumerate(ranking.places, 1) if _standing(other) == _standing(place)]
+    if place.relation is None and len(equal) > 1:
+        tag = "best mean, shared"
     value = quantity(ranking, place.estimate) if place.estimate else "no value"
     if place.fails_more:
         kind, tag = f"{kind} late", f"{tag}; fails more often".removeprefix("; ")
@@ -71,10 +72,14 @@ def _row(
     amount, bracket, interval = value.partition(" [")
     interval = f" <small>{escape(bracket.strip() + interval)}</small>" if bracket else ""
     return (
-        f'<tr class="{kind}"><td class="place">{number}</td><th scope="row">{escape(place.name)}</th>'
+        f'<tr class="{kind}"><td class="place">{equal[0]}</td><th scope="row">{escape(place.name)}</th>'
         f'<td class="picture">{_picture(place, factor, axis, band)}</td>'
         f'<td class="value"><b>{escape(amount)}</b>{interval}<span class="tag"{title}>{escape(tag)}</span></td></tr>'
     )
+
+
+def _standing(place: Place) -> tuple[bool, float | None]:
+    return place.fails_more, place.estimate.value if place.estimate else None
 
 
 def _picture(place: Place, factor: float, axis: Scale, band: tuple[float, float] | None) -> str:

@@ -42,6 +42,15 @@ def test_configurations_are_ranked_with_their_relation_to_the_first(page_text):
     ]
 
 
+def test_configurations_with_the_same_mean_share_a_place(results, record, tmp_path):
+    records = [
+        record(name, seed, took=took) for name, took in [("a", 1.0), ("b", 1.0), ("c", 9.0)] for seed in range(3)
+    ]
+    text = written_page(make_report([results(records)]), tmp_path)
+    assert [number for _, number, _ in rows(text, "What does planning cost?")] == ["1", "1", "3"]
+    assert "best mean, shared" in text
+
+
 def test_a_ranking_of_many_draws_some_and_counts_the_rest(results, record, tmp_path):
     records = [record(f"p{number}", seed, took=1.0 + number) for number in range(14) for seed in range(2)]
     text = written_page(make_report([results(records)]), tmp_path)
