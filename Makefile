@@ -72,6 +72,9 @@ soak: install ## compare random instances with brute force, disturb studies, loo
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 2
 	$(BIN)/python plugins/controllers/dwb/tests/soak_driving.py 1000 0
 
+pages: install ## do what every page of the documentation says, in empty folders (ten minutes)
+	MRPBENCH_ALL_PAGES=1 $(BIN)/pytest --numprocesses $(JOBS) --dist worksteal tests/docs tests/cli/test_new_native_planner.py
+
 SANITIZED := build/sanitized
 CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python
 rotations: install ## let rings of robots rotate 100,000 times in simulators and count contacts (two hours)

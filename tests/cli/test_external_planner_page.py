@@ -67,3 +67,4 @@ def test_the_folder_of_a_program_is_installed_and_checked(environment, tmp_path,
     monkeypatch.setenv("PIP_NO_DEPS", "1")  # they are here, in the version of this checkout
     monkeypatch.setenv("PIP_NO_BUILD_ISOLATION", "0")  # pip reads this as: no isolation
     assert " 0 failed" in environment("sh", "-ec", blocks("sh")[1], cwd=tmp_path, timeout=500).stdout
+    environment("pip", "uninstall", "--quiet", "--yes", "mrpbench-planners-acme", cwd=tmp_path)

@@ -1,5 +1,6 @@
 """`mrpbench new-plugin planner NAME --native`: a planner in C++ that is built against the installed mrpbench-native."""
 
+import os
 import re
 import shutil
 from importlib.metadata import files
@@ -72,6 +73,7 @@ def test_headers_that_the_page_names_exist(page):
     assert not [header for header in named if not (include / header).is_file()]
 
 
+@pytest.mark.skipif("MRPBENCH_ALL_PAGES" not in os.environ, reason="`make pages` follows this page")
 @pytest.mark.skipif(shutil.which("c++") is None, reason="no C++ compiler")
 @pytest.mark.timeout(600)
 def test_the_page_leads_to_a_planner_in_cpp_in_a_report(page, environment, tmp_path, monkeypatch):
@@ -90,6 +92,7 @@ def test_the_page_leads_to_a_planner_in_cpp_in_a_report(page, environment, tmp_p
     done = environment("sh", "-ec", study, cwd=folder, timeout=500).stdout
     assert len(re.findall(r"\bacme\b", done)) > 1
     assert (folder / "results/acme/report.html").is_file()
+    environment("pip", "uninstall", "--quiet", "--yes", "mrpbench-planners-acme", cwd=tmp_path)
 
 
 def test_only_planners_can_be_native(mrpbench):

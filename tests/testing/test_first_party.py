@@ -54,6 +54,10 @@ NEEDS_A_CLUSTER = {("executor", "dask")}
 """Its own tests start one."""
 
 
+def named(kind, name):
+    return next(provider for provider in COMPONENTS if (provider.kind, provider.name) == (kind, name))
+
+
 def required(kind, name, folder):
     """Options of plugins that have no defaults for them."""
     (folder / "tiny.map").write_text(MAP)
@@ -68,6 +72,7 @@ def required(kind, name, folder):
         ("world", "movingai"): {"file": folder / "tiny.map"},
         ("world", "ros_map"): {"file": folder / "tiny.yaml"},
         ("world", "rmf"): {"file": FOLDER / "office.building.yaml"},
+        ("controller", "rotation_shim"): {"primary_controller": load(named("controller", "rpp"))()},
         ("planner", "external"): {"binary": solver, "arguments": "{map} {scen} {paths}"},
         ("scenario", "random"): {"robots": 3},
         ("scenario", "named"): {"starts": tuple(places[:2]), "goals": tuple(places[2:4])},

@@ -97,7 +97,7 @@ def test_without_matplotlib_the_error_names_the_package_to_install(tmp_path, mon
         return real(name, *rest)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(InputError, match=r"mrpbench-core\[figures\]"):
+    with pytest.raises(InputError, match=r"mrpbench\[figures\]"):
         draw_world(World(name="w", levels=(Level(name=""),)), file=tmp_path / "a.png")
 
 
