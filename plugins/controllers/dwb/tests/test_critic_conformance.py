@@ -38,7 +38,7 @@ def test_critics_that_keep_their_contract(critic):
 
 def test_the_checks_are_those_of_the_kind():
     names = [check.name for check in run_checks(suite_for(PathDist()))]
-    assert "dwb commands a robot with it" in names
+    assert "its controller commands a robot with it" in names
 
 
 def change(trajectories):

@@ -13,6 +13,7 @@ class MppiCritic(Critic):
     """Scores the trajectories that MPPI samples; MPPI sums the scores of all critics, each multiplied by its weight."""
 
     group: ClassVar[str] = "mrpbench.mppi_critics"
+    suite: ClassVar[str | None] = "mrpbench_controllers_mppi.testing:MppiCriticConformance"
 
     cost_weight: float = option(1.0, help="weight among the other critics; 0 = off", validator=attrs.validators.ge(0))
 
