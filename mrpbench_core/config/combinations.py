@@ -57,10 +57,13 @@ class IdleOptions:
         found = dict(_of_planning_only(config)) if config.simulator is None else dict(_of_executions(config))
         if config.planner.assigns:
             found["assigner"] = f"{IDLE}the planner assigns the tasks"
-        for key in root.value:
-            component = getattr(config, key, None)
-            if isinstance(component, Component):
-                found |= {f"{key}.{name}": IDLE + reason for name, reason in self._of_component(component).items()}
+        for key, item in root.value.items():
+            chosen = getattr(config, key, None)
+            several = chosen.values() if isinstance(chosen, Mapping) else [chosen]
+            for number, component in enumerate(several):
+                if isinstance(component, Component):
+                    block = f"{key}.{number}" if isinstance(item.value, list) else key
+                    found |= {f"{block}.{name}": IDLE + why for name, why in self._of_component(component).items()}
         if all(entry.graph is None or not _is(config.roadmap, "graph") for entry in config.fleet):
             found |= {
                 f"fleet.{number}.graph": f"{IDLE}only `roadmap: graph` has lanes of graphs"

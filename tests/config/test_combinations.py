@@ -78,6 +78,14 @@ def test_only_the_points_of_a_matrix_that_contradict_themselves_are_refused():
             {"controller": {"plugin": "dwb", "critics": ["PathDist"], "xy_goal_tolerance": 0.1}},
             "controller.xy_goal_tolerance: has no effect: RotateToGoal",
         ),
+        (
+            {"localizer": {"plugin": "amcl", "min_particles": 500, "max_particles": 500, "pf_z": 0.9}},
+            "localizer.pf_z: has no effect: min_particles equals max_particles",
+        ),
+        (
+            {"export": [{"plugin": "rosbag2", "topics": ["/tf*"], "rmf": "rolling"}]},
+            "export.0.rmf: has no effect: `topics` leaves out /fleet_states",
+        ),
     ],
 )
 def test_an_option_without_effect_is_named_with_the_reason(changes, note):

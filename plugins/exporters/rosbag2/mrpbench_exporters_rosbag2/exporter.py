@@ -65,6 +65,13 @@ class Rosbag2(Exporter):
         validator=attrs.validators.gt(0),
     )
 
+    def idle_options(self) -> dict[str, str]:
+        """Return the options of topics that are not written."""
+        needs = {"rmf": "/fleet_states", "map_cell_size": "/map"}
+        return {
+            name: f"`topics` leaves out {topic}" for name, topic in needs.items() if not selected(topic, self.topics)
+        }
+
     def open(self, context: RunContext, destination: Path) -> "Rosbag2Session":
         """Begin the bag `destination`, a folder, with what is known before the run."""
         return Rosbag2Session(self, context, destination)

@@ -1,6 +1,7 @@
 """The localizer `amcl`: Nav2's AMCL by its parameters. `native/include/mrpbench_amcl` has the method and its papers."""
 
 from pathlib import Path
+from typing import Any
 
 import attrs
 from attrs.validators import gt, in_
@@ -61,18 +62,7 @@ class Amcl(Localizer):
                 f"localizer: amcl has a map of one level, and {world.name} has {len(world.levels)}",
                 hint="use ground_truth or odometry",
             )
-        block = None
-        if self.nav2 is not None:
-            block = nav2_block(self.nav2, "amcl")
-            if block is None:
-                raise InputError("has no parameters of `amcl`", file=self.nav2)
-            block.ignore(*_MEANINGLESS)
-            skips = block.take("do_beamskip", bool, False)
-        values = settle(self, block)
-        if block is not None:
-            block.refuse_unknown()
-            if skips and values["laser_model_type"] == "likelihood_field_prob":
-                raise block.error("skipping beams is not implemented", "do_beamskip")
+        values = self._settled()
         if values["max_particles"] < values["min_particles"]:
             least, most = values["min_particles"], values["max_particles"]
             raise InputError(f"localizer: max_particles {most} is below min_particles {least}")
@@ -80,3 +70,28 @@ class Amcl(Localizer):
             return AmclSession(values, self.resolution, fleet, world, placements, seed)
         except ValueError as error:
             raise InputError(f"localizer: {error}") from None
+
+    def idle_options(self) -> dict[str, str]:
+        """Return what decides the number of particles, if that is fixed."""
+        values = self._settled()
+        fixed = values["min_particles"] == values["max_particles"]
+        return dict.fromkeys(("pf_err", "pf_z"), "min_particles equals max_particles") if fixed else {}
+
+    def _settled(self) -> dict[str, Any]:
+        """Return the values of all parameters.
+
+        Raises:
+            InputError: the Nav2 file has an error.
+        """
+        if self.nav2 is None:
+            return settle(self, None)
+        block = nav2_block(self.nav2, "amcl")
+        if block is None:
+            raise InputError("has no parameters of `amcl`", file=self.nav2)
+        block.ignore(*_MEANINGLESS)
+        skips = block.take("do_beamskip", bool, False)
+        values = settle(self, block)
+        block.refuse_unknown()
+        if skips and values["laser_model_type"] == "likelihood_field_prob":
+            raise block.error("skipping beams is not implemented", "do_beamskip")
+        return values
