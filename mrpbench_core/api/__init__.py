@@ -13,17 +13,19 @@ from mrpbench_core.api.localizer import Localizer, LocalizerSession
 from mrpbench_core.api.metric import Column, Metric, Value
 from mrpbench_core.api.navigator import Navigator, NavigatorSession
 from mrpbench_core.api.plan_filter import PlanFilter
-from mrpbench_core.api.planner import Planner, Promise
+from mrpbench_core.api.planner import Planner, PlannerSession, Promise
 from mrpbench_core.api.recovery import Recovery, RecoverySession, Surroundings
 from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.api.simulator import Simulation, Simulator
+from mrpbench_core.api.task_source import TaskSource, TaskStream
 from mrpbench_core.api.world import WorldSource
 
 KINDS: dict[str, type[Component]] = {
     "world": WorldSource,
     "roadmap": RoadmapBuilder,
     "scenario": ScenarioSource,
+    "task_source": TaskSource,
     "assigner": Assigner,
     "planner": Planner,
     "plan_filter": PlanFilter,
@@ -67,6 +69,7 @@ __all__ = [
     "Observed",
     "PlanFilter",
     "Planner",
+    "PlannerSession",
     "Promise",
     "Recovery",
     "RecoverySession",
@@ -76,6 +79,8 @@ __all__ = [
     "Simulation",
     "Simulator",
     "Surroundings",
+    "TaskSource",
+    "TaskStream",
     "Track",
     "Value",
     "WorldSource",

@@ -1,6 +1,6 @@
 """Contract of the kind *planner*."""
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from enum import StrEnum
 from typing import ClassVar
 
@@ -24,6 +24,14 @@ class Promise(StrEnum):
     (`PlanResult.clock_bound`)."""
 
 
+class PlannerSession(ABC):
+    """Plans for one execution, call after call: it may keep what later calls can use."""
+
+    @abstractmethod
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """Return a plan as `Planner.plan`. Of calls in one execution the roadmap and the robots are the same."""
+
+
 class Planner(Component):
     """Turns a problem into one timed path per robot."""
 
@@ -34,6 +42,10 @@ class Planner(Component):
     @abstractmethod
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """Return a plan, or the reason why there is none, within `budget`. Do not change `problem`."""
+
+    def start(self) -> PlannerSession:
+        """Begin an execution. By default every call of the session is a call of `plan`, and nothing is kept."""
+        return _OneShot(self)
 
     @property
     def assigns(self) -> bool:
@@ -48,3 +60,13 @@ class Planner(Component):
         """Return why this planner cannot be given `problem`, or None. By default: the features it does not support."""
         lacking = sorted(problem.features - self.supports)
         return f"does not support {', '.join(lacking)}" if lacking else None
+
+
+class _OneShot(PlannerSession):
+    """Calls a planner afresh each time."""
+
+    def __init__(self, planner: Planner) -> None:
+        self._planner = planner
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        return self._planner.plan(problem, budget)

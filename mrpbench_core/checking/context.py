@@ -22,7 +22,9 @@ _ANY_SIGN = frozenset(
     {"x", "y", "yaw", "elevation", "motion_degrees", "mount", "origin", "start", "end", "motion_direction"}
 )
 """Numbers of the model that may be negative; all others of its floats may not."""
-_MAY_BE_INFINITE = frozenset({"lower_bound", "speed", "heading", "waypoint", "goals", "goal", "history", "statistics"})
+_MAY_BE_INFINITE = frozenset(
+    {"lower_bound", "speed", "heading", "waypoint", "goals", "goal", "history", "statistics", "deadline"}
+)
 """Fields in which NaN or infinity says something: no limit, any heading, no bound."""
 _TABLES = ("scenario.start", "grid.cell")
 """Arrays with columns, which their classes check."""
@@ -146,8 +148,9 @@ def _scenario(scenario: Scenario, robots: int, levels: int) -> Iterator[str]:
     yield from _finite("scenario.start", scenario.start[:, :2])
     yield from _indices("scenario.start_level", scenario.start_level, levels)
     for task in scenario.tasks:
-        if not len(task.goals) or task.levels.shape != (len(task.goals),):
-            yield "a task: the numbers of goals and levels do not agree"
+        if not len(task.goals) or not task.levels.shape == task.service.shape == (len(task.goals),):
+            yield "a task: the numbers of goals, levels and service times do not agree"
+        yield from _finite("a task: its service times", task.service)
         yield from _finite("a task: its goals", task.goals[:, :2])
         yield from _indices("a task: a level", task.levels, levels)
 

@@ -16,7 +16,10 @@ NO_SIMULATOR = f"{IDLE}there is no simulator"
 def refusals(config: RunConfig, root: Item) -> list[InputError]:
     """Return the errors of one run whose settings contradict one another."""
     if config.simulator is None:
-        return []
+        return [] if config.tasks is None else [_place(root, "tasks").location.error("tasks", "needs a simulator")]
+    if config.tasks is not None and config.planner.assigns:
+        reason = "a planner that assigns cannot be called when tasks come over time"
+        return [_place(root, "planner").location.error("planner", reason, "switch `assign` off, or choose another one")]
     blind = [entry for entry in config.fleet if not _has_lidar(entry)]
     return [
         _place(root, key).location.error(
@@ -57,6 +60,8 @@ class IdleOptions:
         found = dict(_of_planning_only(config)) if config.simulator is None else dict(_of_executions(config))
         if config.planner.assigns:
             found["assigner"] = f"{IDLE}the planner assigns the tasks"
+        if config.tasks is None:
+            found["assigner.look_ahead"] = f"{IDLE}there are no `tasks` that come over time"
         for key, item in root.value.items():
             chosen = getattr(config, key, None)
             several = chosen.values() if isinstance(chosen, Mapping) else [chosen]

@@ -20,6 +20,7 @@ from mrpbench_core.api import (
     RoadmapBuilder,
     ScenarioSource,
     Simulator,
+    TaskSource,
     WorldSource,
     option,
 )
@@ -171,6 +172,9 @@ class RunConfig:
     world: WorldSource = block(help="walls, doors, floors and navigation graph")
     roadmap: RoadmapBuilder = block("lanes", help="the graph that planners search")
     scenario: ScenarioSource = block("random", help="starts and goals")
+    tasks: TaskSource | None = block(
+        "none", help="gives tasks over time, until `limits.execution`; then the scenario gives the starts alone"
+    )
     fleet: tuple[FleetEntry, ...] = option(
         (FleetEntry(),), help="the robots: a name, or a list of entries", validator=validators.min_len(1)
     )

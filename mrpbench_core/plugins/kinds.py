@@ -7,6 +7,7 @@ GROUPS = {
     "world": "mrpbench.worlds",
     "roadmap": "mrpbench.roadmaps",
     "scenario": "mrpbench.scenarios",
+    "task_source": "mrpbench.task_sources",
     "assigner": "mrpbench.assigners",
     "planner": "mrpbench.planners",
     "plan_filter": "mrpbench.plan_filters",

@@ -39,6 +39,7 @@ from mrpbench_core.testing.suites.recovery import RecoveryConformance
 from mrpbench_core.testing.suites.roadmap import RoadmapConformance
 from mrpbench_core.testing.suites.scenario import ScenarioConformance
 from mrpbench_core.testing.suites.simulator import SimulatorConformance
+from mrpbench_core.testing.suites.task_source import TaskSourceConformance
 from mrpbench_core.testing.suites.world import WorldConformance
 
 __all__ = [
@@ -64,6 +65,7 @@ __all__ = [
     "ScenarioConformance",
     "SimulatorConformance",
     "Skip",
+    "TaskSourceConformance",
     "WorldConformance",
     "failed_checks",
     "require",

@@ -3,6 +3,7 @@
 import attrs
 import numpy as np
 
+from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.model.common.arrays import Float, Int, Int16
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
@@ -64,3 +65,18 @@ def places_of_world(world: World, roadmap: Roadmap | None = None) -> Places:
 def places_of_roadmap(roadmap: Roadmap) -> Places:
     """Return every vertex of the roadmap, without names."""
     return Places(position=roadmap.position, level=roadmap.level, vertex=np.arange(len(roadmap.position)), names=())
+
+
+def connected(roadmap: Roadmap, places: Places) -> Int:
+    """Return the indices of the largest group of places between which every motion profile can drive both ways."""
+    labels = [round_trips(roadmap, profile)[places.vertex] for profile in range(len(roadmap.duration))]
+    if not labels or not len(places):
+        return np.arange(len(places))
+    _, group, sizes = np.unique(np.stack(labels), axis=1, return_inverse=True, return_counts=True)
+    return np.flatnonzero(group.ravel() == sizes.argmax())
+
+
+def outside_resources(roadmap: Roadmap, places: Places) -> Int:
+    """Return the indices of the places outside of doors, lifts and mutexes."""
+    used = [vertex for resource in roadmap.resources for vertex in resource.vertices]
+    return np.flatnonzero(~np.isin(places.vertex, used))

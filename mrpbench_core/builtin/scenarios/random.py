@@ -8,7 +8,13 @@ import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.scenario import ScenarioSource
-from mrpbench_core.builtin.scenarios.places import Places, places_of_roadmap, places_of_world
+from mrpbench_core.builtin.scenarios.places import (
+    Places,
+    connected,
+    outside_resources,
+    places_of_roadmap,
+    places_of_world,
+)
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Float, Int, Int16
@@ -53,9 +59,9 @@ class Random(ScenarioSource):
         places = places_of_world(world, roadmap) if world.vertices else places_of_roadmap(roadmap)
         room = 2 * float(fleet.radii.max())
         if any(robot.graph is not None for robot in fleet.robots):
-            return self._draw_on_graphs(places[_parking(roadmap, places)], roadmap, fleet, seed)
-        places = places[_connected(roadmap, places)]
-        places = places[_parking(roadmap, places)]
+            return self._draw_on_graphs(places[outside_resources(roadmap, places)], roadmap, fleet, seed)
+        places = places[connected(roadmap, places)]
+        places = places[outside_resources(roadmap, places)]
         stands = roadmap.position[places.vertex]
         return places.scenario(
             _separate(stands, places.level, _shuffled(len(places), seed, STARTS), room, self.robots, "start"),
@@ -95,21 +101,6 @@ class Random(ScenarioSource):
         starts = random.Random(seed).sample(range(count), self.robots)  # noqa: S311 - the published draw
         goals = random.Random(seed + 1).sample(range(count), self.robots)  # noqa: S311
         return places_of_world(world).scenario(np.array(starts), np.array(goals))
-
-
-def _connected(roadmap: Roadmap, places: Places) -> Int:
-    """Return the indices of the largest group of places between which every motion profile can drive both ways."""
-    labels = [round_trips(roadmap, profile)[places.vertex] for profile in range(len(roadmap.duration))]
-    if not labels or not len(places):
-        return np.arange(len(places))
-    _, group, sizes = np.unique(np.stack(labels), axis=1, return_inverse=True, return_counts=True)
-    return np.flatnonzero(group.ravel() == sizes.argmax())
-
-
-def _parking(roadmap: Roadmap, places: Places) -> Int:
-    """Return the indices of the places outside of doors, lifts and mutexes."""
-    used = [vertex for resource in roadmap.resources for vertex in resource.vertices]
-    return np.flatnonzero(~np.isin(places.vertex, used))
 
 
 def _shuffled(count: int, seed: int, stream: int) -> Int:

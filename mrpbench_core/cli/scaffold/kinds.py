@@ -48,6 +48,7 @@ KINDS: Mapping[str, Kind] = {
     "metric": Kind(usage="In a configuration: `metrics: [planning, execution, $name]`."),
     "recovery": Kind(usage="In a configuration: `navigator: {plugin: waypoints, recoveries: [clear, $name, wait]}`."),
     "scenario": Kind(options={"robots": 3}),
+    "task_source": Kind(usage="In a configuration: `tasks: {plugin: $name}`."),
 }
 """Kinds that differ from the others."""
 

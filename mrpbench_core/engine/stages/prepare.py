@@ -43,6 +43,8 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
         InputError: the configuration does not fit the world, the robots or the scenario.
         RunEnded: the scenario cannot be solved by any planner.
     """
+    if config.tasks is not None:
+        raise InputError("tasks: tasks that come over time cannot be executed yet")
     announce(Stage.WORLD, {})
     world = own(check_returned(config.world, config.world.load(), World))
     fleet = build_fleet(config, config.scenario.size())

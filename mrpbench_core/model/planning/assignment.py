@@ -27,3 +27,35 @@ class Assignment:
     """i4[n]: column assigned to each row, -1 = none."""
     cost: float
     """Value of the assigner's objective."""
+
+
+Queues = tuple[tuple[int, ...], ...]
+"""For each robot the tasks that it does next, in order, as columns of `QueueProblem.tasks`; each task at most once."""
+
+
+@attrs.frozen(kw_only=True)
+class QueueProblem:
+    """The tasks that no robot has begun, and when and where each robot is free for them.
+
+    A robot has begun a task when it has done the first of several errands or rests at it; then it finishes the task.
+    All durations are seconds without other robots. An assigner with `cost: euclidean` or `manhattan` gets them for that
+    way at the greatest speed of the robot.
+    """
+
+    now: float
+    """simulated seconds."""
+    tasks: tuple[Task, ...]
+    """m tasks, in the order of their release."""
+    queues: Queues
+    """What was decided last, one queue per robot."""
+    free_in: Float = array("f8")
+    """f8[n] until the robot has finished the task that it has begun, 0 = free; inf = it gave up."""
+    approach: Float = array("f8")
+    """f8[n,m] from where the robot becomes free to the first errand of the task; inf = it cannot do the task."""
+    length: Float = array("f8")
+    """f8[n,m] from the arrival at its first errand to the end of the task, with its service times."""
+    between: Float = array("f8")
+    """f8[p,m,m] from the end of a task (row) to the first errand of another (column); f8[0,0,0] unless the assigner
+    `reads_between`."""
+    profile: Int32 = array("i4")
+    """i4[n] first index of `between` for each robot."""

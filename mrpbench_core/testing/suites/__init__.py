@@ -23,12 +23,14 @@ from mrpbench_core.testing.suites.recovery import RecoveryConformance
 from mrpbench_core.testing.suites.roadmap import RoadmapConformance
 from mrpbench_core.testing.suites.scenario import ScenarioConformance
 from mrpbench_core.testing.suites.simulator import SimulatorConformance
+from mrpbench_core.testing.suites.task_source import TaskSourceConformance
 from mrpbench_core.testing.suites.world import WorldConformance
 
 SUITES: dict[str, type[ComponentConformance]] = {
     "world": WorldConformance,
     "roadmap": RoadmapConformance,
     "scenario": ScenarioConformance,
+    "task_source": TaskSourceConformance,
     "assigner": AssignerConformance,
     "planner": PlannerConformance,
     "plan_filter": PlanFilterConformance,

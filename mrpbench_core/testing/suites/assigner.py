@@ -8,7 +8,7 @@ import numpy as np
 from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
 from mrpbench_core.model.common.arrays import Float
-from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem, QueueProblem
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.suites.component import ComponentConformance
@@ -100,6 +100,29 @@ class AssignerConformance(ComponentConformance):
                 f"{name}: changes the costs of the problem: copy them before writing",
             )
 
+    def test_queues_hold_each_task_once(self) -> None:
+        assigner = self.make()
+        for name, problem in queue_problems():
+            found = assigner.assign_queues(problem)
+            require(
+                len(found) == len(problem.free_in), f"{name}: {len(found)} queues for {len(problem.free_in)} robots"
+            )
+            given = [task for queue in found for task in queue]
+            require(len(set(given)) == len(given), f"{name}: gives a task twice: {found}")
+            require(set(given) <= set(range(len(problem.tasks))), f"{name}: gives tasks that do not exist: {found}")
+            if assigner.reads_costs:
+                pairs = [(robot, task) for robot, queue in enumerate(found) for task in queue]
+                unable = [pair for pair in pairs if not np.isfinite(problem.approach[pair])]
+                require(
+                    not unable, f"{name}: robot and task {unable[:1]} have an infinite `approach`, which forbids them"
+                )
+
+    def test_gives_a_task_to_a_free_robot(self) -> None:
+        for name, problem in queue_problems():
+            if np.isfinite(problem.approach).all() and (problem.free_in == 0).any() and problem.tasks:
+                found = self.make().assign_queues(problem)
+                require(any(found), f"{name}: no robot gets a task, although robots are free")
+
     def paid(self, problem: AssignmentProblem, found: Assignment) -> float:
         """The objective of an assignment."""
         rows = np.flatnonzero(found.task >= 0)
@@ -135,6 +158,28 @@ def problems() -> Iterator[tuple[str, AssignmentProblem]]:
         yield f"{robots} robots, {tasks} tasks, many ties", make_problem(ties)
     yield "equal costs", make_problem(np.ones((4, 4)))
     yield "large costs", make_problem(random.uniform(0, 1e9, (4, 4)))
+
+
+def queue_problems() -> Iterator[tuple[str, QueueProblem]]:
+    """Robots that are free, busy or out of order, and tasks, some of which some robots cannot do."""
+    random = np.random.default_rng(2)
+    for robots, tasks in (*SHAPES, (3, 0), (2, 12)):
+        for free in (True, False):
+            approach = random.uniform(0, 20, (robots, tasks))
+            between = random.uniform(0, 20, (1, tasks, tasks))
+            yield (
+                f"{robots} robots, {tasks} tasks" + ("" if free else ", some robots busy and some pairs forbidden"),
+                QueueProblem(
+                    now=10.0,
+                    tasks=make_problem(approach).tasks,
+                    queues=((),) * robots,
+                    free_in=np.zeros(robots) if free else random.choice([0.0, 5.0, INF], robots),
+                    approach=approach if free else np.where(random.random(approach.shape) < 0.4, INF, approach),
+                    length=np.ones((robots, tasks)),
+                    between=between,
+                    profile=np.zeros(robots, np.int32),
+                ),
+            )
 
 
 def forbidding() -> Iterator[tuple[str, AssignmentProblem]]:

@@ -1,0 +1,96 @@
+"""Tasks whose errands are drawn at random places, each from a random stream of its own."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.task_source import TaskSource
+from mrpbench_core.builtin.scenarios.places import (
+    Places,
+    connected,
+    outside_resources,
+    places_of_roadmap,
+    places_of_world,
+)
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.scenario import Task
+from mrpbench_core.model.worlds.world import World
+
+ERRANDS, ARRIVALS = 2, 3
+"""Keys of the random streams of a seed, beside those of the scenario `random`."""
+
+
+def stream(seed: int, key: int, index: int) -> np.random.Generator:
+    """Return the random stream of task `index`: PCG64 with the key (seed modulo 2**64, key, index)."""
+    return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed % 2**64, key, index])))
+
+
+@attrs.frozen(kw_only=True)
+class DrawnTasks(TaskSource):
+    """Base of sources whose tasks are drawn: at the named places of the world if it has any, else at any vertex of the
+    roadmap, outside of doors, lifts and mutexes, where every robot can drive between any two.
+    """
+
+    errands: int = option(1, help="places that each task visits, in order", validator=attrs.validators.ge(1))
+    service: float = option(0.0, help="rest at each of them", unit="s", validator=attrs.validators.ge(0))
+    due: float | None = option(
+        None,
+        help="the deadline of a task, counted from its release; none: no deadlines",
+        unit="s",
+        validator=attrs.validators.optional(attrs.validators.gt(0)),
+    )
+
+    def places(self, world: World, roadmap: Roadmap) -> tuple[Places, ...]:
+        """Return the places from which each errand is drawn, in the order of the errands.
+
+        Raises:
+            InputError: there are too few.
+        """
+        found = usable_places(world, roadmap)
+        if len(found) < min(2, self.errands):
+            raise InputError(f"tasks: world {world.name} has {len(found)} places that all robots can reach")
+        return (found,) * self.errands
+
+
+@attrs.frozen
+class Drawing:
+    """Draws the tasks of one seed."""
+
+    source: DrawnTasks
+    places: tuple[Places, ...]
+    """For each errand."""
+    seed: int
+
+    def task(self, index: int, release: float) -> Task:
+        """Return task `index`, released at `release` seconds; no errand is at the place of the one before."""
+        random = stream(self.seed, ERRANDS, index).random(len(self.places))
+        pose, levels, names = np.full((len(self.places), 3), np.nan), [], []
+        before = -1
+        for errand, (places, share) in enumerate(zip(self.places, random.tolist(), strict=True)):
+            open_to = np.flatnonzero(places.vertex != before)
+            chosen = int(open_to[int(share * len(open_to))])
+            before = int(places.vertex[chosen])
+            pose[errand, :2] = places.position[chosen]
+            levels.append(int(places.level[chosen]))
+            names.append(places.names[chosen] if places.names else "")
+        return Task(
+            goals=pose,
+            levels=np.array(levels, np.int16),
+            name=" to ".join(names) if all(names) else "",
+            release=release,
+            service=self._service(),
+            deadline=np.inf if self.source.due is None else release + self.source.due,
+            index=index,
+        )
+
+    def _service(self) -> Float:
+        return np.full(len(self.places), self.source.service)
+
+
+def usable_places(world: World, roadmap: Roadmap) -> Places:
+    """Return the places outside of doors, lifts and mutexes between which every robot can drive."""
+    places = places_of_world(world, roadmap) if world.vertices else places_of_roadmap(roadmap)
+    places = places[connected(roadmap, places)]
+    return places[outside_resources(roadmap, places)]
