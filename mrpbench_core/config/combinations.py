@@ -96,6 +96,8 @@ def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
         yield "grant_truth", f"{IDLE}{_name(localizer)} does not need it"
     if config.replanning.delay is None and config.replanning.period is None:
         yield "replanning.latency", f"{IDLE}neither `delay` nor `period` calls for new plans"
+    for name, reason in config.delays.idle_options().items():
+        yield f"delays.{name}", f"{IDLE}{reason}"
     if not any(map(_has_lidar, config.fleet)):
         yield from dict.fromkeys(("noise.lidar", "noise.lidar_dropout"), f"{IDLE}no robot has a lidar").items()
     if _is(config.dispatcher, "adg") and _is(config.navigator, "waypoints"):

@@ -24,6 +24,7 @@ from mrpbench_core.api import (
     WorldSource,
     option,
 )
+from mrpbench_core.config.delays import Delays
 from mrpbench_core.files.robot import robot_file, robot_reads
 
 ROBOT = "turtlebot3_burger"
@@ -205,6 +206,7 @@ class RunConfig:
         False, help="give the true poses to a localizer other than `ground_truth` that needs them"
     )
     noise: Noise = option(Noise(), help="errors of sensors, motors and starts")
+    delays: Delays = option(Delays(), help="stops of robots, and speeds that differ from the plan")
     metrics: Mapping[str, Metric] = block(("planning", "execution"), help="metrics to compute")
     export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")
     recording: RecordingOptions = option(RecordingOptions(), help="settings of recordings")
@@ -232,6 +234,7 @@ ONLY_EXECUTION = (
     "goal_tolerance",
     "grant_truth",
     "noise",
+    "delays",
     "replanning",
     "limits.execution",
 )

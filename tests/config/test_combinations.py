@@ -45,6 +45,12 @@ def test_only_the_points_of_a_matrix_that_contradict_themselves_are_refused():
         ({"simulator": "none", "navigator": "waypoints"}, "navigator: has no effect: there is no simulator"),
         ({"planner": "cbs_ta", "assigner": "hungarian"}, "assigner: has no effect: the planner assigns the tasks"),
         ({"assigner": {"plugin": "identity", "cost": "roadmap"}}, "assigner.cost: has no effect: this assigner reads"),
+        ({"simulator": "none", "delays": {"speed": 0.1}}, "delays: has no effect: there is no simulator"),
+        ({"delays": {"max_delay": 9}}, "delays.max_delay: has no effect: p_delay is 0"),
+        (
+            {"delays": {"p_delay": 0.1, "gauss_std_ratio": 0.1}},
+            "delays.gauss_std_ratio: has no effect: duration_model is uniform",
+        ),
         ({"grant_truth": True}, "grant_truth: has no effect: ground_truth does not need it"),
         ({"replanning": {"latency": 1}}, "replanning.latency: has no effect: neither `delay` nor `period`"),
         ({"fleet": BLIND, "noise": {"lidar": 0.1}}, "noise.lidar: has no effect: no robot has a lidar"),

@@ -16,6 +16,7 @@ from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import ContractChecks
 from mrpbench_core.engine.execution.arrivals import Arrivals
+from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
 from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.recorder import Recorder, Sample
@@ -109,6 +110,8 @@ class LoopInputs:
     """f8[n,3] start poses."""
     noise: Disturbances
     """Errors of sensors, motors and start times."""
+    delays: DelayStream
+    """Stops and speeds of the robots."""
     recorder: Recorder
     """Receives everything that happens; flushed at the end."""
     replanner: Replanner
@@ -283,9 +286,9 @@ class ExecutionLoop:
 
     def _record(self, observation: FleetObservation, last: bool) -> None:
         """Record this control period, and show it to hooks."""
-        now, state, recorder = self._now, self._state, self._inputs.recorder
+        inputs, now, state, recorder = self._inputs, self._now, self._state, self._inputs.recorder
         recorder.scans(observation.scans)
-        recorder.events(self._motion.events)
+        recorder.events((*inputs.delays.begun(now), *self._motion.events))
         sample = Sample(
             now=now,
             state=state,
@@ -297,14 +300,15 @@ class ExecutionLoop:
             facility=self._facility_manager.states(state),
         )
         recorder.sample(self._step, sample, last)
-        if self._inputs.stepped is not None:
-            self._inputs.stepped(now=now, state=own(state), observation=self._given, routes=self._given_routes)
+        if inputs.stepped is not None:
+            inputs.stepped(now=now, state=own(state), observation=self._given, routes=self._given_routes)
 
     def _simulate(self) -> None:
         """Let one control period pass."""
         inputs = self._inputs
         commands = self._facility_manager.commands(self._motion.reached, self._orders.released, self._state)
-        driven = Inputs(twist=inputs.noise.actuated(self._motion.twist), facilities=commands)
+        twist = inputs.delays.driven(inputs.noise.actuated(self._motion.twist), self._motion.reached)
+        driven = Inputs(twist=twist, facilities=commands)
         self._state = self._checks.state(inputs.simulation.step(driven))
         self._step += 1
         self._now = self._step * inputs.context.period

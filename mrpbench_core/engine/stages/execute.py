@@ -6,6 +6,7 @@ import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.facility_manager import ExecutionError
 from mrpbench_core.engine.execution.loop import ExecutionLoop, ExecutionResult, LoopComponents, LoopInputs
 from mrpbench_core.engine.execution.noise import Disturbances
@@ -119,6 +120,7 @@ def _simulate(
                 simulation=simulation,
                 placed=poses,
                 noise=noise,
+                delays=DelayStream(config.delays, len(context.fleet), *seeds),
                 recorder=recorder,
                 replanner=replanner,
                 limit_s=config.limits.execution,
