@@ -15,7 +15,6 @@ EXTRAS = {
     "pybullet": "mrpbench-simulators-pybullet",
     "ros2": "mrpbench-bridges-ros2",
     "rosbag2": "mrpbench-exporters-rosbag2",
-    "scipy": "mrpbench-assigners-scipy",
     "statistics": "mrpbench-core[statistics]",
 }
 

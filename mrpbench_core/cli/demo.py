@@ -23,7 +23,7 @@ from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
 
 WANTED = {
-    "assigner": ("ortools_mip", "hungarian", "identity"),
+    "assigner": ("hungarian", "identity"),
     "planner": ("cbs", "prioritized", "example"),
     "simulator": ("pybullet", "planar", "kinematic"),
     "controller": ("pure_pursuit",),

@@ -33,7 +33,7 @@ matrix:                          # one run per combination
 """
 PREFERRED = {
     "planner": ("cbs", "example"),
-    "assigner": ("ortools_mip", "identity"),
+    "assigner": ("hungarian", "identity"),
     "controller": ("pure_pursuit",),
 }
 

@@ -180,7 +180,7 @@ class RunConfig:
         (FleetEntry(),), help="the robots: a name, or a list of entries", validator=validators.min_len(1)
     )
     assigner: Assigner = block(
-        "ortools_mip", help="decides which robot does which task; with `scenario: movingai` the default is `identity`"
+        "hungarian", help="decides which robot does which task; with `scenario: movingai` the default is `identity`"
     )
     planner: Planner = block(help="turns the problem into one timed path per robot")
     plan_filter: PlanFilter | None = block("none", help="thins out the waypoints of the plan before it is driven")

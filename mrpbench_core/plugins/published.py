@@ -23,6 +23,7 @@ _PLANNERS = (
 )
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
+        "mrpbench.assigners": ("hungarian",),
         "mrpbench.controllers": ("dwb", "graceful", "mppi", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
         "mrpbench.dispatchers": ("gses",),
@@ -33,7 +34,6 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.simulators": ("planar",),
     },
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},
-    "mrpbench-assigners-scipy": {"mrpbench.assigners": ("hungarian",)},
     "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},
     "mrpbench-executors-dask": {"mrpbench.executors": ("dask",)},
     "mrpbench-exporters-rosbag2": {"mrpbench.exporters": ("rosbag2",), "mrpbench.importers": ("rosbag2",)},
@@ -45,7 +45,6 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
 EXTRAS = {
     "mrpbench-standard": "",
     "mrpbench-assigners-ortools": "ortools",
-    "mrpbench-assigners-scipy": "scipy",
     "mrpbench-bridges-ros2": "ros2",
     "mrpbench-executors-dask": "dask",
     "mrpbench-exporters-rosbag2": "rosbag2",

@@ -3,6 +3,7 @@
 
 #include "mapf_reordering.hpp"
 #include "mapf_solvers.hpp"
+#include "mrpbench_mapf/assignment/hungarian.hpp"
 #include "mrpbench_mapf/single_agent/path_lengths.hpp"
 
 namespace nb = nanobind;
@@ -28,6 +29,19 @@ nb::ndarray<nb::numpy, double> lengths_of_paths(int vertex_count, const Table<st
   return own<double>(path_lengths(vertex_count, edges, from, to), {from.size(), to.size()});
 }
 
+std::optional<nb::ndarray<nb::numpy, std::int32_t>> cheapest_assignment(const Table<double>& cost) {
+  const std::size_t rows = cost.shape(0), columns = cost.shape(1);
+  require(rows <= columns, "there are more rows than columns");
+  std::vector<const double*> row;
+  for (std::size_t i = 0; i < rows; ++i) row.push_back(cost.data() + i * columns);
+  const auto sound = [](double entry) { return entry > -std::numeric_limits<double>::infinity(); };
+  require(std::all_of(cost.data(), cost.data() + cost.size(), sound), "costs are numbers, or infinite if forbidden");
+  Limits unlimited(std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max());
+  BasicAssignment<double> found;
+  if (!BasicHungarian<double>(unlimited).solve(row, static_cast<int>(columns), found)) return std::nullopt;
+  return own(std::move(found.column_of), {rows});
+}
+
 }  // namespace
 
 NB_MODULE(mapf, module) {
@@ -36,6 +50,8 @@ NB_MODULE(mapf, module) {
   bind_solvers(module, algorithms());
   module.def("path_lengths", &lengths_of_paths, "vertex_count"_a, "edges"_a, "length"_a, "sources"_a, "targets"_a,
              "f8[sources,targets], infinite where there is no path; edges i4[E,2], length f8[E] not below 0.");
+  module.def("cheapest_assignment", &cheapest_assignment, "cost"_a,
+             "i4[n]: the column of each row, all different, with the least sum of costs; None if there is none.");
 
   define_reordering(module);
 }

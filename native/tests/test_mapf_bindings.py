@@ -8,7 +8,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 from mrpbench_native import mapf
+from scipy.optimize import linear_sum_assignment
 from scipy.sparse.csgraph import dijkstra
 
 LIMITS = {"wall_s": 1.0, "memory_bytes": 1 << 30}
@@ -150,3 +153,31 @@ def test_paths_on_no_graph_are_refused(changed, error):
     given = {"edges": [[0, 1]], "length": [1.0], "sources": [0], "targets": [1]} | changed
     with pytest.raises(ValueError, match=error):
         mapf.path_lengths(3, *(np.array(value, "f8" if name == "length" else "i4") for name, value in given.items()))
+
+
+@settings(deadline=None, max_examples=100)
+@given(data=st.data())
+def test_assignments_cost_what_those_of_scipy_do(data):
+    rows = data.draw(st.integers(0, 12))
+    columns = data.draw(st.integers(rows, 16))
+    random = np.random.default_rng(data.draw(st.integers(0, 2**32)))
+    cost = data.draw(
+        st.sampled_from([random.normal(size=(rows, columns)), random.integers(-2, 3, (rows, columns)) * 1.0])
+    )
+    cost[random.random((rows, columns)) < data.draw(st.sampled_from([0.0, 0.3, 0.7]))] = np.inf
+    found = mapf.cheapest_assignment(cost)
+    if found is None:
+        with pytest.raises(ValueError, match="infeasible"):
+            linear_sum_assignment(cost)
+        return
+    assert len(set(found.tolist())) == rows
+    assert cost[range(rows), found].sum() == pytest.approx(cost[linear_sum_assignment(cost)].sum())
+
+
+@pytest.mark.parametrize(
+    ("cost", "error"),
+    [([[1.0], [2.0]], "more rows than columns"), ([[np.nan]], "costs are numbers"), ([[-np.inf]], "costs are numbers")],
+)
+def test_matrices_that_are_no_costs_are_refused(cost, error):
+    with pytest.raises(ValueError, match=error):
+        mapf.cheapest_assignment(np.array(cost))

@@ -51,7 +51,7 @@ class Random(ScenarioSource):
 
 @fill
 @attrs.frozen(kw_only=True)
-class Mip(Assigner):
+class Hungarian(Assigner):
     objective: Literal["sum", "bottleneck"] = option("sum", help="what is minimised")
 
 @fill
@@ -148,7 +148,7 @@ NAMES = {
     "mrpbench.worlds": {"office": "Office", "rmf": "Rmf"},
     "mrpbench.roadmaps": {"lanes": "Lanes"},
     "mrpbench.scenarios": {"random": "Random"},
-    "mrpbench.assigners": {"ortools_mip": "Mip"},
+    "mrpbench.assigners": {"hungarian": "Hungarian"},
     "mrpbench.planners": {"astar": "Astar", "ecbs": "Ecbs", "task_assigning": "TaskAssigning"},
     "mrpbench.dispatchers": {"adg": "Adg"},
     "mrpbench.navigators": {"waypoints": "Waypoints"},

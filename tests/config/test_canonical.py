@@ -79,7 +79,7 @@ def test_another_process_in_another_folder_reads_the_same(full, tmp_path):
     )
     # The toy plugins there are installed together with the real ones, so they are named with their distribution.
     parcel = json.dumps(full.parcel)
-    names = {"rmf", "lanes", "random", "ortools_mip", "adg", "waypoints", "kinematic", "ground_truth", "execution"}
+    names = {"rmf", "lanes", "random", "hungarian", "adg", "waypoints", "kinematic", "ground_truth", "execution"}
     for name in [*names, "rosbag2", "ecbs", "dwb"]:
         parcel = parcel.replace(f'"plugin": "{name}"', f'"plugin": "{name}@toy"')
     environment = os.environ | {"PYTHONPATH": str(tmp_path / "site")}

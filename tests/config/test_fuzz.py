@@ -14,7 +14,7 @@ world: {plugin: rmf, file: map.yaml}
 roadmap: {plugin: lanes, cell_size: 0.4}
 scenario: {plugin: random, robots: 9}
 fleet: [{robot: turtlebot3_burger, lidar: {beams: 360, range: 3.5}}, {lidar: none, count: 2}]
-assigner: {plugin: ortools_mip, objective: sum}
+assigner: {plugin: hungarian, objective: sum}
 planner: {plugin: ecbs, w: 1.2, pair: [3, x], either: auto, level: a}
 controller: {plugin: dwb, critics: [path_dist, {plugin: obstacle, scale: 1e-3}], best: obstacle}
 simulator: {plugin: kinematic, timestep: 1/240}

@@ -14,7 +14,7 @@ EXPLICIT = {
     "name": "other",
     "roadmap": {"plugin": "lanes", "cell_size": "40 cm"},
     "fleet": [{"robot": "turtlebot3_burger", "lidar": None}],
-    "assigner": {"objective": "sum", "plugin": "ortools_mip", "cost": "euclidean"},
+    "assigner": {"objective": "sum", "plugin": "hungarian", "cost": "euclidean"},
     "planner": {"heuristic": "cg", "plugin": "ecbs", "w": 1.2, "weights": [1, 2]},
     "dispatcher": "adg",
     "navigator": {"plugin": "waypoints"},

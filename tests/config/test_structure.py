@@ -143,7 +143,7 @@ def test_a_default_that_is_not_installed_says_so(install, tmp_path, errors):
     installed.refresh()
     lines = errors(BASE)
     assert any(
-        line.startswith("some.yaml: assigner: no assigner is called 'ortools_mip' (the default)") for line in lines
+        line.startswith("some.yaml: assigner: no assigner is called 'hungarian' (the default)") for line in lines
     ), lines
 
 

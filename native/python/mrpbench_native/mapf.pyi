@@ -91,6 +91,16 @@ def path_lengths(
 ) -> NDArray[np.float64]:
     """f8[sources,targets], infinite where there is no path; edges i4[E,2], length f8[E] not below 0."""
 
+def cheapest_assignment(cost: NDArray[np.float64]) -> NDArray[np.int32] | None:
+    """i4[n]: the column of each row, all different, with the least sum of costs; None if there is none.
+
+    Shortest augmenting paths: Jonker and Volgenant, Computing 1987. The least sum is found except for rounding, and
+    equal matrices give equal assignments.
+
+    Args:
+        cost: f8[n,m] with n <= m, infinite where a pair is forbidden.
+    """
+
 class Reordering:
     """The best order of robots found."""
 

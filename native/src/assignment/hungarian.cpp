@@ -4,7 +4,8 @@
 
 namespace mrpbench::mapf {
 
-bool Hungarian::solve(CostRows cost, int columns, Assignment& found) {
+template <class Entry>
+bool BasicHungarian<Entry>::solve(CostRows cost, int columns, Assignment& found) {
   found.column_of.assign(cost.size(), -1);
   found.row_of.assign(columns, -1);
   found.row_price.assign(cost.size(), 0);
@@ -16,21 +17,23 @@ bool Hungarian::solve(CostRows cost, int columns, Assignment& found) {
   return true;
 }
 
-bool Hungarian::repair(CostRows cost, int row, Assignment& present, int first) {
+template <class Entry>
+bool BasicHungarian<Entry>::repair(CostRows cost, int row, Assignment& present, int first) {
   const int hole = present.column_of[row];
   present.row_of[hole] = -1;
   return augment(cost, row, hole, first, present);
 }
 
 /// Assign `row` along the shortest path by reduced costs to `hole`, or to any idle column.
-bool Hungarian::augment(CostRows cost, int row, int hole, int first, Assignment& it) {
+template <class Entry>
+bool BasicHungarian<Entry>::augment(CostRows cost, int row, int hole, int first, Assignment& it) {
   begin(first, it);
   scan(cost[row], it.row_price[row], kAny, 0, it);
   while (true) {
     limits_.check();
     const std::int32_t column = settle();
     if (column == kAny) return false;
-    const Cost distance = distance_[column];
+    const Sum distance = distance_[column];
     const std::int32_t owner = it.row_of[column];
     if (owner < 0 && (hole == kAny || column == hole)) {
       it.row_price[row] += distance;
@@ -47,7 +50,8 @@ bool Hungarian::augment(CostRows cost, int row, int hole, int first, Assignment&
   }
 }
 
-void Hungarian::begin(int first, const Assignment& it) {
+template <class Entry>
+void BasicHungarian<Entry>::begin(int first, const Assignment& it) {
   const auto columns = static_cast<std::int32_t>(it.row_of.size());
   distance_.assign(columns, kFar);
   from_.assign(columns, kAny);
@@ -60,7 +64,8 @@ void Hungarian::begin(int first, const Assignment& it) {
 }
 
 /// Take out the nearest column that can be reached, kAny if there is none.
-std::int32_t Hungarian::settle() {
+template <class Entry>
+std::int32_t BasicHungarian<Entry>::settle() {
   const auto nearest = std::ranges::min_element(ahead_, {}, [&](std::int32_t column) { return distance_[column]; });
   if (nearest == ahead_.end() || distance_[*nearest] == kFar) return kAny;
   const std::int32_t column = *nearest;
@@ -69,29 +74,34 @@ std::int32_t Hungarian::settle() {
   return column;
 }
 
-void Hungarian::scan(const Tick* cost, Cost row_price, int from, Cost distance, const Assignment& it) {
+template <class Entry>
+void BasicHungarian<Entry>::scan(const Entry* cost, Sum row_price, int from, Sum distance, const Assignment& it) {
   for (const std::int32_t column : ahead_) {
-    if (cost[column] < kForever) reach(column, from, distance + cost[column] - row_price - it.column_price[column]);
+    if (cost[column] < CostTraits<Entry>::kForbidden)
+      reach(column, from, distance + cost[column] - row_price - it.column_price[column]);
   }
 }
 
 /// All idle rows are alike: the first one that is reached stands for all.
-void Hungarian::scan_idle(int from, Cost distance, const Assignment& it) {
+template <class Entry>
+void BasicHungarian<Entry>::scan_idle(int from, Sum distance, const Assignment& it) {
   if (idle_scanned_) return;
   idle_scanned_ = true;
   for (const std::int32_t column : ahead_) reach(column, from, distance - it.idle_price - it.column_price[column]);
 }
 
-void Hungarian::reach(int column, int from, Cost distance) {
+template <class Entry>
+void BasicHungarian<Entry>::reach(int column, int from, Sum distance) {
   if (distance >= distance_[column]) return;
   distance_[column] = distance;
   from_[column] = from;
 }
 
-void Hungarian::change_prices(Cost length, Assignment& it) const {
-  Cost idle_change = 0;
+template <class Entry>
+void BasicHungarian<Entry>::change_prices(Sum length, Assignment& it) const {
+  Sum idle_change = 0;
   for (const std::int32_t column : settled_) {
-    const Cost change = length - distance_[column];
+    const Sum change = length - distance_[column];
     it.column_price[column] -= change;
     if (it.row_of[column] < 0) {
       idle_change = change;
@@ -103,7 +113,8 @@ void Hungarian::change_prices(Cost length, Assignment& it) const {
 }
 
 /// Every row on the path takes the next column, `row` the first.
-void Hungarian::move_along(int row, std::int32_t column, Assignment& it) const {
+template <class Entry>
+void BasicHungarian<Entry>::move_along(int row, std::int32_t column, Assignment& it) const {
   while (column != kAny) {
     const std::int32_t before = from_[column];
     const std::int32_t moved = before == kAny ? row : it.row_of[before];
@@ -112,5 +123,8 @@ void Hungarian::move_along(int row, std::int32_t column, Assignment& it) const {
     column = before;
   }
 }
+
+template class BasicHungarian<Tick>;
+template class BasicHungarian<double>;
 
 }  // namespace mrpbench::mapf

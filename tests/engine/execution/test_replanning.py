@@ -140,7 +140,7 @@ RUN = {
 
 def executed(tmp_path, monkeypatch, **changes):
     pytest.importorskip("mrpbench_planners_mapf")
-    pytest.importorskip("mrpbench_assigners_scipy")
+    pytest.importorskip("mrpbench_assigners_hungarian")
     pytest.importorskip("mrpbench_controllers_pure_pursuit")
     monkeypatch.chdir(tmp_path)
     (tmp_path / "held.py").write_text(HELD)

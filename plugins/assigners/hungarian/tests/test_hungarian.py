@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from mrpbench_assigners_scipy import Hungarian
+from mrpbench_assigners_hungarian import Hungarian
 
 from mrpbench_core.api import AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
