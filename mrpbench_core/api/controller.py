@@ -142,7 +142,17 @@ class Controller(Component):
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:
         """Begin to control one robot; `world` is the static map, `period` the control period in simulated seconds."""
 
-    def start_fleet(self, robots: Sequence[RobotModel], world: World, period: float) -> FleetControllerSession:
-        """Begin to control a fleet; override this to command all robots in one call."""
+    def start_fleet(
+        self,
+        robots: Sequence[RobotModel],
+        world: World,
+        period: float,
+        seed: int = 0,  # noqa: ARG002 - for controllers that draw random numbers
+    ) -> FleetControllerSession:
+        """Begin to control a fleet; override this to command all robots in one call.
+
+        `seed` follows from the run and is the same for all planners. A controller that draws random numbers draws them
+        by this seed and the index of the robot.
+        """
         sessions = [self.start(robot, world, period) for robot in robots]
         return FleetControllerSession(sessions, type(self).__name__)

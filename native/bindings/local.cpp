@@ -58,7 +58,7 @@ nb::dict selected(const nb::dict& given, const std::vector<Parameter>& options, 
 }
 
 void add(Fleet& self, const std::string& controller, const nb::dict& settings, const Matrix<2>& footprint,
-         const Critics& critics) {
+         const Critics& critics, std::uint64_t seed) {
   const ControllerKind& kind = controller_kind(controller);
   const std::vector<Parameter> of_robots = parameters(RobotOptions::description());
   auto options = configured_by<RobotOptions>(selected(settings, of_robots, true));
@@ -72,7 +72,7 @@ void add(Fleet& self, const std::string& controller, const nb::dict& settings, c
   std::vector<Parameter> own = kind.nav2;
   for (const auto* group : {&kind.further, &kind.derived}) own.insert(own.end(), group->begin(), group->end());
   const OptionValues values = from_python(selected(settings, of_robots, false), own);
-  self.add(options, kind.make(values, options, self.size(), chosen));
+  self.add(options, kind.make(values, options, {seed, self.size()}, chosen));
 }
 
 void see(Fleet& self, double now, const Vector<std::int32_t>& robots, const Matrix<3>& poses,
@@ -161,7 +161,8 @@ NB_MODULE(local, module) {
             new (self) Fleet(copy<Segment>(walls), reach, threads);
           },
           nb::kw_only(), "walls"_a, "reach"_a, "threads"_a)
-      .def("add", &add, nb::kw_only(), "controller"_a, "settings"_a, "footprint"_a, "critics"_a = Critics{})
+      .def("add", &add, nb::kw_only(), "controller"_a, "settings"_a, "footprint"_a, "critics"_a = Critics{},
+           "seed"_a = 0)
       .def("see", &see, "now"_a, "robots"_a, "pose"_a, "ranges"_a)
       .def("command", &command, "seen"_a, "score"_a = nb::none())
       .def("clear", &Fleet::clear, "robot"_a)

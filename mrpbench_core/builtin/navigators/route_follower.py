@@ -46,12 +46,12 @@ class RouteFollower:
         self._refresh(np.arange(len(routes)))
         self._released = np.full(len(routes), -1, np.int32)  # so that the next `update` looks at all robots
 
-    def update(self, pose: Float, speed: Float, released: Int32, level: Int16) -> None:
+    def update(self, pose: Float, twist: Float, released: Int32, level: Int16) -> None:
         """Count what robots have reached, rounded and cleared.
 
         Args:
             pose: f8[n,3] estimated.
-            speed: f8[n] m/s.
+            twist: f8[n,2] m/s, rad/s.
             released: i4[n] number of leading segments released.
             level: i2[n].
         """
@@ -63,7 +63,7 @@ class RouteFollower:
         self._released = released
         reaching = due.nonzero()[0]
         if len(reaching):
-            changed = self._progress.count_reached(reaching, pose, speed, released, level)
+            changed = self._progress.count_reached(reaching, pose, twist, released, level)
             due[:] = False
             due[changed] = True
             if len(changed):

@@ -49,13 +49,13 @@ class RouteProgress:
         self.at_goal: Bool = np.zeros(len(routes), bool)
         """bool[n]: the robot is at a place where it may have to turn before that counts as reached."""
 
-    def count_reached(self, robots: Int, pose: Float, speed: Float, released: Int32, level: Int16) -> Int:
+    def count_reached(self, robots: Int, pose: Float, twist: Float, released: Int32, level: Int16) -> Int:
         """Count the waypoints that some robots have reached.
 
         Args:
             robots: i8[k].
             pose: f8[n,3] estimated, of the fleet.
-            speed: f8[n] m/s.
+            twist: f8[n,2] m/s, rad/s.
             released: i4[n] number of leading segments released.
             level: i2[n].
 
@@ -63,14 +63,14 @@ class RouteProgress:
             The robots for which anything has changed.
         """
         before = self._state(robots)
-        moving = np.abs(speed) > _STANDING
+        moving = np.abs(twist[:, 0]) > _STANDING
         self.halting[robots] &= moving[robots]
         some = robots
         while len(some):
             some = some[(self.reached[some] < released[some]) & ~self.halting[some]]
             if not len(some):
                 break
-            some = some[self._have_arrived(some, pose, level)]
+            some = some[self._have_arrived(some, pose, twist, level)]
             self.reached[some] += 1
             self.at_goal[some] = False
             self.halting[some] = moving[some] & self._rules.stops
@@ -144,7 +144,7 @@ class RouteProgress:
         ahead = self.tables.corner[first + int(self.reached[robot]) + 1 : first + int(self.released[robot]) + 1]
         self.reached[robot] += int(np.searchsorted(ahead, corner, side="right"))
 
-    def _have_arrived(self, robots: Int, pose: Float, level: Int16) -> Bool:
+    def _have_arrived(self, robots: Int, pose: Float, twist: Float, level: Int16) -> Bool:
         """Tell bool[k] which robots are at the end of the first segment that they have not yet completed."""
         tables, rules = self.tables, self._rules
         goal = tables.first[robots] + self.reached[robots] + 1
@@ -156,6 +156,8 @@ class RouteProgress:
             near[ends] |= self.at_goal[robots[ends]] & rules.stateful
             self.at_goal[robots[ends]] = near[ends]
             near[ends] &= self._face(pose[robots[ends], 2], tables.yaw[goal[ends]])
+            stopped = np.array([rules.trans_stopped_velocity, rules.rot_stopped_velocity])
+            near[ends] &= (np.abs(twist[robots[ends]]) <= stopped).all(axis=1)
         arrived: Bool = near & here
         return arrived
 

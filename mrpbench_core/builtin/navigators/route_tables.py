@@ -23,6 +23,9 @@ class ArrivalRules:
     xy_goal_tolerance: float
     yaw_goal_tolerance: float
     stateful: bool
+    trans_stopped_velocity: float = np.inf
+    """m/s, and below rad/s, up to which a robot stands at the end of its path; inf = it may move."""
+    rot_stopped_velocity: float = np.inf
 
 
 class RouteTables:

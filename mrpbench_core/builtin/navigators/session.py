@@ -50,7 +50,7 @@ class WaypointsSession(NavigatorSession):
         """Command all robots for one control period."""
         pose, measured = observation.estimate.pose, observation.odometry.twist
         follower, recoveries = self.follower, self.recoveries
-        follower.update(pose, measured[:, 0], orders.released, observation.level)
+        follower.update(pose, measured, orders.released, observation.level)
         self.rotations.update(now, orders)
         rotating = self.rotations.rotating
         self.detours.shorten(pose, rotating)

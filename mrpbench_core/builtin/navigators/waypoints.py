@@ -5,13 +5,17 @@ System", IROS 2020).
 """
 
 from collections.abc import Sequence
-from typing import Literal
+from pathlib import Path
+from typing import Any, Literal
 
 import attrs
+import numpy as np
 from attrs.validators import ge, gt
 
 from mrpbench_core.api import Controller, Navigator, NavigatorSession, option
+from mrpbench_core.api.nav2 import parameter, settle
 from mrpbench_core.api.recovery import Recovery
+from mrpbench_core.builtin.navigators.checkers import from_nav2, parameters_of
 from mrpbench_core.builtin.navigators.controller_server import ControllerServer
 from mrpbench_core.builtin.navigators.detours import DetourOptions, Detours
 from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
@@ -43,25 +47,46 @@ class Waypoints(Navigator):
         unit="m",
         validator=gt(0),
     )
-    xy_goal_tolerance: float = option(
+    nav2: Path | None = option(
+        None,
+        help="a Nav2 parameter file: the goal and progress checkers and failure_tolerance of its controller_server; "
+        "options given here win",
+    )
+    goal_checker: Literal["SimpleGoalChecker", "StoppedGoalChecker", "PositionGoalChecker"] | None = parameter(
+        "SimpleGoalChecker",
+        help="when the end of the path is reached: by place and yaw, also standing, or by place alone",
+    )
+    xy_goal_tolerance: float | None = parameter(
         0.10, help="distance within which the end of the path is reached (Nav2: 0.25)", unit="m", validator=gt(0)
     )
-    yaw_goal_tolerance: float = option(
+    yaw_goal_tolerance: float | None = parameter(
         0.25,
         help="error of yaw within which the end of the path is reached, if the path prescribes a yaw, radians",
         validator=gt(0),
     )
-    stateful: bool = option(True, help="check only the yaw once a robot has been at the end of the path")
-    required_movement_radius: float = option(
+    stateful: bool | None = parameter(True, help="check only the yaw once a robot has been at the end of the path")
+    trans_stopped_velocity: float | None = parameter(
+        0.25, help="speed up to which StoppedGoalChecker sees a robot stand", unit="m/s", validator=ge(0)
+    )
+    rot_stopped_velocity: float | None = parameter(
+        0.25, help="turn rate up to which StoppedGoalChecker sees a robot stand", unit="rad/s", validator=ge(0)
+    )
+    progress_checker: Literal["SimpleProgressChecker", "PoseProgressChecker"] | None = parameter(
+        "SimpleProgressChecker", help="what is progress: moving, or also turning"
+    )
+    required_movement_radius: float | None = parameter(
         0.5, help="a robot under way makes progress when it moves this far", unit="m", validator=gt(0)
     )
-    movement_time_allowance: float = option(
+    required_movement_angle: float | None = parameter(
+        0.5, help="to PoseProgressChecker, a robot makes progress when it turns this far, radians", validator=gt(0)
+    )
+    movement_time_allowance: float | None = parameter(
         10.0,
         help="time within which a robot has to make progress; waiting for release does not count",
         unit="s",
         validator=gt(0),
     )
-    failure_tolerance: float = option(
+    failure_tolerance: float | None = parameter(
         0.3, help="time for which the controller may know no admissible command", unit="s", validator=ge(0)
     )
     replan_period: float = option(
@@ -80,9 +105,33 @@ class Waypoints(Navigator):
         6, help="recoveries that a robot tries between two waypoints before it gives up", validator=ge(0)
     )
 
+    def __attrs_post_init__(self) -> None:
+        """Read the Nav2 file, so that errors in it are found before anything runs."""
+        self.settled()
+
+    def settled(self) -> dict[str, Any]:
+        """Return the values of the options that Nav2 has: those given, those of the Nav2 file, or else the defaults.
+
+        Raises:
+            InputError: the file has a checker or value that is not supported.
+        """
+        values = settle(self)
+        if self.nav2 is not None:
+            found = from_nav2(self.nav2, type(self))
+            values |= {name: value for name, value in found.items() if getattr(self, name) is None}
+        return values
+
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""
         idle = {}
+        values = self.settled()
+        goal, progress = values["goal_checker"], values["progress_checker"]
+        of_goal, of_progress = parameters_of(goal), parameters_of(progress)
+        for name in ("yaw_goal_tolerance", "trans_stopped_velocity", "rot_stopped_velocity"):
+            if name not in of_goal:
+                idle[name] = f"goal_checker is {goal}"
+        if "required_movement_angle" not in of_progress:
+            idle["required_movement_angle"] = f"progress_checker is {progress}"
         if not self.max_recoveries:
             idle["recoveries"] = "max_recoveries is 0"
         elif not self.recoveries:
@@ -94,10 +143,10 @@ class Waypoints(Navigator):
     def start(
         self, fleet: Fleet, world: World, routes: Sequence[Route], controller: Controller, period: float, seed: int
     ) -> NavigatorSession:
-        """Begin at the start of the routes; nothing here is random."""
-        del seed
-        follower = RouteFollower(routes, self.arrival_rules, fleet.radii + fleet.radii.max(initial=0.0))
-        controllers = controller.start_fleet(fleet.robots, world, period)
+        """Begin at the start of the routes; only controllers draw random numbers."""
+        nav2, rules = self.settled(), self.arrival_rules
+        follower = RouteFollower(routes, rules, fleet.radii + fleet.radii.max(initial=0.0))
+        controllers = controller.start_fleet(fleet.robots, world, period, seed)
         detours = DetourOptions(
             every=round(self.replan_period / period),
             planner_tolerance=self.planner_tolerance,
@@ -106,12 +155,17 @@ class Waypoints(Navigator):
         recoveries = RecoveryOptions(recoveries=self.recoveries, max_recoveries=self.max_recoveries, period=period)
         return WaypointsSession(
             follower=follower,
-            controllers=ControllerServer(len(fleet), controllers, type(controller).__name__, self.failure_tolerance),
-            progress_checker=ProgressChecker(len(fleet), self.required_movement_radius, self.movement_time_allowance),
+            controllers=ControllerServer(len(fleet), controllers, type(controller).__name__, nav2["failure_tolerance"]),
+            progress_checker=ProgressChecker(
+                len(fleet),
+                nav2["required_movement_radius"],
+                nav2["movement_time_allowance"],
+                nav2["required_movement_angle"] if nav2["progress_checker"] == "PoseProgressChecker" else np.inf,
+            ),
             detours=Detours(follower, controllers, detours),
             recoveries=RecoveryManager(fleet.robots, recoveries, controllers, follower),
-            rotations=Rotations(follower, fleet.robots, period, self.movement_time_allowance),
-            xy_goal_tolerance=self.xy_goal_tolerance,
+            rotations=Rotations(follower, fleet.robots, period, nav2["movement_time_allowance"]),
+            xy_goal_tolerance=rules.xy_goal_tolerance,
             fleet=fleet,
             world=world,
         )
@@ -119,10 +173,14 @@ class Waypoints(Navigator):
     @property
     def arrival_rules(self) -> ArrivalRules:
         """When a waypoint counts as reached."""
+        nav2 = self.settled()
+        stands = nav2["goal_checker"] == "StoppedGoalChecker"
         return ArrivalRules(
             stops=self.waypoints == "stop",
             waypoint_tolerance=self.waypoint_tolerance,
-            xy_goal_tolerance=self.xy_goal_tolerance,
-            yaw_goal_tolerance=self.yaw_goal_tolerance,
-            stateful=self.stateful,
+            xy_goal_tolerance=nav2["xy_goal_tolerance"],
+            yaw_goal_tolerance=np.inf if nav2["goal_checker"] == "PositionGoalChecker" else nav2["yaw_goal_tolerance"],
+            stateful=nav2["stateful"],
+            trans_stopped_velocity=nav2["trans_stopped_velocity"] if stands else np.inf,
+            rot_stopped_velocity=nav2["rot_stopped_velocity"] if stands else np.inf,
         )

@@ -104,7 +104,7 @@ class ControllerConformance(ComponentConformance):
         one, other = drive(self.start(), CORNER), drive(self.start(), CORNER)
         require(
             np.array_equal(one.twist, other.twist),
-            "commands differ the second time: keep all state in the session, draw nothing",
+            "commands differ the second time: keep all state in the session, draw by the seed alone",
         )
 
     def test_robots_do_not_disturb_one_another(self) -> None:

@@ -2,6 +2,7 @@
 // and a row in `controllers.cpp`.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -54,6 +55,12 @@ class Controller {
   virtual Explanation explain() const { return {}; }
 };
 
+/// What the random numbers of a controller depend on: the seed of the run, and the index of the robot in its fleet.
+struct RandomKey {
+  std::uint64_t seed = 0;
+  std::size_t robot = 0;
+};
+
 /// A critic by its name, the weight of its scores, and its options.
 struct CriticChoice {
   std::string name;
@@ -63,8 +70,7 @@ struct CriticChoice {
 
 /// The controllers of one name.
 struct ControllerKind {
-  /// `index` is that of the robot in its fleet.
-  std::function<std::unique_ptr<Controller>(const OptionValues&, const RobotOptions&, std::size_t index,
+  std::function<std::unique_ptr<Controller>(const OptionValues&, const RobotOptions&, RandomKey,
                                             std::span<const CriticChoice>)>
       make;
   /// Options that Nav2 has, that it does not have, and that follow from the robot and the run.
@@ -81,7 +87,7 @@ ControllerKind controller_of() {
   Description<Options> rows = Options::nav2();
   for (const auto& group : {Options::further(), Options::derived()})
     rows.insert(rows.end(), group.begin(), group.end());
-  return {.make = [rows](const OptionValues& values, const RobotOptions& robot, std::size_t,
+  return {.make = [rows](const OptionValues& values, const RobotOptions& robot, RandomKey,
                          std::span<const CriticChoice>) -> std::unique_ptr<Controller> {
             return std::make_unique<C>(configured(rows, values, Options{}), robot);
           },

@@ -24,9 +24,10 @@ class Fleet:
         settings: dict[str, Any],
         footprint: NDArray[np.float64],
         critics: list[tuple[str, float, dict[str, Any]]] = ...,
+        seed: int = 0,
     ) -> None:
         """Add a robot: the name of its controller, options of robot and controller by Nav2's names, footprint f8[k,2],
-        critics with weight and options.
+        critics with weight and options, seed of the run, by which and by the robot's index its controller draws.
         """
     def see(
         self, now: float, robots: NDArray[np.int32], pose: NDArray[np.float64], ranges: NDArray[np.float64]

@@ -22,7 +22,7 @@ class Follower:
 
     def update(self, x, y, yaw, speed, released):
         self.pose = np.array([[x, y, yaw]])
-        self.fleet.update(self.pose, np.array([speed]), np.array([released], np.int32), np.zeros(1, np.int16))
+        self.fleet.update(self.pose, np.array([[speed, 0.0]]), np.array([released], np.int32), np.zeros(1, np.int16))
 
     def adopt(self, route):
         self.fleet.adopt([route])
@@ -255,9 +255,9 @@ def test_robots_in_a_fleet_do_not_disturb_one_another(seed):
         pose = np.column_stack([[each.waypoint[step // 8, :2] for each in routes], np.zeros(4)])
         pose[:, :2] += random.uniform(-0.1, 0.1, (4, 2))
         released = np.full(4, 1 + step // 8, np.int32)
-        together.update(pose, np.full(4, 0.2), released, np.zeros(4, np.int16))
+        together.update(pose, np.tile([0.2, 0.0], (4, 1)), released, np.zeros(4, np.int16))
         for robot, single in enumerate(alone):
-            single.update(pose[robot : robot + 1], np.full(1, 0.2), released[:1], np.zeros(1, np.int16))
+            single.update(pose[robot : robot + 1], np.array([[0.2, 0.0]]), released[:1], np.zeros(1, np.int16))
             assert (single.reached[0], single.cleared[0]) == (together.reached[robot], together.cleared[robot])
 
 

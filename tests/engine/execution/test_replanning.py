@@ -36,7 +36,7 @@ class FirstHeld(Controller):
     def start(self, robot, world, period):
         return Session(PurePursuit().start(robot, world, period))
 
-    def start_fleet(self, robots, world, period):
+    def start_fleet(self, robots, world, period, seed):
         fleet = super().start_fleet(robots, world, period)
         fleet.sessions[0].held = True
         return fleet

@@ -1,6 +1,7 @@
 // The trajectories that MPPI samples in one period, and what its critics know.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,6 +60,10 @@ struct Batch {
   std::size_t steps() const { return vx.steps; }
   std::size_t samples() const { return vx.samples; }
   Pose in_map(float px, float py, float heading) const;
+  /// The index of the path point `offset` points beyond `furthest`, or of the last one.
+  std::size_t beyond_furthest(int offset) const {
+    return std::min(furthest + static_cast<std::size_t>(offset), path.size() - 1);
+  }
   /// Compute `furthest`.
   void find_furthest();
 

@@ -23,6 +23,9 @@ struct WeightedCritic {
   float weight = 1;
   int power = 1;
   std::unique_ptr<Critic> critic;
+
+  /// Add (weight * raw) ^ power of each sample to its total.
+  void add(std::span<const float> raw, std::span<float> total) const;
 };
 
 struct CriticKind {

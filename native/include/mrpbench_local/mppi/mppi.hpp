@@ -16,7 +16,7 @@ struct MppiOptions {
   double prune_distance = 2, collision_lookahead_time = 2;
   bool open_loop = false, regenerate_noises = false, clamp_raw_controls = false;
   double path_spacing = 0;
-  std::int64_t seed = 0;
+  double min_turning_r = 0;
   double period = 0.05;
 
   static Description<MppiOptions> nav2();
@@ -26,8 +26,7 @@ struct MppiOptions {
 
 class Mppi : public Controller {
  public:
-  Mppi(const MppiOptions& options, const RobotOptions& robot, std::size_t index,
-       std::vector<mppi::WeightedCritic> critics);
+  Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key, std::vector<mppi::WeightedCritic> critics);
 
   std::optional<Twist> command(const Situation& now, const Extra& extra) override;
 
@@ -42,20 +41,19 @@ class Mppi : public Controller {
   bool improve(const Extra& extra);
   void begin_plan();
   bool score(const Extra& extra);
-  void constrain();
   bool is_safe() const;
   Twist send();
   Samples trajectories(std::size_t every, std::size_t step) const;
 
   MppiOptions options_;
-  std::size_t index_;
+  RandomKey key_;
   std::vector<mppi::WeightedCritic> critics_;
   bool shift_ = true, drawn_fresh_ = false;
   std::uint64_t drawn_ = 0;
   Twist start_, last_;
   mppi::Batch batch_;
   mppi::Table noise_vx_, noise_wz_, control_vx_, control_wz_;
-  std::vector<float> plan_vx_, plan_wz_, total_, raw_, weight_, ones_;
+  std::vector<float> plan_vx_, plan_wz_, total_, raw_, weight_;
   std::array<float, 4> past_vx_{}, past_wz_{};
   const char* fault_ = "";
 };

@@ -238,7 +238,7 @@ ControllerKind dwb() {
     rows.insert(rows.end(), group.begin(), group.end());
   }
   ControllerKind kind;
-  kind.make = [rows](const OptionValues& values, const RobotOptions&, std::size_t,
+  kind.make = [rows](const OptionValues& values, const RobotOptions&, RandomKey,
                      std::span<const CriticChoice> critics) {
     std::vector<Dwb::Weighted> weighted;
     for (const CriticChoice& it : critics) weighted.push_back({it.name, it.weight, make_critic(it.name, it.options)});

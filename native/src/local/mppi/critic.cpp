@@ -5,6 +5,15 @@
 
 namespace mrpbench::local::mppi {
 
+void WeightedCritic::add(std::span<const float> raw, std::span<float> total) const {
+  for (std::size_t k = 0; k < raw.size(); ++k) {
+    const float weighted = weight * raw[k];
+    float product = weighted;
+    for (int i = 1; i < power; ++i) product *= weighted;
+    total[k] += product;
+  }
+}
+
 const CriticKind& critic_kind(const std::string& name) {
   static const std::map<std::string, CriticKind> kinds{
       {"ConstraintCritic", constraint_critic()},

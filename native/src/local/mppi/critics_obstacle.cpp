@@ -62,6 +62,30 @@ class Lookup {
   std::vector<Point> corners_;
 };
 
+/// Go through every `step`th pose of all samples: `score(k, cost)` for costs above 0, up to the collision of a sample,
+/// which makes its score `collision`. Returns false if every sample collides.
+template <class Score>
+bool sweep(const Batch& batch, Lookup& costs, std::size_t step, double collision, std::span<float> raw, Score&& score) {
+  std::vector<char> collides(raw.size(), 0);
+  std::size_t left = raw.size();
+  for (std::size_t t = 0; t < batch.steps(); t += step) {
+    const float *x = batch.x[t], *y = batch.y[t], *yaw = batch.yaw[t];
+    for (std::size_t k = 0; k < raw.size(); ++k) {
+      if (collides[k]) continue;
+      const int cost = costs.at(x[k], y[k]);
+      if (cost == 0) continue;
+      if (costs.collides(cost, x[k], y[k], yaw[k])) {
+        collides[k] = 1;
+        raw[k] = static_cast<float>(collision);
+        --left;
+      } else {
+        score(k, cost);
+      }
+    }
+  }
+  return left > 0;
+}
+
 /// Mean cost under the poses.
 class Cost : public Critic {
  public:
@@ -87,35 +111,21 @@ class Cost : public Critic {
     Lookup costs(batch, options_.consider_footprint);
     const auto step = static_cast<std::size_t>(options_.trajectory_point_step);
     const bool near_goal = batch.path.length < static_cast<float>(options_.near_goal_distance);
-    const auto collision = static_cast<float>(options_.collision_cost);
     const auto critical = static_cast<float>(options_.critical_cost);
-    collides_.assign(raw.size(), 0);
-    std::size_t number = 0, left = raw.size();
-    for (std::size_t t = 0; t < batch.steps(); t += step, ++number) {
-      const float *x = batch.x[t], *y = batch.y[t], *yaw = batch.yaw[t];
-      for (std::size_t k = 0; k < raw.size(); ++k) {
-        if (collides_[k]) continue;
-        const int cost = costs.at(x[k], y[k]);
-        if (cost == 0) continue;
-        if (costs.collides(cost, x[k], y[k], yaw[k])) {
-          collides_[k] = 1;
-          raw[k] = collision;
-          --left;
-        } else if (cost >= options_.near_collision_cost) {
-          raw[k] += critical;
-        } else if (!near_goal) {
-          raw[k] += static_cast<float>(cost);
-        }
+    const bool some = sweep(batch, costs, step, options_.collision_cost, raw, [&](std::size_t k, int cost) {
+      if (cost >= options_.near_collision_cost) {
+        raw[k] += critical;
+      } else if (!near_goal) {
+        raw[k] += static_cast<float>(cost);
       }
-    }
-    const float share = 1.0f / 254.0f / static_cast<float>(number);
+    });
+    const float share = 1.0f / 254.0f / static_cast<float>((batch.steps() + step - 1) / step);
     for (float& it : raw) it *= share;
-    return left > 0;
+    return some;
   }
 
  private:
   Options options_;
-  std::vector<char> collides_;
 };
 
 /// Repulsion by the distance of obstacles, which follows from the cost.
@@ -149,38 +159,23 @@ class Obstacles : public Critic {
       const double away = (std::log(253.0) - std::log(cost)) / map.cost_scaling_factor;
       distance[cost] = static_cast<float>(away) + (costs.by_outline() ? inscribed : 0.0f);
     }
-    collides_.assign(raw.size(), 0);
     repulsion_.assign(raw.size(), 0);
-    std::size_t left = raw.size();
     const auto margin = static_cast<float>(options_.collision_margin_distance);
-    for (std::size_t t = 0; t < batch.steps(); ++t) {
-      const float *x = batch.x[t], *y = batch.y[t], *yaw = batch.yaw[t];
-      for (std::size_t k = 0; k < raw.size(); ++k) {
-        if (collides_[k]) continue;
-        const int cost = costs.at(x[k], y[k]);
-        if (cost == 0) continue;
-        if (costs.collides(cost, x[k], y[k], yaw[k])) {
-          collides_[k] = 1;
-          raw[k] = static_cast<float>(options_.collision_cost);
-          --left;
-          continue;
-        }
-        const float away = distance[cost];
-        if (away < margin) raw[k] += margin - away;
-        if (!near_goal) repulsion_[k] += std::max(inflation - away, 0.0f);
-      }
-    }
+    const bool some = sweep(batch, costs, 1, options_.collision_cost, raw, [&](std::size_t k, int cost) {
+      const float away = distance[cost];
+      if (away < margin) raw[k] += margin - away;
+      if (!near_goal) repulsion_[k] += std::max(inflation - away, 0.0f);
+    });
     const float least = *std::min_element(repulsion_.begin(), repulsion_.end());
     const float share = static_cast<float>(options_.repulsion_weight) / static_cast<float>(batch.steps());
     for (std::size_t k = 0; k < raw.size(); ++k) {
       raw[k] = static_cast<float>(options_.critical_weight) * raw[k] + share * (repulsion_[k] - least);
     }
-    return left > 0;
+    return some;
   }
 
  private:
   Options options_;
-  std::vector<char> collides_;
   std::vector<float> repulsion_;
 };
 

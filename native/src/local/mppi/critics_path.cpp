@@ -148,8 +148,7 @@ class PathFollow : public Critic {
   bool score(const Batch& batch, std::span<float> raw) override {
     const LocalPath& path = batch.path;
     if (path.length < static_cast<float>(options_.threshold_to_consider)) return true;
-    std::size_t at =
-        std::min(batch.furthest + static_cast<std::size_t>(options_.offset_from_furthest), path.size() - 1);
+    std::size_t at = batch.beyond_furthest(options_.offset_from_furthest);
     while (at + 1 < path.size() && !path.free[at]) ++at;
     const float* const x = batch.x[batch.steps() - 1];
     const float* const y = batch.y[batch.steps() - 1];
@@ -186,8 +185,7 @@ class PathAngle : public Critic {
   bool score(const Batch& batch, std::span<float> raw) override {
     const LocalPath& path = batch.path;
     if (path.length < static_cast<float>(options_.threshold_to_consider)) return true;
-    const std::size_t at =
-        std::min(batch.furthest + static_cast<std::size_t>(options_.offset_from_furthest), path.size() - 1);
+    const std::size_t at = batch.beyond_furthest(options_.offset_from_furthest);
     const float px = path.x[at], py = path.y[at], along = path.yaw[at];
     const float now = off(std::atan2(py, px), 0, along);
     if (now < static_cast<float>(options_.max_angle_to_furthest)) return true;

@@ -48,6 +48,8 @@ Description<MppiOptions> MppiOptions::nav2() {
           {"open_loop", &M::open_loop, "start from the last command instead of the measured velocity"},
           {"regenerate_noises", &M::regenerate_noises, "draw new noise in every period"},
           {"clamp_raw_controls", &M::clamp_raw_controls, "limit sampled controls by the accelerations, too"},
+          {"min_turning_r", &M::min_turning_r, at_least(0, "m"),
+           "smallest radius of turns, of Ackermann steering; 0 = the robot turns on the spot"},
           {"sgf_order", &M::sgf_order, within(1, 2), "order of the filter that smooths the controls"},
           {"collision_lookahead_time", &M::collision_lookahead_time, above(0, "s"),
            "check the command for collisions up to this time"}};
@@ -57,17 +59,15 @@ Description<MppiOptions> MppiOptions::further() {
   using M = MppiOptions;
   return {{"path_spacing", &M::path_spacing, at_least(0, "m"),
            "distance of the points of the path that critics count; 0 = so that as many are within reach as at Nav2's "
-           "highest speed and spacing"},
-          {"seed", &M::seed, at_least(0), "of the noise; each robot draws its own"}};
+           "highest speed and spacing"}};
 }
 
 Description<MppiOptions> MppiOptions::derived() {
   return {{"period", &MppiOptions::period, above(0, "s"), "control period"}};
 }
 
-Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, std::size_t index,
-           std::vector<WeightedCritic> critics)
-    : options_(options), index_(index), critics_(std::move(critics)) {
+Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key, std::vector<WeightedCritic> critics)
+    : options_(options), key_(key), critics_(std::move(critics)) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(what);
   };
@@ -89,9 +89,9 @@ Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, std::size_t in
   raw_.assign(samples * critics_.size(), 0);
 }
 
-/// Sample noise, keyed by robot and number of the draw.
+/// Sample noise, keyed by the seed of the run, the robot and the number of the draw.
 void Mppi::draw() {
-  sim::Draws draws(static_cast<std::uint64_t>(options_.seed), index_, drawn_++);
+  sim::Draws draws(key_.seed, key_.robot, drawn_++);
   const auto vx = static_cast<float>(options_.vx_std), wz = static_cast<float>(options_.wz_std);
   for (std::size_t i = 0; i < noise_vx_.values.size(); ++i) {
     const auto [a, b] = draws.normal();
@@ -142,7 +142,7 @@ void Mppi::prepare(const Situation& now) {
                     : clamped(last_.turn, measured.turn - period * it.az_max, measured.turn + period * it.az_max);
   const double share = std::min(1.0, now.path.speed / it.vx_max);
   batch_.limits = {static_cast<float>(it.vx_max * share), static_cast<float>(it.vx_min * share),
-                   static_cast<float>(it.wz_max * share), 0};
+                   static_cast<float>(it.wz_max * share), static_cast<float>(it.min_turning_r)};
   batch_.costmap = now.costmap;
   batch_.robot = now.pose;
   batch_.tolerance = static_cast<float>(now.path.tolerance);
@@ -210,15 +210,15 @@ bool Mppi::improve(const Extra& extra) {
   const auto sharpness = static_cast<float>(-1 / it.temperature);
   weight_.resize(samples);
   for (std::size_t k = 0; k < samples; ++k) weight_[k] = std::exp((total_[k] - least) * sharpness);
-  ones_.assign(samples, 1.0f);
-  const float per = 1 / weighted_sum(weight_.data(), ones_.data(), samples);
+  const float per = 1 / sum(weight_.data(), samples);
   for (std::size_t t = 0; t < steps; ++t) {
     plan_vx_[t] = weighted_sum(weight_.data(), control_vx_[t], samples) * per;
     plan_wz_[t] = weighted_sum(weight_.data(), control_wz_[t], samples) * per;
   }
   smooth(plan_vx_, past_vx_, it.sgf_order);
   smooth(plan_wz_, past_wz_, it.sgf_order);
-  constrain();
+  constrain(plan_vx_, plan_wz_, batch_.limits, {it.ax_max, -it.ax_min, it.az_max}, start_.ahead, start_.turn, it.period,
+            it.model_dt);
   return true;
 }
 
@@ -244,34 +244,13 @@ bool Mppi::score(const Extra& extra) {
     if (it.weight == 0) continue;
     const std::span<float> raw(&raw_[c * samples], samples);
     if (!it.critic->score(batch_, raw)) return false;
-    for (std::size_t k = 0; k < samples; ++k) {
-      const float weighted = it.weight * raw[k];
-      float product = weighted;
-      for (int power = 1; power < it.power; ++power) product *= weighted;
-      total_[k] += product;
-    }
+    it.add(raw, total_);
   }
   if (!extra) return true;
   std::vector<double> added(samples, 0.0);
   extra(trajectories(1, 1), added);
   for (std::size_t k = 0; k < samples; ++k) total_[k] += static_cast<float>(added[k]);
   return true;
-}
-
-/// Keep the plan within speeds and accelerations.
-void Mppi::constrain() {
-  const Limits& limits = batch_.limits;
-  double vx = start_.ahead, wz = start_.turn, dt = options_.period;
-  for (std::size_t t = 0; t < plan_vx_.size(); ++t) {
-    const bool forward = vx >= 0;
-    const double up = forward ? options_.ax_max : -options_.ax_min, down = forward ? -options_.ax_min : options_.ax_max;
-    vx = std::clamp(std::clamp<double>(plan_vx_[t], limits.vx_min, limits.vx_max), vx - down * dt, vx + up * dt);
-    wz = std::clamp(std::clamp<double>(plan_wz_[t], -limits.wz_max, limits.wz_max), wz - options_.az_max * dt,
-                    wz + options_.az_max * dt);
-    plan_vx_[t] = static_cast<float>(vx);
-    plan_wz_[t] = static_cast<float>(wz);
-    dt = options_.model_dt;
-  }
 }
 
 /// Tell whether the plan is free of collisions for a while.
@@ -338,7 +317,7 @@ ControllerKind mppi_controller() {
     rows.insert(rows.end(), group.begin(), group.end());
   }
   ControllerKind kind;
-  kind.make = [rows](const OptionValues& values, const RobotOptions& robot, std::size_t index,
+  kind.make = [rows](const OptionValues& values, const RobotOptions& robot, RandomKey key,
                      std::span<const CriticChoice> chosen) {
     std::vector<WeightedCritic> critics;
     for (const CriticChoice& it : chosen) {
@@ -349,7 +328,7 @@ ControllerKind mppi_controller() {
       }
       critics.back().name = it.name;
     }
-    return std::make_unique<Mppi>(configured(rows, values, MppiOptions{}), robot, index, std::move(critics));
+    return std::make_unique<Mppi>(configured(rows, values, MppiOptions{}), robot, key, std::move(critics));
   };
   kind.nav2 = parameters(MppiOptions::nav2());
   kind.further = parameters(MppiOptions::further());

@@ -52,9 +52,11 @@ class Outside(Controller):
         del robot, world, period
         return _Wheels(self.commands, 0)
 
-    def start_fleet(self, robots: Sequence[RobotModel], world: World, period: float) -> FleetControllerSession:
+    def start_fleet(
+        self, robots: Sequence[RobotModel], world: World, period: float, seed: int = 0
+    ) -> FleetControllerSession:
         """Control all robots."""
-        del world, period
+        del world, period, seed
         return FleetControllerSession([_Wheels(self.commands, robot) for robot in range(len(robots))])
 
 

@@ -90,7 +90,9 @@ class LocalController(Controller):
         """Begin to control one robot."""
         return FleetOfOne(self.start_fleet((robot,), world, period))
 
-    def start_fleet(self, robots: Sequence[RobotModel], world: World, period: float) -> FleetControllerSession:
+    def start_fleet(
+        self, robots: Sequence[RobotModel], world: World, period: float, seed: int = 0
+    ) -> FleetControllerSession:
         """Begin to control a fleet, all robots in one call.
 
         Raises:
@@ -100,7 +102,7 @@ class LocalController(Controller):
 
         settings = [(robot, self.settings(robot, period)) for robot in robots]
         try:
-            return LocalSession(self.native, settings, world, self.threads, self.critic_parameters)
+            return LocalSession(self.native, settings, world, self.threads, self.critic_parameters, seed)
         except ValueError as error:
             raise InputError(f"controller: {self.native}: {error}", file=self.nav2) from None
 

@@ -28,6 +28,7 @@ class LocalSession(FleetControllerSession):
         world: the static map.
         threads: threads that share the robots.
         parameters_of: returns the options of a critic for the native part.
+        seed: of the run; controllers that draw random numbers draw them by it and the index of the robot.
     """
 
     def __init__(
@@ -37,6 +38,7 @@ class LocalSession(FleetControllerSession):
         world: World,
         threads: int,
         parameters_of: Callable[[NativeCritic], dict[str, Any]],
+        seed: int = 0,
     ) -> None:
         super().__init__(())
         # Controllers are not told the level of their robot, so the walls of several levels cannot be used.
@@ -57,6 +59,7 @@ class LocalSession(FleetControllerSession):
                 settings=settings.values,
                 footprint=np.ascontiguousarray(settings.footprint, float),
                 critics=[(type(critic).__name__, critic.weight, parameters_of(critic)) for critic in native],
+                seed=seed,
             )
             others = [critic for critic in settings.critics if not isinstance(critic, NativeCritic) and critic.weight]
             started = [(type(critic).__name__, critic.weight, critic.start(robot, world)) for critic in others]

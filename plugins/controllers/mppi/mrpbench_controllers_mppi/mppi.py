@@ -30,7 +30,7 @@ class Mppi(LocalController):
     ignored: ClassVar[tuple[str, ...]] = (
         *("visualize", "TrajectoryVisualizer", "publish_critics_stats", "publish_optimal_trajectory", "Visualization"),
         *("transform_tolerance", "max_robot_pose_search_dist", "reset_period", "vy_std", "vy_max", "ay_max", "ay_min"),
-        *("AckermannConstraints", "enforce_path_inversion", "inversion_xy_tolerance", "inversion_yaw_tolerance"),
+        *("enforce_path_inversion", "inversion_xy_tolerance", "inversion_yaw_tolerance"),
         *("minimum_rotation_angle", "advanced", "TrajectoryValidator"),
     )
 
@@ -41,12 +41,20 @@ class Mppi(LocalController):
     )
 
     def settled(self, block: Nav2Block | None) -> dict[str, Any]:
-        """Return the values of the options of Nav2; robots are differential drives."""
+        """Return the values of the options of Nav2; the motion models DiffDrive and Ackermann are supported."""
         values = super().settled(block)
-        if block is not None and block.take("motion_model", str, "DiffDrive") != "DiffDrive":
-            raise block.error("must be DiffDrive, robots turn on the spot and cannot drive sideways", "motion_model")
+        if block is None:
+            return values
+        model = block.take("motion_model", str, "DiffDrive")
+        if model not in ("DiffDrive", "Ackermann"):
+            raise block.error("must be DiffDrive or Ackermann, robots cannot drive sideways", "motion_model")
+        radius = block.take("AckermannConstraints.min_turning_r", float, 0.2)
+        if radius <= 0:
+            raise block.error("must be above 0", "AckermannConstraints.min_turning_r")
+        if model == "Ackermann" and attrs.asdict(self, recurse=False)["min_turning_r"] is None:
+            values["min_turning_r"] = radius
         for name in ("model_delay_vx", "model_delay_vy", "model_delay_wz"):
-            if block is not None and block.take(name, float, 0.0):
+            if block.take(name, float, 0.0):
                 raise block.error("must be 0, delays are not modelled", name)
         return values
 

@@ -1,14 +1,16 @@
 import attrs
 import numpy as np
 import pytest
-from mrpbench_controllers_mppi import CostCritic, Mppi, PathAlignCritic
+from mrpbench_controllers_mppi import CostCritic, LocalCostmap, Mppi, PathAlignCritic
 from mrpbench_controllers_mppi.nav2_critics import DEFAULT
+from mrpbench_controllers_rotation_shim import RotationShim
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.testing.fixtures.following import NOWHERE, SPRINTER, seen
 
 PERIOD = 0.05
 PATH = [(0.0, 0.0), (4.0, 0.0)]
+CLOSE = LocalCostmap(footprint_clearing_enabled=False, obstacle_min_range=0.0)
 
 
 def drive(options, cycles=20, robots=1, path=PATH):
@@ -20,9 +22,9 @@ def drive(options, cycles=20, robots=1, path=PATH):
     return np.array(said), session
 
 
-def fleet_of(count, **options):
+def fleet_of(count, seed=0, **options):
     """Commands of robots that see the same."""
-    session = Mppi(**options).start_fleet((SPRINTER,) * count, NOWHERE, PERIOD)
+    session = Mppi(**options).start_fleet((SPRINTER,) * count, NOWHERE, PERIOD, seed)
     alone = seen(PATH)
     rows = {name: np.repeat(getattr(alone, name), count, axis=0) for name in ("pose", "twist", "yaw", "speed", "foot")}
     steps = len(PATH) - 1
@@ -42,6 +44,29 @@ def test_equal_runs_agree_to_the_last_bit_with_any_number_of_threads():
     one, other = (fleet_of(4, threads=threads) for threads in (1, 3))
     assert one.tobytes() == other.tobytes()
     assert one.tobytes() != fleet_of(4, threads=1, seed=1).tobytes()
+
+
+def test_noise_depends_on_the_seed_of_the_run():
+    steps = {"model_dt": 0.1, "time_steps": 8, "batch_size": 50}
+    session = Mppi(**steps).start_fleet((SPRINTER,), NOWHERE, PERIOD, 2**62 + 1)
+    shim = RotationShim(primary_controller=Mppi(**steps)).start_fleet((SPRINTER,), NOWHERE, PERIOD, 2**62 + 1)
+    said = session.command(seen(PATH))
+    assert said.tobytes() == shim.command(seen(PATH)).tobytes()
+    assert said.tobytes() != Mppi(**steps).start_fleet((SPRINTER,), NOWHERE, PERIOD, 5).command(seen(PATH)).tobytes()
+
+
+def test_ackermann_steering_keeps_its_radius():
+    block = {"motion_model": "Ackermann", "AckermannConstraints": {"min_turning_r": 0.4}}
+    said, _ = drive({"FollowPath": block}, cycles=40, path=[(0.0, 0.0), (1.0, 3.0)])
+    assert (np.abs(said[:, 1]) * 0.4 <= np.abs(said[:, 0]) + 1e-6).all()
+    assert (np.abs(said[:, 1]) > 0.1).any()
+
+
+def test_there_is_no_command_among_lethal_cells_after_all_attempts():
+    session = Mppi(retry_attempt_limit=2, local_costmap=CLOSE).start_fleet((SPRINTER,), NOWHERE, PERIOD)
+    said = [session.command(seen(PATH, ranges=0.16, now=step * PERIOD)) for step in range(2)]
+    assert np.isnan(said).all()
+    assert session.failure_reason(0) == "1 × all samples collide"
 
 
 def test_each_robot_draws_its_own_noise():
@@ -89,7 +114,7 @@ def test_a_nav2_file_is_read():
     found = Mppi(FollowPath=block).settings(SPRINTER, PERIOD)
     assert found.values["batch_size"] == 2000
     assert found.critics == (CostCritic(cost_weight=4.0), PathAlignCritic(cost_weight=14.0))
-    with pytest.raises(InputError, match="must be DiffDrive"):
+    with pytest.raises(InputError, match="must be DiffDrive or Ackermann"):
         Mppi(FollowPath={"motion_model": "Omni"})
     with pytest.raises(InputError, match="there is no critic 'CostCrtic'"):
         Mppi(FollowPath={"critics": ["CostCrtic"]})

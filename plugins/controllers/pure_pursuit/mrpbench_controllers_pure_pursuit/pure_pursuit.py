@@ -72,9 +72,11 @@ class PurePursuit(Controller):
         del world
         return FleetOfOne(_Fleet(self, (robot,), period))
 
-    def start_fleet(self, robots: Sequence[RobotModel], world: World, period: float) -> FleetControllerSession:
+    def start_fleet(
+        self, robots: Sequence[RobotModel], world: World, period: float, seed: int = 0
+    ) -> FleetControllerSession:
         """Begin to control a fleet, all robots at once."""
-        del world
+        del world, seed
         return _Fleet(self, robots, period)
 
 

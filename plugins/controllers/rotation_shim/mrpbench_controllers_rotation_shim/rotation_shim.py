@@ -52,9 +52,11 @@ class RotationShim(Controller):
         """Begin to control one robot."""
         return FleetOfOne(self.start_fleet((robot,), world, period))
 
-    def start_fleet(self, robots: Sequence[RobotModel], world: World, period: float) -> FleetControllerSession:
+    def start_fleet(
+        self, robots: Sequence[RobotModel], world: World, period: float, seed: int = 0
+    ) -> FleetControllerSession:
         """Begin to control a fleet, all robots in one call."""
-        primary = self.primary_controller.start_fleet(robots, world, period)
+        primary = self.primary_controller.start_fleet(robots, world, period, seed)
         return RotationShimSession(primary, Turning(**settle(self, self._block())), robots, period)
 
     @property

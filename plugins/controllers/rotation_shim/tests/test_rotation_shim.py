@@ -27,7 +27,7 @@ class Straight(Controller):
     def start(self, robot, world, period):
         raise NotImplementedError
 
-    def start_fleet(self, robots, world, period):
+    def start_fleet(self, robots, world, period, seed=0):
         return _Straight(self.free)
 
 

@@ -1,0 +1,241 @@
+// The numbers are those of Nav2's own tests of MPPI, of samples with equal poses; its critics have its code's defaults.
+#include <cmath>
+
+#include "check.hpp"
+#include "mrpbench_local/mppi/critic.hpp"
+#include "mrpbench_local/mppi/rollout.hpp"
+
+using namespace mrpbench::local;
+using namespace mrpbench::local::mppi;
+using mrpbench::OptionValues;
+
+namespace {
+
+constexpr std::size_t kSteps = 30, kSamples = 11;
+
+bool near(double a, double b, double slack = 1e-4) {
+  return std::abs(a - b) <= slack;
+}
+
+Batch batch(float length) {
+  Batch it;
+  it.dt = 0.1f;
+  for (Table* table : {&it.vx, &it.wz, &it.x, &it.y, &it.yaw}) table->resize(kSteps, kSamples);
+  it.path.length = length;
+  return it;
+}
+
+void fill(Table& table, float value) {
+  std::fill(table.values.begin(), table.values.end(), value);
+}
+
+void add_point(LocalPath& path, float x, float y = 0, float yaw = 0, bool free = true) {
+  path.x.push_back(x);
+  path.y.push_back(y);
+  path.yaw.push_back(yaw);
+  path.free.push_back(free ? 1 : 0);
+}
+
+std::vector<float> totals(const std::string& critic, const Batch& batch, const OptionValues& options = {}) {
+  const WeightedCritic it = critic_kind(critic).make(options);
+  std::vector<float> raw(kSamples, 0.0f), total(kSamples, 0.0f);
+  it.critic->score(batch, raw);
+  it.add(raw, total);
+  return total;
+}
+
+/// The total of every sample is this one.
+bool is(double expected, const std::string& critic, const Batch& batch, const OptionValues& options = {},
+        double slack = 1e-4) {
+  for (const float total : totals(critic, batch, options)) {
+    if (!near(total, expected, slack)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+TEST("ConstraintCritic scores speeds beyond the limits, and turns that are too tight") {
+  Batch it = batch(10);
+  fill(it.vx, 0.4f);
+  CHECK(is(0, "ConstraintCritic", it));
+  fill(it.vx, 0.6f);
+  CHECK(is(1.2, "ConstraintCritic", it));
+  CHECK(is(1.44, "ConstraintCritic", it, {{"cost_power", std::int64_t{2}}}));
+  fill(it.vx, -0.45f);
+  CHECK(is(1.2, "ConstraintCritic", it));
+  it.limits.min_turning_r = 0.2f;
+  fill(it.vx, 0.4f);
+  fill(it.wz, 2.5f);
+  CHECK(is(0.48, "ConstraintCritic", it));
+  fill(it.wz, 1.5f);
+  CHECK(is(0, "ConstraintCritic", it));
+}
+
+TEST("GoalAngleCritic scores the yaw near the end") {
+  Batch it = batch(0.3f);
+  CHECK(is(0, "GoalAngleCritic", it));  // any yaw will do
+  it.goal_yaw = 3.14f;
+  CHECK(is(9.42, "GoalAngleCritic", it));
+  CHECK(is(0, "GoalAngleCritic", it, {{"symmetric_yaw_tolerance", true}}, 0.02));
+  it.goal_yaw = 1.57f;
+  CHECK(is(4.71, "GoalAngleCritic", it));
+  CHECK(is(4.71, "GoalAngleCritic", it, {{"symmetric_yaw_tolerance", true}}, 0.02));
+  it.path.length = 0.8f;
+  CHECK(is(0, "GoalAngleCritic", it));
+}
+
+TEST("GoalCritic scores the distance from the end near it") {
+  Batch it = batch(1);
+  add_point(it.path, 0);
+  add_point(it.path, 0.5f);
+  CHECK(is(2.5, "GoalCritic", it));
+  it.path.length = 1.5f;
+  CHECK(is(0, "GoalCritic", it));
+}
+
+TEST("PathAngleCritic scores the angle to a point ahead, in three modes") {
+  Batch it = batch(10);
+  for (int i = 0; i < 10; ++i) add_point(it.path, 0);
+  it.path.x[6] = -1;
+  it.path.y[6] = 4;
+  it.furthest = 2;
+  CHECK(is(3.9947, "PathAngleCritic", it));
+  CHECK(is(2.9167, "PathAngleCritic", it, {{"mode", std::int64_t{1}}}));
+  CHECK(is(2.9167, "PathAngleCritic", it, {{"mode", std::int64_t{2}}}));
+  it.path.x[6] = 4;
+  it.path.y[6] = 1;
+  CHECK(is(0, "PathAngleCritic", it));  // within max_angle_to_furthest
+}
+
+TEST("critics of preferences score driving back, turning and speeds that are not executed") {
+  Batch it = batch(10);
+  fill(it.vx, 1);
+  CHECK(is(0, "PreferForwardCritic", it));
+  fill(it.vx, -1);
+  CHECK(is(15, "PreferForwardCritic", it));
+  fill(it.wz, 10);
+  CHECK(is(100, "TwirlingCritic", it));
+  it.path.length = 0.05f;
+  CHECK(is(0, "PreferForwardCritic", it) && is(0, "TwirlingCritic", it));
+  fill(it.vx, 0.01f);
+  fill(it.wz, -0.021f);
+  // Nav2's number is 19.845 with a speed of 0.02 sideways, whose share is 35 * 3 * 0.06.
+  CHECK(is(19.845 - 6.3, "VelocityDeadbandCritic", it, {{"deadband_vx", 0.08}, {"deadband_wz", 0.08}}));
+}
+
+TEST("PathFollowCritic scores the distance of the last pose from a point ahead") {
+  Batch it = batch(10);
+  for (int i = 0; i < 5; ++i) add_point(it.path, 0);
+  add_point(it.path, 0.15f);
+  CHECK(is(0.75, "PathFollowCritic", it));
+  it.path.free.back() = 0;  // the last one is taken if there is no free one
+  CHECK(is(0.75, "PathFollowCritic", it));
+  add_point(it.path, 0.3f);
+  it.path.free[6] = 1;
+  CHECK(is(0.75 * 2, "PathFollowCritic", it));
+  it.path.length = 1.3f;
+  CHECK(is(0, "PathFollowCritic", it));
+}
+
+TEST("PathAlignCritic scores the distance from the point at the same length, unless the path is occupied") {
+  Batch it = batch(10);
+  for (int i = 0; i < 22; ++i) add_point(it.path, std::min(0.1f * static_cast<float>(i), 0.9f));
+  it.path.spacing = 0.1f;
+  it.furthest = 21;
+  fill(it.x, 0.66f);
+  CHECK(is(6.6, "PathAlignCritic", it));
+  it.furthest = 19;
+  CHECK(is(0, "PathAlignCritic", it));
+  it.furthest = 21;
+  it.path.free.assign(22, 0);
+  CHECK(is(0, "PathAlignCritic", it));
+}
+
+TEST("CostCritic sums the costs under every second pose, and drops samples that collide") {
+  CostmapOptions options;
+  options.static_layer = true;
+  options.footprint = {{0.1, 0.1}, {-0.1, 0.1}, {-0.1, -0.1}, {0.1, -0.1}};
+  Costmap map(options, std::make_shared<const StaticMap>(std::vector<Segment>{{{1.0, -2}, {1.0, 2}}}, 4.0));
+  map.update({});
+  Batch it = batch(10);
+  it.costmap = &map;
+  it.by_radius = true;
+  double expected = 0;
+  for (std::size_t t = 0; t < kSteps; ++t) {
+    std::fill_n(it.x[t], kSamples, 0.502f + 0.005f * static_cast<float>(t));
+    if (t % 2 == 0) expected += map.at(map.frame().cell({0.502 + 0.005 * static_cast<double>(t), 0}));
+  }
+  CHECK(expected > 100);
+  CHECK(is(3.81 * expected / 254 / 15, "CostCritic", it));
+  it.x[4][0] = 1.0f;
+  const auto some = totals("CostCritic", it);
+  CHECK(near(some[0], 3.81e6 / 254 / 15, 1) && near(some[1], 3.81 * expected / 254 / 15));
+  fill(it.x, 1.0f);
+  std::vector<float> raw(kSamples, 0.0f);
+  CHECK(!critic_kind("CostCritic").make({}).critic->score(it, raw));
+}
+
+TEST("the furthest point is the one where samples come") {
+  Batch it = batch(10);
+  for (int i = 0; i < 10; ++i) add_point(it.path, 0.2f * static_cast<float>(i));
+  it.path.spacing = 0.2f;
+  std::fill_n(it.x[kSteps - 1], kSamples, 1.0f);
+  fill(it.vx, 1);
+  it.find_furthest();
+  CHECK(it.furthest == 5 && it.beyond_furthest(2) == 7 && it.beyond_furthest(9) == 9);
+  fill(it.vx, 0.1f);  // samples do not reach farther than their length
+  it.find_furthest();
+  CHECK(it.furthest == 2);
+}
+
+TEST("sampled controls change within accelerations") {
+  Table vx, wz, out_vx, out_wz;
+  for (Table* it : {&vx, &wz, &out_vx, &out_wz}) it->resize(2, 1);
+  const Change change{3 * 0.05f, 3 * 0.05f, 3.5f * 0.05f};
+  vx[0][0] = 0.75f;
+  wz[0][0] = 0.1f;
+  limit(vx, wz, 5, 6, change, out_vx, out_wz);
+  CHECK(near(out_vx[1][0], 4.85) && near(out_wz[1][0], 5.825));
+  vx[0][0] = -0.75f;
+  limit(vx, wz, -5, 6, change, out_vx, out_wz);
+  CHECK(near(out_vx[1][0], -4.85));
+}
+
+TEST("a plan keeps speeds and accelerations, the first step within a control period") {
+  const Limits limits{5, -5, 5, 0};
+  const auto first = [&](float wanted, double speed) {
+    std::vector<float> vx{wanted}, wz{0};
+    constrain(vx, wz, limits, {2, 1, 3}, speed, 0, 0.025, 0.05);
+    return vx[0];
+  };
+  CHECK(near(first(5, 0), 0.05) && near(first(5, 0.5), 0.55) && near(first(-5, 0.5), 0.475));
+  std::vector<float> vx{0.4f, 0.4f}, wz{2.5f, -2.5f};
+  constrain(vx, wz, {0.5f, -0.35f, 1.9f, 0.25f}, {9, 9, 99}, 0.4, 0, 0.05, 0.05);
+  CHECK(near(wz[0], 1.6) && near(wz[1], -1.6));
+}
+
+TEST("samples roll out as by Euler's method with the yaw before each step") {
+  Table vx, wz, x, y, yaw;
+  for (Table* it : {&vx, &wz, &x, &y, &yaw}) it->resize(50, 1);
+  for (std::size_t t = 1; t < 50; ++t) {
+    vx[t][0] = 0.1f;
+    wz[t][0] = 0.2f;
+  }
+  roll_out(vx, wz, 0.1f, x, y, yaw);
+  CHECK(near(x[49][0], 0.41745, 1e-5) && near(y[49][0], 0.21733, 1e-5) && near(yaw[49][0], 0.98));
+}
+
+TEST("smoothing keeps constants, and spreads an impulse by the coefficients of Savitzky and Golay") {
+  std::vector<float> values(30, 0.7f);
+  smooth(values, {0.7f, 0.7f, 0.7f, 0.7f}, 2);
+  for (const float it : values) CHECK(near(it, 0.7, 1e-6));
+  std::vector<float> impulse(30, 0.0f);
+  impulse[12] = 1;
+  smooth(impulse, {}, 2);
+  CHECK(near(impulse[12], 0.255411, 1e-6) && near(impulse[11], 54.0 / 231, 1e-6) && near(impulse[7], 0, 1e-6));
+  std::vector<float> few(20, 0.0f);
+  few[5] = 1;
+  smooth(few, {}, 2);
+  CHECK(few[5] == 1);
+}

@@ -1,0 +1,102 @@
+import numpy as np
+import pytest
+
+from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
+from mrpbench_core.builtin.navigators.route_follower import RouteFollower
+from mrpbench_core.builtin.navigators.waypoints import Waypoints
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.execution.route import Route
+
+GOAL = Route(waypoint=[[0, 0, np.nan], [1, 0, 3.14]], level=np.zeros(2), speed=np.array([np.inf]))
+"""A goal of (1, 0) with the yaw 3.14."""
+FILE = """
+controller_server:
+  ros__parameters:
+    controller_frequency: 20.0
+    failure_tolerance: -1.0
+    goal_checker_plugins: [precise, loose]
+    progress_checker_plugins: [progress]
+    precise: {plugin: "nav2_controller::StoppedGoalChecker", xy_goal_tolerance: 0.15, path_length_tolerance: 1.0}
+    loose: {plugin: "nav2_controller::AxisGoalChecker"}
+    progress: {plugin: "nav2_controller::PoseProgressChecker", required_movement_angle: 0.3}
+"""
+
+
+def arrives(x, yaw, twist=(0.0, 0.0), **options):
+    """Tell whether a robot that is at (x, 0) arrives."""
+    follower = RouteFollower([GOAL], Waypoints(**options).arrival_rules, np.array([0.3]))
+    follower.update(np.array([[x, 0.0, yaw]]), np.array([twist]), np.ones(1, np.int32), np.zeros(1, np.int16))
+    return follower.reached[0] == 1
+
+
+def test_a_goal_is_reached_at_the_tolerance_and_not_beyond():
+    assert arrives(0.75, 3.14, xy_goal_tolerance=0.25)
+    assert not arrives(0.75 - 1e-6, 3.14, xy_goal_tolerance=0.25)
+
+
+def test_yaws_that_differ_by_a_turn_are_the_same():
+    assert arrives(1.0, -3.14)
+    assert arrives(1.0, 3.14 - 0.24)
+    assert not arrives(1.0, 3.14 - 0.26)
+
+
+def test_a_stopped_goal_checker_waits_until_the_robot_stands():
+    stopped = {"goal_checker": "StoppedGoalChecker"}
+    assert arrives(1.0, 3.14, (0.3, 0.0))
+    for twist, stands in (((0.25, -0.25), True), ((0.26, 0.0), False), ((0.0, -0.26), False)):
+        assert arrives(1.0, 3.14, twist, **stopped) == stands
+    assert not arrives(1.0, 3.14, (0.1, 0.0), trans_stopped_velocity=0.05, **stopped)
+
+
+def test_a_position_goal_checker_takes_any_yaw():
+    assert arrives(1.0, 0.0, goal_checker="PositionGoalChecker")
+    assert not arrives(0.8, 3.14, goal_checker="PositionGoalChecker")
+
+
+@pytest.mark.parametrize(("angle", "stuck"), [(np.inf, True), (0.5, False)])
+def test_turning_is_progress_to_a_pose_progress_checker_alone(angle, stuck):
+    checker, under_way = ProgressChecker(1, 0.5, 10.0, angle), np.ones(1, bool)
+    found = [checker.check(now, np.array([[0.1, 0.0, 0.06 * now]]), under_way)[0] for now in np.arange(0.0, 30.0, 0.5)]
+    assert any(found) == stuck
+
+
+def test_a_nav2_file_names_the_checkers(tmp_path):
+    file = tmp_path / "nav2.yaml"
+    file.write_text(FILE)
+    found = Waypoints(nav2=file, xy_goal_tolerance=0.2).settled()
+    assert found["goal_checker"] == "StoppedGoalChecker"
+    assert (found["xy_goal_tolerance"], found["yaw_goal_tolerance"], found["rot_stopped_velocity"]) == (0.2, 0.25, 0.25)
+    assert (found["progress_checker"], found["required_movement_angle"]) == ("PoseProgressChecker", 0.3)
+    assert found["failure_tolerance"] == np.inf
+    assert set(Waypoints().idle_options()) >= {"trans_stopped_velocity", "required_movement_angle"}
+    assert "trans_stopped_velocity" not in Waypoints(nav2=file).idle_options()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("StoppedGoalChecker", "AxisGoalChecker", "'AxisGoalChecker' is not supported"),
+        ("xy_goal_tolerance: 0.15", "xy_goal_tolerance: 0.0", "xy_goal_tolerance"),
+        ("required_movement_angle", "required_movement_angel", "unknown parameter 'required_movement_angel'"),
+        ("controller_server", "planner_server", "has no controller_server"),
+    ],
+)
+def test_a_mistake_in_a_nav2_file_is_named_with_its_place(tmp_path, old, new, message):
+    file = tmp_path / "nav2.yaml"
+    file.write_text(FILE.replace(old, new))
+    with pytest.raises(InputError, match=message) as found:
+        Waypoints(nav2=file)
+    assert "nav2.yaml" in str(found.value)
+
+
+def test_humble_names_one_progress_checker(tmp_path):
+    file = tmp_path / "nav2.yaml"
+    file.write_text("""
+controller_server:
+  ros__parameters:
+    progress_checker_plugin: "progress_checker"
+    progress_checker: {plugin: "nav2_controller::SimpleProgressChecker", required_movement_radius: 0.4}
+""")
+    found = Waypoints(nav2=file).settled()
+    assert (found["required_movement_radius"], found["movement_time_allowance"]) == (0.4, 10.0)
+    assert found["xy_goal_tolerance"] == 0.25  # of Nav2, which reads the rest of the file so
