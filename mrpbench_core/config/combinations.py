@@ -1,10 +1,19 @@
 """Combinations of settings that cannot mean anything, which are refused, and options that have no effect in a study."""
 
 from collections.abc import Iterator, Mapping
+from typing import Any
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.items import Item
-from mrpbench_core.config.settings import EXECUTION, ONLY_EXECUTION, FleetEntry, RunConfig
+from mrpbench_core.config.settings import (
+    EXECUTION,
+    ONLY_EXECUTION,
+    WITHOUT_PHYSICS,
+    FleetEntry,
+    Noise,
+    Replanning,
+    RunConfig,
+)
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.plugins.provenance import origin
@@ -15,6 +24,9 @@ NO_SIMULATOR = f"{IDLE}there is no simulator"
 
 def refusals(config: RunConfig, root: Item) -> list[InputError]:
     """Return the errors of one run whose settings contradict one another."""
+    if config.execution == "schedule_only" and (without := [k for k in WITHOUT_PHYSICS if _is_set(getattr(config, k))]):
+        reason, advice = "means nothing in `execution: schedule_only`, where nothing drives or senses", "leave it out"
+        return [_place(root, key).location.error(key, reason, advice) for key in without]
     if config.simulator is None:
         return [] if config.tasks is None else [_place(root, "tasks").location.error("tasks", "needs a simulator")]
     if config.tasks is not None and config.planner.assigns:
@@ -57,7 +69,7 @@ class IdleOptions:
 
     def _of_run(self, config: RunConfig, root: Item) -> dict[str, str]:
         """Return the reason for each setting without effect in a run, whether the file names it or not."""
-        found = dict(_of_planning_only(config)) if config.simulator is None else dict(_of_executions(config))
+        found = dict(_of_executions(config)) if config.executes else dict(_of_planning_only(config))
         if config.planner.assigns:
             found["assigner"] = f"{IDLE}the planner assigns the tasks"
         if config.tasks is None:
@@ -92,6 +104,8 @@ def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:
 
 def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
     localizer = config.localizer
+    if config.execution == "schedule_only":
+        yield "goal_tolerance", f"{IDLE}robots do not leave their paths in `execution: schedule_only`"
     if localizer is not None and (not localizer.needs_truth or _is(localizer, "ground_truth")):
         yield "grant_truth", f"{IDLE}{_name(localizer)} does not need it"
     if config.replanning.delay is None and config.replanning.period is None:
@@ -126,6 +140,11 @@ def _place(root: Item, key: str) -> Item:
         elif isinstance(item.value, list) and step.isdecimal() and int(step) < len(item.value):
             item = item.value[int(step)]
     return item
+
+
+def _is_set(value: Any) -> bool:
+    """Tell whether a setting differs from having none."""
+    return bool(value) if isinstance(value, bool | Mapping) else value not in (None, Noise(), Replanning())
 
 
 def _has_lidar(entry: FleetEntry) -> bool:

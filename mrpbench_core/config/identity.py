@@ -48,7 +48,7 @@ def _ignored(config: RunConfig) -> set[str]:
     ignored = set(NOT_IDENTIFYING)
     if config.planner.assigns:
         ignored.add("assigner")  # the planner assigns the tasks itself
-    if config.simulator is None:
+    if not config.executes:
         ignored |= {name for name in EXECUTION if getattr(config, name) is None} | set(ONLY_EXECUTION)
     return ignored
 

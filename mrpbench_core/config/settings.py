@@ -161,8 +161,14 @@ def _is_folder_name(_: Any, field: "attrs.Attribute[str]", value: str) -> None:
 
 
 def _drives(config: "RunConfig", _: "attrs.Attribute[Any]", value: Any) -> None:
-    if value is None and config.simulator is not None:
+    if value is None and config.simulator is not None and config.execution == "simulated":
         raise ValueError("cannot be none while there is a simulator")
+
+
+def _releases(config: "RunConfig", field: "attrs.Attribute[Any]", value: Any) -> None:
+    _drives(config, field, value)
+    if value is None and config.execution == "schedule_only":
+        raise ValueError("cannot be none in `execution: schedule_only`")
 
 
 @attrs.frozen(kw_only=True)
@@ -184,8 +190,13 @@ class RunConfig:
     )
     planner: Planner = block(help="turns the problem into one timed path per robot")
     plan_filter: PlanFilter | None = block("none", help="thins out the waypoints of the plan before it is driven")
+    execution: Literal["simulated", "schedule_only"] = option(
+        "simulated",
+        help="schedule_only: without simulator, navigator, controller and localizer; moves take the durations of the "
+        "plan, and longer where robots are late",
+    )
     dispatcher: Dispatcher | None = block(
-        "adg", help="decides how far along its path each robot may go", validator=_drives
+        "adg", help="decides how far along its path each robot may go", validator=_releases
     )
     navigator: Navigator | None = block(
         "waypoints", help="drives robots along the released parts of their paths", validator=_drives
@@ -219,6 +230,11 @@ class RunConfig:
         validator=_COUNTED,
     )
 
+    @property
+    def executes(self) -> bool:
+        """False if the run ends after planning."""
+        return self.simulator is not None or self.execution == "schedule_only"
+
 
 def default_plugin(key: str) -> Any:
     """Return what a setting of `RunConfig` is when the file does not name it, as the file would write it."""
@@ -227,6 +243,19 @@ def default_plugin(key: str) -> Any:
 
 EXECUTION = ("dispatcher", "navigator", "controller", "localizer")
 """Without a simulator these are None unless the file names them."""
+
+WITHOUT_PHYSICS = (
+    "simulator",
+    "navigator",
+    "controller",
+    "localizer",
+    "plan_filter",
+    "noise",
+    "grant_truth",
+    "replanning",
+    "export",
+)
+"""Keys that `execution: schedule_only` leaves no meaning."""
 
 ONLY_EXECUTION = (
     "plan_filter",

@@ -18,7 +18,7 @@ from mrpbench_core.config.containers import Expected, mapping, sequence, union
 from mrpbench_core.config.items import Item, Location, from_data
 from mrpbench_core.config.references import References, short_name
 from mrpbench_core.config.scalars import Unfit, literal, member, scalar, show
-from mrpbench_core.config.settings import EXECUTION, FleetEntry, RunConfig
+from mrpbench_core.config.settings import EXECUTION, WITHOUT_PHYSICS, FleetEntry, RunConfig
 from mrpbench_core.config.validation import fault_of, stand_in_of, words_of
 from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order
 from mrpbench_core.files.suggestions import suggest
@@ -55,12 +55,15 @@ class Structure:
         """Return the settings that the file leaves to the default plugins."""
         given = root.value
         planning_only = "simulator" in given and given["simulator"].value == "none"
+        without: tuple[str, ...] = EXECUTION if planning_only else ()
+        if "execution" in given and given["execution"].value == "schedule_only":
+            without = WITHOUT_PHYSICS
         added = {}
         for field in attrs.fields(RunConfig):
             default = field.metadata.get("written_default", attrs.NOTHING)
             if field.name in given or default is attrs.NOTHING:
                 continue
-            if planning_only and field.name in EXECUTION:
+            if field.name in without and isinstance(default, str):
                 default = "none"
             if field.name == "assigner" and self._gives_goals(given.get("scenario")):
                 default = "identity"

@@ -64,7 +64,7 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
     config = inputs.config
     instance = build_run_instance(config, inputs.announce)
     record.scenario_id = instance.scenario.id
-    if config.simulator is not None:
+    if config.executes:
         require_free_doorways(instance)
     assigned = None if config.planner.assigns else assign(config, instance, inputs.announce, inputs.timing)
     if assigned is not None and config.scenario.gives_goals:
@@ -75,7 +75,7 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
         assigned = (-1,) * len(problem) if result.plan is None else tasks_of_plan(instance, problem, result.plan)
     router = router_of(config, instance, assigned, problem)
     context = _context(inputs, record.run_id, instance, router, result, assigned)
-    if failure is None and config.simulator is not None:
+    if failure is None and config.executes:
         record.true_poses = granted_localizer(config)
         failure, record.unexported = execute_plan(inputs, context, router)
         inputs.announce(Stage.METRICS, {})

@@ -51,6 +51,10 @@ def test_only_the_points_of_a_matrix_that_contradict_themselves_are_refused():
             {"delays": {"p_delay": 0.1, "gauss_std_ratio": 0.1}},
             "delays.gauss_std_ratio: has no effect: duration_model is uniform",
         ),
+        (
+            {"execution": "schedule_only", "goal_tolerance": 0.5},
+            "goal_tolerance: has no effect: robots do not leave their paths",
+        ),
         ({"grant_truth": True}, "grant_truth: has no effect: ground_truth does not need it"),
         ({"replanning": {"latency": 1}}, "replanning.latency: has no effect: neither `delay` nor `period`"),
         ({"fleet": BLIND, "noise": {"lidar": 0.1}}, "noise.lidar: has no effect: no robot has a lidar"),

@@ -32,7 +32,7 @@ class DelayStream:
         self._stops = _stops(settings, robots, seed, repeat)
         self._stop: list[Stop] = [next(own) for own in self._stops]
         """The stop of each robot that is under way or comes next."""
-        self._until = np.zeros(robots, np.int64)
+        self._until = np.full(robots, -1)
         self._tick = -1
 
     def __bool__(self) -> bool:

@@ -51,12 +51,13 @@ class Sample:
     now: float
     """Simulated seconds."""
     state: State
-    estimate: Estimate
-    odometry: Odometry
     orders: Orders
     motion: Motion
     waits_for: Int32
-    facility: Sequence[float]
+    estimate: Estimate | None = None
+    """None without physics, as `odometry`; then nothing commands the robots either."""
+    odometry: Odometry | None = None
+    facility: Sequence[float] = ()
 
 
 class Recorder:
@@ -82,9 +83,10 @@ class Recorder:
         rows["truth"].append(state.pose)
         rows["truth_twist"].append(state.twist)
         rows["level"].append(state.level)
-        rows["estimate"].append(sample.estimate.pose)
-        rows["odometry"].append(np.column_stack([sample.odometry.pose, sample.odometry.twist]))
-        rows["command"].append(motion.twist)
+        if sample.estimate is not None and sample.odometry is not None:
+            rows["estimate"].append(sample.estimate.pose)
+            rows["odometry"].append(np.column_stack([sample.odometry.pose, sample.odometry.twist]))
+            rows["command"].append(motion.twist)
         rows["released"].append(sample.orders.released)
         rows["reached"].append(motion.reached)
         rows["cleared"].append(motion.cleared)

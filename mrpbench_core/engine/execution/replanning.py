@@ -130,6 +130,6 @@ class Replanner:
 def replanning_fault(config: RunConfig) -> str | None:
     """Return the reason why the planner cannot replan during execution as configured, or None."""
     wanted = config.replanning.delay is not None or config.replanning.period is not None
-    if config.simulator is not None and wanted and Feature.COMMITMENTS not in config.planner.supports:
+    if config.executes and wanted and Feature.COMMITMENTS not in config.planner.supports:
         return "does not support commitments, which replanning during execution needs"
     return None

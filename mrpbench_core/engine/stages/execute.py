@@ -14,6 +14,7 @@ from mrpbench_core.engine.execution.progress import ExecutionProgress
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.execution.routes import Router, start_poses
+from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.engine.stage import RunEnded, RunInputs
@@ -54,7 +55,10 @@ def execute_plan(inputs: RunInputs, context: RunContext, router: Router) -> tupl
         began = time.perf_counter()
         replanner = _replanner(inputs, context, router)
         inputs.observers.executing(context=given)
-        result = _simulate(inputs, context, given, recorder, replanner)
+        if config.execution == "schedule_only":
+            result = _follow_schedule(config, context, recorder)
+        else:
+            result = _simulate(inputs, context, given, recorder, replanner)
         ended = _failure(result, config)
         timing["execution_wall_s"] = time.perf_counter() - began
         timing["real_time_factor"] = result.simulated_s / timing["execution_wall_s"]
@@ -131,6 +135,14 @@ def _simulate(
             )
         )
         return loop.run()
+
+
+def _follow_schedule(config: RunConfig, context: RunContext, recorder: Recorder) -> ExecutionResult:
+    """Execute without physics."""
+    assert config.dispatcher is not None
+    delays = DelayStream(config.delays, len(context.fleet), config.seed, config.repeat)
+    arrived, simulated_s = ScheduleLoop(context, config.dispatcher, delays, recorder).run(config.limits.execution)
+    return ExecutionResult(arrived=arrived, gave_up=(), simulated_s=simulated_s)
 
 
 def _failure(result: ExecutionResult, config: RunConfig) -> RunEnded | None:

@@ -99,6 +99,8 @@ def test_speeds_are_log_normal_with_mean_one():
     drawn = np.concatenate([delays.speed(np.full(200, segment)) for segment in range(100)])
     assert drawn.mean() == pytest.approx(1, abs=0.01)
     assert np.log(drawn).std() == pytest.approx(0.3, rel=0.03)
+    assert not delays.stopped.any()
+    assert (delays.driven(np.ones((200, 2)), np.zeros(200, int)) > 0).all()
 
 
 def test_without_delays_commands_pass_unchanged():

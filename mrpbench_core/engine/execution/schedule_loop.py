@@ -1,0 +1,262 @@
+"""Executes a plan without physics: each move takes the duration of the plan, and longer where its robot is late.
+
+Robots stay on their paths, so this shows what a dispatcher makes of delays, and nothing else. They pass through one
+another if the dispatcher lets them; the recording has that as contacts.
+
+- A robot makes each move within what is released at the relative speed of `DelayStream.speed`, and stands while it
+  stops. Waits take no time, because a dispatcher releases a robot when it may go on.
+- A robot has cleared the start of a move when it is its own radius and the largest one of the fleet away from it, as
+  the navigator `waypoints` reports it, or at the end of a shorter move.
+- Robots that rotate (`Orders.in_step`) move when none of them stops, as fast as the slowest of them.
+- A door, lift or mutex is granted to the robot that has requested it longest as soon as there is room, but not before
+  its `setup_ticks` have passed since the last robot left it.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mrpbench_core.api.dispatcher import Dispatcher
+from mrpbench_core.engine.contract_checks import ContractChecks
+from mrpbench_core.engine.execution.delays import DelayStream
+from mrpbench_core.engine.execution.recorder import Recorder, Sample
+from mrpbench_core.engine.own import own
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32
+from mrpbench_core.model.execution.motion import Mode, Motion
+from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.roadmap import Resource
+from mrpbench_core.model.runs.run import RunContext
+
+
+class ScheduleLoop:
+    """Executes the plan of a run, control period by control period.
+
+    Raises:
+        BrokenContractError: the dispatcher returned what its contract rules out.
+        DispatchError: the dispatcher refuses the plan.
+    """
+
+    def __init__(self, context: RunContext, dispatcher: Dispatcher, delays: DelayStream, recorder: Recorder) -> None:
+        plan = context.result.plan
+        assert plan is not None
+        self._period, self._delays, self._recorder = context.period, delays, recorder
+        self._session = dispatcher.start(own(context.problem), own(plan))
+        self._checks = ContractChecks(np.array([len(path) for path in plan.paths], np.int64))
+        self._paths = _Paths(context)
+        self._resources = _Resources(context.problem)
+        robots = len(context.problem)
+        self._reached: Int = np.zeros(robots, np.int64)
+        self._done: Float = np.zeros(robots)
+        """Seconds f8[n] of the planned duration that each robot has made of its present move."""
+        self._cleared: Int = np.zeros(robots, np.int64)
+        self._orders = Orders(released=np.zeros(robots, "i4"))
+        self._radius = context.problem.radius
+        self._twist: Float = np.zeros((robots, 2))
+        self._look(moved=np.zeros(robots, bool))
+
+    def run(self, limit_s: float) -> tuple[bool, float]:
+        """Run until all robots have arrived or `limit_s` simulated seconds are over.
+
+        Returns:
+            Whether all have arrived, and the simulated seconds.
+        """
+        step, pose = 0, self._pose()
+        while True:
+            now = step * self._period
+            self._recorder.events(self._delays.begun(now))
+            view = FleetView(
+                revision=0,
+                reached=self._motion.reached,
+                cleared=self._motion.cleared,
+                pose=pose,
+                level=self._paths.level(self._reached),
+                mode=self._motion.mode,
+                granted=self._resources.granted,
+            )
+            self._orders = self._checks.orders(self._session.update(now, view))
+            self._resources.assign(now, self._orders.requests)
+            arrived = bool((self._reached >= self._paths.last_move).all())
+            last = arrived or now >= limit_s
+            self._record(step, now, pose, last)
+            if last:
+                self._recorder.flush()
+                return arrived, now
+            before = pose
+            self._look(moved=self._advance())
+            pose = self._pose()
+            self._twist[:, 0] = np.hypot(*(pose - before)[:, :2].T) / self._period
+            step += 1
+            self._recorder.contacts(step * self._period, self._state(pose))
+
+    def _advance(self) -> Bool:
+        """Let one control period pass; return which robots have moved."""
+        left = np.where(self._delays.stopped, 0.0, self._period)
+        speed = self._delays.speed(self._reached)
+        released, moved = self._orders.released, np.zeros(len(left), bool)
+        for group in self._orders.in_step:
+            robots, segments = (np.array(column) for column in zip(*group, strict=True))
+            going = robots[self._reached[robots] == segments]
+            late = (self._reached[robots] < segments).any() or (released[robots] <= segments).any()
+            left[going] = 0.0 if late else left[going].min(initial=self._period)
+            speed[going] = speed[going].min(initial=np.inf)
+        while True:
+            going = self._reached < released
+            going &= (left > 0) | (self._paths.duration(self._reached) == 0)
+            if not going.any():
+                return moved
+            needed = (self._paths.duration(self._reached) - self._done) / speed
+            ends = going & (needed <= left + 1e-9)
+            drives = going & ~ends
+            moved |= going & (needed > 0)
+            self._done[drives] += (left * speed)[drives]
+            left = np.where(ends, np.maximum(left - needed, 0.0), np.where(going, 0.0, left))
+            self._reached[ends] += 1
+            self._done[ends] = 0.0
+            speed = np.where(ends, self._delays.speed(self._reached), speed)
+
+    def _look(self, moved: Bool) -> None:
+        """What the dispatcher and the recording are told of the robots' progress."""
+        on_way = self._done >= self._paths.clearing(self._reached)
+        cleared = np.where(on_way & (self._done > 0), self._reached + 1, self._paths.settled(self._reached))
+        self._cleared = np.maximum(self._cleared, cleared)
+        self._motion = Motion(
+            twist=np.zeros((len(moved), 2)),
+            reached=self._reached.astype(np.int32),
+            cleared=self._cleared.astype(np.int32),
+            mode=np.where(moved, Mode.FOLLOWING, Mode.WAITING).astype("u1"),
+        )
+
+    def _pose(self) -> Float:
+        return self._paths.pose(self._reached, self._done)
+
+    def _record(self, step: int, now: float, pose: Float, last: bool) -> None:
+        state, waits_for = self._state(pose), self._resources.waits_for()
+        sample = Sample(now=now, state=state, orders=self._orders, motion=self._motion, waits_for=waits_for)
+        self._recorder.sample(step, sample, last)
+
+    def _state(self, pose: Float) -> State:
+        level = self._paths.level(self._reached)
+        return State(pose=pose, twist=self._twist, level=level, contacts=_overlaps(pose, level, self._radius))
+
+
+def _overlaps(pose: Float, level: Int16, radius: Float) -> Int32:
+    """The pairs i4[k,2] of robots whose footprints overlap: a sweep along x."""
+    order = np.argsort(pose[:, 0], kind="stable")
+    reach, found = 2 * radius.max(initial=0.0), [np.empty((0, 2), np.int64)]
+    for apart in range(1, len(order)):
+        one, other = order[:-apart], order[apart:]
+        near = pose[other, 0] - pose[one, 0] < reach
+        if not near.any():
+            break
+        one, other = one[near], other[near]
+        gap = np.hypot(*(pose[one] - pose[other])[:, :2].T) - radius[one] - radius[other]
+        touch = (gap < -1e-6) & (level[one] == level[other])
+        found.append(np.sort(np.column_stack([one, other])[touch], axis=1))
+    return np.concatenate(found).astype(np.int32)
+
+
+class _Paths:
+    """The segments of all paths, one path after another, each with one more entry for its end."""
+
+    def __init__(self, context: RunContext) -> None:
+        problem, plan = context.problem, context.result.plan
+        assert plan is not None
+        sizes = [len(path) + 1 for path in plan.paths]
+        self._first = np.cumsum([0, *sizes[:-1]]).astype(np.int64)
+        self.last_move: Int = np.array([route.last_move for route in context.routes], np.int64)
+        self._point = np.concatenate([route.waypoint[:, :2] for route in context.routes]).reshape(-1, 2)
+        self._level = np.concatenate([route.level for route in context.routes]).astype(np.int16)
+        durations, settled, clearing = [], [], []
+        reach = problem.radius + problem.radius.max(initial=0.0)
+        for robot, (path, route) in enumerate(zip(plan.paths, context.routes, strict=True)):
+            is_move = path.edge >= 0
+            own_ticks = problem.duration(robot)[path.edge] if len(path) else np.empty(0, np.int32)
+            duration = np.where(is_move, own_ticks, 0) * problem.roadmap.tick
+            length = np.hypot(*np.diff(route.waypoint[:, :2], axis=0).T)
+            share = np.minimum(1.0, reach[robot] / np.maximum(length, 1e-9))
+            durations.append(np.append(duration, 0.0))
+            clearing.append(np.append(duration * share, np.inf))
+            settled.append(np.maximum.accumulate(np.append(0, np.where(is_move, np.arange(1, len(path) + 1), 0))))
+        self._duration = np.concatenate(durations) if durations else np.empty(0)
+        self._clearing, self._settled = np.concatenate(clearing), np.concatenate(settled)
+        ahead = np.diff(self._point, axis=0, append=self._point[-1:])
+        ahead[self._first[1:] - 1] = 0.0
+        self._ahead = ahead
+        starts = context.scenario.start[:, 2]
+        self._yaw = _yaws(ahead, self._first, np.where(np.isnan(starts), 0.0, starts))
+
+    def duration(self, segment: Int) -> Float:
+        """Planned seconds f8[n] of each robot's `segment` i8[n], 0 for waits and ends."""
+        found: Float = self._duration[self._first + segment]
+        return found
+
+    def clearing(self, segment: Int) -> Float:
+        """Planned seconds f8[n] after which a robot has cleared the start of its `segment` i8[n]."""
+        found: Float = self._clearing[self._first + segment]
+        return found
+
+    def settled(self, segment: Int) -> Int:
+        """The segments i8[n] that a robot at the beginning of its `segment` has cleared: all before the last waits."""
+        found: Int = self._settled[self._first + segment]
+        return found
+
+    def level(self, segment: Int) -> Int16:
+        """The level i2[n] of each robot."""
+        found: Int16 = self._level[self._first + segment]
+        return found
+
+    def pose(self, segment: Int, done: Float) -> Float:
+        """The pose f8[n,3] of each robot that has made `done` f8[n] planned seconds of its `segment`."""
+        at = self._first + segment
+        share = done / np.maximum(self._duration[at], 1e-9)
+        return np.column_stack([self._point[at] + share[:, None] * self._ahead[at], self._yaw[at]])
+
+
+def _yaws(ahead: Float, first: Int, start: Float) -> Float:
+    """The yaw f8[s] of each segment: along it, or as before where the robot does not move."""
+    yaw = np.where((ahead != 0).any(axis=1), np.arctan2(ahead[:, 1], ahead[:, 0]), np.nan)
+    begins = yaw[first]
+    yaw[first] = np.where(np.isnan(begins), start, begins)
+    known = np.maximum.accumulate(np.where(np.isnan(yaw), 0, np.arange(len(yaw))))
+    held: Float = yaw[known]
+    return held
+
+
+class _Resources:
+    """Grants doors, lifts and mutexes by the plan's model of them: capacities and setup times."""
+
+    def __init__(self, problem: Problem) -> None:
+        self._resources: dict[str, Resource] = {resource.name: resource for resource in problem.roadmap.resources}
+        self._number = {name: number for number, name in enumerate(self._resources)}
+        self._tick, self._robots = problem.roadmap.tick, len(problem)
+        self._held: dict[str, list[int]] = {name: [] for name in self._resources}
+        self._busy: dict[str, list[float]] = {name: [] for name in self._resources}
+        """Times at which places that robots have left can be used again."""
+        self._asked: Sequence[tuple[int, str]] = ()
+        self.granted: tuple[tuple[int, str], ...] = ()
+
+    def assign(self, now: float, requests: Sequence[tuple[int, str]]) -> None:
+        """Take back what is no longer requested, and grant what there is room for, the longest requested first."""
+        self._asked = requests
+        for name, holders in self._held.items():
+            kept = [robot for robot in holders if (robot, name) in requests]
+            free_at = now + self._resources[name].setup_ticks * self._tick
+            busy = [time for time in self._busy[name] if time > now + 1e-9]
+            self._busy[name] = busy + [free_at] * (len(holders) - len(kept))
+            self._held[name] = kept
+        for robot, name in requests:
+            holders = self._held[name]
+            in_setup = sum(time > now + 1e-9 for time in self._busy[name])
+            if robot not in holders and len(holders) + in_setup < self._resources[name].capacity:
+                holders.append(robot)
+        self.granted = tuple((robot, name) for name, holders in self._held.items() for robot in holders)
+
+    def waits_for(self) -> Int32:
+        """The number i4[n] of the resource that each robot has asked for and not got, -1 = none."""
+        waits: Int32 = np.full(self._robots, -1, np.int32)
+        for robot, name in self._asked:
+            if waits[robot] < 0 and (robot, name) not in self.granted:
+                waits[robot] = self._number[name]
+        return waits

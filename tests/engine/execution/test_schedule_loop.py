@@ -1,0 +1,166 @@
+"""Execution without physics: the plan's durations, the delays that are asked for, and what means nothing is refused."""
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from mrpbench_core.api import DispatchError
+from mrpbench_core.builtin.dispatchers.adg import Adg
+from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
+from mrpbench_core.builtin.dispatchers.timed import Timed
+from mrpbench_core.config.delays import Delays
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.execution.delays import DelayStream
+from mrpbench_core.engine.execution.recorder import Recorder
+from mrpbench_core.engine.execution.routes import Router
+from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
+from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.files.errors import InputErrors
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Feature
+from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.recording import Recording
+from mrpbench_core.testing.drawing import build
+from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources
+from mrpbench_core.testing.instances.roadmaps import path_through, two_way_grid
+
+PERIOD = 0.25
+
+
+@pytest.fixture
+def context_of(run_context):
+    """Make the context of a plan."""
+
+    def make(problem, plan):
+        robots = len(problem)
+        router = Router(problem, np.full(robots, np.nan), np.full(len(problem.roadmap.edges), np.inf))
+        start = np.column_stack([problem.roadmap.position[problem.start], np.zeros(robots)])
+        scenario = attrs.evolve(run_context.scenario, start=start, start_level=np.zeros(robots))
+        result = attrs.evolve(run_context.result, plan=plan)
+        changes = {"problem": problem, "result": result, "scenario": scenario, "period": PERIOD}
+        return attrs.evolve(run_context, routes=router(plan), **changes)
+
+    return make
+
+
+@pytest.fixture
+def straight():
+    """A robot that goes ten cells along a row."""
+    grid = two_way_grid(1, 11)
+    plan = Plan(paths=(path_through(grid, range(11)),))
+    return attrs.evolve(build(grid, [0], [()]), goals=(((10,),),)), plan
+
+
+def executed(context, dispatcher, delays=None, limit=3000.0):
+    """Whether all arrived, when, and the channels."""
+    chunks = []
+    recorder = Recorder(1 / PERIOD, PERIOD, chunks.append)
+    stream = DelayStream(delays or Delays(), len(context.problem), 3, 0)
+    arrived, seconds = ScheduleLoop(context, dispatcher, stream, recorder).run(limit)
+    names = {name for chunk in chunks for name in chunk}
+    return arrived, seconds, {name: np.concatenate([c[name] for c in chunks if name in c]) for name in names}
+
+
+def test_a_robot_alone_takes_the_time_of_its_plan_and_of_its_stops(context_of, straight):
+    problem, plan = straight
+    context = context_of(problem, plan)
+    planned = 10 * problem.roadmap.tick
+    assert executed(context, Adg())[:2] == (True, pytest.approx(planned))
+    delays = Delays(p_delay=0.2, max_delay=3)
+    end = planned
+    for begin, until in DelayStream(delays, 1, 3, 0).stops(0):
+        if begin >= end:
+            break
+        end += until - begin
+    assert end > planned
+    assert executed(context, Adg(), delays)[:2] == (True, pytest.approx(end))
+
+
+def test_a_robot_takes_each_segment_at_its_speed(context_of, straight):
+    problem, plan = straight
+    delays = Delays(speed=0.5)
+    drawn = DelayStream(delays, 1, 3, 0)
+    expected = sum(problem.roadmap.tick / float(drawn.speed(np.array([segment]))[0]) for segment in range(10))
+    seconds = executed(context_of(problem, plan), Adg(), delays)[1]
+    assert expected <= seconds + 1e-9 < expected + PERIOD + 1e-9
+
+
+SEEDS = st.integers(0, 2**32 - 1)
+
+
+@settings(deadline=None, max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(SEEDS, st.booleans())
+def test_plans_drain_under_delays_and_footprints_keep_apart(context_of, seed, resources):
+    problem, plan = (random_plan_with_resources if resources else random_plan)(np.random.default_rng(seed))
+    context = context_of(problem, plan)
+    try:
+        arrived, _, channels = executed(context, Adg(), Delays(p_delay=0.05, max_delay=8, speed=0.2))
+    except DispatchError:
+        return
+    assert arrived
+    if Feature.FOOTPRINTS in problem.features and problem.rules.at_goal == "stay":
+        assert not len(channels["contact"])
+
+
+@settings(deadline=None, max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(SEEDS)
+def test_without_delays_a_plan_by_its_clock_takes_the_time_of_the_plan(context_of, seed):
+    problem, plan = random_plan(np.random.default_rng(seed))
+    arrived, seconds, _ = executed(context_of(problem, plan), Timed())
+    moves = [int(path.leave[path.edge >= 0].max(initial=0)) for path in plan.paths]
+    assert arrived
+    assert seconds == pytest.approx(max(moves) * problem.roadmap.tick, abs=PERIOD + 1e-6)
+
+
+def test_robots_that_are_sent_through_one_another_are_recorded_as_contacts(context_of):
+    grid = two_way_grid(1, 5)
+    paths = (path_through(grid, (0, 1, 2, 3, 4)), path_through(grid, (4, 3, 2, 1, 0)))
+    problem = attrs.evolve(build(grid, [0, 4], [(), ()]), goals=(((4,),), ((0,),)))
+    channels = executed(context_of(problem, Plan(paths=paths)), AllAtOnce())[2]
+    assert channels["contact"].tolist()
+    assert {tuple(pair) for pair in channels["contact"].tolist()} == {(0, 1)}
+
+
+def test_the_run_ends_at_its_limit(context_of, straight):
+    assert executed(context_of(*straight), Adg(), Delays(p_delay=1), limit=5.0)[:2] == (False, 5.0)
+
+
+STUDY = {"world": "office", "scenario": {"plugin": "random", "robots": 3}, "planner": "prioritized"}
+STUDY |= {"assigner": "identity", "execution": "schedule_only", "control_rate": 2}
+
+
+def test_a_run_is_recorded_and_measured_as_far_as_that_means_something(tmp_path):
+    pytest.importorskip("mrpbench_planners_mapf")
+    (point,) = load_study(STUDY | {"metrics": ["execution", "tracking"]}).runs
+    paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
+    record = execute(point.config, point.run_id, paths, lambda stage, facts: None)
+    assert record.status == "succeeded"
+    assert record.metrics["execution.duration_s"] > 5
+    assert record.metrics["execution.robot_contacts"] == 0
+    channels = Recording(paths.recording).channels
+    assert {"truth", "released", "reached", "cleared", "waits_for"} <= set(channels)
+    assert not {"estimate", "odometry", "command"} & set(channels)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("simulator", "kinematic"),
+        ("navigator", "waypoints"),
+        ("controller", "pure_pursuit"),
+        ("localizer", "odometry"),
+        ("plan_filter", "mrp_bench_stairs"),
+        ("noise", {"lidar": 0.1}),
+        ("replanning", {"period": 5}),
+    ],
+)
+def test_what_needs_physics_is_refused(key, value):
+    with pytest.raises(InputErrors, match=f"{key}: means nothing in `execution: schedule_only`"):
+        load_study(STUDY | {key: value})
+
+
+def test_something_must_release_the_plan():
+    with pytest.raises(InputErrors, match="dispatcher"):
+        load_study(STUDY | {"dispatcher": "none"})
