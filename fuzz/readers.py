@@ -23,6 +23,7 @@ from mutation import Mutate, in_zip, mutate_bytes, mutate_npy, mutate_text
 from PIL import Image
 
 from mrpbench_core.builtin.scenarios.movingai import MovingAiScenario
+from mrpbench_core.builtin.worlds.barn import Barn
 from mrpbench_core.builtin.worlds.movingai import MovingAi
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.builtin.worlds.ros_map import RosMap
@@ -265,6 +266,25 @@ def read_movingai(file: Path) -> None:
     MovingAi(file=file).load()
 
 
+def read_barn(file: Path) -> None:
+    """Read a world of the BARN challenge."""
+    Barn(file=file).load()
+
+
+def read_barn_table(file: Path) -> None:
+    """Read a table of worlds of the BARN challenge."""
+    Barn(file=file, index=0).load()
+
+
+BARN = (
+    b"<sdf version='1.6'><world name='w'>\n<model name='unit_cylinder_0'><pose frame=''>-1 4 0 0 0 0</pose>"
+    b"<link name='l'><collision name='c'><geometry><cylinder><radius>0.1</radius></cylinder></geometry></collision>"
+    b"</link></model>\n"
+    b"</world></sdf>\n"
+)
+CYLINDERS = b"world,x,y\n0,-0.075,0.075\n0,-0.225,0.075\n3,-1,4\n"
+
+
 def read_scen(file: Path) -> None:
     """Read rows of a MovingAI scenario."""
     named = file.with_name("a.map")
@@ -335,6 +355,8 @@ READERS = {
         ),
         Reader(name="images", file="map.png", read=read_image, seeds=images, mutate=mutate_bytes),
         Reader(name="movingai", file="a.map", read=read_movingai, seeds=lambda: [GRID]),
+        Reader(name="barn", file="a.world", read=read_barn, seeds=lambda: [BARN]),
+        Reader(name="barn tables", file="a.csv", read=read_barn_table, seeds=lambda: [CYLINDERS]),
         Reader(
             name="scens",
             file="a.scen",

@@ -1,5 +1,6 @@
 """Metrics of plans and of their execution."""
 
+from mrpbench_metrics_standard.barn import Barn
 from mrpbench_metrics_standard.clearance import Clearance
 from mrpbench_metrics_standard.contact import Contact
 from mrpbench_metrics_standard.deadlock import Deadlock
@@ -15,6 +16,7 @@ from mrpbench_metrics_standard.tracking import Tracking
 from mrpbench_metrics_standard.waiting import Waiting
 
 __all__ = [
+    "Barn",
     "Clearance",
     "Contact",
     "Deadlock",
