@@ -9,7 +9,7 @@ import numpy as np
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.extras import has, pip
 from mrpbench_core.report.estimation.comparison import Comparison, adjusted, compare_pair
-from mrpbench_core.report.estimation.groups import RunGroup
+from mrpbench_core.report.estimation.groups import RunGroup, Setting
 from mrpbench_core.report.reading.axes import Axes, name_axes, word
 from mrpbench_core.report.reading.folders import read_folders
 from mrpbench_core.report.reading.invocations import made_with, read_invocations
@@ -65,7 +65,8 @@ def compare_folders(
         pair = sides[0][key], sides[1][key]
         units, unit = runs.units(np.concatenate([group.members for group in pair]))
         name = name_axes(pair[0].axes)
-        entries = compare_pair(runs, units, unit, pair, (name, "A", "B"), tested(runs, known, columns))
+        setting = Setting(name=name, groups=pair, names=("A", "B"), units=units, unit=unit)
+        entries = compare_pair(runs, setting, 0, 1, tested(runs, known, columns))
         found += entries
         if not entries:
             no_common_scenario.append(name or "all runs")

@@ -41,6 +41,10 @@ it has. A difference is noticeable if test and interval show it, and the means d
 column declares. Configurations are practically the same if the interval excludes every noticeable difference, and not
 told apart if neither is shown.
 
+Factors: If a study varies several choices, each is answered for on its own: its levels are compared on the scenarios
+and the combinations of the other choices that they have in common. The differences of a scenario are averaged, so that
+the scenario stays the sample. Combinations in which a level differs otherwise than on average are named.
+
 Pairs: Groups that differ in one choice are compared on the scenarios that both have. Success is compared by McNemar's
 exact test (interval of Bonett and Price; if scenarios were repeated, by sign flips, {FLIPS} of them with seed {SEED} if
 there are too many to try all, and by the normal distribution if more than {MANY} pairs differ). Values are compared by

@@ -1,15 +1,18 @@
 """The answers of a report, for all settings together and for each of them."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 import attrs
 
+from mrpbench_core.api.metric import Column
 from mrpbench_core.files.extras import has
 from mrpbench_core.report.answer.headline import headline
 from mrpbench_core.report.answer.questions import Topic, find_topics
 from mrpbench_core.report.answer.ranking import Compared, Ranking, by_names, rank
-from mrpbench_core.report.answer.wording import sentences
+from mrpbench_core.report.answer.wording import exceptions, sentences
 from mrpbench_core.report.estimation.comparison import Comparison, compare_settings
+from mrpbench_core.report.estimation.effects import find_effects
 from mrpbench_core.report.estimation.groups import Setting, merge_settings
 from mrpbench_core.report.estimation.relation import Relation
 from mrpbench_core.report.reading.runs import Runs
@@ -48,13 +51,19 @@ class Answer:
     """Of all runs together; None if the settings have different configurations."""
     parts: tuple[SettingAnswer, ...]
     """Of each setting, if there are several."""
+    effects: tuple[SettingAnswer, ...] = ()
+    """Of each factor of the study, averaged over the others, if there are several factors."""
 
     def lines(self, parts: int) -> Iterator[str]:
         """Yield the answer as lines of text, with at most this number of settings."""
+        for effect in self.effects:
+            yield f"{effect.name}: {effect.headline}"
+            yield from (f"- {topic.title} {' '.join(topic.sentences)}" for topic in effect.topics)
         for number, part in enumerate([*([self.whole] if self.whole else ()), *self.parts[:parts]]):
             name = part.name or ("all settings together" if self.parts else "")
+            name = name or ("all combinations" if self.effects else "")
             yield f"{name}: {part.headline}" if name else part.headline
-            for topic in part.topics if number == 0 else ():
+            for topic in part.topics if number == 0 and not self.effects else ():
                 yield f"- {topic.title} {' '.join(topic.sentences)}"
         if len(self.parts) > parts:
             yield f"… and {len(self.parts) - parts} more in the page and in --json"
@@ -80,14 +89,42 @@ def make_answer(report: Report) -> Answer:
         comparisons = tuple(compare_settings(runs, settings, columns))
     parts = answers(settings, comparisons)
     if len(parts) == 1:
-        return Answer(whole=parts[0], parts=())
+        return Answer(whole=parts[0], parts=(), effects=_effects(runs, settings[0], topics, columns, comparisons))
     if not few or (whole := merge_settings(runs, settings)) is None:
         return Answer(whole=None, parts=tuple(parts))
-    (together,) = answers(whole, compare_settings(runs, whole, columns))
-    return Answer(whole=together, parts=tuple(parts))
+    comparisons = tuple(compare_settings(runs, whole, columns))
+    (together,) = answers(whole, comparisons)
+    return Answer(whole=together, parts=tuple(parts), effects=_effects(runs, whole[0], topics, columns, comparisons))
 
 
-def _answer(runs: Runs, setting: Setting, topics: Sequence[Topic], compared: Compared) -> SettingAnswer:
+def _effects(
+    runs: Runs, setting: Setting, topics: Sequence[Topic], columns: Sequence[Column], comparisons: Sequence[Comparison]
+) -> tuple[SettingAnswer, ...]:
+    """Answer for each factor of a setting; p is adjusted for the tests of all of them."""
+    effects = find_effects(setting)
+    tests = compare_settings(runs, [effect.setting for effect in effects], columns)
+    within = by_names(comparisons, setting.name)
+    return tuple(
+        _answer(
+            runs,
+            effect.setting,
+            topics,
+            by_names(tests, effect.setting.name),
+            partial(exceptions, effect, within),
+            "choices",
+        )
+        for effect in effects
+    )
+
+
+def _answer(
+    runs: Runs,
+    setting: Setting,
+    topics: Sequence[Topic],
+    compared: Compared,
+    further: Callable[[Ranking], list[str]] = lambda _: [],
+    noun: str = "configurations",
+) -> SettingAnswer:
     found = []
     for topic in topics:
         first, *others = (rank(runs, setting, column, compared) for column in topic.columns)
@@ -96,6 +133,8 @@ def _answer(runs: Runs, setting: Setting, topics: Sequence[Topic], compared: Com
             for ranking in others
             if ranking.having(Relation.WORSE, Relation.BETTER)
         )
-        found.append(TopicAnswer(title=topic.title, ranking=first, sentences=(*sentences(first), *more)))
+        found.append(
+            TopicAnswer(title=topic.title, ranking=first, sentences=(*sentences(first), *further(first), *more))
+        )
     asked = [(topic.noun, entry.ranking) for topic, entry in zip(topics, found, strict=True)]
-    return SettingAnswer(name=setting.name, setting=setting, headline=headline(asked), topics=tuple(found))
+    return SettingAnswer(name=setting.name, setting=setting, headline=headline(asked, noun), topics=tuple(found))

@@ -10,11 +10,12 @@ from mrpbench_core.report.estimation.relation import Relation
 _ALIKE = (None, Relation.SAME, Relation.SLIGHT)
 
 
-def headline(rankings: Sequence[tuple[str, Ranking]]) -> str:
+def headline(rankings: Sequence[tuple[str, Ranking]], noun: str = "configurations") -> str:
     """Sum up the rankings of some configurations.
 
     Args:
         rankings: a noun for the question, and the ranking of the same configurations.
+        noun: the word for what is ranked.
     """
     if not rankings:
         return "No column shown has a direction, so nothing is ranked."
@@ -23,17 +24,15 @@ def headline(rankings: Sequence[tuple[str, Ranking]]) -> str:
     if len(names) == 1:
         return "There is one configuration, so nothing is compared."
     if not has("scipy"):
-        return (
-            f"The configurations are ranked by their means, and not compared: that needs SciPy ({pip('statistics')})."
-        )
+        return f"The {noun} are ranked by their means, and not compared: that needs SciPy ({pip('statistics')})."
     worse = {name: _in(rankings, name, lambda place: place.relation is Relation.WORSE) for name in names}
     without = {name: _in(rankings, name, lambda place: place.estimate is None) for name in names}
     good = [name for name in names if not worse[name] and not without[name]]
     if len(good) == len(names):
-        return _undecided(rankings, len(names))
+        return _undecided(rankings, f"{len(names)} {noun}")
     if not good:
-        return f"Every configuration is noticeably worse than another one in something. {_leads(rankings)}."
-    who = listed(good) if len(good) <= NAMED else f"{len(good)} of the {len(names)} configurations"
+        return f"All {noun} are noticeably worse than another one in something. {_leads(rankings)}."
+    who = listed(good) if len(good) <= NAMED else f"{len(good)} of the {len(names)} {noun}"
     told = [f"No noticeable disadvantage is shown for {who}."]
     bad = [name for name in names if name not in good]
     for name in bad[:NAMED]:
@@ -44,11 +43,11 @@ def headline(rankings: Sequence[tuple[str, Ranking]]) -> str:
     return " ".join(told)
 
 
-def _undecided(rankings: Sequence[tuple[str, Ranking]], count: int) -> str:
+def _undecided(rankings: Sequence[tuple[str, Ranking]], names: str) -> str:
     if all(place.relation in _ALIKE and place.estimate for _, ranking in rankings for place in ranking.places):
-        return f"The {count} configurations do not differ noticeably in any question."
+        return f"The {names} do not differ noticeably in any question."
     return (
-        f"The data show no noticeable difference between the {count} configurations, but do not exclude one either:"
+        f"The data show no noticeable difference between the {names}, but do not exclude one either:"
         " more scenarios may show it."
     )
 

@@ -111,7 +111,7 @@ def rank(runs: Runs, setting: Setting, column: Column, compared: Compared) -> Ra
 
 def fail_more(runs: Runs, setting: Setting, column: Column) -> list[bool]:
     """Tell for each group whether its rate of success in the column's stage is lower than that of another one."""
-    rates = [estimate(runs, group, setting.units, _RATE[column.stage]) for group in setting.groups]
+    rates = [estimate(runs, setting, group, _RATE[column.stage]) for group in setting.groups]
     best = max((found.value for found in rates if found is not None), default=0.0)
     return [found is not None and found.value < best - _CLOSE + 1e-9 for found in rates]
 
@@ -129,7 +129,7 @@ def _mean(
     """The mean over the units in `base`, or over its own units if it has none of these."""
     if base is not None and not np.isin(own, base).any():
         base = None
-    return estimate(runs, group, setting.units, column.name, base)
+    return estimate(runs, setting, group, column.name, base)
 
 
 def _common(units: list[Int]) -> Int:

@@ -3,8 +3,9 @@
 from collections.abc import Sequence
 
 from mrpbench_core.report.answer.amounts import change, largest, quantity, span
-from mrpbench_core.report.answer.ranking import Place, Ranking
-from mrpbench_core.report.estimation.relation import Relation
+from mrpbench_core.report.answer.ranking import Compared, Place, Ranking
+from mrpbench_core.report.estimation.effects import Effect
+from mrpbench_core.report.estimation.relation import Relation, relation, turned
 from mrpbench_core.report.statistics.means import LEAST
 
 NAMED = 3
@@ -31,6 +32,28 @@ def sentences(ranking: Ranking) -> list[str]:
     if ranking.ranked < LEAST:
         told.append(f"{_units(ranking, ranking.ranked)}: too few for intervals and tests.")
     return told
+
+
+def exceptions(effect: Effect, within: Compared, ranking: Ranking) -> list[str]:
+    """Say in which combinations of the other factors a level differs otherwise from the first one than on average.
+
+    Args:
+        effect: of one factor.
+        within: the comparisons of the combinations.
+        ranking: of the levels of the factor.
+    """
+    first, *others = ranking.places
+    told = []
+    for rest in effect.others:
+        for place in others:
+            names = effect.combined[first.name, rest], effect.combined[place.name, rest]
+            found = within.get((ranking.column.name, frozenset(names)))
+            if found is None:
+                continue
+            here = relation(found if found.second == names[1] else turned(found))
+            if here in (Relation.BETTER, Relation.WORSE) and here is not place.relation:
+                told.append(f"With {rest}, {place.name} is {here.value} than {first.name}.")
+    return told if len(told) <= NAMED else [*told[:NAMED], f"{len(told) - NAMED} more combinations are exceptions."]
 
 
 def listed(words: Sequence[str]) -> str:

@@ -7,8 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.metric import Column
-from mrpbench_core.model.common.arrays import Int
-from mrpbench_core.report.estimation.groups import RunGroup, Setting, differing_factors
+from mrpbench_core.report.estimation.groups import Setting, differing_factors
 from mrpbench_core.report.reading.columns import direction
 from mrpbench_core.report.reading.runs import Runs
 from mrpbench_core.report.statistics.paired import Difference, adjust, compare_rates, compare_values
@@ -45,37 +44,23 @@ class Comparison:
         return {1: "better", -1: "worse", 0: "different"}[direction(self.column) * (1 if self.found.effect > 0 else -1)]
 
 
-def compare_pair(
-    runs: Runs,
-    units: Int,
-    unit: str,
-    sides: tuple[RunGroup, RunGroup],
-    names: tuple[str, str, str],
-    columns: Iterable[Column],
-) -> list[Comparison]:
-    """Compare two groups in every column in which both have values for a common unit.
-
-    Args:
-        runs: of both groups.
-        units: of each run, what it is a sample of.
-        unit: the word for that.
-        sides: first and second.
-        names: of the setting, the first and the second.
-        columns: what to compare.
-    """
+def compare_pair(runs: Runs, setting: Setting, first: int, second: int, columns: Iterable[Column]) -> list[Comparison]:
+    """Compare two groups of a setting in every column in which both have values for a common unit."""
+    sides = setting.groups[first], setting.groups[second]
     found = []
     for column in columns:
-        (one, first, _), (other, second, _) = (group.by_unit(runs, units, column.name) for group in sides)
-        both, at_first, at_second = np.intersect1d(one, other, assume_unique=True, return_indices=True)
+        (one, left, _), (other, right, _) = (group.by_unit(runs, setting.units, column.name) for group in sides)
+        both, at_left, at_right = np.intersect1d(one, other, assume_unique=True, return_indices=True)
         is_rate = column.name in runs.flags
-        difference = (compare_rates if is_rate else compare_values)(first[at_first], second[at_second])
+        left, right = (setting.by_sample(both, values) for values in (left[at_left], right[at_right]))
+        difference = (compare_rates if is_rate else compare_values)(left, right)
         if difference is not None:
             found.append(
                 Comparison(
-                    setting=names[0],
-                    first=names[1],
-                    second=names[2],
-                    unit=unit,
+                    setting=setting.name,
+                    first=setting.names[first],
+                    second=setting.names[second],
+                    unit=setting.unit,
                     column=column,
                     is_rate=is_rate,
                     found=difference,
@@ -91,8 +76,7 @@ def compare_settings(runs: Runs, settings: Sequence[Setting], columns: Sequence[
     for setting in settings:
         for (i, first), (j, second) in combinations(enumerate(setting.groups), 2):
             if len(differing_factors(first.axes, second.axes)) == 1:
-                names = setting.name, setting.names[i], setting.names[j]
-                found += compare_pair(runs, setting.units, setting.unit, (first, second), names, columns)
+                found += compare_pair(runs, setting, i, j, columns)
     return adjusted(found)
 
 

@@ -24,13 +24,16 @@ class Numbers:
     """Over the units that every group of the setting has a value for."""
 
 
-def estimate(runs: Runs, group: RunGroup, units: Int, column: str, only: Int | None = None) -> IntervalEstimate | None:
+def estimate(
+    runs: Runs, setting: Setting, group: RunGroup, column: str, only: Int | None = None
+) -> IntervalEstimate | None:
     """Mean or rate of a column over a group's units, or over those in `only`; None where no unit has a value."""
-    numbers, values, count = group.by_unit(runs, units, column)
+    numbers, values, count = group.by_unit(runs, setting.units, column)
     if only is not None:
         chosen = np.isin(numbers, only)
         count = round(count * chosen.mean()) if len(chosen) else 0
-        values = values[chosen]
+        numbers, values = numbers[chosen], values[chosen]
+    values = setting.by_sample(numbers, values)
     return rate(values, max(count, len(values))) if column in runs.flags else mean(values)
 
 
@@ -62,8 +65,8 @@ def numbers_of(runs: Runs, setting: Setting, columns: Iterable[str]) -> list[Num
     common = {column: common_units(runs, setting, column) for column in columns}
     return [
         Numbers(
-            overall={column: estimate(runs, group, setting.units, column) for column in columns},
-            common={column: estimate(runs, group, setting.units, column, common[column]) for column in columns},
+            overall={column: estimate(runs, setting, group, column) for column in columns},
+            common={column: estimate(runs, setting, group, column, common[column]) for column in columns},
         )
         for group in setting.groups
     ]

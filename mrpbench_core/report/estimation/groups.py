@@ -49,6 +49,13 @@ class Setting:
     """The unit of each run of the folders; see `Runs.units`."""
     unit: str
     """`scenarios` or `runs`."""
+    cells: int = 1
+    """Units of one sample: unit u belongs to sample u // cells. Pairs are formed of units, and averaged to samples."""
+
+    def by_sample(self, numbers: Int, values: Float) -> Float:
+        """Average values of units, so that there is one for each sample."""
+        place = np.unique(numbers // self.cells, return_inverse=True)[1]
+        return np.bincount(place, weights=values) / np.maximum(np.bincount(place), 1)
 
 
 def group_runs(runs: Runs, by: Sequence[str] | None = None) -> list[RunGroup]:
@@ -84,7 +91,7 @@ def find_settings(runs: Runs, groups: Sequence[RunGroup]) -> list[Setting]:
     chosen = sorted(
         (sorted(members, key=lambda one: order[id(one)]) for _, members in parts), key=lambda m: order[id(m[0])]
     )
-    shared = [_constant(members) for members in chosen]
+    shared = [constant_axes(members) for members in chosen]
     return [
         _setting(runs, members, {key: value for key, value in axes.items() if _differs(key, shared)})
         for members, axes in zip(chosen, shared, strict=True)
@@ -105,22 +112,26 @@ def merge_settings(runs: Runs, settings: Sequence[Setting], samples: str | None 
     parts: dict[str, list[Setting]] = {}
     for setting in settings:
         axes = (
-            {} if samples is None else {k: v for k, v in _constant(setting.groups).items() if not k.startswith(samples)}
+            {}
+            if samples is None
+            else {k: v for k, v in constant_axes(setting.groups).items() if not k.startswith(samples)}
         )
         parts.setdefault(repr(axes), []).append(setting)
-    merged = [[_pooled(part, name) for name in names] for part in parts.values()]
-    shared = [_constant(groups) for groups in merged]
+    merged = [
+        [pooled([setting.groups[setting.names.index(name)] for setting in part]) for name in names]
+        for part in parts.values()
+    ]
+    shared = [constant_axes(groups) for groups in merged]
     return [
         _setting(runs, groups, {key: value for key, value in axes.items() if _differs(key, shared)})
         for groups, axes in zip(merged, shared, strict=True)
     ]
 
 
-def _pooled(settings: Sequence[Setting], name: str) -> RunGroup:
-    """Return one group with the runs of all groups of this name."""
-    groups = [setting.groups[setting.names.index(name)] for setting in settings]
+def pooled(groups: Sequence[RunGroup]) -> RunGroup:
+    """Return one group with the runs of all of these."""
     return RunGroup(
-        axes=_constant(groups),
+        axes=constant_axes(groups),
         members=np.sort(np.concatenate([group.members for group in groups])),
         counted=np.sort(np.concatenate([group.counted for group in groups])),
     )
@@ -134,7 +145,7 @@ def differing_factors(first: Axes, second: Axes) -> list[str]:
 
 def _setting(runs: Runs, members: Sequence[RunGroup], axes: Axes) -> Setting:
     units, unit = runs.units(np.concatenate([group.members for group in members]))
-    constant = _constant(members)
+    constant = constant_axes(members)
     own = [{key: value for key, value in group.axes.items() if key not in constant} for group in members]
     return Setting(
         name=name_axes(axes),
@@ -145,8 +156,8 @@ def _setting(runs: Runs, members: Sequence[RunGroup], axes: Axes) -> Setting:
     )
 
 
-def _constant(members: Sequence[RunGroup]) -> Axes:
-    """Axes that are the same in all groups."""
+def constant_axes(members: Sequence[RunGroup]) -> Axes:
+    """Return the axes that are the same in all groups."""
     return {
         key: value
         for key, value in members[0].axes.items()

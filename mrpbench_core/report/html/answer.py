@@ -16,9 +16,10 @@ SAID = 4
 
 def answer_section(answer: Answer) -> str:
     """Return the questions of all runs together, and of each setting."""
-    parts = []
+    parts = [f"<h3>{escape(_title(effect))}</h3>{_cards(effect)}" for effect in answer.effects]
     if answer.whole is not None:
-        parts.append(_cards(answer.whole))
+        cards = _cards(answer.whole)
+        parts.append(_folded("All combinations", answer.whole.headline, cards) if answer.effects else cards)
     if answer.parts:
         title = "In each setting" if answer.whole else "Answers by setting, which have different configurations"
         parts.append(f"<h3>{title}</h3>{_settings(answer.parts)}")
@@ -27,6 +28,8 @@ def answer_section(answer: Answer) -> str:
 
 def headline(answer: Answer) -> str:
     """Return the first sentence of the page."""
+    if answer.effects:
+        return "<br>".join(f"<b>{escape(_title(effect))}:</b> {escape(effect.headline)}" for effect in answer.effects)
     if answer.whole is not None:
         return escape(answer.whole.headline)
     return "The settings have different configurations, so each has an answer of its own."
@@ -34,15 +37,20 @@ def headline(answer: Answer) -> str:
 
 def _settings(parts: Sequence[SettingAnswer]) -> str:
     """Each setting as an element that unfolds."""
-    drawn = "".join(
-        f'<details class="part"><summary><b>{escape(part.name)}</b> <span>{escape(part.headline)}</span></summary>'
-        f"{_cards(part)}</details>"
-        for part in parts[:OPEN]
-    )
+    drawn = "".join(_folded(part.name, part.headline, _cards(part)) for part in parts[:OPEN])
     rest = "".join(f"<li><b>{escape(part.name)}</b> {escape(part.headline)}</li>" for part in parts[OPEN:])
     if not rest:
         return drawn
     return f"{drawn}<details><summary>{len(parts) - OPEN} more settings</summary><ul>{rest}</ul></details>"
+
+
+def _title(effect: SettingAnswer) -> str:
+    return effect.name[0].upper() + effect.name[1:]
+
+
+def _folded(name: str, headline: str, cards: str) -> str:
+    summary = f"<summary><b>{escape(name)}</b> <span>{escape(headline)}</span></summary>"
+    return f'<details class="part">{summary}{cards}</details>'
 
 
 def _cards(answer: SettingAnswer) -> str:

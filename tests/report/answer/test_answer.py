@@ -213,3 +213,33 @@ def test_units_are_written_once(answer, record):
     words = " ".join(answer(records).lines(9))
     assert not re.search(r"\b(s|ms|%) \1\b", words)
     assert "2.00 ms" in words
+
+
+def test_each_factor_is_answered_for_with_its_exceptions(answer, record):
+    """Pairs of configurations that differ in both choices are not compared; the levels of each factor are."""
+
+    def took(planner, controller, seed):
+        slower = {("b", "dwb"): 20.0, ("b", "mppi"): 30.0, ("b", "rpp"): -9.0}.get((planner, controller), 0.0)
+        return 50.0 + seed + slower + seed * slower / 99
+
+    controllers = ("dwb", "mppi", "rpp")
+    found = answer(
+        [
+            driven(record, p, seed, took(p, c, seed), config={"controller": {"plugin": c}}, tag=c)
+            for p in ("a", "b")
+            for c in controllers
+            for seed in range(12)
+        ]
+    )
+    planner, controller = found.effects
+    assert planner.name == "planner, averaged over controller"
+    assert planner.headline.startswith("No noticeable disadvantage is shown for a. b is noticeably worse in time.")
+    (words,) = (" ".join(topic.sentences) for topic in planner.topics if topic.title.startswith("How long"))
+    assert "over 12 scenarios" not in words
+    assert "With rpp, b is noticeably better than a." in words
+    assert "With dwb" not in words
+    assert set(relations(controller.topics[-1])) == set(controllers)
+    assert Relation.NOT_COMPARED not in relations(controller.topics[-1]).values()
+    lines = list(found.lines(3))
+    assert lines[0].startswith("planner, averaged over controller: No noticeable")
+    assert any(line.startswith("all combinations: ") for line in lines)
