@@ -12,10 +12,11 @@ class RouteAhead:
 
     Args:
         progress: how far the robots are.
+        beyond_bends: the path of a robot ends where its released part ends, not at the next bend.
     """
 
-    def __init__(self, progress: RouteProgress) -> None:
-        self._progress = progress
+    def __init__(self, progress: RouteProgress, beyond_bends: bool) -> None:
+        self._progress, self._beyond_bends = progress, beyond_bends
         count = len(progress.reached)
         self.waypoint = WaypointCheck.unset(count)
         """Whether each robot reaches the next waypoint that is released."""
@@ -51,10 +52,10 @@ class RouteAhead:
         first, first_corner = tables.first[robots], tables.first_corner[robots]
         here, goal = first + reached, first + np.minimum(reached + 1, tables.last[robots])
         corner, row = tables.corner[here], first_corner + leg
-        # A path ends at the next bend that is not reached, so that no controller cuts a corner by more than the
-        # tolerance, or at the end of the released part.
-        end = np.minimum(np.maximum(corner, leg) + 1, last)
-        end = np.minimum(tables.bend[first_corner + end], last)
+        end = last
+        if not self._beyond_bends:  # no controller cuts a corner by more than the tolerance
+            end = np.minimum(np.maximum(corner, leg) + 1, last)
+            end = np.minimum(tables.bend[first_corner + end], last)
         is_open = reached < released
         self.waypoint.copy(robots, tables.arrival, goal, is_open & ~halting)
         self.corner.copy(robots, tables.rounding, row, (leg + 1 < last) & (corner > leg))

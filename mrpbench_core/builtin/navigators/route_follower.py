@@ -21,13 +21,16 @@ class RouteFollower:
         routes: one per robot.
         rules: when a waypoint counts as reached.
         clearances: f8[n] metres at which each robot leaves room for any other.
+        beyond_bends: what lies ahead of a robot ends where its released part ends, not at the next bend.
     """
 
-    def __init__(self, routes: Sequence[Route], rules: ArrivalRules, clearances: Float) -> None:
+    def __init__(
+        self, routes: Sequence[Route], rules: ArrivalRules, clearances: Float, beyond_bends: bool = False
+    ) -> None:
         count = len(routes)
         self._yaw_goal_tolerance = rules.yaw_goal_tolerance
         self._progress = RouteProgress(routes, rules, clearances)
-        self._ahead = RouteAhead(self._progress)
+        self._ahead = RouteAhead(self._progress, beyond_bends)
         self._released: Int32 = np.zeros(count, np.int32)
         self.reached: Int32 = self._released
         """i4[n], as in `FleetView`."""

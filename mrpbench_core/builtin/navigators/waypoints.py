@@ -47,6 +47,11 @@ class Waypoints(Navigator):
         unit="m",
         validator=gt(0),
     )
+    path_end: Literal["bend", "release"] = option(
+        "bend",
+        help="where the path for the controller ends: at the next bend, where the robot slows down and keeps to "
+        "its route, or at the end of the released part, as in Nav2; a larger waypoint_tolerance lets it cut corners",
+    )
     nav2: Path | None = option(
         None,
         help="a Nav2 parameter file: the goal and progress checkers and failure_tolerance of its controller_server; "
@@ -145,7 +150,7 @@ class Waypoints(Navigator):
     ) -> NavigatorSession:
         """Begin at the start of the routes; only controllers draw random numbers."""
         nav2, rules = self.settled(), self.arrival_rules
-        follower = RouteFollower(routes, rules, fleet.radii + fleet.radii.max(initial=0.0))
+        follower = RouteFollower(routes, rules, fleet.radii + fleet.radii.max(initial=0.0), self.path_end == "release")
         controllers = controller.start_fleet(fleet.robots, world, period, seed)
         detours = DetourOptions(
             every=round(self.replan_period / period),

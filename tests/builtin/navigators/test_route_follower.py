@@ -17,8 +17,8 @@ CLEARANCE = 0.25
 class Follower:
     """A fleet of one, whose pose is asked for only where it matters."""
 
-    def __init__(self, route, rules, clearance):
-        self.fleet = RouteFollower([route], rules, np.array([clearance]))
+    def __init__(self, route, rules, clearance, beyond_bends=False):
+        self.fleet = RouteFollower([route], rules, np.array([clearance]), beyond_bends)
 
     def update(self, x, y, yaw, speed, released):
         self.pose = np.array([[x, y, yaw]])
@@ -285,3 +285,17 @@ def test_the_last_waypoint_can_be_skipped_too():
     follower.update(1.0, 0.1, 0.0, 0.0, 3)
     assert follower.reached == 3
     assert not follower.under_way
+
+
+def test_beyond_bends_the_path_ends_with_the_released_part_and_the_robot_need_not_come_to_each_corner():
+    points = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2)]
+    wide = attrs.evolve(RULES, waypoint_tolerance=0.3)
+    follower = Follower(route(points), wide, CLEARANCE, beyond_bends=True)
+    follower.update(0.2, 0, 0, 0.2, 3)
+    assert follower.path.tolist() == [[0.2, 0], [1, 0], [1, 1], [2, 1]]
+    follower.update(0.85, 0.2, 0, 0.2, 3)  # within the tolerance, and beyond the bisector of the bend
+    assert follower.reached == 1
+    assert follower.path.tolist() == [[1, 0.2], [1, 1], [2, 1]]
+    near = Follower(route(points), wide, CLEARANCE)
+    near.update(0.2, 0, 0, 0.2, 3)
+    assert near.path.tolist() == [[0.2, 0], [1, 0]]
