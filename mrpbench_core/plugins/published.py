@@ -26,7 +26,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.assigners": ("hungarian",),
         "mrpbench.controllers": ("dwb", "graceful", "mppi", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
-        "mrpbench.dispatchers": ("gses",),
+        "mrpbench.dispatchers": ("btpg", "gses"),
         "mrpbench.localizers": ("amcl",),
         "mrpbench.metrics": _METRICS,
         "mrpbench.mppi_critics": _MPPI_CRITICS,

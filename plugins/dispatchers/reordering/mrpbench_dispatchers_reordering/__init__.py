@@ -1,5 +1,6 @@
 """Dispatchers that change the order of a plan when robots are late."""
 
+from mrpbench_dispatchers_reordering.btpg import Btpg
 from mrpbench_dispatchers_reordering.gses import Gses
 
-__all__ = ["Gses"]
+__all__ = ["Btpg", "Gses"]

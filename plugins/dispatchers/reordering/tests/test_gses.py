@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 import pytest
-from mrpbench_dispatchers_reordering import Gses
+from mrpbench_dispatchers_reordering import Btpg, Gses
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.checking.plan import check_plan
@@ -60,33 +60,40 @@ def arrivals(dispatcher, problem, plan):
     return executor.arrival, executor.reordered
 
 
+@pytest.mark.parametrize("dispatcher", [Btpg, Gses])
 @pytest.mark.parametrize("following", ["allowed", "forbidden"])
 @pytest.mark.parametrize("at_goal", ["stay", "disappear"])
 @pytest.mark.parametrize("features", [frozenset(), frozenset({Feature.FOOTPRINTS})])
-def test_a_robot_does_not_wait_for_one_that_does_not_come(following, at_goal, features):
+def test_a_robot_does_not_wait_for_one_that_does_not_come(following, at_goal, features, dispatcher):
     situation = crossing(Rules(following=following, at_goal=at_goal), features)
     kept, _ = arrivals(Adg(lookahead=1), *situation)
-    changed, reordered = arrivals(Gses(lookahead=1), *situation)
+    changed, reordered = arrivals(dispatcher(lookahead=1), *situation)
     assert kept[1] > LATE
     assert reordered
     assert changed[1] < 25
     assert changed[0] <= kept[0]
 
 
-def test_lanes_that_cross_between_their_ends_are_used_in_a_new_order():
+@pytest.mark.parametrize("dispatcher", [Btpg, Gses])
+def test_lanes_that_cross_between_their_ends_are_used_in_a_new_order(dispatcher):
     points = [(-5, 0), (-3, 0), (-1, 0), (1, 0), (3, 0), (0, -3), (0, -1), (0, 1), (0, 3)]
     lanes = [(0, 1), (1, 2), (2, 3), (3, 4), (5, 6), (6, 7), (7, 8)]
     routes = [(0, 1, 2, 3, 4), (5, 5, 5, 6, 7, 8)]
     situation = planned(two_way(points, lanes), routes, Rules(), frozenset({Feature.FOOTPRINTS}))
     kept, _ = arrivals(Adg(lookahead=1), *situation)
-    changed, _ = arrivals(Gses(lookahead=1), *situation)
+    changed, _ = arrivals(dispatcher(lookahead=1), *situation)
     assert kept[1] > LATE > changed[1]
 
 
-def test_robots_that_are_released_into_a_place_keep_their_turn():
-    changed, reordered = arrivals(Gses(lookahead=8), *crossing())
+@pytest.mark.parametrize("dispatcher", [Btpg, Gses])
+def test_robots_that_are_released_into_a_place_keep_their_turn(dispatcher):
+    changed, reordered = arrivals(dispatcher(lookahead=8), *crossing())
     assert changed[1] > LATE
     assert not reordered
+
+
+def test_places_that_are_not_searched_keep_their_order():
+    assert not arrivals(Btpg(lookahead=1, group_limit=0), *crossing())[1]
 
 
 @pytest.mark.parametrize("options", [{"horizon": 0.0}, {"gain": 1e6}, {"lateness": 1e6}])
@@ -94,7 +101,8 @@ def test_options_limit_what_is_searched_and_changed(options):
     assert not arrivals(Gses(lookahead=1, **options), *crossing())[1]
 
 
-def test_a_resource_is_used_in_the_order_of_the_plan():
+@pytest.mark.parametrize("dispatcher", [Btpg, Gses])
+def test_a_resource_is_used_in_the_order_of_the_plan(dispatcher):
     problem, plan = crossing()
     edges = tuple(np.flatnonzero((problem.roadmap.edges == 24).any(axis=1)).tolist())
     middle = Resource(name="middle", kind="mutex", vertices=(24,), edges=edges)
@@ -102,15 +110,16 @@ def test_a_resource_is_used_in_the_order_of_the_plan():
     assert check_plan(session_problem, plan).valid
     executor = FirstIsLate(session_problem, plan)
     manager = ResourceManager(session_problem, np.random.default_rng(0))
-    drain(Gses(lookahead=1).start(session_problem, plan), executor, manager)
+    drain(dispatcher(lookahead=1).start(session_problem, plan), executor, manager)
     assert executor.fault is None
     assert manager.fault is None
     assert not executor.reordered
 
 
-def test_a_plan_with_a_horizon_keeps_its_order():
+@pytest.mark.parametrize("dispatcher", [Btpg, Gses])
+def test_a_plan_with_a_horizon_keeps_its_order(dispatcher):
     problem, plan = crossing()
-    session = Gses(lookahead=1).start(attrs.evolve(problem, horizon=100), plan)
+    session = dispatcher(lookahead=1).start(attrs.evolve(problem, horizon=100), plan)
     executor = FirstIsLate(problem, plan)
     drain(session, executor)
     assert not executor.reordered

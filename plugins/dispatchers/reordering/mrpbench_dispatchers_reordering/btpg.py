@@ -1,0 +1,116 @@
+"""The dispatcher `btpg`: where both orders of two robots are safe, whoever comes first goes first.
+
+Su, Veerapaneni and Li, "Bidirectional temporal plan graph: enabling switchable passing orders for more efficient
+multi-agent path finding plan execution", AAAI 2024. `bidirectional` decides once per plan which orders stay open. Every
+new order is also verified like that of a plan (`mrpbench_core.dispatching`) before robots follow it.
+"""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import DispatchError, option
+from mrpbench_core.dispatching.dependency_graph import CLEARED, REACHED
+from mrpbench_core.dispatching.order_keeping import OrderKeepingDispatcher, OrderKeepingSession
+from mrpbench_core.model.common.arrays import Bool, Int
+from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.type2_edges import without_implied
+from mrpbench_dispatchers_reordering.bidirectional import open_groups
+from mrpbench_dispatchers_reordering.visits import NONE, Pairs, conflicting, order_of, visits_of
+
+
+@attrs.frozen(kw_only=True)
+class Btpg(OrderKeepingDispatcher):
+    """Releases moves in the order of the plan, except that a robot that comes first goes first where that is safe."""
+
+    lookahead: int = option(
+        4,
+        help="segments released at most beyond the one under way; their order cannot change any more",
+        validator=attrs.validators.ge(1),
+    )
+    group_limit: int = option(
+        2000,
+        help="groups of places that are searched for cycles at the start of a plan; the others keep their order",
+        validator=attrs.validators.ge(0),
+    )
+
+    def start(self, problem: Problem, plan: Plan) -> "BtpgSession":
+        """Begin to release a plan.
+
+        Raises:
+            DispatchError: as `OrderKeepingSession.adopt`.
+        """
+        return BtpgSession(self, problem, plan)
+
+
+class BtpgSession(OrderKeepingSession):
+    """Releases one plan after another, each at first in its own order."""
+
+    options: Btpg
+
+    def adopt(self, problem: Problem, plan: Plan) -> None:
+        """Continue with `plan`, in its order; released segments remain released.
+
+        Raises:
+            DispatchError: as `OrderKeepingSession.adopt`.
+        """
+        super().adopt(problem, plan)
+        moves = self.graph.moves
+        self.visits = visits_of(problem, moves)
+        self.pairs = conflicting(problem, self.visits)
+        self.resources = resource_edges(problem, occupations_of(problem, moves))
+        limit = self.options.group_limit if problem.horizon is None else 0
+        self.group = open_groups(self.graph, self.visits, self.pairs, self.resources, limit)
+
+    def update(self, now: float, view: FleetView) -> Orders:
+        """Release the moves that wait for nothing, or only for robots that come later to places with an open order."""
+        orders = super().update(now, view)
+        switched = [self._goes_first(robot) for robot in self._waiting()]
+        return super().update(now, view) if any(switched) else orders
+
+    def _waiting(self) -> list[int]:
+        """Robots that have made all their released moves and wait for others before the next one."""
+        graph, reached = self.graph, self.seen[REACHED]
+        return [
+            robot
+            for robot, move in enumerate(graph.frontier)
+            if move < graph.limit[robot]
+            and graph.unmet[graph.group[move]]
+            and (move == graph.first[robot] or graph.segment[move - 1] < reached[robot])
+        ]
+
+    def _goes_first(self, robot: int) -> bool:
+        """Let a robot go before all those that it waits for, if their order is open and they are still to come."""
+        first, second = self.pairs
+        blocks = np.flatnonzero(self.visits.begin[second] == self.graph.frontier[robot])
+        blocks = blocks[~self._ended(first[blocks])]
+        groups = np.unique(self.group[blocks])
+        if not len(groups) or groups[0] == NONE:
+            return False
+        switched = np.isin(self.group, groups)
+        if (self._is_released(first[switched]) | self._is_released(second[switched])).any():
+            return False
+        order = order_of(self.visits, self.pairs, switched, self.resources)
+        try:
+            self.keep(self.problem, self.plan, without_implied(self.graph.moves, order))
+        except DispatchError:
+            return False  # robots go on in the order that they have
+        self.pairs = Pairs(np.where(switched, second, first), np.where(switched, first, second))
+        return True
+
+    def _is_released(self, visit: Int) -> Bool:
+        """Tell whether the robots of visits may begin them already."""
+        move = self.visits.begin[visit]
+        released: Bool = self.graph.moves.segment[move] < self.released[self.visits.robot[visit]]
+        return released
+
+    def _ended(self, visit: Int) -> Bool:
+        """Tell which visits have ended."""
+        visits, moves = self.visits, self.graph.moves
+        robot, end = visits.robot[visit], visits.end[visit]
+        ended: Bool = end != NONE
+        for row, needed in ((CLEARED, visits.cleared[visit]), (REACHED, visits.completed[visit])):
+            ended &= ~needed | (self.seen[row, robot] > moves.segment[end])
+        return ended
