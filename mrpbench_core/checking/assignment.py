@@ -1,10 +1,11 @@
 """Validates assignments, and the goals that a planner with the option `assign` has chosen."""
 
 from collections import defaultdict
+from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem, QueueProblem
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 
@@ -49,3 +50,20 @@ def check_choice(problem: Problem, plan: Plan) -> list[str]:
         for vertex, there in sorted(robots.items())
         if len(there) > 1
     ]
+
+
+def check_queues(problem: QueueProblem, queues: Any) -> str | None:
+    """Return what is wrong with queues of tasks, as the end of a sentence, or None."""
+    if not isinstance(queues, tuple | list) or len(queues) != len(problem.free_in):
+        return f"returned {queues!r:.60} instead of one queue for each of {len(problem.free_in)} robots"
+    given: set[int] = set()
+    for robot, queue in enumerate(queues):
+        for task in queue:
+            if not 0 <= task < len(problem.tasks):
+                return f"gave robot {robot} task {task}, which does not exist"
+            if task in given:
+                return f"gave task {task} twice"
+            if not np.isfinite(problem.approach[robot, task]):
+                return f"gave task {task} to robot {robot}, which cannot do it"
+            given.add(int(task))
+    return None

@@ -42,6 +42,14 @@ LAYOUTS: Mapping[str, Layout] = {
     **{f"route_{name}": Layout("iu", "route_time") for name in ("revision", "robot", "level", "edge", "leave")},
     "route_waypoint": Layout("f", "route_time", (3,)),
     "route_speed": Layout("f", "route_time"),
+    "errand_time": Layout("f", "errand_time"),
+    **{f"errand_{name}": Layout("iu", "errand_time") for name in ("task", "level")},
+    "errand_goal": Layout("f", "errand_time", (3,)),
+    **{f"errand_{name}": Layout("f", "errand_time") for name in ("service", "deadline")},
+    "errand_priority": Layout("i", "errand_time"),
+    "task_time": Layout("f", "task_time"),
+    **{f"task_{name}": Layout("i", "task_time") for name in ("index", "robot", "errand")},
+    "task_event": Layout("U", "task_time"),
     "event_time": Layout("f", "event_time"),
     "event_kind": Layout("U", "event_time"),
     "event_robot": Layout("i", "event_time"),
@@ -118,7 +126,7 @@ def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int
         one, other = rows[:, 0], rows[:, 1]
         if ((one < 0) | (one >= robots) | (other < -1) | (other >= robots) | (one == other)).any():
             return "contact names a robot that does not exist, or a robot touching itself"
-    least = {"scan_robot": 0, "event_robot": -1, "route_robot": 0}.get(name)
+    least = {"scan_robot": 0, "event_robot": -1, "route_robot": 0, "task_robot": -1}.get(name)
     if least is not None and ((rows < least) | (rows >= robots)).any():
         return f"{name} names a robot that does not exist"
     if name in ("released", "reached", "cleared", "level", "route_level", "route_revision") and (rows < 0).any():

@@ -8,7 +8,7 @@ import hashlib
 import json
 from collections.abc import Mapping, Set
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import attrs
 
@@ -42,6 +42,16 @@ def choices(config: RunConfig, folder: Path) -> dict[str, Any]:
         if field.name not in ignored and _differs(config, field):
             chosen[field.name] = _chosen(getattr(config, field.name), folder, field.name, ignored)
     return {name: value for name, value in chosen.items() if value != {} and not _is_default_plugin(name, value)}
+
+
+def options_text(component: Component) -> str:
+    """Return the class of a component and its options that differ from their defaults, with files by content."""
+    chosen = {
+        field.alias: _chosen(getattr(component, field.name), Path(), "", set())
+        for field in attrs.fields(cast("Any", type(component)))
+        if field.init and _differs(component, field)
+    }
+    return json.dumps({type(component).__qualname__: chosen}, sort_keys=True)
 
 
 def _ignored(config: RunConfig) -> set[str]:

@@ -153,6 +153,19 @@ class Replanning:
         unit="s",
         validator=validators.ge(0),
     )
+    budget: float | None = option(
+        None,
+        help="wall time of one call of the planner; a plan that takes longer takes effect later by as much simulated "
+        "time; none: `limits.planning`",
+        unit="s",
+        validator=validators.optional(validators.gt(0)),
+    )
+    interval: float = option(
+        1.0, help="least time between two plans because of `tasks`", unit="s", validator=validators.ge(0)
+    )
+    parking: Literal["stay", "home"] = option(
+        "stay", help="where robots without one of the `tasks` go: only out of the way, or back to their starts"
+    )
 
 
 def _is_folder_name(_: Any, field: "attrs.Attribute[str]", value: str) -> None:

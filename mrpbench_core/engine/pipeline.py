@@ -23,10 +23,10 @@ from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.measure import measure, measure_recording
 from mrpbench_core.engine.stages.plan import LATE_S, STATUS, budget_of, call_planner
 from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance, require_free_doorways
-from mrpbench_core.engine.stages.problem_building import build_problem
+from mrpbench_core.engine.stages.problem_building import build_problem, standing_problem
 from mrpbench_core.files.printing import printable
-from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
-from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.runs.run import FinishedRun, RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths
@@ -66,11 +66,16 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
     record.scenario_id = instance.scenario.id
     if config.executes:
         require_free_doorways(instance)
-    assigned = None if config.planner.assigns else assign(config, instance, inputs.announce, inputs.timing)
-    if assigned is not None and config.scenario.gives_goals:
-        record.reassigned = sum(task != robot for robot, task in enumerate(assigned))
-    problem = build_problem(instance, assigned, config.assigner)
-    result, failure = _plan(inputs, problem, record)
+    assigned: tuple[int, ...] | None
+    if config.tasks is not None:
+        assigned, problem = (-1,) * len(instance.fleet), standing_problem(instance)
+        result, failure = _stand(inputs, problem, record), None
+    else:
+        assigned = None if config.planner.assigns else assign(config, instance, inputs.announce, inputs.timing)
+        if assigned is not None and config.scenario.gives_goals:
+            record.reassigned = sum(task != robot for robot, task in enumerate(assigned))
+        problem = build_problem(instance, assigned, config.assigner)
+        result, failure = _plan(inputs, problem, record)
     if assigned is None:
         assigned = (-1,) * len(problem) if result.plan is None else tasks_of_plan(instance, problem, result.plan)
     router = router_of(config, instance, assigned, problem)
@@ -119,6 +124,23 @@ def _plan(inputs: RunInputs, problem: Problem, record: RunRecord) -> tuple[PlanR
     if result.plan is None:
         return result, RunEnded(STATUS[result.status], Stage.PLANNING, _unsolved(config, result, timing))
     return result, None
+
+
+def _stand(inputs: RunInputs, problem: Problem, record: RunRecord) -> PlanResult:
+    """The first plan where tasks come over time: every robot stays where it is until it has one.
+
+    Raises:
+        RunEnded: the planner does not support what it will be asked.
+    """
+    config = inputs.config
+    inputs.announce(Stage.PLANNING, {"limit_s": config.limits.planning, "scenario_id": record.scenario_id})
+    asked = attrs.evolve(problem, features=problem.features | {Feature.COMMITMENTS})
+    if reason := replanning_fault(config) or config.planner.skip(own(asked)):
+        raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, str(reason))
+    nothing = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
+    result = PlanResult(status=PlanStatus.SOLVED, plan=Plan(paths=(nothing,) * len(problem)))
+    inputs.observers.planned(problem=own(problem), result=own(result))
+    return result
 
 
 def _unsolved(config: RunConfig, result: PlanResult, timing: Mapping[str, Any]) -> str:

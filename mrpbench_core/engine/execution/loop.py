@@ -17,10 +17,12 @@ from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import ContractChecks
 from mrpbench_core.engine.execution.arrivals import Arrivals
 from mrpbench_core.engine.execution.delays import DelayStream
+from mrpbench_core.engine.execution.destinations import heads
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
 from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.replanning import Replanner, Revision
+from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
@@ -86,8 +88,8 @@ def granted_localizer(config: RunConfig) -> str | None:
 class ExecutionResult:
     """The end of an execution."""
 
-    arrived: bool
-    """Every robot completed the last move of its path."""
+    succeeded: bool
+    """Every robot completed the last move of its path; with tasks that come over time: no robot gave up."""
     gave_up: tuple[str, ...]
     """Robots that gave up, each with the cause if the navigator named one."""
     simulated_s: float
@@ -116,6 +118,8 @@ class LoopInputs:
     """Receives everything that happens; flushed at the end."""
     replanner: Replanner
     """Asks for new plans; knows the first one."""
+    tasks: TaskManager | None = None
+    """The tasks that come over time; None = the robots go to the goals of the first plan."""
     limit_s: float
     """Simulated seconds after which the execution ends."""
     goal_tolerance: float
@@ -218,12 +222,23 @@ class ExecutionLoop:
         view = self._facility_manager.with_grants(view, self._state)
         if replanner.pending is None:
             self._ask_dispatcher(view)
-            if reason := replanner.reason(now, view, self._orders.replan):
-                replanner.request(now, reason, view, self._orders.released)
+            self._replan(view)
         if (revision := replanner.take_due(now)) and self._adopt(revision):
             view = attrs.evolve(view, revision=self._revision)
             self._ask_dispatcher(view)
         self._facility_manager.assign(self._orders)
+
+    def _replan(self, view: FleetView) -> None:
+        """Ask for a new plan if one is needed."""
+        now, replanner, tasks = self._now, self._inputs.replanner, self._inputs.tasks
+        wish = self._orders.replan
+        if tasks is not None:
+            head = heads(replanner.problem, replanner.plan, self._orders.released)
+            tasks.begin(now, head, self._motion.mode == ABORTED)
+            wish = wish or tasks.reason(now)
+        if reason := replanner.reason(now, view, wish):
+            to = None if tasks is None else tasks.destinations(now)
+            replanner.request(now, reason, view, self._orders.released, to)
 
     def _ask_dispatcher(self, view: FleetView) -> None:
         """Get new orders; a dispatcher that has none returns the same object again."""
@@ -251,8 +266,12 @@ class ExecutionLoop:
                 self._facility_manager.adopt(new.problem, new.plan)
                 self._inputs.recorder.events((Event(stamp=now, kind="replan", detail=new.reason),))
                 self._inputs.recorder.routes(now, self._revision, new.routes, new.plan)
+                if self._inputs.tasks is not None and new.destinations is not None:
+                    self._inputs.tasks.adopt(new.destinations)
                 return True
         self._inputs.replanner.failed(now)
+        if self._inputs.tasks is not None:
+            self._inputs.tasks.failed()
         self._inputs.recorder.events((Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}"),))
         return False
 
@@ -270,7 +289,13 @@ class ExecutionLoop:
         self._confirmed = arrivals.update(self._now, self._state, self._motion)
         gave_up = self._motion.mode == ABORTED
         self._inputs.progress(self._now, arrivals.arrived)
-        if not (arrivals.arrived | arrivals.mistaken | gave_up).all() and self._now < self._inputs.limit_s:
+        tasks, over = self._inputs.tasks, self._now >= self._inputs.limit_s
+        if tasks is not None:
+            tasks.judge(self._now, arrivals.arrived)
+            over |= tasks.ended
+        else:
+            over |= bool((arrivals.arrived | arrivals.mistaken | gave_up).all())
+        if not over:
             return None
         names = self._inputs.context.fleet.names
         causes = tuple(
@@ -278,7 +303,7 @@ class ExecutionLoop:
             for robot in gave_up.nonzero()[0].tolist()
         )
         return ExecutionResult(
-            arrived=bool(arrivals.arrived.all()),
+            succeeded=bool(arrivals.arrived.all() if tasks is None else not gave_up.any()),
             gave_up=causes,
             simulated_s=self._now,
             contradiction=arrivals.contradiction(),

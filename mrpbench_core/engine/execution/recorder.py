@@ -7,6 +7,7 @@ from typing import Any
 import attrs
 import numpy as np
 
+from mrpbench_core.engine.execution.task_board import TaskEvent
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.motion import Event, Motion
 from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
@@ -14,6 +15,7 @@ from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.model.runs.recording import Chunk
 
 SAMPLES = 256
@@ -40,7 +42,29 @@ IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
 """Channels that may stay empty, which is not the same as missing."""
 
 
-INTEGERS = dict.fromkeys(("contact", "scan_robot", "event_robot", "route_revision", "route_robot", "route_edge"), "i4")
+TASKS: dict[str, tuple[str, tuple[int, ...]]] = {
+    "errand_time": ("f8", ()),
+    "errand_task": ("i4", ()),
+    "errand_goal": ("f8", (3,)),
+    "errand_level": ("i2", ()),
+    "errand_service": ("f8", ()),
+    "errand_deadline": ("f8", ()),
+    "errand_priority": ("i4", ()),
+    "task_time": ("f8", ()),
+    "task_index": ("i4", ()),
+    "task_event": ("U1", ()),
+    "task_robot": ("i4", ()),
+    "task_errand": ("i4", ()),
+}
+"""The same, where tasks come over time."""
+
+INTEGERS = dict.fromkeys(
+    (
+        *("contact", "scan_robot", "event_robot", "route_revision", "route_robot", "route_edge"),
+        *("errand_task", "errand_priority", "task_index", "task_robot", "task_errand"),
+    ),
+    "i4",
+)
 """Channels whose rows come as Python's integers."""
 
 
@@ -66,11 +90,14 @@ class Recorder:
     `sink` gets every chunk; memory does not grow with the run. Scans are recorded only on request.
     """
 
-    def __init__(self, rate: float, period: float, sink: Callable[[Chunk], None], scans: bool = True) -> None:
+    def __init__(
+        self, rate: float, period: float, sink: Callable[[Chunk], None], scans: bool = True, tasks: bool = False
+    ) -> None:
         self._keeps_scans = scans
         self._every = max(1, round(1 / (rate * period)))
         self._sink = sink
-        sink({name: np.empty((0, *shape), kind) for name, (kind, shape) in IRREGULAR.items()})
+        channels = IRREGULAR | (TASKS if tasks else {})
+        sink({name: np.empty((0, *shape), kind) for name, (kind, shape) in channels.items()})
         self._rows: dict[str, list[Any]] = defaultdict(list)
         self._touching: set[tuple[int, int]] = set()
 
@@ -127,6 +154,25 @@ class Recorder:
             self._rows["event_kind"].append(event.kind)
             self._rows["event_robot"].append(event.robot)
             self._rows["event_detail"].append(event.detail)
+
+    def tasks(self, tasks: Sequence[Task], events: Sequence[TaskEvent]) -> None:
+        """Record tasks that were released, one row per errand, and what happened to tasks."""
+        rows = self._rows
+        for task in tasks:
+            count = len(task.goals)
+            rows["errand_time"] += [task.release] * count
+            rows["errand_task"] += [task.index] * count
+            rows["errand_goal"] += [*task.goals]
+            rows["errand_level"] += [*task.levels]
+            rows["errand_service"] += [*task.service]
+            rows["errand_deadline"] += [task.deadline] * count
+            rows["errand_priority"] += [task.priority] * count
+        for event in events:
+            rows["task_time"].append(event.stamp)
+            rows["task_index"].append(event.task)
+            rows["task_event"].append(event.kind)
+            rows["task_robot"].append(event.robot)
+            rows["task_errand"].append(event.errand)
 
     def routes(self, now: float, revision: int, routes: Sequence[Route], plan: Plan) -> None:
         """Record a new plan and its routes: one row per waypoint, with the segment that leads there and its limit."""

@@ -8,18 +8,19 @@ import numpy as np
 
 from mrpbench_core.config.settings import Replanning, RunConfig
 from mrpbench_core.engine.execution.commitments import commitments
+from mrpbench_core.engine.execution.destinations import Destinations
 from mrpbench_core.engine.execution.routes import Router
 from mrpbench_core.model.common.arrays import Float, Int, Int32
 from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Plan, PlanResult
-from mrpbench_core.model.planning.problem import Feature, Problem
+from mrpbench_core.model.planning.problem import Feature, Problem, features_of
 
 RETRY_S = 1.0
 """Simulated seconds after which a planner that found no new plan is asked again, unless the settings say more."""
 
-Ask = Callable[[Problem], tuple[PlanResult, str | None]]
-"""Calls the planner; the second value says why there is no plan to use."""
+Ask = Callable[[Problem], tuple[PlanResult, str | None, float]]
+"""Calls the planner; returns its answer, why there is no plan to use, and the wall seconds beyond its budget."""
 
 
 @attrs.frozen(kw_only=True)
@@ -34,6 +35,8 @@ class Revision:
     routes: tuple[Route, ...] = ()
     fault: str = ""
     """The reason why there is no plan, or why it must not be used."""
+    destinations: Destinations | None = None
+    """Where it leads, if that is not where the plan before led."""
 
 
 class Replanner:
@@ -82,19 +85,32 @@ class Replanner:
                 return f"robot {robot} is {late[robot]:.1f} s late"
         return None
 
-    def request(self, now: float, reason: str, view: FleetView, released: Int32) -> None:
-        """Ask for a plan that begins with what is `released` i4[n]; it takes effect after the latency."""
+    def request(
+        self, now: float, reason: str, view: FleetView, released: Int32, to: Destinations | None = None
+    ) -> None:
+        """Ask for a plan that begins with what is `released` i4[n], and leads `to` new destinations if there are some.
+
+        It takes effect after the latency, and later if the planner exceeds its budget of wall time.
+        """
         tick = self.problem.roadmap.tick
         due = now + self._settings.latency
         ready = math.ceil(now / tick - 1e-9) + self._left(view)
         prefix = commitments(self.problem, self.plan, released, view.reached, ready, math.ceil(due / tick - 1e-9))
         features = self.problem.features | {Feature.COMMITMENTS}
         problem = attrs.evolve(self.problem, commitments=prefix, features=features)
-        result, fault = self._ask(problem)
+        router = self._router
+        if to is not None:
+            problem = attrs.evolve(problem, goals=to.goals)
+            problem = attrs.evolve(problem, features=features_of(problem) | (features & {Feature.FOOTPRINTS}))
+            router = attrs.evolve(router, final_yaw=to.yaw)
+        result, fault, late = self._ask(problem)
+        due += late
         self._last, self._not_before = now, due
         plan = None if fault else result.plan
-        routes = () if plan is None else self._router(plan)
-        self.pending = Revision(due=due, reason=reason, problem=problem, plan=plan, routes=routes, fault=fault or "")
+        routes = () if plan is None else router(plan)
+        self.pending = Revision(
+            due=due, reason=reason, problem=problem, plan=plan, routes=routes, fault=fault or "", destinations=to
+        )
 
     def take_due(self, now: float) -> Revision | None:
         """Return the new plan when it takes effect, else None."""
@@ -129,7 +145,8 @@ class Replanner:
 
 def replanning_fault(config: RunConfig) -> str | None:
     """Return the reason why the planner cannot replan during execution as configured, or None."""
-    wanted = config.replanning.delay is not None or config.replanning.period is not None
+    replanning = config.replanning
+    wanted = replanning.delay is not None or replanning.period is not None or config.tasks is not None
     if config.executes and wanted and Feature.COMMITMENTS not in config.planner.supports:
-        return "does not support commitments, which replanning during execution needs"
+        return "does not support commitments, which replanning needs; `rolling_horizon` plans with it"
     return None

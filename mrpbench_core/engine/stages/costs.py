@@ -3,7 +3,7 @@
 import numpy as np
 
 from mrpbench_core.api.assigner import Cost
-from mrpbench_core.engine.stages.travel import travel_ticks
+from mrpbench_core.engine.travel import travel_ticks
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap

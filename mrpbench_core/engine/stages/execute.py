@@ -1,28 +1,35 @@
 """Executes a plan in the simulator, and writes what happens to the recording and the exports."""
 
+import math
 import time
 
+import attrs
 import numpy as np
 
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.dispatcher import DispatchError
+from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution.delays import DelayStream
+from mrpbench_core.engine.execution.destinations import Places
 from mrpbench_core.engine.execution.facility_manager import ExecutionError
 from mrpbench_core.engine.execution.loop import ExecutionLoop, ExecutionResult, LoopComponents, LoopInputs
 from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.progress import ExecutionProgress
+from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.execution.routes import Router, start_poses
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
-from mrpbench_core.engine.own import own
+from mrpbench_core.engine.execution.task_manager import TaskManager
+from mrpbench_core.engine.own import Handed, name_of, own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.engine.stages.export import Exports
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
-from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
@@ -51,7 +58,7 @@ def execute_plan(inputs: RunInputs, context: RunContext, router: Router) -> tupl
     try:
         exports.open(config.export, given, inputs.paths.exports)
         wants_scans = config.recording.scans or bool(config.export)
-        recorder = Recorder(config.recording.rate, context.period, sink, wants_scans)
+        recorder = Recorder(config.recording.rate, context.period, sink, wants_scans, tasks=config.tasks is not None)
         began = time.perf_counter()
         replanner = _replanner(inputs, context, router)
         inputs.observers.executing(context=given)
@@ -83,21 +90,58 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
 
     promises = Promises.of(config.planner)
 
-    def ask(problem: Problem) -> tuple[PlanResult, str | None]:
-        inputs.announce(Stage.REPLANNING, {"limit_s": config.limits.planning})
+    session = config.planner.start()
+    limit = min(config.replanning.budget or math.inf, config.limits.planning)
+    calls: list[float] = []
+
+    def ask(problem: Problem) -> tuple[PlanResult, str | None, float]:
+        inputs.announce(Stage.REPLANNING, {"limit_s": limit})
+        budget = attrs.evolve(budget_of(config), wall_s=limit)
         try:
-            result, spent = call_planner(config.planner, problem, budget_of(config))
+            result, spent = call_planner(config.planner, problem, budget, session)
         except RunEnded as skipped:
             inputs.announce(Stage.EXECUTION, {})
-            return PlanResult(status=PlanStatus.GAVE_UP), f"the planner {skipped}"
+            return PlanResult(status=PlanStatus.GAVE_UP), f"the planner {skipped}", 0.0
         inputs.announce(Stage.EXECUTION, {})
-        timing["replanning_s"] = timing.get("replanning_s", 0.0) + spent["planning_s"]
+        calls.append(spent["planning_s"])
+        timing.update(_calls(calls, limit))
         timing["clock_bound"] = timing.get("clock_bound", False) or spent["clock_bound"]
         result, fault = judge(promises, problem, result)
-        return result, fault or (f"the planner ended with {result.status}" if result.plan is None else None)
+        late = max(0.0, calls[-1] - limit)
+        return result, fault or (f"the planner ended with {result.status}" if result.plan is None else None), late
 
     assert context.result.plan is not None
     return Replanner(config.replanning, ask, router, context.problem, context.result.plan)
+
+
+def _calls(seconds: list[float], limit: float) -> dict[str, float]:
+    """The timing of the calls during execution, for the record."""
+    return {
+        "replanning_s": sum(seconds),
+        "replanning_calls": len(seconds),
+        "replanning_p50_s": float(np.percentile(seconds, 50)),
+        "replanning_p99_s": float(np.percentile(seconds, 99)),
+        "replanning_max_s": max(seconds),
+        "replanning_overruns": sum(spent > limit for spent in seconds),
+    }
+
+
+def _tasks(inputs: RunInputs, context: RunContext, recorder: Recorder) -> TaskManager | None:
+    """The tasks that come over time, if the configuration has a source of them."""
+    config = inputs.config
+    if config.tasks is None:
+        return None
+    handed = Handed((context.world, context.problem.roadmap, context.fleet), "world, roadmap or fleet")
+    stream = config.tasks.start(*handed.given, config.seed)
+    if not isinstance(stream, TaskStream):
+        raise BrokenContractError(f"{name_of(config.tasks)} returned {type(stream).__name__} instead of a stream")
+    handed.check(config.tasks)
+    costs = QueueCosts(config.assigner.cost, context.problem.roadmap, context.fleet)
+    sets = Feature.GOAL_SETS in config.planner.supports
+    places = Places(context.problem, costs.labels, config.replanning.parking, sets)
+    return TaskManager(
+        stream, config.assigner, costs, places, context.problem, recorder, interval=config.replanning.interval
+    )
 
 
 def _simulate(
@@ -127,6 +171,7 @@ def _simulate(
                 delays=DelayStream(config.delays, len(context.fleet), *seeds),
                 recorder=recorder,
                 replanner=replanner,
+                tasks=_tasks(inputs, context, recorder),
                 limit_s=config.limits.execution,
                 goal_tolerance=config.goal_tolerance,
                 seeds=seeds,
@@ -142,12 +187,12 @@ def _follow_schedule(config: RunConfig, context: RunContext, recorder: Recorder)
     assert config.dispatcher is not None
     delays = DelayStream(config.delays, len(context.fleet), config.seed, config.repeat)
     arrived, simulated_s = ScheduleLoop(context, config.dispatcher, delays, recorder).run(config.limits.execution)
-    return ExecutionResult(arrived=arrived, gave_up=(), simulated_s=simulated_s)
+    return ExecutionResult(succeeded=arrived, gave_up=(), simulated_s=simulated_s)
 
 
 def _failure(result: ExecutionResult, config: RunConfig) -> RunEnded | None:
     """Return the status of the run, None if every robot arrived."""
-    if result.arrived:
+    if result.succeeded:
         return None
     if result.gave_up:
         causes = "; ".join(result.gave_up[:3]) + ("; …" if len(result.gave_up) > 3 else "")

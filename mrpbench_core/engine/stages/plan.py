@@ -8,7 +8,7 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.api.planner import Planner
+from mrpbench_core.api.planner import Planner, PlannerSession
 from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.own import Handed, own
@@ -32,8 +32,10 @@ LATE_S = 0.1
 """Wall seconds after the limit within which a planner that ended its search at the limit may still return."""
 
 
-def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[PlanResult, dict[str, Any]]:
-    """The result of the planner, valid or not, and the timing of the call alone.
+def call_planner(
+    planner: Planner, problem: Problem, budget: Budget, session: PlannerSession | None = None
+) -> tuple[PlanResult, dict[str, Any]]:
+    """The result of the planner, valid or not, and the timing of the call alone; without a `session` it begins one.
 
     The time of `Planner.skip` counts, because a planner could plan there. CPU time counts programs that the planner ran
     to their end; peak memory is that of this process alone. A plan that comes more than `LATE_S` after the limit is
@@ -51,7 +53,7 @@ def call_planner(planner: Planner, problem: Problem, budget: Budget) -> tuple[Pl
         handed.check(planner)
         raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, str(reason))
     try:
-        result = planner.plan(handed.given, budget)
+        result = (session or planner.start()).plan(handed.given, budget)
     except InputError as error:  # no mistake of the user's any more: the problem was sound
         raise RuntimeError(f"the planner raised InputError: {error}") from error
     seconds = perf_counter() - began

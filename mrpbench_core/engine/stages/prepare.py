@@ -4,6 +4,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.checking.doorways import check_doorways
+from mrpbench_core.config.identity import options_text
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import check_drawn, check_returned
 from mrpbench_core.engine.own import Handed, own
@@ -43,8 +44,6 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
         InputError: the configuration does not fit the world, the robots or the scenario.
         RunEnded: the scenario cannot be solved by any planner.
     """
-    if config.tasks is not None:
-        raise InputError("tasks: tasks that come over time cannot be executed yet")
     announce(Stage.WORLD, {})
     world = own(check_returned(config.world, config.world.load(), World))
     fleet = build_fleet(config, config.scenario.size())
@@ -57,6 +56,8 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
     drawn = check_returned(config.scenario, config.scenario.draw(*handed.given, config.seed), Scenario)
     scenario = own(check_drawn(drawn, len(fleet)))
     handed.check(config.scenario)
+    if config.tasks is not None:
+        scenario = attrs.evolve(scenario, tasks=(), stream=f"{options_text(config.tasks)} {config.seed}")
     if any(task.release > 0 for task in scenario.tasks) or len(scenario.tasks) > len(fleet):
         raise InputError("scenario: tasks released over time, or more tasks than robots, cannot be executed yet")
     start = roadmap.locate(scenario.start[:, :2], scenario.start_level)

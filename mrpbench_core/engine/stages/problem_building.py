@@ -44,6 +44,19 @@ def build_problem(instance: RunInstance, assigned: tuple[int, ...] | None, assig
     return problem
 
 
+def standing_problem(instance: RunInstance) -> Problem:
+    """The first problem where tasks come over time: every robot is where it should be.
+
+    Raises:
+        RunEnded: two robots overlap at their starts.
+    """
+    goals = tuple(((vertex,),) for vertex in instance.start.tolist())
+    problem = problem_with_features(instance.roadmap, instance.fleet, instance.start, goals)
+    if faults := check_scenario(problem, instance.scenario.start_names):
+        raise RunEnded(RunStatus.SCENARIO_INFEASIBLE, Stage.SCENARIO, summary(faults))
+    return problem
+
+
 def problem_with_features(
     roadmap: Roadmap, fleet: Fleet, start: np.ndarray, goals: tuple[tuple[GoalSet, ...], ...]
 ) -> Problem:

@@ -18,6 +18,11 @@
 | `route_time`, `route_revision`, `route_robot` | f8; i4; i4 | one row per waypoint of each plan after the first |
 | `route_waypoint`, `route_level`, `route_speed` | f8[3]; i2; f8 | see `mrpbench_core.model.runs.run.latest_routes` |
 | `route_edge`, `route_leave` | i4; i8 | of the segment to the waypoint: edge, -1 = wait; tick at which it ends |
+| `errand_time`, `errand_task` | f8; i4 | one row per errand of each task: its release and index; only with `tasks` |
+| `errand_goal`, `errand_level` | f8[3]; i2 | see `mrpbench_core.model.planning.scenario.Task` |
+| `errand_service`, `errand_deadline`, `errand_priority` | f8; f8; i4 | the same |
+| `task_time`, `task_index`, `task_event` | f8; i4; U | see `TASK_EVENTS`; only with `tasks` |
+| `task_robot`, `task_errand` | i4; i4 | -1 = none |
 | `event_time`, `event_kind`, `event_robot`, `event_detail` | f8; U; i4; U | see `Event` |
 
 Periodic channels are sampled every `1 / recording.rate` seconds, and at the start and the end of the execution.
@@ -45,3 +50,7 @@ PERIODIC = (
     "waits_for",
 )
 """Channels that share the time axis `time`."""
+
+TASK_EVENTS = ("released", "refused", "assigned", "withdrawn", "begun", "errand", "done")
+"""What happens to a task: it is released, refused (no robot can do it), given to a robot and taken back, begun (a robot
+rests at its first errand), an errand of it is done, all are."""

@@ -73,7 +73,7 @@ def view(reached):
 def replans(run_context, ask=None, **settings):
     problem, plan = run_context.problem, run_context.result.plan
     router = Router(problem, np.full(len(problem), np.nan), np.full(len(problem.roadmap.edges), np.inf))
-    return Replanner(Replanning(**settings), ask or (lambda _: (run_context.result, None)), router, problem, plan)
+    return Replanner(Replanning(**settings), ask or (lambda _: (run_context.result, None, 0.0)), router, problem, plan)
 
 
 def test_a_plan_is_kept_unless_the_configuration_says_otherwise(run_context):
@@ -117,7 +117,7 @@ def test_a_new_plan_takes_effect_after_the_latency(run_context):
 
 def test_after_a_failure_the_next_try_waits(run_context):
     nothing = PlanResult(status=PlanStatus.TIMEOUT)
-    asked = replans(run_context, lambda _: (nothing, "the planner ended with timeout"))
+    asked = replans(run_context, lambda _: (nothing, "the planner ended with timeout", 0.0))
     asked.request(10.0, "late", view([0, 0]), np.zeros(2, np.int32))
     assert asked.take_due(10.0).plan is None
     asked.failed(10.0)
@@ -186,4 +186,4 @@ def test_a_planner_that_cannot_begin_with_released_segments_is_skipped(tmp_path,
     pytest.importorskip("mrpbench_planners_example")
     record, _ = executed(tmp_path, monkeypatch, planner="example", replanning={"period": "5 s"})
     assert record["status"] == "skipped"
-    assert record["error"]["message"] == "does not support commitments, which replanning during execution needs"
+    assert "`rolling_horizon` plans with it" in record["error"]["message"]

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.engine.stages.costs import cost_matrix
-from mrpbench_core.engine.stages.travel import travel_ticks
+from mrpbench_core.engine.travel import travel_ticks
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
@@ -113,6 +113,6 @@ def test_travel_times_are_those_of_dijkstra(graph, together):
     )
     everyone = range(count)
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("mrpbench_core.engine.stages.travel.STATES", together)
+        patch.setattr("mrpbench_core.engine.travel.STATES", together)
         ticks = travel_ticks(roadmap, 0, everyone, everyone)
     assert ticks.T.tolist() == [dijkstra(count, arcs, source) for source in everyone]

@@ -1,0 +1,1 @@
+"""Planners that need only the core: they make others serve where these alone do not."""

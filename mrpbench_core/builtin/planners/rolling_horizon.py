@@ -1,0 +1,94 @@
+"""A planner for one batch, used again and again while robots drive.
+
+Li, Tinka, Kiesel, Durham, Kumar and Koenig, "Lifelong Multi-Agent Path Finding in Large-Scale Warehouses", AAAI 2021,
+plan again in every period. There robots are at vertices when a plan begins; here they are on their way.
+"""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.component import option
+from mrpbench_core.api.planner import Planner, PlannerSession, Promise
+from mrpbench_core.model.common.arrays import Int32
+from mrpbench_core.model.planning.plan import Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Feature, Problem
+
+
+@attrs.frozen(kw_only=True)
+class RollingHorizon(Planner):
+    """Plans with another planner from where robots come to rest if nothing more is released to them.
+
+    So planners without commitments serve during execution, and the problem does not grow with what was driven. The new
+    part of each path begins when all robots are at such vertices. Under a dispatcher that keeps the order of a plan
+    (`adg`, `gses`) no robot waits for this; `timed` keeps the times, and there they do.
+    """
+
+    planner: Planner = option(help="the planner of each call")
+
+    @property
+    def supports(self) -> frozenset[Feature]:  # type: ignore[override]
+        """What the planner supports, and commitments."""
+        return self.planner.supports | {Feature.COMMITMENTS}
+
+    @property
+    def promises(self) -> frozenset[Promise]:  # type: ignore[override]
+        """What holds for the whole if it holds for the new part."""
+        return self.planner.promises & {Promise.CONFLICT_FREE, Promise.DETERMINISTIC}
+
+    def skip(self, problem: Problem) -> str | None:
+        """Return why the planner cannot be given the new part, or None."""
+        return self.planner.skip(from_rest(problem))
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """Plan the new part."""
+        return self.start().plan(problem, budget)
+
+    def start(self) -> PlannerSession:
+        """Begin a session of the planner."""
+        return RollingHorizonSession(self.planner.start())
+
+
+class RollingHorizonSession(PlannerSession):
+    """Plans new parts with a session of another planner."""
+
+    def __init__(self, session: PlannerSession) -> None:
+        self._session = session
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """Plan from rest, after what is committed."""
+        result = self._session.plan(from_rest(problem), budget)
+        status = PlanStatus.GAVE_UP if result.status == PlanStatus.UNSOLVABLE else result.status
+        plan = None if result.plan is None else after_commitments(problem, result.plan)
+        return attrs.evolve(result, status=status, plan=plan, lower_bound=float("nan"))
+
+
+def from_rest(problem: Problem) -> Problem:
+    """Return the problem of robots that start where their commitments end, all at the same time."""
+    start: Int32 = problem.start.copy()
+    for robot, path in enumerate(problem.commitments):
+        start[robot] = path.end(problem.roadmap, int(start[robot]))
+    rest = attrs.evolve(problem, start=start, ready=np.zeros_like(problem.ready), commitments=())
+    return attrs.evolve(rest, features=problem.features - {Feature.COMMITMENTS})
+
+
+def after_commitments(problem: Problem, plan: Plan) -> Plan:
+    """Return the commitments of a problem, a wait until the last of them ends, and then `plan`."""
+    if not problem.commitments:
+        return plan
+    ends = [int(path.leave[-1]) if len(path) else 0 for path in problem.commitments]
+    begin = max([*ends, *problem.ready.tolist()])
+    return Plan(
+        paths=tuple(
+            _joined(path, end, begin, new) for path, end, new in zip(problem.commitments, ends, plan.paths, strict=True)
+        )
+    )
+
+
+def _joined(committed: Path, end: int, begin: int, new: Path) -> Path:
+    wait = [begin] if begin > end else []
+    pause = np.full(len(wait), -1, np.int32)
+    return Path(
+        edge=np.concatenate([committed.edge, pause, new.edge]),
+        enter=np.concatenate([committed.enter, [end] * len(wait), new.enter + begin]).astype(np.int64),
+        leave=np.concatenate([committed.leave, wait, new.leave + begin]).astype(np.int64),
+    )

@@ -1,0 +1,134 @@
+"""Where robots go next: to their errands as far as these do not exclude one another, else out of the way.
+
+Planners for one batch need goals at which all robots can stand at the same time.
+"""
+
+from collections.abc import Iterable, Sequence
+from typing import Literal
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
+from mrpbench_core.model.planning.conflicts import TOLERANCE
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import GoalSet, Problem
+
+STRIDE = 7919
+"""A prime, by which places are taken one after another."""
+Parking = Literal["stay", "home"]
+
+
+@attrs.frozen
+class Errand:
+    """The next errand of a robot."""
+
+    robot: int
+    task: int
+    number: int
+    vertex: int
+    yaw: float
+    """radians, NaN = any."""
+
+
+@attrs.frozen(kw_only=True)
+class Destinations:
+    """The goals of a plan."""
+
+    goals: tuple[tuple[GoalSet, ...], ...]
+    """See `Problem.goals`."""
+    yaw: Float
+    """f8[n] radians wanted there, NaN = any."""
+    errand: tuple[tuple[int, int] | None, ...]
+    """For each robot the task and the number of the errand that its path leads to; None: it makes room."""
+
+
+def heads(problem: Problem, plan: Plan, released: Int32) -> Int:
+    """Return the vertex i8[n] at the end of what is `released` i4[n] of each path."""
+    found = problem.start.astype(np.int64)
+    for robot, (path, count) in enumerate(zip(plan.paths, released.tolist(), strict=True)):
+        moves = np.flatnonzero(path.edge[:count] >= 0)
+        if len(moves):
+            found[robot] = problem.roadmap.edges[path.edge[moves[-1]], 1]
+    return found
+
+
+class Places:
+    """Decides which vertices robots may occupy at rest at the same time.
+
+    Args:
+        problem: the first problem; its starts are the homes of robots.
+        labels: for each motion profile, equal for vertices between which it can drive both ways.
+        parking: where robots without an errand go: nowhere, unless they are in the way, or home.
+        sets: the planner takes sets of goals, so that it may choose where they make room.
+    """
+
+    def __init__(self, problem: Problem, labels: Sequence[Int], parking: Parking, sets: bool) -> None:
+        roadmap = problem.roadmap
+        self._problem, self._labels, self._parking, self._sets = problem, labels, parking, sets
+        self._kept_free = np.zeros(len(roadmap.position), bool)
+        for resource in roadmap.resources:
+            self._kept_free[list(resource.vertices)] = True
+
+    def destinations(self, errands: Iterable[Errand], head: Int, attempt: int = 0) -> Destinations:
+        """Return goals for all robots.
+
+        Args:
+            errands: at most one per robot, the most important first.
+            head: i8[n] vertices at which robots come to rest if nothing more is released.
+            attempt: plans in a row that were not found. Then robots that are in the way, in every other attempt all
+                robots without an errand, are sent far enough away: home, or to one place after another. Where robots
+                only just make room, an incomplete planner may never find how the others pass.
+        """
+        robots = len(self._problem)
+        taken: Int = np.full(robots, -1, np.int64)
+        chosen: list[tuple[int, int] | None] = [None] * robots
+        yaw = np.full(robots, np.nan)
+        for errand in errands:
+            if self._free(errand.robot, np.array([errand.vertex]), taken)[0]:
+                taken[errand.robot] = errand.vertex
+                chosen[errand.robot], yaw[errand.robot] = (errand.task, errand.number), errand.yaw
+        goals: list[tuple[GoalSet, ...]] = [((int(vertex),),) for vertex in taken]
+        for robot in np.flatnonzero(taken < 0).tolist():
+            goals[robot] = (self._room(robot, int(head[robot]), taken, attempt),)
+            if len(goals[robot][0]) == 1:
+                taken[robot] = goals[robot][0][0]
+        return Destinations(goals=tuple(goals), yaw=yaw, errand=tuple(chosen))
+
+    def _room(self, robot: int, head: int, taken: Int, attempt: int) -> GoalSet:
+        """Where a robot without an errand may stand."""
+        label = self._labels[int(self._problem.profile[robot])]
+        able = self._free(robot, np.arange(len(label)), taken) & (label == label[head]) & ~self._kept_free
+        home = int(self._problem.start[robot])
+        sent = attempt > 0 and (not able[head] or attempt % 2 == 0)
+        if able[home] and (self._parking == "home" or (sent and attempt <= 2)):
+            return (home,)
+        if not able.any():
+            return (head,)
+        if sent:
+            choice = np.flatnonzero(able)
+            return (int(choice[(attempt + 1) * STRIDE * (robot + 1) % len(choice)]),)
+        if self._sets:
+            return tuple(np.flatnonzero(able).tolist())
+        return (int(head if able[head] else self._nearest(head, able)),)
+
+    def _nearest(self, head: int, able: Bool) -> int:
+        roadmap = self._problem.roadmap
+        gap = np.hypot(*(roadmap.position - roadmap.position[head]).T)
+        gap[~able] = np.inf
+        elsewhere = able & (roadmap.level != roadmap.level[head])
+        return int(np.argmin(gap + 1e6 * elsewhere))
+
+    def _free(self, robot: int, vertex: Int, taken: Int) -> Bool:
+        """Tell bool[k] which vertices exclude none that is `taken` i8[n] (-1 = none) by another robot."""
+        roadmap, radius = self._problem.roadmap, self._problem.radius
+        free = np.ones(len(vertex), bool)
+        for other in np.flatnonzero(taken >= 0).tolist():
+            if other != robot:
+                there = int(taken[other])
+                gap = np.hypot(*(roadmap.position[vertex] - roadmap.position[there]).T)
+                beside = (gap < radius[robot] + radius[other] - TOLERANCE) & (
+                    roadmap.level[vertex] == roadmap.level[there]
+                )
+                free &= ~beside & (vertex != there)
+        return free

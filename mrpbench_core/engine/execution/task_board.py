@@ -1,0 +1,123 @@
+"""The tasks of an execution that are not finished: who does which, and how far each is."""
+
+import math
+
+import attrs
+
+from mrpbench_core.model.planning.assignment import Queues
+from mrpbench_core.model.planning.scenario import Task
+
+
+@attrs.frozen
+class TaskEvent:
+    """What happened to a task; see the channels `task_...` of a recording."""
+
+    stamp: float
+    task: int
+    kind: str
+    """released, refused, assigned, withdrawn, begun, errand or done."""
+    robot: int = -1
+    errand: int = -1
+
+
+@attrs.define
+class Job:
+    """A task that is not finished."""
+
+    task: Task
+    vertices: tuple[int, ...]
+    """Roadmap vertex of each errand."""
+    robot: int = -1
+    errand: int = 0
+    """The errand that comes next."""
+    begun: bool = False
+    since: float = math.nan
+    """Simulated seconds since which its robot rests at the errand; NaN = it does not."""
+
+
+class TaskBoard:
+    """Keeps each task from its release until it is done; a task has at most one robot, and is done once."""
+
+    def __init__(self, robots: int) -> None:
+        self.jobs: dict[int, Job] = {}
+        """By index, in the order of their release."""
+        self.queues: list[list[int]] = [[] for _ in range(robots)]
+        """For each robot the tasks to do, in order; only the first may have begun."""
+        self.finished = 0
+        """Tasks that are done, or that no robot can do."""
+        self.events: list[TaskEvent] = []
+        """What happened since the recorder took the events."""
+
+    def release(self, now: float, task: Task, vertices: tuple[int, ...]) -> None:
+        """Take a task in."""
+        self.jobs[task.index] = Job(task, vertices)
+        self._note(now, task.index, "released")
+
+    def refuse(self, now: float, task: Task) -> None:
+        """Note a task that no robot can do."""
+        self.finished += 1
+        self._note(now, task.index, "released")
+        self._note(now, task.index, "refused")
+
+    def current(self, robot: int) -> Job | None:
+        """Return what a robot does now, or goes to do."""
+        return self.jobs[self.queues[robot][0]] if self.queues[robot] else None
+
+    def begun(self, robot: int) -> Job | None:
+        """Return the task that a robot has begun, if any."""
+        job = self.current(robot)
+        return job if job is not None and job.begun else None
+
+    def unbegun(self) -> list[int]:
+        """Return the tasks that no robot has begun, in the order of their release."""
+        return [index for index, job in self.jobs.items() if not job.begun]
+
+    def assign(self, now: float, queues: Queues) -> None:
+        """Replace what robots do after the task that they have begun; `queues` holds indices of tasks not begun."""
+        before = {index: job.robot for index, job in self.jobs.items() if job.robot >= 0}
+        for robot, queue in enumerate(queues):
+            job = self.begun(robot)
+            self.queues[robot] = [*([] if job is None else [job.task.index]), *queue]
+        for job in self.jobs.values():
+            job.robot = -1
+        for robot, own in enumerate(self.queues):
+            for index in own:
+                self.jobs[index].robot = robot
+        for index, job in self.jobs.items():
+            old = before.get(index, -1)
+            if job.robot != old:
+                if old >= 0:
+                    job.since = math.nan
+                    self._note(now, index, "withdrawn", old)
+                if job.robot >= 0:
+                    self._note(now, index, "assigned", job.robot)
+
+    def rest(self, now: float, robot: int) -> bool:
+        """Note that a robot rests at its errand; return whether the errand is done, as its service time is over."""
+        job = self.current(robot)
+        assert job is not None
+        index = job.task.index
+        if not job.begun:
+            job.begun = True
+            self._note(now, index, "begun", robot)
+        if math.isnan(job.since):
+            job.since = now
+        if now - job.since < job.task.service[job.errand] - 1e-9:
+            return False
+        self._note(now, index, "errand", robot, job.errand)
+        job.errand += 1
+        job.since = math.nan
+        if job.errand == len(job.vertices):
+            self._note(now, index, "done", robot)
+            self.finished += 1
+            del self.jobs[index]
+            self.queues[robot].pop(0)
+        return True
+
+    def leave(self, robot: int) -> None:
+        """Note that a robot does not rest at its errand; a service that was interrupted begins again."""
+        if (job := self.current(robot)) is not None:
+            job.since = math.nan
+
+    def _note(self, now: float, task: int, kind: str, robot: int = -1, errand: int = -1) -> None:
+        self.events.append(TaskEvent(now, task, kind, robot, errand))

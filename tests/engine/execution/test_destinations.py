@@ -1,0 +1,48 @@
+import attrs
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from mrpbench_core.engine.execution.destinations import Errand, Places
+from mrpbench_core.testing.instances.problems import grid_of, problem_on
+
+ROADMAP = grid_of([".....", "....."])
+
+
+def places(radius, parking="stay", sets=False, starts=(0, 1, 2)):
+    problem = attrs.evolve(problem_on(ROADMAP, list(starts), list(starts)), radius=np.full(3, radius))
+    return Places(problem, [np.zeros(10, np.int64)], parking, sets)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.integers(0, 9), min_size=0, max_size=3),
+    st.permutations(range(10)),
+    st.sampled_from([0.2, 0.5]),
+    st.booleans(),
+)
+def test_robots_can_stand_at_all_goals_at_once(wanted, heads, radius, home):
+    errands = [Errand(robot, robot, 0, vertex, np.nan) for robot, vertex in enumerate(wanted)]
+    made = places(radius, "home" if home else "stay").destinations(errands, np.array(heads[:3]))
+    goals = [goal for ((goal,),) in made.goals]
+    assert len(set(goals)) == 3
+    for errand in errands:
+        first = wanted.index(errand.vertex) == errand.robot
+        assert (made.errand[errand.robot] == (errand.task, 0)) == first, "of those for one place, the first goes there"
+        assert made.goals[errand.robot] == ((errand.vertex,),) or not first
+
+
+def test_a_robot_without_an_errand_stays_unless_it_is_in_the_way():
+    here = np.array([0, 4, 9])
+    assert places(0.2).destinations([], here).goals == (((0,),), ((4,),), ((9,),))
+    away = places(0.2).destinations([Errand(0, 0, 0, 4, np.nan)], here).goals
+    assert away[0] == ((4,),)
+    assert away[1] != ((4,),)
+    assert places(0.2, "home").destinations([], here).goals == (((0,),), ((1,),), ((2,),))
+
+
+def test_a_planner_that_takes_sets_chooses_where_robots_make_room():
+    made = places(0.2, sets=True).destinations([Errand(0, 0, 0, 4, 1.5)], np.array([0, 4, 9]))
+    assert made.goals[1] == (tuple(vertex for vertex in range(10) if vertex != 4),)
+    assert made.yaw[0] == 1.5
+    assert np.isnan(made.yaw[1:]).all()

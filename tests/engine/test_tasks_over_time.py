@@ -1,0 +1,120 @@
+"""Whole runs with tasks that keep coming."""
+
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.recording import Recording
+
+pytest.importorskip("mrpbench_planners_mapf")
+BASE = {
+    "world": "office",
+    "roadmap": "graph",
+    "scenario": {"plugin": "random", "robots": 3},
+    "tasks": {"plugin": "poisson", "rate": 12, "service": 1},
+    "assigner": "identity",
+    "planner": {"plugin": "rolling_horizon", "planner": "pbs"},
+    "fleet": {"robot": "turtlebot3_burger", "lidar": "none"},
+    "control_rate": 5,
+    "limits": {"execution": 100, "iterations": 5},
+    "metrics": ["planning"],
+}
+PLANNERS = '''
+import attrs
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.api import PlannerSession
+from mrpbench_planners_mapf.prioritized import Prioritized
+
+
+@attrs.frozen(kw_only=True)
+class Moody(Prioritized):
+    """Finds no plan in every other call."""
+
+    def start(self):
+        return Session(self)
+
+
+class Session(PlannerSession):
+    def __init__(self, planner):
+        self.planner, self.calls = planner, 0
+
+    def plan(self, problem, budget):
+        self.calls += 1
+        if self.calls % 2:
+            return PlanResult(status=PlanStatus.GAVE_UP)
+        return self.planner.plan(problem, budget)
+'''
+
+
+def run(folder, **changes):
+    """The record, and the channels of the recording."""
+    (point,) = load_study({**BASE, **changes}, []).runs
+    paths = RunPaths(recording=folder / "run.zip", exports=folder / "exports", picture=None)
+    record = execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
+    recording = Recording(paths.recording)
+    channels = {name: load() for name, load in recording.channels.items()}
+    recording.close()
+    return record, channels
+
+
+def happened(channels, kind):
+    """Times, tasks and robots of one kind of events."""
+    rows = channels["task_event"] == kind
+    return list(zip(*(channels[f"task_{name}"][rows].tolist() for name in ("time", "index", "robot")), strict=True))
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory):
+    return run(tmp_path_factory.mktemp("first"))
+
+
+def test_tasks_are_done_where_they_are_and_after_their_service(first):
+    record, channels = first
+    assert record["status"] == "succeeded", record
+    done = happened(channels, "done")
+    assert len(done) >= 2
+    begun = {task: (time, robot) for time, task, robot in happened(channels, "begun")}
+    for time, task, robot in done:
+        assert begun[task][1] == robot
+        assert time >= begun[task][0] + 1.0 - 1e-9
+        goal = channels["errand_goal"][channels["errand_task"] == task][-1]
+        sample = int(np.searchsorted(channels["time"], time)) - 1
+        assert np.hypot(*(channels["truth"][sample, robot, :2] - goal[:2])) <= 0.75
+
+
+def test_another_planner_meets_the_same_tasks_at_the_same_times(first, tmp_path):
+    record, channels = run(tmp_path, planner={"plugin": "rolling_horizon", "planner": "pibt"})
+    assert record["scenario_id"] == first[0]["scenario_id"]
+    for name in ("errand_time", "errand_task", "errand_goal"):
+        assert np.array_equal(channels[name], first[1][name], equal_nan=True)
+    other, _ = run(tmp_path, tasks={"plugin": "poisson", "rate": 6}, limits={"execution": 1})
+    assert other["scenario_id"] != record["scenario_id"]
+
+
+def test_a_run_with_a_budget_of_iterations_repeats_bit_for_bit(tmp_path):
+    changes = {"planner": {"plugin": "rolling_horizon", "planner": "lns"}, "limits": {"execution": 15, "iterations": 3}}
+    for name in ("a", "b"):
+        run(tmp_path / name, **changes)
+    assert (tmp_path / "a" / "run.zip").read_bytes() == (tmp_path / "b" / "run.zip").read_bytes()
+
+
+def test_a_finite_stream_ends_the_run(tmp_path):
+    record, channels = run(
+        tmp_path, tasks={"plugin": "closed_pool", "per_robot": 1, "total": 4}, limits={"execution": 400}
+    )
+    assert record["status"] == "succeeded"
+    assert Counter(channels["task_event"].tolist())["done"] == 4
+    assert channels["time"][-1] < 300
+
+
+def test_a_planner_that_fails_now_and_then_does_not_end_the_run(tmp_path):
+    (tmp_path / "moody.py").write_text(PLANNERS)
+    planner = {"plugin": "rolling_horizon", "planner": f"{tmp_path}/moody.py:Moody"}
+    record, channels = run(tmp_path, planner=planner)
+    assert record["status"] == "succeeded", record
+    assert "replan_failed" in channels["event_kind"]
+    assert happened(channels, "done")
