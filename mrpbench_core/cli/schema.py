@@ -1,10 +1,13 @@
 """`mrpbench schema`: print a JSON Schema with which editors complete and check configurations."""
 
 import argparse
+import sys
 
 from mrpbench_core.cli.output.table import print_json
 from mrpbench_core.config.schema import schema
 from mrpbench_core.engine.processes.call import in_worker
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.plugins.installed import installed, try_distribution
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -16,6 +19,26 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(_: argparse.Namespace) -> int:
-    """Print the schema."""
-    print_json(in_worker("the schema cannot be made", schema))
+    """Print the schema, without distributions whose plugins end the process that imports them."""
+    failed = "the schema cannot be made"
+    try:
+        print_json(in_worker(failed, schema))
+    except InputError:
+        lost = _ending()
+        if not lost:
+            raise
+        for error in lost.values():
+            print(error, file=sys.stderr)
+        print_json(in_worker(failed, schema, list(lost)))
     return 0
+
+
+def _ending() -> dict[str, InputError]:
+    """Return the distributions whose plugins end the process, with the reason, by importing each in its own process."""
+    found = {}
+    for name in dict.fromkeys(provider.distribution for provider in installed()):
+        try:
+            in_worker(f"the schema leaves out {name}", try_distribution, name)
+        except InputError as error:
+            found[name] = error
+    return found

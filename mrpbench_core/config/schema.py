@@ -5,7 +5,7 @@ The schema does not demand required options, because a matrix may contain them; 
 
 import enum
 import typing
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Literal
@@ -25,9 +25,9 @@ LOCAL = {"type": "string", "pattern": ":", "description": "./file.py:Class or pa
 _SCALARS = {bool: "boolean", int: "integer", float: "number", str: "string", Path: "string"}
 
 
-def schema() -> dict[str, Any]:
-    """Return the schema; plugins that cannot be loaded are left out."""
-    return _Schema().whole()
+def schema(without: Sequence[str] = ()) -> dict[str, Any]:
+    """Return the schema; plugins that cannot be loaded, and those of some distributions, are left out."""
+    return _Schema(without).whole()
 
 
 def options_schema(cls: type[Any]) -> dict[str, Any]:
@@ -36,7 +36,8 @@ def options_schema(cls: type[Any]) -> dict[str, Any]:
 
 
 class _Schema:
-    def __init__(self) -> None:
+    def __init__(self, without: Sequence[str] = ()) -> None:
+        self.without = without
         self.definitions: dict[str, Any] = {}
 
     def whole(self) -> dict[str, Any]:
@@ -134,7 +135,7 @@ class _Schema:
             self.definitions[name] = {}  # ends the recursion for a plugin that contains its own kind
             self.definitions[name] = self._choice(kind)
         reference = {"$ref": f"#/$defs/{name}"}
-        classes = _classes(kind)
+        classes = _classes(kind, self.without)
         if default not in classes:
             return reference
         unnamed = {
@@ -147,7 +148,7 @@ class _Schema:
 
     def _choice(self, kind: type[Component]) -> dict[str, Any]:
         """Return the schema of a plugin: its name, or a block with its name and options."""
-        classes = _classes(kind)
+        classes = _classes(kind, self.without)
         blocks = [
             {
                 "type": "object",
@@ -178,12 +179,13 @@ def _axis_name() -> str:
     return f"({'|'.join(patterns)})"
 
 
-def _classes(kind: type[Component]) -> dict[str, type[Component]]:
-    """Return the installed components of a kind that can be loaded."""
+def _classes(kind: type[Component], without: Sequence[str]) -> dict[str, type[Component]]:
+    """Return the installed components of a kind that can be loaded, without those of some distributions."""
     registry = Registry(kind)
-    names = [provider.name for provider in registry]
+    providers = [provider for provider in registry if provider.distribution not in without]
+    names = [provider.name for provider in providers]
     found = {}
-    for provider in registry:
+    for provider in providers:
         clash = names.count(provider.name) > 1
         name = f"{provider.name}@{provider.distribution}" if clash else provider.name
         try:
