@@ -1,0 +1,87 @@
+// Discrete executions by the rules of the League of Robot Runners: steps (2023, 2024) and ticks (2026).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mrpbench_discrete/planner.hpp"
+#include "mrpbench_discrete/tasks.hpp"
+
+namespace mrpbench::discrete {
+
+struct LeagueOptions {
+  PlannerOptions planner;
+  /// Time for one answer of the planner and the scheduler.
+  double limit_s = 1;
+  /// If given, answers are never late and do not depend on the clock.
+  std::optional<std::int64_t> iterations;
+  std::uint64_t seed = 0;
+  /// Of distance tables.
+  std::size_t table_bytes = std::size_t{2} << 30;
+  /// 2026: ticks between two calls of the planner.
+  int period = 10;
+};
+
+/// Time, robot, other robot (-1 = none), text.
+struct ActionError {
+  std::int32_t time, robot, other;
+  std::string text;
+};
+
+/// What both kinds of execution share.
+class League {
+ public:
+  League(Problem problem, LeagueOptions options);
+  virtual ~League() = default;
+  League(const League&) = delete;
+  League& operator=(const League&) = delete;
+
+  /// Advance to the end of the given step or tick.
+  virtual void run_until(int time) = 0;
+
+  int time() const { return time_; }
+  const Problem& problem() const { return problem_; }
+  const Tasks& tasks() const { return tasks_; }
+  const std::vector<Pose>& pose() const { return pose_; }
+  /// Letters, one row of all robots per step or tick.
+  const std::vector<std::uint8_t>& letters() const { return letters_; }
+  const std::vector<ActionError>& errors() const { return errors_; }
+  /// Seconds of each call of scheduler and planner.
+  const std::vector<double>& call_seconds() const { return call_seconds_; }
+  int late_calls() const { return late_calls_; }
+
+ protected:
+  Problem problem_;
+  LeagueOptions options_;
+  DistanceTables tables_;
+  Tasks tasks_;
+  std::unique_ptr<Planner> planner_;
+  std::vector<Pose> pose_;
+  std::vector<std::uint8_t> letters_;
+  std::vector<ActionError> errors_;
+  std::vector<double> call_seconds_;
+  int time_ = 0, late_calls_ = 0;
+};
+
+/// 2023 and 2024.
+std::unique_ptr<League> make_steps(Problem problem, LeagueOptions options);
+
+/// The action that moves each robot, or the errors that make all of them wait: steps of 2023 and 2024.
+std::vector<ActionError> faults_of_step(const Grid& grid, const std::vector<Pose>& pose,
+                                        const std::vector<Action>& action, int time);
+
+/// 2026.
+class Ticks : public League {
+ public:
+  using League::League;
+  virtual const std::vector<std::vector<std::array<std::int32_t, 2>>>& delays() const = 0;
+  /// Row, column, heading, counter of every robot at every hundredth tick.
+  virtual const std::vector<std::int32_t>& segments() const = 0;
+  virtual int refused() const = 0;
+};
+std::unique_ptr<Ticks> make_ticks(Problem problem, LeagueOptions options);
+
+}  // namespace mrpbench::discrete

@@ -1,0 +1,60 @@
+"""`mrpbench-league PROBLEM.json`: executes a problem and writes its output."""
+
+import argparse
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.lorr.problem import read_problem
+from mrpbench_simulators_league.execute import Options, execute
+
+
+def main(words: list[str] | None = None) -> int:
+    """Run the command; return its exit code."""
+    parser = argparse.ArgumentParser(prog="mrpbench-league", description=__doc__)
+    parser.add_argument("problem", type=Path, metavar="PROBLEM.json", help="a problem of 2023, 2024 or 2026")
+    parser.add_argument("--duration", type=_positive, required=True, metavar="N", help="steps, or ticks of 2026")
+    parser.add_argument("--out", type=Path, default=Path("output.json"), metavar="FILE", help="(default: %(default)s)")
+    parser.add_argument("--planner", choices=("pibt", "epibt"), default="epibt", help="(default: %(default)s)")
+    parser.add_argument("--depth", type=int, choices=(3, 4, 5), default=4, help="actions of an operation of epibt")
+    parser.add_argument("--limit", type=_seconds, default=1.0, metavar="S", help="seconds of one answer")
+    parser.add_argument("--iterations", type=int, metavar="N", help="rounds of improvement instead of seconds")
+    parser.add_argument("--period", type=_positive, default=10, metavar="N", help="ticks between two calls (2026)")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the planner")
+    given = parser.parse_args(words)
+    try:
+        problem = read_problem(given.problem)
+        options = {key: getattr(given, key) for key in ("planner", "depth", "limit", "iterations", "period", "seed")}
+        done = execute(problem, given.duration, Options(**options))
+        done.write(given.out)
+    except InputError as error:
+        print(f"mrpbench-league: {error}", file=sys.stderr)
+        return 2
+    except (OSError, ValueError) as error:
+        print(f"mrpbench-league: {getattr(error, 'strerror', None) or error}", file=sys.stderr)
+        return 2
+    slowest, usual = done.call_seconds.max(), np.median(done.call_seconds)
+    print(f"{done.output.finished} tasks, {done.errands} errands in {given.duration} {_unit(problem.season)}")
+    print(f"{done.late_calls} late answers; a call took {usual:.3f} s (median), {slowest:.3f} s (longest)")
+    print(given.out)
+    return 0
+
+
+def _unit(season: int) -> str:
+    return "ticks" if season == 2026 else "steps"
+
+
+def _positive(text: str) -> int:
+    number = int(text)
+    if not 1 <= number <= 10**6:
+        raise argparse.ArgumentTypeError(f"should be from 1 to 1000000, is {text}")
+    return number
+
+
+def _seconds(text: str) -> float:
+    number = float(text)
+    if not 0 < number < 1e6:
+        raise argparse.ArgumentTypeError(f"should be above 0, is {text}")
+    return number
