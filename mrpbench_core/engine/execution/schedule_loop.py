@@ -92,14 +92,18 @@ class ScheduleLoop:
 
     def _advance(self) -> Bool:
         """Let one control period pass; return which robots have moved."""
+        released = self._orders.released.copy()
+        while (waits := (self._reached < released) & (self._paths.duration(self._reached) == 0)).any():
+            self._reached[waits] += 1
         left = np.where(self._delays.stopped, 0.0, self._period)
         speed = self._delays.speed(self._reached)
-        released, moved = self._orders.released, np.zeros(len(left), bool)
+        moved = np.zeros(len(left), bool)
         for group in self._orders.in_step:
             robots, segments = (np.array(column) for column in zip(*group, strict=True))
+            if (self._reached[robots] < segments).any():  # all begin together
+                released[robots] = np.minimum(released[robots], segments)
             going = robots[self._reached[robots] == segments]
-            late = (self._reached[robots] < segments).any() or (released[robots] <= segments).any()
-            left[going] = 0.0 if late else left[going].min(initial=self._period)
+            left[going] = left[going].min(initial=self._period)
             speed[going] = speed[going].min(initial=np.inf)
         while True:
             going = self._reached < released

@@ -10,6 +10,7 @@ from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
 from mrpbench_core.builtin.dispatchers.timed import Timed
+from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.delays import DelayStream
@@ -112,6 +113,20 @@ def test_without_delays_a_plan_by_its_clock_takes_the_time_of_the_plan(context_o
     moves = [int(path.leave[path.edge >= 0].max(initial=0)) for path in plan.paths]
     assert arrived
     assert seconds == pytest.approx(max(moves) * problem.roadmap.tick, abs=PERIOD + 1e-6)
+
+
+def test_robots_that_rotate_keep_in_step(context_of):
+    grid = two_way_grid(2, 3)
+    routes = [(2, 1, 4), (4, 4, 3), (3, 3, 0), (0, 0, 1)]
+    problem = build(grid, [route[0] for route in routes], [()] * 4)
+    problem = attrs.evolve(problem, goals=tuple(((route[-1],),) for route in routes), radius=np.full(4, 0.33))
+    plan = Plan(paths=tuple(path_through(grid, route) for route in routes))
+    assert check_plan(problem, plan).valid
+    context = context_of(problem, plan)
+    for p_delay in (0.0, 0.2, 0.5):
+        arrived, _, channels = executed(context, Adg(), Delays(p_delay=p_delay, max_delay=3, tick=0.5))
+        assert arrived
+        assert not len(channels["contact"])
 
 
 def test_robots_that_are_sent_through_one_another_are_recorded_as_contacts(context_of):
