@@ -14,8 +14,8 @@ _MPPI_CRITICS = (
     *("PathAngleCritic", "PathFollowCritic", "PreferForwardCritic", "TwirlingCritic", "VelocityDeadbandCritic"),
 )
 _METRICS = (
-    *("planning", "execution", "clearance", "contact", "deadlock", "delay", "efficiency"),
-    *("fairness", "smoothness", "stops", "throughput", "tracking", "waiting"),
+    *("planning", "execution", "barn", "clearance", "contact", "deadlock", "delay", "efficiency"),
+    *("fairness", "smoothness", "stops", "tasks", "throughput", "tracking", "waiting"),
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),

@@ -12,12 +12,14 @@ from mrpbench_core.report.reading.columns import heading
 from mrpbench_core.report.reading.runs import Runs
 
 TITLES: dict[str, str] = {
+    "throughput": "How much gets done?",
     "arrival": "Do the robots arrive?",
     "duration": "How long does it take?",
     "planning": "What does planning cost?",
     "proximity": "How near do robots come?",
 }
 NOUNS: dict[str, str] = {
+    "throughput": "throughput",
     "arrival": "arrivals",
     "duration": "time",
     "planning": "cost of planning",
@@ -39,7 +41,7 @@ class Topic:
 
 
 def find_topics(runs: Runs, compared: Sequence[Column]) -> list[Topic]:
-    """Return the questions for which there are values: the four first, then each primary column that answers none.
+    """Return the questions for which there are values: those of `Question`, then each primary column that answers none.
 
     Args:
         runs: which hold the values.

@@ -11,6 +11,7 @@ from mrpbench_metrics_standard.fairness import Fairness
 from mrpbench_metrics_standard.planning import Planning
 from mrpbench_metrics_standard.smoothness import Smoothness
 from mrpbench_metrics_standard.stops import Stops
+from mrpbench_metrics_standard.tasks import Tasks
 from mrpbench_metrics_standard.throughput import Throughput
 from mrpbench_metrics_standard.tracking import Tracking
 from mrpbench_metrics_standard.waiting import Waiting
@@ -27,6 +28,7 @@ __all__ = [
     "Planning",
     "Smoothness",
     "Stops",
+    "Tasks",
     "Throughput",
     "Tracking",
     "Waiting",

@@ -1,0 +1,136 @@
+"""Tasks that come over time.
+
+Flow time and throughput are those of queueing theory: J. D. C. Little, "A Proof for the Queuing Formula: L = λW",
+Operations Research 9, 1961. Service time as in Ma, Li, Kumar and Koenig, "Lifelong Multi-Agent Path Finding for Online
+Pickup and Delivery Tasks", AAMAS 2017: from the release of a task until it is done.
+"""
+
+import math
+from collections.abc import Mapping
+from typing import ClassVar
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import Column, Metric, Value, option
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.runs.run import FinishedRun
+from mrpbench_metrics_standard.distribution import mean, percentile
+from mrpbench_metrics_standard.fairness import JAIN, jain
+from mrpbench_metrics_standard.samples import measurable, nulls
+
+
+@attrs.frozen(kw_only=True)
+class Tasks(Metric):
+    """Measures the tasks of a `tasks` source: how many are done, how long they take, and how long they wait.
+
+    The service time of a task runs from its release until it is done. Tasks that are not done have none; their ages at
+    the end count in `age_max_s` and `open_mean`, so that no method gains by leaving them. Throughput is measured after
+    `warm_up`; the other columns cover the whole run.
+    """
+
+    columns: ClassVar[tuple[Column, ...]] = (
+        Column(
+            "per_hour",
+            "1/h",
+            "higher",
+            "tasks done per simulated hour, after the option `warm_up`; null if the run is not longer",
+            primary=True,
+            answers="throughput",
+            threshold_share=0.02,
+        ),
+        Column("released", "", "neither", "number of tasks released"),
+        Column("done", "", "higher", "number of tasks done"),
+        Column("refused", "", "lower", "number of tasks that no robot could do"),
+        Column(
+            "service_mean_s",
+            "s",
+            "lower",
+            "mean service time of tasks done",
+            "Ma et al., AAMAS 2017",
+            primary=True,
+            answers="throughput",
+            threshold=1.0,
+            threshold_share=0.02,
+        ),
+        Column("service_p50_s", "s", "lower", "median service time"),
+        Column("service_p95_s", "s", "lower", "95th percentile of the service times, linear between tasks"),
+        Column("service_p99_s", "s", "lower", "99th percentile of the service times"),
+        Column("service_max_s", "s", "lower", "longest service time"),
+        Column("wait_mean_s", "s", "lower", "mean time from the release of a task until a robot begins it"),
+        Column("age_max_s", "s", "lower", "largest age of a task: its service time, or its age at the end"),
+        Column("open_mean", "", "lower", "mean number of tasks released and not done (L of Little's law)"),
+        Column("open_end", "", "lower", "number of tasks released and not done at the end"),
+        Column("tardiness_mean_s", "s", "lower", "mean time by which tasks with a deadline are late, also if not done"),
+        Column("late", "", "lower", "number of tasks with a deadline that were late, also if not done"),
+        Column("utilisation", "", "higher", "share of the robots' time in which they have a task"),
+        Column("jain", "", "higher", "Jain's index of the tasks done per robot: 1 if all do as many", JAIN),
+    )
+    requires: ClassVar[frozenset[str]] = frozenset({"time", "task_time", "errand_time"})
+
+    warm_up: float = option(
+        0.0, help="time at the beginning that throughput leaves out", unit="s", validator=attrs.validators.ge(0)
+    )
+
+    def measure(self, run: FinishedRun) -> Mapping[str, Value]:
+        """Return all columns."""
+        if not measurable(self, run):
+            return nulls(self)
+        begin, end = float(run.channel("time")[0]), float(run.channel("time")[-1])
+        when, index, event = run.channel("task_time"), run.channel("task_index"), run.channel("task_event")
+        count = int(index.max(initial=-1)) + 1
+        done, begun, refused = (_times(when, index, event == kind, count) for kind in ("done", "begun", "refused"))
+        release, deadline = np.full(count, np.nan), np.full(count, np.inf)
+        release[run.channel("errand_task")] = run.channel("errand_time")
+        deadline[run.channel("errand_task")] = run.channel("errand_deadline")
+        finished, wanted = np.isfinite(done), ~np.isfinite(refused)
+        service = (done - release)[finished]
+        wait = (begun - release)[np.isfinite(begun)]
+        left = np.where(finished, done, end)
+        age = (left - release)[wanted]
+        due = wanted & np.isfinite(deadline)
+        late = np.maximum(left - deadline, 0.0)[due]
+        measured = end - begin - self.warm_up
+        robots = len(run.context.fleet)
+        by = run.channel("task_robot")[event == "done"]
+        return {
+            "per_hour": 3600 * int((done[finished] > begin + self.warm_up).sum()) / measured if measured > 0 else None,
+            "released": count,
+            "done": int(finished.sum()),
+            "refused": int((~wanted).sum()),
+            "service_mean_s": mean(service),
+            **{f"service_p{share}_s": percentile(service, share) for share in (50, 95, 99)},
+            "service_max_s": percentile(service, 100),
+            "wait_mean_s": mean(wait),
+            "age_max_s": percentile(age, 100),
+            "open_mean": math.fsum(age) / (end - begin) if end > begin else None,
+            "open_end": int((wanted & ~finished).sum()),
+            "tardiness_mean_s": mean(late),
+            "late": int((late > 0).sum()) if due.any() else None,
+            "utilisation": _busy(run, end) / (robots * (end - begin)) if end > begin else None,
+            "jain": jain(np.bincount(by, minlength=robots).astype(float)) if len(by) else None,
+        }
+
+
+def _times(when: Float, index: np.ndarray, chosen: np.ndarray, count: int) -> Float:
+    """The time f8[count] of the chosen events by task, NaN = none."""
+    times = np.full(count, np.nan)
+    times[index[chosen]] = when[chosen]
+    return times
+
+
+def _busy(run: FinishedRun, end: float) -> float:
+    """Seconds in which robots have at least one task, summed over robots."""
+    open_tasks = np.zeros(len(run.context.fleet), np.int64)
+    since = np.zeros(len(open_tasks))
+    busy: list[float] = []
+    change = {"assigned": 1, "withdrawn": -1, "done": -1}
+    channels = (run.channel(f"task_{name}").tolist() for name in ("time", "event", "robot"))
+    for time, event, robot in zip(*channels, strict=True):
+        step = change.get(event, 0)
+        if step == 1 and not open_tasks[robot]:
+            since[robot] = time
+        if step == -1 and open_tasks[robot] == 1:
+            busy.append(time - since[robot])
+        open_tasks[robot] += step or 0
+    return math.fsum([*busy, *(end - since[open_tasks > 0])])

@@ -1,0 +1,76 @@
+"""The metric `tasks` on events counted by hand, and Little's law on drawn ones."""
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from mrpbench_metrics_standard import Tasks
+
+
+@pytest.fixture
+def served(executed):
+    """Tasks as (release, assigned, begun, done, robot, deadline), None = never, in 100 s of two robots."""
+
+    def make(tasks):
+        run = executed([0, 100], [[(0, 0)] * 2] * 2, [[0, 0]] * 2, [[(0, 0)]] * 2)
+        events = [(task[0], index, "released", -1) for index, task in enumerate(tasks)]
+        for index, (_, assigned, begun, done, robot, _) in enumerate(tasks):
+            named = zip((assigned, begun, done), ("assigned", "begun", "done"), strict=True)
+            events += [(time, index, kind, robot) for time, kind in named if time is not None]
+        events.sort(key=lambda event: event[0])
+        columns = list(zip(*events, strict=True)) or [()] * 4
+        channels = {
+            "task_time": np.array(columns[0], float),
+            "task_index": np.array(columns[1], "i4"),
+            "task_event": np.array(columns[2], "U9"),
+            "task_robot": np.array(columns[3], "i4"),
+            "errand_time": np.array([task[0] for task in tasks], float),
+            "errand_task": np.arange(len(tasks), dtype="i4"),
+            "errand_deadline": np.array([task[5] for task in tasks], float),
+        }
+        loaders = {name: (lambda rows=rows: rows) for name, rows in channels.items()}
+        return attrs.evolve(run, channels={**run.channels, **loaders})
+
+    return make
+
+
+TASKS = [
+    (0, 0, 10, 20, 0, 15.0),
+    (10, 20, 40, 50, 0, 60.0),
+    (30, 30, 50, None, 1, 80.0),
+    (90, None, None, None, -1, np.inf),
+]
+
+
+def test_tasks_are_measured_as_counted_by_hand(served):
+    values = Tasks().measure(served(TASKS))
+    assert (values["released"], values["done"], values["open_end"], values["refused"]) == (4, 2, 2, 0)
+    assert values["per_hour"] == pytest.approx(72)
+    assert values["service_mean_s"] == pytest.approx(30)
+    assert values["wait_mean_s"] == pytest.approx((10 + 30 + 20) / 3)
+    assert values["age_max_s"] == pytest.approx(70)
+    assert values["open_mean"] == pytest.approx((20 + 40 + 70 + 10) / 100)
+    assert (values["late"], values["tardiness_mean_s"]) == (2, pytest.approx((5 + 0 + 20) / 3))
+    assert values["utilisation"] == pytest.approx((20 + 30 + 70) / 200)
+    assert values["jain"] == pytest.approx(0.5)
+
+
+def test_throughput_leaves_out_the_warm_up(served):
+    assert Tasks(warm_up=30.0).measure(served(TASKS))["per_hour"] == pytest.approx(3600 / 70)
+    assert Tasks(warm_up=100.0).measure(served(TASKS))["per_hour"] is None
+
+
+def test_without_tasks_times_are_null(served):
+    values = Tasks().measure(served([]))
+    assert (values["per_hour"], values["done"], values["service_mean_s"], values["jain"]) == (0, 0, None, None)
+
+
+@settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.lists(st.tuples(st.integers(0, 50), st.integers(0, 49)), min_size=1, max_size=20))
+def test_when_all_are_done_littles_law_holds(served, drawn):
+    """L = λW: the mean number of open tasks is the throughput times the mean service time."""
+    values = Tasks().measure(
+        served([(release, release, release, release + service, 0, np.inf) for release, service in drawn])
+    )
+    assert values["open_mean"] == pytest.approx(values["per_hour"] / 3600 * values["service_mean_s"])
