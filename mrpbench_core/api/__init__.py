@@ -3,7 +3,7 @@
 from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.api.component import Component, option
 from mrpbench_core.api.controller import Controller, ControllerSession, FleetControllerSession, FleetOfOne
-from mrpbench_core.api.crowd import Crowd, CrowdSession
+from mrpbench_core.api.crowd import Crowd, CrowdSession, CrowdView, Mover, Movers
 from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.api.exporter import Exporter, ExporterSession
@@ -52,6 +52,7 @@ __all__ = [
     "ControllerSession",
     "Crowd",
     "CrowdSession",
+    "CrowdView",
     "DispatchError",
     "Dispatcher",
     "DispatcherSession",
@@ -64,6 +65,8 @@ __all__ = [
     "Localizer",
     "LocalizerSession",
     "Metric",
+    "Mover",
+    "Movers",
     "Navigator",
     "NavigatorSession",
     "Observed",

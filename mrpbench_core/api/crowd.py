@@ -1,23 +1,37 @@
-"""Contract of the kind *crowd* (provisional): people and other things that move among the robots."""
+"""Contract of the kind *crowd*: people and other things that move among the robots, and are not robots."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Set
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.common.arrays import Float
-from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.movers import CrowdView, Mover, Movers
 from mrpbench_core.model.worlds.world import World
 
 
 class CrowdSession(ABC):
     """A crowd in motion."""
 
-    radii: tuple[float, ...]
-    """Radius of each mover, metres."""
+    members: tuple[Mover, ...]
+    """What moves, by index."""
+
+    @property
+    @abstractmethod
+    def movers(self) -> Movers:
+        """Where the members are now; before the first step, where they begin."""
 
     @abstractmethod
-    def step(self, dt: float, state: State) -> Float:
-        """Return movers f8[m,4]: x, y, vx, vy after `dt` simulated seconds."""
+    def step(self, dt: float, seen: CrowdView) -> Movers:
+        """Move for `dt` simulated seconds; nothing but the crowd itself keeps its members out of walls and robots.
+
+        All crowds move at once, from what was at the beginning of the period. Levels do not change on the way through
+        doors; a member stays on its level.
+        """
+
+    def wanted_doors(self) -> Set[str]:
+        """Return the names of the doors (`Facilities.names`) that members want to be open now."""
+        return frozenset()
 
 
 class Crowd(Component):
@@ -26,5 +40,17 @@ class Crowd(Component):
     group: ClassVar[str] = "mrpbench.crowds"
 
     @abstractmethod
-    def start(self, world: World, seed: int) -> CrowdSession:
-        """Place the movers."""
+    def start(self, world: World, fleet: Fleet, seed: int) -> CrowdSession:
+        """Place the movers.
+
+        Args:
+            world: where they move.
+            fleet: the robots, whose radii they need to avoid them.
+            seed: of everything random; what a member does at random depends on the seed and its index alone.
+
+        Raises:
+            InputError: the world has no room for them, or a place that an option names is not free.
+        """
+
+
+__all__ = ["Crowd", "CrowdSession", "CrowdView", "Mover", "Movers"]

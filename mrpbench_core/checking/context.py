@@ -37,13 +37,14 @@ def check_context(context: RunContext) -> str | None:
 
 def check_rows(name: str, rows: NDArray[Any], time: NDArray[Any], context: RunContext) -> str | None:
     """Return what is wrong with a channel of a recording that has this context; see `check_channel`."""
-    fault = check_channel(name, rows, time, len(context.fleet))
+    fault = check_channel(name, rows, time, len(context.fleet), len(context.movers))
     if fault is not None:
         return fault
     if name == "facility" and rows.shape[1] != (count := len(Facilities(context.world).names)):
         return f"facility has {rows.shape[1]} columns instead of {count}"
     bounds = {
         "level": (0, len(context.world.levels)),
+        "mover_level": (-1, len(context.world.levels)),
         "route_level": (0, len(context.world.levels)),
         "mode": (0, max(Mode) + 1),
         "waits_for": (-1, len(context.problem.roadmap.resources)),

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.runs.recording import PERIODIC
 
-ROBOTS, ANY = -1, -2
-"""Sizes of rows that depend on the fleet, or on something else."""
+ROBOTS, ANY, MOVERS = -1, -2, -3
+"""Sizes of rows that depend on the fleet, on something else, or on the crowds."""
 
 
 @attrs.frozen
@@ -33,6 +33,8 @@ LAYOUTS: Mapping[str, Layout] = {
     **{name: Layout("f", "time", (ROBOTS, width)) for name, width in _FLOAT.items()},
     **{name: Layout("iu", "time", (ROBOTS,)) for name in PERIODIC if name not in _FLOAT},
     "facility": Layout("f", "time", (ANY,)),
+    "mover": Layout("f", "time", (MOVERS, 5)),
+    "mover_level": Layout("iu", "time", (MOVERS,)),
     "contact_time": Layout("f", "contact_time"),
     "contact": Layout("i", "contact_time", (2,)),
     "scan_time": Layout("f", "scan_time"),
@@ -75,11 +77,12 @@ def check_recording(channels: Channels, fleet: Fleet) -> list[str]:
     segment only after it has reached that vertex; no robot moves faster than its speed limit allows.
     """
     faults = check_names(channels) if "time" in channels else ["has no channel time"]
+    movers = len(channels["mover"][0]) if "mover" in channels and len(channels["mover"]) else 0
     if not faults:
         faults = [
             fault
             for name, rows in channels.items()
-            if (fault := check_channel(name, rows, channels[axis_of(name)], len(fleet))) is not None
+            if (fault := check_channel(name, rows, channels[axis_of(name)], len(fleet), movers)) is not None
         ]
     if not faults:
         faults += [*_finite(channels), *_order(channels)]
@@ -103,7 +106,7 @@ def axis_of(name: str) -> str:
     return LAYOUTS[name].axis if name in LAYOUTS else name
 
 
-def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int) -> str | None:
+def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int, movers: int = 0) -> str | None:
     """Return what is wrong with the type, shape or numbers of a channel, as a sentence, or None.
 
     Args:
@@ -111,11 +114,13 @@ def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int
         rows: the channel.
         time: the channel `axis_of(name)`.
         robots: number of robots.
+        movers: number of movers.
     """
     layout = LAYOUTS.get(name)
     if layout is None:
         return None
-    wanted = (len(time), *(robots if size == ROBOTS else size for size in layout.row)) if time.ndim else ()
+    sizes = {ROBOTS: robots, MOVERS: movers}
+    wanted = (len(time), *(sizes.get(size, size) for size in layout.row)) if time.ndim else ()
     if rows.dtype.kind not in layout.kinds or (rows.dtype.kind != "U" and rows.dtype.itemsize > 8):
         return f"{name} has the type {rows.dtype}"
     if rows.ndim != len(wanted) or any(b not in (a, ANY) for a, b in zip(rows.shape, wanted, strict=True)):
@@ -124,14 +129,14 @@ def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int
         return _axis(name, rows)
     if name == "contact":
         one, other = rows[:, 0], rows[:, 1]
-        if ((one < 0) | (one >= robots) | (other < -1) | (other >= robots) | (one == other)).any():
+        if ((one < 0) | (one >= robots) | (other < -1) | (other >= robots + movers) | (one == other)).any():
             return "contact names a robot that does not exist, or a robot touching itself"
     least = {"scan_robot": 0, "event_robot": -1, "route_robot": 0, "task_robot": -1}.get(name)
     if least is not None and ((rows < least) | (rows >= robots)).any():
         return f"{name} names a robot that does not exist"
     if name in ("released", "reached", "cleared", "level", "route_level", "route_revision") and (rows < 0).any():
         return f"{name} is negative"
-    if name in (*_FLOAT, "facility", "route_waypoint") and (np.abs(rows) > LARGEST).any():
+    if name in (*_FLOAT, "facility", "mover", "route_waypoint") and (np.abs(rows) > LARGEST).any():
         return f"{name} is not finite"
     return None
 

@@ -10,6 +10,7 @@ from attrs import validators
 from mrpbench_core.api import (
     Assigner,
     Controller,
+    Crowd,
     Dispatcher,
     Exporter,
     Localizer,
@@ -216,6 +217,9 @@ class RunConfig:
     )
     controller: Controller | None = block("pure_pursuit", help="turns a path into wheel commands", validator=_drives)
     simulator: Simulator | None = block("kinematic", help="moves the robots; `none` ends the run after planning")
+    crowds: tuple[Crowd, ...] = option(
+        (), help="people and other movers among the robots: one crowd, or a list; () = none"
+    )
     localizer: Localizer | None = block("ground_truth", help="tells robots where they are", validator=_drives)
     control_rate: float = option(
         20.0, help="rate at which dispatcher, navigator and controller act", unit="Hz", validator=validators.gt(0)
@@ -272,6 +276,7 @@ WITHOUT_PHYSICS = (
 
 ONLY_EXECUTION = (
     "plan_filter",
+    "crowds",
     "control_rate",
     "goal_tolerance",
     "grant_truth",

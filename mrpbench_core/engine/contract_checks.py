@@ -32,13 +32,14 @@ class ContractChecks:
     Args:
         length: i8[n] segments of each robot's path.
         reach: f8[n] metres that each robot can possibly move in one control period; None = not checked.
+        movers: number of movers.
     """
 
-    def __init__(self, length: NDArray[Any], reach: NDArray[Any] | None = None) -> None:
+    def __init__(self, length: NDArray[Any], reach: NDArray[Any] | None = None, movers: int = 0) -> None:
         self.length = length
         self._reach = np.inf if reach is None else reach
         self._before: State | None = None
-        self._robots = len(length)
+        self._robots, self._movers = len(length), movers
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
 
@@ -57,7 +58,13 @@ class ContractChecks:
         one, other = state.contacts.T
         if (
             len(one)
-            and ((one < 0) | (one >= self._robots) | (other < -1) | (other >= self._robots) | (one == other)).any()
+            and (
+                (one < 0)
+                | (one >= self._robots)
+                | (other < -1)
+                | (other >= self._robots + self._movers)
+                | (one == other)
+            ).any()
         ):
             _refuse(kind, "contacts that name no robot, or a robot twice")
         if self._before is not None:

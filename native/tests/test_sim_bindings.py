@@ -49,7 +49,7 @@ def test_returned_arrays_are_copies():
 def test_contacts_are_pairs_of_indices():
     it = plane(2, radius=np.array([0.6, 0.6]), movers=[0.2])
     it.step(np.zeros((2, 2)), np.array([[-0.7, 0.0]]))
-    assert it.contacts.tolist() == [[0, -1], [0, 1]]
+    assert it.contacts.tolist() == [[0, 1], [0, 2]]
 
 
 @pytest.mark.parametrize(

@@ -98,7 +98,7 @@ TEST("movers push, are not pushed, and are absent at first") {
     it.step(std::vector<Twist>{{0, 0}}, std::vector<Point>{{-0.6 + 0.01 * period, 0}});
   }
   CHECK(std::abs(it.poses()[0].x - (0.4 + 0.3 + kRadius)) <= 1e-9);
-  CHECK(it.touches() == (std::vector<Touch>{{0, -1}}));
+  CHECK(it.touches() == (std::vector<Touch>{{0, 1}}));
 }
 
 TEST("a push propagates through a row of robots") {

@@ -30,7 +30,7 @@ class Discs:
 
         `leaves` f8[k,4] are the segments of doors.
 
-        Returns where they end up, and the contacts: (robot, robot of higher index, or -1 for anything else).
+        Returns where they end up, and the contacts: (robot, disc of higher index, or -1 for what does not move).
         """
         owner, walls = self._walls(after, leaves)
         centres = after
@@ -59,7 +59,7 @@ class Discs:
         close = np.flatnonzero(distance < self._spacing - _TOUCH)
         for pair in close.tolist():
             first, second, both = int(self._first[pair]), int(self._second[pair]), bool(self._both[pair])
-            contacts.add((first, second if both else -1))
+            contacts.add((first, second))
             direction = offset[pair] / distance[pair] if distance[pair] > 0 else np.array([1.0, 0.0])
             push = direction * (self._spacing[pair] - distance[pair])
             shift[first] -= push / 2 if both else push

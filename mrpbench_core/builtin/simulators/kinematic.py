@@ -17,6 +17,7 @@ from mrpbench_core.builtin.simulators.nearby import Nearby
 from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet, Lidar
 from mrpbench_core.model.common.poses import wrapped
+from mrpbench_core.model.execution.movers import JUMP, MoverDiscs
 from mrpbench_core.model.execution.observation import ScanBatch
 from mrpbench_core.model.execution.scan_schedule import ScanSchedule
 from mrpbench_core.model.execution.state import Inputs, State
@@ -61,7 +62,7 @@ class _Plane(Simulation):
         self._acceleration = np.array([(robot.acceleration, robot.turn_acceleration) for robot in robots])
         # In a sub-step nothing moves farther than a quarter of the smallest radius: nothing passes through anything.
         stride = float(self._radii.min(initial=1.0)) / 4
-        self._substeps = max(1, math.ceil(period * float(self._limit[:, 0].max(initial=0.0)) / stride))
+        self._stride, self._reach = stride, period * float(self._limit[:, 0].max(initial=0.0))
         self._period, self._periods = period, 0
         self._schedule = ScanSchedule(fleet, period)
         reach = {lidar: lidar.range + math.hypot(*lidar.mount[:2]) for lidar in self._schedule.lidars}
@@ -71,7 +72,7 @@ class _Plane(Simulation):
         self._facilities = Facilities(world)
         self._doing = self._facilities.initial_state()
         self._leaves = self._layout.door_outlines(self._facilities, self._doing)
-        self._movers = np.full((len(movers), 2), np.inf)
+        self._movers = MoverDiscs(self._layout, np.asarray(movers, float))
         self._level: Int16 = np.zeros(len(robots), np.int16) if levels is None else np.array(levels, np.int16)
         self._pose = self._layout.to_plane(np.array(placements, float).reshape(-1, 3), self._level)
         self._twist = np.zeros((len(robots), 2))
@@ -84,12 +85,19 @@ class _Plane(Simulation):
 
     def step(self, inputs: Inputs) -> State:
         command = np.clip(inputs.twist, -self._limit, self._limit)
-        if inputs.movers is not None:
-            self._movers = inputs.movers[:, :2]
+        begin = self._movers.body
+        self._movers.update(inputs)
+        end = self._movers.body
+        with np.errstate(invalid="ignore"):  # what was nowhere
+            way = np.hypot(*(end - begin).T)
+        begin = np.where((way <= JUMP)[:, None], begin, end)
         self._operate(inputs.facilities)
         contacts: set[tuple[int, int]] = set()
-        for _ in range(self._substeps):
-            contacts |= self._advance(command, self._period / self._substeps)
+        farthest = max(self._reach, float(way.max(initial=0.0, where=way <= JUMP)))
+        substeps = max(1, math.ceil(farthest / self._stride))
+        for substep in range(1, substeps + 1):
+            movers = end if substep == substeps else begin + (end - begin) * (substep / substeps)
+            contacts |= self._advance(command, movers, self._period / substeps)
         self._periods += 1
         self._scans += self._take_scans()
         self._state = self._observe(np.array(sorted(contacts), np.int32))
@@ -102,7 +110,9 @@ class _Plane(Simulation):
     def _operate(self, commands: Mapping[str, float]) -> None:
         """Move doors and lifts, and the robots in lifts."""
         before, pose = self._doing, self._state.pose
-        after = self._facilities.advance(before, commands, self._period, pose, self._level, self._robot_radii)
+        after = self._facilities.advance(
+            before, commands, self._period, *self._movers.among(pose, self._level, self._robot_radii)
+        )
         if after == before:
             return
         self._doing = after
@@ -110,7 +120,7 @@ class _Plane(Simulation):
         self._pose = self._layout.to_plane(pose, self._level)
         self._leaves = self._layout.door_outlines(self._facilities, after)
 
-    def _advance(self, command: Float, dt: float) -> set[tuple[int, int]]:
+    def _advance(self, command: Float, movers: Float, dt: float) -> set[tuple[int, int]]:
         change = command - self._twist
         reached = np.clip(change, -self._acceleration * dt, self._acceleration * dt)
         # Mean over dt of a speed that changes at full acceleration until it is reached, and then stays.
@@ -119,8 +129,8 @@ class _Plane(Simulation):
         heading = self._pose[:, 2] + turn / 2
         chord = speed * dt * np.sinc(turn / (2 * np.pi))
         direction = np.stack([np.cos(heading), np.sin(heading)], axis=1)
-        before = np.concatenate([self._pose[:, :2], self._movers])
-        free = np.concatenate([self._pose[:, :2] + direction * chord[:, None], self._movers])
+        before = np.concatenate([self._pose[:, :2], movers])
+        free = np.concatenate([self._pose[:, :2] + direction * chord[:, None], movers])
         after, contacts = self._discs.separate(before, free, self._leaves)
         self._twist = self._twist + reached
         for robot in np.flatnonzero((after != free).any(axis=1)).tolist():
@@ -146,11 +156,12 @@ class _Plane(Simulation):
 
     def _scan(self, lidar: Lidar, robot: int) -> Float:
         pose = self._pose[robot]
-        others = np.concatenate([np.delete(self._pose[:, :2], robot, axis=0), self._movers])
+        others = np.concatenate([np.delete(self._pose[:, :2], robot, axis=0), self._movers.seen])
         visible = self._visible[lidar](pose[0], pose[1])
         if len(self._leaves):
             visible = np.concatenate([visible, self._leaves])
-        return scan(lidar, pose, visible, others, np.delete(self._radii, robot))
+        radii = np.concatenate([np.delete(self._robot_radii, robot), self._movers.seen_radius])
+        return scan(lidar, pose, visible, others, radii)
 
     def close(self) -> None:
         """Nothing is held."""

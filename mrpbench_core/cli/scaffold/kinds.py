@@ -32,10 +32,7 @@ KINDS: Mapping[str, Kind] = {
         standard=True,
         suites="mrpbench_controllers_dwb.testing",
     ),
-    "crowd": Kind(
-        usage="No key of a configuration takes a crowd yet: call `$Class().start(world, seed)` in your own code, and "
-        "hand what `step` returns to a simulator as `Inputs.movers`."
-    ),
+    "crowd": Kind(usage="In a configuration: `crowds: [$name]`."),
     "executor": Kind(usage="On the command line: `mrpbench run STUDY.yaml --workers 4 --executor $name`."),
     "exporter": Kind(
         usage="In a configuration: `export: [$name]`; for a finished run: `mrpbench export RUN --to $name`."

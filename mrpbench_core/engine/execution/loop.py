@@ -16,6 +16,7 @@ from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import ContractChecks
 from mrpbench_core.engine.execution.arrivals import Arrivals
+from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.destinations import heads
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
@@ -35,6 +36,8 @@ from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.plugins.provenance import origin
 
 ABORTED = int(Mode.ABORTED)
+PUSHED = 5.0
+"""m/s at which movers may push a robot."""
 GROUND_TRUTH = "mrpbench_core.builtin.localizers.ground_truth"
 
 
@@ -106,6 +109,8 @@ class LoopInputs:
     given: RunContext
     """A copy of it for components."""
     components: LoopComponents
+    crowds: Crowds
+    """The people and other movers."""
     simulation: Simulation
     """Opened, with the robots at `placed`."""
     placed: NDArray[np.float64]
@@ -152,7 +157,7 @@ class ExecutionLoop:
         self._now = 0.0
         """Simulated seconds at the beginning of this control period."""
         self._causes: dict[int, str] = {}
-        self._checks = ContractChecks(_segments(plan), _reach(context))
+        self._checks = ContractChecks(_segments(plan), _reach(context), len(inputs.crowds.members))
         self._checks.state(attrs.evolve(inputs.simulation.state, pose=inputs.placed))
         self._state: State = self._checks.state(inputs.simulation.state)
         self._dispatcher = components.dispatcher.start(given.problem, given.result.plan)
@@ -323,6 +328,7 @@ class ExecutionLoop:
             motion=self._confirmed,
             waits_for=self._facility_manager.waits_for(len(state.pose)),
             facility=self._facility_manager.states(state),
+            movers=inputs.crowds.movers if inputs.crowds.members else None,
         )
         recorder.sample(self._step, sample, last)
         if inputs.stepped is not None:
@@ -332,17 +338,23 @@ class ExecutionLoop:
         """Let one control period pass."""
         inputs = self._inputs
         commands = self._facility_manager.commands(self._motion.reached, self._orders.released, self._state)
+        commands = inputs.crowds.doors(self._state, commands)
+        inputs.crowds.step(self._state)
         twist = inputs.delays.driven(inputs.noise.actuated(self._motion.twist), self._motion.reached)
         driven = Inputs(twist=twist, facilities=commands)
-        self._state = self._checks.state(inputs.simulation.step(driven))
+        self._state = self._checks.state(inputs.simulation.step(inputs.crowds.inputs(driven)))
         self._step += 1
         self._now = self._step * inputs.context.period
         inputs.recorder.contacts(self._now, self._state)
 
 
 def _reach(context: RunContext) -> NDArray[np.float64]:
-    """Metres f8[n] that each robot can possibly move in one control period: twice what it can drive, and a contact."""
-    return np.array([2 * robot.max_speed * context.period + 0.05 for robot in context.fleet.robots])
+    """Metres f8[n] that each robot can possibly move in one control period: twice what it can drive, and a contact.
+
+    A mover pushes a robot that it touches as fast as it moves.
+    """
+    pushed = 2 * PUSHED * context.period if context.movers else 0.0
+    return np.array([2 * robot.max_speed * context.period + pushed + 0.05 for robot in context.fleet.robots])
 
 
 def _segments(plan: Plan) -> NDArray[np.int64]:

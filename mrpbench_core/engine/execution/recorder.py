@@ -10,6 +10,7 @@ import numpy as np
 from mrpbench_core.engine.execution.task_board import TaskEvent
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.motion import Event, Motion
+from mrpbench_core.model.execution.movers import Movers
 from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.route import Route
@@ -82,6 +83,7 @@ class Sample:
     """None without physics, as `odometry`; then nothing commands the robots either."""
     odometry: Odometry | None = None
     facility: Sequence[float] = ()
+    movers: Movers | None = None
 
 
 class Recorder:
@@ -121,17 +123,21 @@ class Recorder:
         rows["waits_for"].append(sample.waits_for)
         if sample.facility:
             rows["facility"].append(sample.facility)
+        if sample.movers is not None:
+            rows["mover"].append(np.hstack([sample.movers.pose, sample.movers.velocity]))
+            rows["mover_level"].append(sample.movers.level)
         if len(rows["time"]) >= SAMPLES:
             self.flush()
 
     def contacts(self, now: float, state: State) -> None:
         """Record contacts during the period that ends at `now`; the beginning of a contact is also an event."""
+        robots = len(state.pose)
         touching = {(robot, other) for robot, other in state.contacts.tolist()}
         for robot, other in sorted(touching):
             self._rows["contact_time"].append(now)
             self._rows["contact"].append((robot, other))
             if (robot, other) not in self._touching:
-                detail = "wall" if other < 0 else f"robot_{other}"
+                detail = "wall" if other < 0 else f"robot_{other}" if other < robots else f"mover_{other - robots}"
                 self.events([Event(stamp=now, kind="contact", robot=robot, detail=detail)])
         self._touching = touching
 

@@ -10,6 +10,7 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.destinations import Places
 from mrpbench_core.engine.execution.facility_manager import ExecutionError
@@ -46,6 +47,8 @@ def execute_plan(inputs: RunInputs, context: RunContext, router: Router) -> tupl
     """
     config, timing = inputs.config, inputs.timing
     inputs.announce(Stage.EXECUTION, {})
+    crowds = Crowds(config.crowds, context.world, context.fleet, context.period, config.seed, config.repeat)
+    context = attrs.evolve(context, movers=crowds.members)
     writer = RecordingWriter(inputs.paths.recording, context)
     exports = Exports()
     given = own(context)
@@ -65,7 +68,7 @@ def execute_plan(inputs: RunInputs, context: RunContext, router: Router) -> tupl
         if config.execution == "schedule_only":
             result = _follow_schedule(config, context, recorder)
         else:
-            result = _simulate(inputs, context, given, recorder, replanner)
+            result = _simulate(inputs, context, given, crowds, recorder, replanner)
         ended = _failure(result, config)
         timing["execution_wall_s"] = time.perf_counter() - began
         timing["real_time_factor"] = result.simulated_s / timing["execution_wall_s"]
@@ -145,7 +148,12 @@ def _tasks(inputs: RunInputs, context: RunContext, recorder: Recorder) -> TaskMa
 
 
 def _simulate(
-    inputs: RunInputs, context: RunContext, given: RunContext, recorder: Recorder, replanner: Replanner
+    inputs: RunInputs,
+    context: RunContext,
+    given: RunContext,
+    crowds: Crowds,
+    recorder: Recorder,
+    replanner: Replanner,
 ) -> ExecutionResult:
     """Open the simulator and run the execution loop."""
     config = inputs.config
@@ -156,7 +164,8 @@ def _simulate(
     noise = Disturbances(config.noise, context.fleet, poses, context.period, *seeds)
     seed = seed_of(*seeds, "simulator")
     levels = np.array([route.level[0] for route in context.routes], np.int16)
-    placed = poses.copy(), seed, context.period
+    radii = [mover.radius for mover in crowds.members]
+    placed = poses.copy(), seed, context.period, radii
     with config.simulator.open(given.world, given.fleet, *placed, levels=levels.copy()) as simulation:
         if not np.array_equal(simulation.state.level, levels):
             raise ExecutionError("the simulator supports the lowest level only, and robots start on other levels")
@@ -165,6 +174,7 @@ def _simulate(
                 context=context,
                 given=given,
                 components=components,
+                crowds=crowds,
                 simulation=simulation,
                 placed=poses,
                 noise=noise,

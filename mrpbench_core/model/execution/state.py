@@ -14,7 +14,14 @@ class Inputs:
     twist: Float = array("f8", 2)
     """f8[n,2] commanded m/s, rad/s."""
     movers: Float | None = None
-    """f8[m,4]: x, y, vx, vy of things that are not robots, or None."""
+    """f8[m,4]: x, y, vx, vy of things that are not robots at the end of the period, or None. They move there in a
+    straight line, and nothing stops them; one that was nowhere, or more than a metre away, is put there; an infinite
+    place means that it is absent."""
+    mover_level: Int16 | None = None
+    """i2[m]; None = all stay on the level on which they were, at first level 0."""
+    seen: Float | None = None
+    """f8[m,5]: x, y, x, y of two discs as which lidars see each mover (its legs), and their radius; None = the bodies
+    of the movers."""
     facilities: Mapping[str, float] = attrs.field(factory=dict)
     """Name of a door -> commanded opening 0..1; of a lift -> height in metres that its cabin is to go to; what is not
     named stays as it is. See `mrpbench_core.model.worlds.facilities`."""
@@ -30,7 +37,8 @@ class State:
     """f8[n,2] true m/s forward, rad/s."""
     level: Int16 = array("i2")
     contacts: Int32 = array("i4", 2)
-    """i4[k,2]: robot and what it touched during the period (a robot of higher index, or -1 = wall or obstacle)."""
+    """i4[k,2]: robot and what it touched during the period: a robot of higher index, -1 = wall, obstacle or door, or
+    n + j = mover j."""
     facilities: Mapping[str, float] = attrs.field(factory=dict)
     """Name of each door -> opening 0..1; of each lift -> height of its cabin in metres. Empty if the simulator has
     neither."""

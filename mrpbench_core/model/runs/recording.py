@@ -13,7 +13,9 @@
 | `mode` | u1[n] | `Mode` |
 | `waits_for` | i4[n] | index into `Roadmap.resources` of what each robot has asked for and may not use yet, -1 = none |
 | `facility` | f8[F] | what doors and lifts do, in the order of `Facilities.names`; only where there are some |
-| `contact_time`, `contact` | f8; i4[2] | one row per pair and control period in contact: robot and other (-1 = wall) |
+| `mover` | f8[m,5] | true x, y, yaw in `map` and velocity x, y of each mover; only where there are some |
+| `mover_level` | i2[m] | index into `World.levels`, -1 = absent; with `mover` |
+| `contact_time`, `contact` | f8; i4[2] | per pair and period in contact: robot; robot, -1 = wall or n + j = mover j |
 | `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
 | `route_time`, `route_revision`, `route_robot` | f8; i4; i4 | one row per waypoint of each plan after the first |
 | `route_waypoint`, `route_level`, `route_speed` | f8[3]; i2; f8 | see `mrpbench_core.model.runs.run.latest_routes` |

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.movers import Mover
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
@@ -38,6 +39,13 @@ class RunContext:
     """control period, simulated seconds."""
     assigned: tuple[int, ...] = ()
     """Task of each robot, -1 = none."""
+    movers: tuple[Mover, ...] = ()
+    """The members of all crowds, by index."""
+
+    @property
+    def mover_names(self) -> tuple[str, ...]:
+        """Names of the movers by index, such as `person_0`."""
+        return tuple(f"{mover.kind}_{index}" for index, mover in enumerate(self.movers))
 
     @property
     def planned(self) -> bool:

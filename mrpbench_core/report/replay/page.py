@@ -14,6 +14,7 @@ from mrpbench_core.report.replay.doors import pack_facilities
 from mrpbench_core.report.replay.events import read_contacts, read_events
 from mrpbench_core.report.replay.facts import facts_of
 from mrpbench_core.report.replay.motion import pack_motion
+from mrpbench_core.report.replay.movers import pack_movers
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.report.replay.plans import read_plans, shown_plans
 from mrpbench_core.report.replay.scans import pack_scans
@@ -62,6 +63,7 @@ def write_page(
         "robots": pack_robots(context, motion, shown),
         "events": read_events(recording, context),
         "contacts": read_contacts(recording),
+        "movers": pack_movers(recording, motion),
         "scans": thinned,
     }
     title = f"{context.world.name}: {record['run_id'][:12]}"

@@ -11,7 +11,7 @@ namespace mrpbench::sim {
 /// Metres: discs never overlap anything solid, nor each other, by more than this.
 constexpr double kTolerance = 1e-4;
 
-/// A robot and what it touched: a robot of higher index, or -1.
+/// A robot and what it touched: a disc of higher index, or -1 for what does not move.
 struct Touch {
   int robot, other;
   auto operator<=>(const Touch&) const = default;

@@ -35,7 +35,7 @@ class Plane {
   Plane(std::vector<Segment> segments, std::vector<double> radius, std::vector<Drive> drives, std::vector<Pose> poses,
         double period, Chance chance);
 
-  /// Advance by one control period. `movers` may be empty, which leaves them where they are.
+  /// Advance by one control period, in which movers move straight to their places; without places they stay.
   void step(std::span<const Twist> commands, std::span<const Point> movers);
 
   /// Replace the door leaves, which are solid in addition to the segments of the constructor.
@@ -59,10 +59,11 @@ class Plane {
   std::vector<Pose> poses_;
   std::vector<Twist> driven_, twists_, wanted_;
   std::vector<Slip> slips_;
-  std::vector<Point> centres_, before_, free_, heading_;
+  std::vector<Point> centres_, before_, free_, heading_, begin_;
   std::vector<Touch> touches_;
   double period_;
-  int substeps_ = 1;
+  /// Metres: what a disc may move in a sub-step, and what a robot can move in a period.
+  double stride_ = 0, reach_ = 0;
   std::uint64_t periods_ = 0;
   Chance chance_;
   Contacts contacts_;

@@ -31,7 +31,7 @@ class Plane:
         `noise_options` describes; `seed` is below 2**64.
         """
     def step(self, twist: NDArray[np.float64], movers: NDArray[np.float64] | None = None) -> None:
-        """Advance by one control period under commands f8[n,2]; put movers at f8[m,2], or leave them."""
+        """Advance by one control period under commands f8[n,2]; move movers to f8[m,2], or leave them."""
     def set_leaves(self, segments: NDArray[np.float64]) -> None:
         """Replace the door leaves f8[S,4] that are solid besides the segments of the constructor."""
     def place(self, robot: int, x: float, y: float) -> None:
@@ -44,7 +44,9 @@ class Plane:
         """f8[n,2] over ground."""
     @property
     def contacts(self) -> NDArray[np.int32]:
-        """i4[k,2] of the last step, sorted: a robot, and a robot of higher index or -1 for anything else."""
+        """i4[k,2] of the last step, sorted: a robot, and a robot of higher index, n + the index of
+        a mover, or -1 for what does not move.
+        """
 
 class Caster:
     """Lidars of one kind among segments and discs. Beam i points at i * 2*pi / beams from straight ahead."""

@@ -79,7 +79,7 @@ bool Contacts::push(int robot, std::span<const Point> centres, Point& shift, std
     if (!(distance < spacing - kTouch)) continue;
     pushed = true;
     const bool both = high < neighbours_.robots();
-    if (robot == low) touches.push_back({low, both ? high : -1});
+    if (robot == low) touches.push_back({low, high});
     const Point direction = distance > 0 ? offset * (1 / distance) : Point{1, 0};
     const double way = (spacing - distance) * (both ? 0.5 : 1.0);
     shift = robot == low ? shift - direction * way : shift + direction * way;

@@ -12,6 +12,8 @@ namespace mrpbench::sim {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
+/// Metres in a period beyond which a mover does not move but is put where it is to be.
+constexpr double kJump = 1;
 
 /// The same angle within [-pi, pi).
 double wrapped(double angle) {
@@ -62,8 +64,9 @@ Plane::Plane(std::vector<Segment> segments, std::vector<double> radius, std::vec
   // In a sub-step nothing moves farther than a quarter of the smallest radius, so that nothing passes through anything.
   double smallest = 1, fastest = 0;
   for (const double it : radius) smallest = std::min(smallest, it);
+  stride_ = smallest / 4;
   for (const Drive& it : drives_) fastest = std::max(fastest, it.limit.ahead);
-  substeps_ = std::max(1, static_cast<int>(std::ceil(period * fastest / (smallest / 4))));
+  reach_ = period * fastest;
 }
 
 void Plane::step(std::span<const Twist> commands, std::span<const Point> movers) {
@@ -72,10 +75,26 @@ void Plane::step(std::span<const Twist> commands, std::span<const Point> movers)
     require(std::isfinite(it.ahead) && std::isfinite(it.turn), "twists must be finite");
   }
   require(movers.empty() || movers.size() == mover_count(), "one place for each mover");
-  std::copy(movers.begin(), movers.end(), centres_.end() - static_cast<std::ptrdiff_t>(mover_count()));
+  const auto robots = static_cast<std::ptrdiff_t>(poses_.size());
+  begin_.assign(centres_.begin() + robots, centres_.end());
+  double farthest = reach_;
+  for (std::size_t j = 0; j < movers.size(); ++j) {
+    const double way = length(movers[j] - begin_[j]);
+    if (way <= kJump)
+      farthest = std::max(farthest, way);
+    else
+      begin_[j] = movers[j];
+  }
   command(commands);
   touches_.clear();
-  for (int substep = 0; substep < substeps_; ++substep) advance(period_ / substeps_);
+  const int substeps = std::max(1, static_cast<int>(std::ceil(farthest / stride_)));
+  for (int substep = 1; substep <= substeps; ++substep) {
+    const double share = static_cast<double>(substep) / substeps;
+    for (std::size_t j = 0; j < movers.size(); ++j) {
+      centres_[poses_.size() + j] = substep == substeps ? movers[j] : begin_[j] + (movers[j] - begin_[j]) * share;
+    }
+    advance(period_ / substeps);
+  }
   std::sort(touches_.begin(), touches_.end());
   touches_.erase(std::unique(touches_.begin(), touches_.end()), touches_.end());
   ++periods_;

@@ -89,7 +89,7 @@ def test_robots_that_meet_report_the_pair_once():
 
 def test_a_mover_pushes_and_is_not_pushed():
     states, scans = drive(EMPTY, [[0, 0, 0]], [[0.2, 0]], 60, movers=(0.3,), place=np.array([[0.6, 0, 0, 0]]))
-    assert states[-1].contacts.tolist() == [[0, -1]]
+    assert states[-1].contacts.tolist() == [[0, 1]]
     assert np.isclose(states[-1].pose[0, 0], 0.6 - 0.3 - BURGER.radius, atol=TOLERANCE)
     assert np.isclose(scans[-1].ranges[0, 0], BURGER.radius + 0.032, atol=TOLERANCE)
 

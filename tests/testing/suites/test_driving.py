@@ -3,9 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.api import (
-    Crowd,
-)
+from mrpbench_core.api import Crowd, Mover, Movers
 from mrpbench_core.builtin.localizers.ground_truth import GroundTruth
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.testing import failed_checks, suite_for
@@ -42,17 +40,23 @@ def test_a_navigator_that_stands_still():
 
 def test_a_crowd():
     class Walk:
-        radii = (0.3,)
+        members = (Mover(radius=0.3),)
 
-        def __init__(self, speed):
-            self.speed, self.x = speed, 0.0
+        def __init__(self, speed, x):
+            self.speed, self.x = speed, x
 
-        def step(self, dt, state):
-            self.x += dt
-            return np.array([(self.x, 0.0, self.speed, 0.0)])
+        @property
+        def movers(self):
+            level = np.zeros(1, np.int16)
+            return Movers(pose=np.array([(self.x, 2.0, 0.0)]), velocity=np.array([(self.speed, 0.0)]), level=level)
 
-    def crowd(speed):
-        return variant(Crowd, start=lambda self, world, seed: Walk(speed))()
+        def step(self, dt, seen):
+            self.x += 0.1 * dt
+            return self.movers
 
-    assert not failed_checks(suite_for(crowd(1.0)))
+    def crowd(speed, x=2.0):
+        return variant(Crowd, start=lambda self, world, fleet, seed: Walk(speed, x))()
+
+    assert not failed_checks(suite_for(crowd(0.1)))
     assert set(failed_checks(suite_for(crowd(3.0)))) == {"speeds are those of the motion"}
+    assert set(failed_checks(suite_for(crowd(0.1, 3.5)))) == {"movers keep out of walls"}

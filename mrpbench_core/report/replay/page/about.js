@@ -92,7 +92,7 @@ export function eventText(run, [time, kind, robot, detail]) {
 export class EventPanel {
   constructor(run, choose) {
     this.run = run;
-    const contacts = run.contacts.map(([first, last, robot, other]) => [first, "contact", robot, other < 0 ? "wall" : run.names[other], last]);
+    const contacts = run.contacts.map(([first, last, robot, other]) => [first, "contact", robot, run.touchedName(other), last]);
     this.items = [...run.events, ...contacts].sort((left, right) => left[0] - right[0]);
     const fill = (button, item) => this.#fill(button, item);
     this.list = new List(document.getElementById("event-list"), 34, fill, choose, "No events were recorded.");

@@ -106,7 +106,7 @@ export class Robots {
       const fade = run.now <= last ? 1 : 1 - (run.now - last) / FLASH;
       const phase = calm ? 0.5 : ((run.now - first) * 1.5) % 1;
       for (const robot of pair) {
-        if (robot < 0) continue;
+        if (robot < 0 || robot >= run.count) continue;
         const radius = Math.max(run.model(robot).radius * view.scale, this.least) + 4;
         context.lineWidth = 3;
         context.globalAlpha = fade;

@@ -15,6 +15,7 @@ export class Run {
     this.world = data.world;
     this.events = data.events;
     this.contacts = data.contacts;
+    this.movers = data.movers;
     this.arrays = arrays;
     this.time = decoded(arrays.time);
     this.samples = this.time.length;
@@ -71,6 +72,19 @@ export class Run {
     for (let robot = 0, at = this.sample; robot < this.count; robot++, at += this.samples) {
       into[robot] = offset + scale * (values[at] + this.fraction * (values[at + step] - values[at]));
     }
+  }
+
+  /** Value now of a row of an array that has a column per sample, between the samples around. */
+  between({ values, scale, offset }, row) {
+    const at = row * this.samples + this.sample;
+    const next = at + (this.samples > 1 ? 1 : 0);
+    return offset + scale * (values[at] + this.fraction * (values[next] - values[at]));
+  }
+
+  /** Name of what a robot touched: a robot, a mover, or -1 for a wall. */
+  touchedName(other) {
+    if (other < 0) return "wall";
+    return other < this.count ? this.names[other] : this.movers[other - this.count]?.name ?? "mover";
   }
 
   /** The newest sample that is not in the future. */

@@ -124,7 +124,7 @@ class Rosbag2Session(ExporterSession):
     def _messages(self, block: Chunk) -> Iterator[tuple[int, Topic, bytes]]:
         """The messages of a block, topic by topic."""
         said = [(source.topic, source.messages(block, self.start)) for source in self.sources]
-        said.append((CONTACTS, contacts(block, self.names, self.start)))
+        said.append((CONTACTS, contacts(block, (*self.names, *self.context.mover_names), self.start)))
         said.append((EVENTS, events(block, self.names, self.start)))
         yield from chain.from_iterable(
             ((stamp, topic, data) for stamp, data in found) for topic, found in said if self._wanted(topic)

@@ -45,6 +45,8 @@ class Contact(Metric):
         if not measurable(self, run):
             return nulls(self)
         stamp, pair = run.channel("contact_time"), run.channel("contact")
+        among_robots = pair[:, 1] < len(run.context.fleet)  # the metric `people` measures contacts with movers
+        stamp, pair = stamp[among_robots], pair[among_robots]
         wall = int((pair < 0).any(axis=1).sum())
         return {
             "robot_time_s": (len(pair) - wall) * run.context.period,

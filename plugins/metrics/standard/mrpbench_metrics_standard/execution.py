@@ -152,8 +152,10 @@ class Execution(Metric):
             nearest = closest(truth[..., :2], run.channel("level"), context.fleet.radii)
             values["min_distance_m"], values["min_clearance_m"] = nearest
         if all(run.has(channel) for channel in CONTACTS):
-            touches = episodes(run.channel("contact_time"), run.channel("contact"), self.contact_pause)
-            values["robot_contacts"], values["wall_contacts"] = touches
+            touches = episodes(
+                run.channel("contact_time"), run.channel("contact"), self.contact_pause, len(context.fleet)
+            )
+            values["robot_contacts"], values["wall_contacts"], _ = touches
         grid = context.problem.roadmap.grid
         cell_size = self.mrp_bench_cell_size or (grid.cell_size if grid else 0.35)
         goal = np.array([place[:2] for place in context.goal]).reshape(-1, 2)

@@ -10,6 +10,7 @@ from mrpbench_native.sim import Caster, Plane
 from mrpbench_core.api import Simulation
 from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.execution.observation import ScanBatch
 from mrpbench_core.model.execution.scan_schedule import ScanSchedule
 from mrpbench_core.model.execution.state import Inputs, State
@@ -48,7 +49,6 @@ class PlanarSimulation(Simulation):
         self._level: Int16 = np.zeros(len(robots), np.int16) if levels is None else np.array(levels, np.int16)
         solids = self._layout.segments
         self._robot_radius = fleet.radii
-        self._radius = np.concatenate([fleet.radii, np.asarray(movers, float)])
         self._plane = Plane(
             segments=solids,
             robots={
@@ -66,7 +66,7 @@ class PlanarSimulation(Simulation):
         self._plane.set_leaves(self._leaves)
         self._period, self._periods = period, 0
         self._casters = {lidar: Caster(segments=solids, lidar=lidar) for lidar in self._schedule.lidars}
-        self._movers = np.full((len(movers), 2), np.inf)
+        self._movers = MoverDiscs(self._layout, np.asarray(movers, float))
         self._state = self._observe()
         self._scans = self._take_scans()
 
@@ -77,11 +77,10 @@ class PlanarSimulation(Simulation):
 
     def step(self, inputs: Inputs) -> State:
         """Advance by one control period."""
-        if inputs.movers is not None:
-            self._movers = np.ascontiguousarray(inputs.movers[:, :2])
+        self._movers.update(inputs)
         if inputs.facilities:
             self._operate(inputs.facilities)
-        self._plane.step(inputs.twist, self._movers)
+        self._plane.step(inputs.twist, np.ascontiguousarray(self._movers.body))
         self._periods += 1
         self._state = self._observe()
         self._scans += self._take_scans()
@@ -95,7 +94,9 @@ class PlanarSimulation(Simulation):
     def _operate(self, commands: Mapping[str, float]) -> None:
         """Move doors and lifts, and the robots in lifts."""
         before, pose, level = self._doing, self._state.pose, self._level
-        after = self._facilities.advance(before, commands, self._period, pose, level, self._robot_radius)
+        after = self._facilities.advance(
+            before, commands, self._period, *self._movers.among(pose, level, self._robot_radius)
+        )
         if after == before:
             return
         self._doing, self._level = after, self._facilities.carry(before, after, pose, level)
@@ -114,9 +115,11 @@ class PlanarSimulation(Simulation):
         """Scans due now."""
         stamp = self._periods * self._period
         batches = []
+        radius = np.concatenate([self._robot_radius, self._movers.seen_radius])
+        seen = np.ascontiguousarray(self._movers.seen)
         for lidar, robots in self._schedule.due(self._periods):
             scanning = np.array(robots, np.int32)
-            ranges = self._casters[lidar].scan(scanning, self._plane.pose, self._movers, self._radius, self._leaves)
+            ranges = self._casters[lidar].scan(scanning, self._plane.pose, seen, radius, self._leaves)
             batches.append(ScanBatch(stamp=stamp, robot=scanning, ranges=ranges))
         return tuple(batches)
 

@@ -20,7 +20,7 @@ class Group(IntFlag):
     BODIES = 8
     WHEELS = 16
     SILHOUETTES = 32
-    """Discs that lidars see in place of the robots; nothing can touch them."""
+    """Discs that lidars see in place of robots and movers; nothing can touch them."""
     MOVERS = 64
     GUARDS = 128
     """The shapes of wheels for contacts with everything but the floor."""
@@ -33,9 +33,9 @@ TOUCHES = {
     Group.GUARDS: Group.WALLS | Group.BODIES | Group.GUARDS | Group.MOVERS,
     Group.WHEELS: Group.GROUND,
     Group.SILHOUETTES: Group.RAYS,
-    Group.MOVERS: Group.BODIES | Group.GUARDS | Group.RAYS,
+    Group.MOVERS: Group.BODIES | Group.GUARDS,
 }
-SEEN = Group.WALLS | Group.SILHOUETTES | Group.MOVERS
+SEEN = Group.WALLS | Group.SILHOUETTES
 
 
 class Bullet:

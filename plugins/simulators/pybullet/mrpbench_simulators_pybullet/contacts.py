@@ -8,7 +8,7 @@ from mrpbench_core.model.common.arrays import Float
 from mrpbench_simulators_pybullet.bullet import Bullet
 
 ContactPairs = set[tuple[int, int]]
-"""A robot, and a robot of higher index or -1 for anything else."""
+"""A robot, and a robot of higher index, the number of robots + the index of a mover, or -1 for what does not move."""
 
 
 class Contacts:
@@ -19,11 +19,11 @@ class Contacts:
         self._pairs = np.triu_indices(len(robots), 1)
         self._index = {body: robot for robot, body in enumerate(robots)}
         self._close: list[tuple[int, int]] = []
-        self._obstacles: Sequence[int] = ()
+        self._obstacles: Sequence[tuple[int, int]] = ()
         self.found: ContactPairs = set()
 
-    def begin(self, place: Float, obstacles: Sequence[int]) -> None:
-        """Start anew: robots at f8[n,2] can touch robots within their `reach`, and the bodies `obstacles`."""
+    def begin(self, place: Float, obstacles: Sequence[tuple[int, int]]) -> None:
+        """Start anew: robots at f8[n,2] can touch robots within their `reach`, and `obstacles`: (body, index)."""
         first, second = self._pairs
         gap = place[first] - place[second]
         near = (gap * gap).sum(axis=1) < (self._reach[first] + self._reach[second]) ** 2
@@ -32,10 +32,10 @@ class Contacts:
 
     def collect(self) -> None:
         """Add the contacts of the last physics step."""
-        for obstacle in self._obstacles:
+        for obstacle, other in self._obstacles:
             for point in self._bullet.getContactPoints(bodyA=obstacle):
                 if point[8] <= 0:
-                    self.found.add((self._index[point[2]], -1))
+                    self.found.add((self._index[point[2]], other))
         for first, second in self._close:
             if (first, second) in self.found:
                 continue

@@ -11,6 +11,7 @@ from mrpbench_native.sim import Caster
 
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.worlds.solids import polygon_outline
 from mrpbench_simulators_pybullet.bullet import SEEN, Bullet, Group
 from mrpbench_simulators_pybullet.walls import build_mesh
@@ -34,17 +35,13 @@ class RayTests:
 
     def __init__(self, bullet: Bullet, fleet: Fleet) -> None:
         self._bullet = bullet
-        self._discs = [
-            bullet.body(
-                Group.SILHOUETTES,
-                build_mesh(bullet, polygon_outline(robot.radius * _CIRCLE)),
-                _AWAY,
-            )
-            for robot in fleet.robots
-        ]
+        self._discs = [self._disc(robot.radius) for robot in fleet.robots]
+        self._movers: list[int] = []
+        self._mover_radius: Float = np.empty(0)
 
-    def scan(self, lidar: Lidar, robots: Sequence[int], pose: Float) -> Float:
+    def scan(self, lidar: Lidar, robots: Sequence[int], pose: Float, movers: MoverDiscs) -> Float:
         """Ranges f8[k,beams] of `robots`, while all stand at `pose` f8[n,3]; inf = no return."""
+        self._place_movers(movers)
         for disc, (x, y, _) in zip(self._discs, pose.tolist(), strict=True):
             self._place(disc, (x, y, 0.0))
         ranges = np.empty((len(robots), lidar.beams))
@@ -70,6 +67,20 @@ class RayTests:
         ranges: Float = share * lidar.range
         return ranges
 
+    def _place_movers(self, movers: MoverDiscs) -> None:
+        """Put the discs of movers where lidars see them; their radii change at most once, when they get legs."""
+        if not np.array_equal(movers.seen_radius, self._mover_radius):
+            for disc in self._movers:
+                self._bullet.removeBody(disc)
+            self._mover_radius = movers.seen_radius
+            self._movers = [self._disc(radius) for radius in movers.seen_radius.tolist()]
+        for disc, (x, y) in zip(self._movers, movers.seen.tolist(), strict=True):
+            self._place(disc, (x, y, 0.0) if np.isfinite(x) else _AWAY)
+
+    def _disc(self, radius: float) -> int:
+        mesh = build_mesh(self._bullet, polygon_outline(radius * _CIRCLE))
+        return self._bullet.body(Group.SILHOUETTES, mesh, _AWAY)
+
     def _place(self, disc: int, position: tuple[float, float, float]) -> None:
         self._bullet.resetBasePositionAndOrientation(disc, position, _UPRIGHT)
 
@@ -77,10 +88,14 @@ class RayTests:
 class Casters:
     """Takes the scans of a fleet among segments and discs, in C++."""
 
-    def __init__(self, lidars: Sequence[Lidar], segments: Float, radius: Float) -> None:
-        self._radius = radius
+    def __init__(self, lidars: Sequence[Lidar], segments: Float) -> None:
         self._casters = {lidar: Caster(segments=segments, lidar=lidar) for lidar in lidars}
 
-    def scan(self, lidar: Lidar, robots: Sequence[int], pose: Float, movers: Float, leaves: Float) -> Float:
-        """Ranges f8[k,beams] of `robots`, while all stand at `pose` f8[n,3], movers at f8[m,2], and leaves f8[S,4]."""
-        return self._casters[lidar].scan(np.array(robots, np.int32), pose, movers, self._radius, leaves)
+    def scan(
+        self, lidar: Lidar, robots: Sequence[int], pose: Float, seen: Float, radius: Float, leaves: Float
+    ) -> Float:
+        """Ranges f8[k,beams] of `robots`, while all stand at `pose` f8[n,3] and leaves at f8[S,4].
+
+        `seen` f8[m,2] are the discs of movers, and `radius` f8[n+m] the radii of robots and those.
+        """
+        return self._casters[lidar].scan(np.array(robots, np.int32), pose, seen, radius, leaves)

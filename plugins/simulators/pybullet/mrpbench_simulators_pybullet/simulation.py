@@ -10,6 +10,7 @@ import numpy as np
 from mrpbench_core.api import Simulation
 from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.execution.observation import ScanBatch
 from mrpbench_core.model.execution.scan_schedule import ScanSchedule
 from mrpbench_core.model.execution.state import Inputs, State
@@ -63,7 +64,7 @@ class BulletSimulation(Simulation):
         self._outlines = self._layout.door_outlines(self._facilities, self._doing)
         self._level: Int16 = np.zeros(len(fleet), np.int16) if levels is None else np.array(levels, np.int16)
         self._limit = np.array([(robot.max_speed, robot.max_turn_rate) for robot in fleet.robots]).reshape(-1, 2)
-        self._mover_places = np.full((len(movers), 2), np.inf)
+        self._discs = MoverDiscs(self._layout, np.asarray(movers, float))
         self._bullet = bullet = Bullet()
         with quiet():
             bullet.setPhysicsEngineParameter(
@@ -81,8 +82,7 @@ class BulletSimulation(Simulation):
                 self._robots = Bodies(bullet, fleet, poses, period)
             self._movers = [self._build_mover(radius) for radius in movers]
             self._rays = RayTests(bullet, fleet) if options.lidar == "pybullet" else None
-        radius = np.concatenate([fleet.radii, np.asarray(movers, float)])
-        self._casters = Casters(self._schedule.lidars, self._layout.segments, radius)
+        self._casters = Casters(self._schedule.lidars, self._layout.segments)
         self._contacts = Contacts(bullet, self._robots.bodies, self._radius + 2 * self._limit[:, 0] * period)
         self._state = self._observe(set())
         self._scans = self._take_scans()
@@ -96,15 +96,16 @@ class BulletSimulation(Simulation):
         """Advance by one control period."""
         if inputs.facilities:
             self._operate(inputs.facilities)
-        if inputs.movers is not None:
-            self._mover_places = np.ascontiguousarray(inputs.movers[:, :2])
+        self._discs.update(inputs)
         near = self._leaves.near(self._plane[:, :2], float(self._radius.max(initial=0.0)) + _NEAR)
-        self._contacts.begin(self._plane[:, :2], (*self._walls, *self._movers, *near))
+        robots = len(self._radius)
+        solid = [(body, -1) for body in (*self._walls, *near)]
+        self._contacts.begin(self._plane[:, :2], solid + [(body, robots + j) for j, body in enumerate(self._movers)])
         self._robots.command(np.clip(inputs.twist, -self._limit, self._limit))
         for substep in range(1, self._substeps + 1):
             self._robots.before_step()
             if inputs.movers is not None:
-                self._move(inputs.movers, (self._substeps - substep) * self._timestep)
+                self._move(inputs.movers[:, 2:], (self._substeps - substep) * self._timestep)
             self._bullet.stepSimulation()
             self._contacts.collect()
         self._periods += 1
@@ -115,7 +116,7 @@ class BulletSimulation(Simulation):
     def _operate(self, commands: Mapping[str, float]) -> None:
         """Move doors and lifts, and the robots in lifts."""
         before, pose, level = self._doing, self._state.pose, self._level
-        after = self._facilities.advance(before, commands, self._period, pose, level, self._radius)
+        after = self._facilities.advance(before, commands, self._period, *self._discs.among(pose, level, self._radius))
         if after == before:
             return
         self._doing, self._level = after, self._facilities.carry(before, after, pose, level)
@@ -133,9 +134,10 @@ class BulletSimulation(Simulation):
         self._bullet.changeDynamics(body, -1, lateralFriction=0, restitution=0)
         return body
 
-    def _move(self, movers: Float, before: float) -> None:
+    def _move(self, velocity: Float, before: float) -> None:
         """Put the movers where they are `before` seconds before the end of the period."""
-        for body, (x, y, vx, vy) in zip(self._movers, movers.tolist(), strict=True):
+        places = np.hstack([self._discs.body, velocity]).tolist()
+        for body, (x, y, vx, vy) in zip(self._movers, places, strict=True):
             position = (x - vx * before, y - vy * before, _MOVER_HEIGHT / 2)
             self._bullet.resetBasePositionAndOrientation(body, position, (0.0, 0.0, 0.0, 1.0))
 
@@ -163,8 +165,10 @@ class BulletSimulation(Simulation):
 
     def _scan(self, lidar: Lidar, robots: Sequence[int]) -> Float:
         if self._rays is not None:
-            return self._rays.scan(lidar, robots, self._plane)
-        return self._casters.scan(lidar, robots, self._plane, self._mover_places, self._outlines)
+            return self._rays.scan(lidar, robots, self._plane, self._discs)
+        radius = np.concatenate([self._radius, self._discs.seen_radius])
+        seen = np.ascontiguousarray(self._discs.seen)
+        return self._casters.scan(lidar, robots, self._plane, seen, radius, self._outlines)
 
     def close(self) -> None:
         """Close the physics world."""

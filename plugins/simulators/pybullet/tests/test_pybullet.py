@@ -214,7 +214,7 @@ def test_a_mover_is_seen_touched_and_not_pushed(model, lidar):
         movers=(0.3,),
         place=np.array([[0.8, 0, 0, 0]]),
     )
-    assert states[-1].contacts.tolist() == [[0, -1]]
+    assert states[-1].contacts.tolist() == [[0, 1]]
     assert states[-1].pose[0, 0] == pytest.approx(0.8 - 0.3 - 0.038, abs=0.005)
     assert np.isinf(scans[0].ranges).all()
     assert scans[1].ranges[0, 0] == pytest.approx(0.8 - 0.3 + 0.032 - 0.04, abs=0.01)

@@ -1,0 +1,107 @@
+"""The crowds of one execution: all move at once and see one another; their members are numbered one after another."""
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import NoReturn
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.api.crowd import Crowd
+from mrpbench_core.engine.execution.gait import Gait
+from mrpbench_core.engine.own import own
+from mrpbench_core.engine.seeds import seed_of
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.movers import CrowdView, Mover, Movers
+from mrpbench_core.model.execution.state import Inputs, State
+from mrpbench_core.model.worlds.facilities import Facilities
+from mrpbench_core.model.worlds.world import World
+
+
+class Crowds:
+    """Sessions of crowds, started.
+
+    Raises:
+        BrokenContractError: a crowd returned what its contract rules out, here or in any method.
+        InputError: a crowd has no room in the world.
+    """
+
+    def __init__(
+        self, crowds: Sequence[Crowd], world: World, fleet: Fleet, period: float, seed: int, repeat: int
+    ) -> None:
+        self._period, self._levels = period, len(world.levels)
+        self._doors = frozenset(door.name for door in Facilities(world).doors if door.lift is None)
+        self._sessions = [
+            crowd.start(own(world), own(fleet), seed_of(seed, repeat, f"crowd {index}"))
+            for index, crowd in enumerate(crowds)
+        ]
+        parts = [own(tuple(session.members)) for session in self._sessions]
+        self.members: tuple[Mover, ...] = tuple(member for part in parts for member in part)
+        """By index: those of the first crowd, then those of the second."""
+        for member in self.members:
+            if not (type(member) is Mover and member.radius > 0 and member.leg_radius >= 0):
+                _refuse(f"the member {member!r:.60}")
+        self._radius = np.array([member.radius for member in self.members])
+        self._first = np.cumsum([0, *(len(part) for part in parts)])
+        self._gait = Gait(self.members)
+        self.movers = self._joined([session.movers for session in self._sessions])
+        """Where the members are now."""
+        self._opened: set[str] = set()
+
+    def step(self, state: State) -> None:
+        """Let a control period pass, from the `state` at its beginning."""
+        if not self._sessions:
+            return
+        before = self.movers
+        parts = []
+        for session, (first, last) in zip(self._sessions, pairwise(self._first), strict=True):
+            rest = np.r_[0:first, last : len(self.members)]
+            others = Movers(pose=before.pose[rest], velocity=before.velocity[rest], level=before.level[rest])
+            seen = CrowdView(state=own(state), others=others, radius=self._radius[rest])
+            parts.append(session.step(self._period, seen))
+        self.movers = self._joined(parts)
+
+    def doors(self, state: State, commands: Mapping[str, float]) -> dict[str, float]:
+        """Return `commands` to facilities with the doors that members want to be open, or no longer want."""
+        if not state.facilities:
+            return dict(commands)
+        wanted = {name for session in self._sessions for name in session.wanted_doors()}
+        if wanted - self._doors:
+            _refuse(f"doors that the world does not have: {', '.join(sorted(wanted - self._doors))}")
+        self._opened |= wanted
+        closed = dict.fromkeys(sorted(self._opened - wanted), 0.0)
+        return closed | dict(commands) | dict.fromkeys(sorted(wanted), 1.0)
+
+    def inputs(self, inputs: Inputs) -> Inputs:
+        """Return the inputs of the simulator with the movers in them."""
+        movers = self.movers
+        if not self.members:
+            return inputs
+        bodies, seen = np.hstack([movers.pose[:, :2], movers.velocity]), self._gait.seen(movers, self._period)
+        absent = movers.level < 0
+        bodies[absent, :2], seen[absent, :4] = np.inf, np.inf
+        return attrs.evolve(inputs, movers=bodies, mover_level=movers.level, seen=seen)
+
+    def _joined(self, parts: Sequence[Movers]) -> Movers:
+        for part, (first, last) in zip(parts, pairwise(self._first), strict=True):
+            size = int(last - first)
+            if type(part) is not Movers:
+                _refuse(f"{type(part).__name__} instead of Movers")
+            if not len(part.pose) == len(part.velocity) == len(part.level) == size:
+                _refuse(f"{len(part.pose)} movers instead of {size}")
+            if not np.isfinite(part.pose).all() or not np.isfinite(part.velocity).all():
+                _refuse("a place or velocity that is not finite")
+            if size and not (part.level.min() >= -1 and part.level.max() < self._levels):
+                _refuse("a level that the world does not have")
+        if not parts:
+            return Movers(pose=np.empty((0, 3)), velocity=np.empty((0, 2)), level=np.empty(0, np.int16))
+        return Movers(
+            pose=np.concatenate([part.pose for part in parts]),
+            velocity=np.concatenate([part.velocity for part in parts]),
+            level=np.concatenate([part.level for part in parts]),
+        )
+
+
+def _refuse(what: str) -> NoReturn:
+    raise BrokenContractError(f"a crowd returned {what}")

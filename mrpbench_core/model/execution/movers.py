@@ -1,0 +1,81 @@
+"""People and other things that move among the robots, and how lidars see them."""
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Float, Int16, array
+from mrpbench_core.model.execution.state import Inputs, State
+from mrpbench_core.model.worlds.level_layout import LevelLayout
+
+JUMP = 1.0
+"""Metres in a control period beyond which a mover does not move but is put where it is to be."""
+
+
+@attrs.frozen(kw_only=True)
+class Mover:
+    """What does not change about a mover. Its body is a disc."""
+
+    radius: float
+    """metres of the disc that touches."""
+    kind: str = "person"
+    """What it is, as names, pictures and bags say it: `person`, `cart`."""
+    leg_radius: float = 0.0
+    """metres of each of the two legs that lidars see; 0 = they see the disc."""
+
+
+@attrs.frozen(kw_only=True)
+class Movers:
+    """Where movers are, in the order of their indices."""
+
+    pose: Float = array("f8", 3)
+    """f8[m,3] x, y, yaw in `map`."""
+    velocity: Float = array("f8", 2)
+    """f8[m,2] x, y in m/s."""
+    level: Int16 = array("i2")
+    """i2[m] index into `World.levels`; -1 = absent, with the pose at which it will come or has left."""
+
+
+@attrs.frozen(kw_only=True)
+class CrowdView:
+    """What a crowd sees at the beginning of a control period: the truth."""
+
+    state: State
+    """The robots, and what doors and lifts do."""
+    others: Movers
+    """The movers of the other crowds."""
+    radius: Float = array("f8")
+    """f8 of those, metres."""
+
+
+class MoverDiscs:
+    """The discs of the movers of one simulation, in the plane in which levels lie side by side."""
+
+    def __init__(self, layout: LevelLayout, radii: Float) -> None:
+        self._layout, self._radii = layout, radii
+        self.place: Float = np.full((len(radii), 2), np.inf)
+        """f8[m,2] in `map`."""
+        self.level: Int16 = np.zeros(len(radii), np.int16)
+        self.body = self.place
+        """f8[m,2] centres of what touches; infinite until the first inputs place them."""
+        self.seen, self.seen_radius = self.body, radii
+        """f8[k,2], f8[k]: what lidars see."""
+
+    def update(self, inputs: Inputs) -> None:
+        """Place the movers as the inputs say; without movers in the inputs they stay."""
+        if inputs.movers is None:
+            return
+        if inputs.mover_level is not None:
+            self.level = inputs.mover_level
+        self.place, level = inputs.movers[:, :2], self.level
+        self.body = self._layout.to_plane(self.place, level)
+        self.seen, self.seen_radius = self.body, self._radii
+        if inputs.seen is not None:
+            self.seen = self._layout.to_plane(inputs.seen[:, :4].reshape(-1, 2), np.repeat(level, 2))
+            self.seen_radius = np.repeat(inputs.seen[:, 4], 2)
+
+    def among(self, pose: Float, level: Int16, radius: Float) -> tuple[Float, Int16, Float]:
+        """Robots and movers together, for doors, which stop before both: places f8[k,2], levels i2[k], radii f8[k]."""
+        if not len(self.place):
+            return pose, level, radius
+        places = np.concatenate([pose[:, :2], self.place])
+        return places, np.concatenate([level, self.level]), np.concatenate([radius, self._radii])

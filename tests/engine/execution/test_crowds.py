@@ -1,0 +1,132 @@
+"""Crowds in the engine: numbered through, seen by one another, recorded, and in charge of doors that they want open."""
+
+import attrs
+import numpy as np
+import pytest
+
+from mrpbench_core.api import Crowd, CrowdSession, Mover, Movers
+from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.builtin.crowds.scripted import Scripted, Track
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.execution.crowds import Crowds
+from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.model.execution.state import Inputs, State
+from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.recording import Recording
+from mrpbench_core.testing.fixtures.building import building
+from mrpbench_core.testing.fixtures.room import PERIOD, fleet, room
+
+STATE = State(pose=np.zeros((1, 3)), twist=np.zeros((1, 2)), level=[0], contacts=[], facilities={"door": 0.0})
+ONE, TWO = (
+    Scripted(tracks=(Track(keyframes=((0.0, 1.0, y), (9.0, 3.0, y))),), radius=radius, legs=False)
+    for y, radius in ((1.0, 0.2), (2.0, 0.4))
+)
+
+
+@attrs.frozen(kw_only=True)
+class Asking(Crowd):
+    """One mover that stands, says which doors it wants, and remembers what it saw."""
+
+    doors: tuple[str, ...] = ()
+    place: float = 1.0
+
+    def start(self, world, fleet, seed):
+        return AskingSession(self)
+
+
+class AskingSession(CrowdSession):
+    members = (Mover(radius=0.1),)
+
+    def __init__(self, options):
+        self.options, self.seen = options, []
+
+    @property
+    def movers(self):
+        return Movers(pose=[[self.options.place, 1.0, 0.0]], velocity=[[0.0, 0.0]], level=[0])
+
+    def step(self, dt, seen):
+        self.seen.append(seen)
+        return self.movers
+
+    def wanted_doors(self):
+        return set(self.options.doors) if not self.seen else set()
+
+
+def start(*crowds, world=None):
+    return Crowds(crowds, world or room(), fleet(1), PERIOD, 0, 0)
+
+
+def test_members_are_numbered_through_and_see_the_other_crowds_as_they_were():
+    crowds = start(ONE, Asking(), TWO)
+    assert [member.radius for member in crowds.members] == [0.2, 0.1, 0.4]
+    for _ in range(2):
+        crowds.step(STATE)
+    assert crowds.movers.pose[:, 0].tolist() == pytest.approx([1 + 2 * 2 / 180, 1, 1 + 2 * 2 / 180])
+    seen = crowds._sessions[1].seen
+    assert [view.others.pose[:, 0].tolist() for view in seen] == [[1, 1], pytest.approx([1 + 2 / 180] * 2)]
+    assert seen[0].radius.tolist() == [0.2, 0.4]
+
+
+def test_doors_open_while_members_want_them_and_close_again():
+    crowds = start(Asking(doors=("door",)), world=building())
+    assert crowds.doors(STATE, {"lift": 2.0, "door": 0.0}) == {"lift": 2.0, "door": 1.0}
+    crowds.step(STATE)
+    assert crowds.doors(STATE, {}) == {"door": 0.0}
+    assert crowds.doors(STATE, {"door": 1.0}) == {"door": 1.0}  # a robot wants it
+    assert crowds.doors(attrs.evolve(STATE, facilities={}), {}) == {}  # the simulator has none
+
+
+@pytest.mark.parametrize(("crowd", "said"), [(Asking(place=np.nan), "not finite"), (Asking(doors=("gate",)), "gate")])
+def test_what_a_crowd_must_not_return_is_refused(crowd, said):
+    with pytest.raises(BrokenContractError, match=said):
+        start(crowd, world=building()).doors(STATE, {})
+
+
+def test_absent_members_are_nowhere_for_the_simulator(tmp_path):
+    (tmp_path / "tracks.csv").write_text("id,t,x,y\na,1,1,1\na,2,2,1\n")
+    crowds = start(Scripted(file=tmp_path / "tracks.csv"))
+    given = crowds.inputs(Inputs(twist=[[0, 0]]))
+    assert np.isinf(given.movers[0, :2]).all()
+    assert np.isinf(given.seen[0, :4]).all()
+
+
+HALL = """
+name: hall
+coordinate_system: cartesian_meters
+levels:
+  L1:
+    vertices: [[0, 0, 0, ""], [8, 0, 0, ""], [8, 4, 0, ""], [0, 4, 0, ""], [1, 2, 0, west], [7, 2, 0, east]]
+    walls: [[0, 1], [1, 2], [2, 3], [3, 0]]
+    lanes: [[4, 5, {bidirectional: [4, true]}]]
+"""
+
+
+def test_movers_are_recorded_and_touches_name_them(tmp_path):
+    pytest.importorskip("mrpbench_planners_mapf")
+    (tmp_path / "hall.building.yaml").write_text(HALL)
+    cart = {"plugin": "scripted", "tracks": [{"keyframes": [[0, 4, 2]]}], "kind": "cart", "legs": False}
+    person = {"plugin": "scripted", "tracks": [{"keyframes": [[0, 2, 3], [10, 6, 3]], "loop": True}]}
+    study = {
+        "world": {"plugin": "rmf", "file": str(tmp_path / "hall.building.yaml")},
+        "roadmap": "graph",
+        "scenario": {"plugin": "named", "starts": ["west"], "goals": ["east"]},
+        "assigner": "identity",
+        "planner": "prioritized",
+        "control_rate": "10 Hz",
+        "limits": {"execution": "20 s"},
+        "metrics": ["execution"],
+        "crowds": [person, cart],
+    }
+    (point,) = load_study(study).runs
+    paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
+    record = execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
+    recording = Recording(tmp_path / "run.zip")
+    mover, contact = recording.channel("mover"), recording.channel("contact")
+    assert mover[:, 1, :2].tolist() == [[4, 2]] * len(mover)
+    assert mover[50, 0, [0, 3]] == pytest.approx([4.0, 0.4])  # 5 s after the start
+    assert recording.channel("mover_level").shape == (len(mover), 2)
+    assert recording.context().mover_names == ("person_0", "cart_1")
+    assert set(map(tuple, contact.tolist())) == {(0, 2)}
+    assert recording.channel("event_detail")[recording.channel("event_kind") == "contact"][0] == "mover_1"
+    recording.close()
+    assert record["metrics"]["execution.wall_contacts"] == record["metrics"]["execution.robot_contacts"] == 0
