@@ -14,6 +14,8 @@
 #include "arrays.hpp"
 #include "mrpbench_sim/caster.hpp"
 #include "mrpbench_sim/plane.hpp"
+#include "mrpbench_sim/walkers.hpp"
+#include "mrpbench_sim/walking_routes.hpp"
 #include "options.hpp"
 
 namespace nb = nanobind;
@@ -27,6 +29,7 @@ template <class T>
 using Output = nb::ndarray<nb::numpy, T>;
 
 static_assert(sizeof(Segment) == 4 * sizeof(double) && sizeof(Pose) == 3 * sizeof(double));
+static_assert(sizeof(Walker) == 4 * sizeof(double));
 static_assert(sizeof(Twist) == 2 * sizeof(double) && sizeof(Point) == 2 * sizeof(double));
 
 template <class T, class Row>
@@ -88,6 +91,39 @@ Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, cons
   return own(std::move(ranges), {robots.size(), beams});
 }
 
+void construct_walkers(Walkers* self, const Matrix<4>& segments, const nb::dict& people, const nb::dict& options,
+                       bool orca) {
+  const NamedArrays arrays(people, "people");
+  const auto place = arrays.rows<2>("place");
+  const std::size_t count = place.shape(0);
+  auto chosen = configured_by<WalkerOptions>(options);
+  chosen.orca = orca;
+  new (self) Walkers(copy<Segment>(segments), copy<double>(arrays.vector<double>("radius", count)),
+                     copy<double>(arrays.vector<double>("speed", count)),
+                     copy<int>(arrays.vector<std::int32_t>("group", count)), copy<Point>(place), chosen);
+}
+
+void walk(Walkers& self, double dt, const nb::dict& wishes, const Matrix<4>& others, const Vector<double>& radius,
+          std::size_t robots, const Matrix<4>& leaves) {
+  const NamedArrays arrays(wishes, "wishes");
+  const auto velocity = arrays.rows<2>("velocity", self.size()), push = arrays.rows<2>("push", self.size());
+  const auto regard = arrays.vector<std::uint8_t>("regard", self.size());
+  const nb::gil_scoped_release release;
+  self.step(dt, {rows<Point>(velocity), rows<Point>(push), rows<unsigned char>(regard)}, rows<Walker>(others),
+            rows<double>(radius), robots, rows<Segment>(leaves));
+}
+
+Output<std::int32_t> routes(const Table<std::uint8_t>& free, int goal) {
+  const auto rows_of = static_cast<int>(free.shape(0)), columns = static_cast<int>(free.shape(1));
+  std::vector<std::int32_t> next;
+  {
+    const nb::gil_scoped_release release;
+    next = walking_routes({free.data(), free.size()}, rows_of, columns, goal);
+  }
+  const std::size_t size = next.size();
+  return own(std::move(next), {size});
+}
+
 }  // namespace
 
 NB_MODULE(sim, module) {
@@ -115,5 +151,15 @@ NB_MODULE(sim, module) {
       .def("__init__", &construct_caster, nb::kw_only(), "segments"_a, "lidar"_a)
       .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a, "leaves"_a = nb::none());
 
+  nb::class_<Walkers>(module, "Walkers")
+      .def("__init__", &construct_walkers, nb::kw_only(), "segments"_a, "people"_a, "options"_a, "orca"_a)
+      .def("step", &walk, "dt"_a, "wishes"_a, "others"_a, "radius"_a, "robots"_a, "leaves"_a)
+      .def_prop_ro(
+          "place", [](const Walkers& self) { return copied<double>(self.places()); }, nb::rv_policy::automatic)
+      .def_prop_ro(
+          "velocity", [](const Walkers& self) { return copied<double>(self.velocities()); }, nb::rv_policy::automatic);
+
+  module.def("walking_routes", &routes, "free"_a, "goal"_a);
+  module.def("walker_options", [] { return parameters(WalkerOptions::description()); });
   module.def("noise_options", [] { return parameters(Chance::description()); });
 }

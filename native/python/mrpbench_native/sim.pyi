@@ -1,4 +1,4 @@
-"""Robots, contacts and lidars in the plane, in C++. Plain arrays in, new arrays out; metres, radians, seconds.
+"""Robots, people, contacts and lidars in the plane, in C++. Plain arrays in, new arrays out; metres, radians, seconds.
 
 Segments are f8[S,4] x1, y1, x2, y2, solid on their left. All functions raise ValueError for invalid data and
 let other threads run. Only one thread at a time may use a `Plane`; any number of threads may use a `Caster`.
@@ -66,6 +66,52 @@ class Caster:
         `radius` f8[n+m]. A robot does not see itself. A mover at infinity is absent. `leaves` f8[S,4] are
         solid besides the segments.
         """
+
+class Walkers:
+    """People who walk by social forces or by optimal reciprocal collision avoidance. All stay out of walls, robots,
+    leaves of doors and one another, but for 0.1 mm.
+    """
+
+    def __init__(
+        self,
+        *,
+        segments: NDArray[np.float64],
+        people: dict[str, NDArray[Any]],
+        options: dict[str, Any],
+        orca: bool,
+    ) -> None:
+        """`people` holds arrays by name: `place` f8[m,2], which are free, `radius` f8[m], `speed` f8[m], the largest,
+        and `group` i4[m], -1 = none. `options` has those that `walker_options` describes.
+        """
+    def step(
+        self,
+        dt: float,
+        wishes: dict[str, NDArray[Any]],
+        others: NDArray[np.float64],
+        radius: NDArray[np.float64],
+        robots: int,
+        leaves: NDArray[np.float64],
+    ) -> None:
+        """Walk for `dt` seconds.
+
+        `wishes` holds `velocity` f8[m,2], further accelerations `push` f8[m,2], and how each person regards robots,
+        `regard` u1[m]: 0 as people, 1 as obstacles, 2 not at all. `others` f8[k,4] are x, y, vx, vy of the discs of
+        `radius` f8[k] that are not pushed, of which the first `robots` are robots. `leaves` f8[S,4] are solid.
+        """
+    @property
+    def place(self) -> NDArray[np.float64]:
+        """f8[m,2]."""
+    @property
+    def velocity(self) -> NDArray[np.float64]:
+        """f8[m,2] of the last step, over ground."""
+
+def walking_routes(free: NDArray[np.uint8], goal: int) -> NDArray[np.int32]:
+    """For each cell of a raster u1[rows,columns], row by row, the cell to which to walk straight on the way to the
+    cell `goal`, i4[rows*columns]; -1 = there is none.
+    """
+
+def walker_options() -> list[Option]:
+    """The options of walking."""
 
 def noise_options() -> list[Option]:
     """The options of the noise of wheels."""
