@@ -267,6 +267,7 @@ WITHOUT_PHYSICS = (
     "controller",
     "localizer",
     "plan_filter",
+    "crowds",
     "noise",
     "grant_truth",
     "replanning",

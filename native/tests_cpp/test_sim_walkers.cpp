@@ -1,7 +1,6 @@
 // Forces and velocities with the numbers of public implementations (lightsfm, RVO2), run once; and motion.
-#include "mrpbench_sim/walkers.hpp"
-
 #include "check.hpp"
+#include "mrpbench_sim/walkers.hpp"
 #include "mrpbench_sim/walking_routes.hpp"
 
 using namespace mrpbench::sim;

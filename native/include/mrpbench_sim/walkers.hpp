@@ -1,5 +1,5 @@
-// People who walk: their forces or velocity obstacles, and their motion, which no wall, robot or other person permits to
-// overlap.
+// People who walk: their forces or velocity obstacles, and their motion, which no wall, robot or other person permits
+// to overlap.
 #pragma once
 
 #include <optional>
@@ -39,8 +39,8 @@ struct HalfPlane {
 /// avoidance", ISRR 2009), of which `share` is left to me: 1/2 if the other does the same, else 1.
 HalfPlane avoiding(const Walker& me, const Walker& other, double radii, double horizon, double dt, double share);
 
-/// The velocity within `fastest` and the half-planes that is nearest to `wanted`; the first `hard` half-planes hold, and
-/// the others as far as possible.
+/// The velocity within `fastest` and the half-planes that is nearest to `wanted`; the first `hard` half-planes hold,
+/// and the others as far as possible.
 Point nearest_velocity(std::span<const HalfPlane> planes, std::size_t hard, double fastest, Point wanted);
 
 class Walkers {

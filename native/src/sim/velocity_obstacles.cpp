@@ -1,5 +1,5 @@
-// Optimal reciprocal collision avoidance, from the paper; linear programs by the randomised incremental method without the
-// random order (M. de Berg et al., "Computational Geometry", 2008, section 4.4), since constraints are few.
+// Optimal reciprocal collision avoidance, from the paper; linear programs by the randomised incremental method without
+// the random order (M. de Berg et al., "Computational Geometry", 2008, section 4.4), since constraints are few.
 #include "mrpbench_sim/walkers.hpp"
 
 namespace mrpbench::sim {
@@ -37,8 +37,10 @@ bool best_on_line(std::span<const HalfPlane> planes, std::size_t last, double fa
       continue;
     }
     const double t = rest / slope;
-    if (slope > 0) high = std::min(high, t);
-    else low = std::max(low, t);
+    if (slope > 0)
+      high = std::min(high, t);
+    else
+      low = std::max(low, t);
     if (low > high) return false;
   }
   const double t = goal.direction ? (dot(goal.wanted, line.direction) > 0 ? high : low)
@@ -78,9 +80,8 @@ HalfPlane avoiding(const Walker& me, const Walker& other, double radii, double h
     u = away * (radii / within - size);
   } else {
     const double leg = std::sqrt(squared - radii * radii);
-    direction = cross(p, w) > 0
-                    ? Point{p.x * leg - p.y * radii, p.x * radii + p.y * leg} * (1 / squared)
-                    : Point{p.x * leg + p.y * radii, -p.x * radii + p.y * leg} * (-1 / squared);
+    direction = cross(p, w) > 0 ? Point{p.x * leg - p.y * radii, p.x * radii + p.y * leg} * (1 / squared)
+                                : Point{p.x * leg + p.y * radii, -p.x * radii + p.y * leg} * (-1 / squared);
     u = direction * dot(v, direction) - v;
   }
   return {me.velocity + u * share, direction};

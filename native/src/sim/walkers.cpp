@@ -60,7 +60,8 @@ Walkers::Walkers(std::vector<Segment> segments, std::vector<double> radius, std:
   for (const Point it : places_) require(somewhere(it), "places must be finite");
   for (std::size_t me = 0; me < count; ++me) {
     if (group_[me] < 0) continue;
-    if (groups_.size() <= static_cast<std::size_t>(group_[me])) groups_.resize(static_cast<std::size_t>(group_[me]) + 1);
+    if (groups_.size() <= static_cast<std::size_t>(group_[me]))
+      groups_.resize(static_cast<std::size_t>(group_[me]) + 1);
     groups_[static_cast<std::size_t>(group_[me])].push_back(me);
   }
 }
