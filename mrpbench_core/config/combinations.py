@@ -144,7 +144,7 @@ def _place(root: Item, key: str) -> Item:
 
 def _is_set(value: Any) -> bool:
     """Tell whether a setting differs from having none."""
-    return bool(value) if isinstance(value, bool | Mapping) else value not in (None, Noise(), Replanning())
+    return bool(value) if isinstance(value, bool | Mapping | tuple) else value not in (None, Noise(), Replanning())
 
 
 def _has_lidar(entry: FleetEntry) -> bool:

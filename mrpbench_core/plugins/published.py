@@ -26,6 +26,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.assigners": ("hungarian",),
         "mrpbench.controllers": ("dwb", "graceful", "mppi", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
+        "mrpbench.crowds": ("carts", "orca", "social_force"),
         "mrpbench.dispatchers": ("btpg", "gses"),
         "mrpbench.localizers": ("amcl",),
         "mrpbench.metrics": _METRICS,

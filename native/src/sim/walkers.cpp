@@ -131,6 +131,8 @@ Point Walkers::forced(std::size_t me, double dt, const Scene& scene) const {
   const Walker self{places_[me], velocities_[me]};
   const Point wanted = scene.wishes.velocity[me];
   Point force = (wanted - self.velocity) * (options_.goal_factor / options_.relaxation) + scene.wishes.push[me];
+  // Who wants to stand stands until somebody touches it; forces would let it drift away from walls.
+  if (wanted == Point{} && scene.wishes.push[me] == Point{}) return self.velocity + force * dt;
   double nearest = kWallSight;
   Point away;
   const auto block = [&](Point offset, double size) {

@@ -1,0 +1,78 @@
+"""Where people can walk on a level, and the ways to their goals."""
+
+import numpy as np
+from mrpbench_native.sim import walking_routes
+
+from mrpbench_core.checking.clearance import has_clearance
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
+from mrpbench_core.model.worlds.solids import segments
+from mrpbench_core.model.worlds.world import World
+
+CELL = 0.15
+"""Metres of a cell."""
+MARGIN = 0.02
+"""Metres that ways keep from walls in addition to the radius."""
+
+
+class Floor:
+    """A raster of the places at which a disc of `radius` metres fits on a level, without the cabins of lifts.
+
+    Raises:
+        InputError: it fits nowhere.
+    """
+
+    def __init__(self, world: World, level: int, radius: float) -> None:
+        storey = world.levels[level]
+        ends = segments(world, level).reshape(-1, 2)
+        if not len(ends):
+            raise InputError(f"crowds: level {level} of world {world.name} has no walls, which bound a crowd")
+        self._origin = ends.min(axis=0)
+        columns, rows = (np.ceil((ends.max(axis=0) - self._origin) / CELL).astype(int) + 1).tolist()
+        x, y = np.meshgrid(np.arange(columns), np.arange(rows))
+        self._centre = self._origin + (np.stack([x.ravel(), y.ravel()], axis=1) + 0.5) * CELL
+        free = has_clearance(storey, self._centre, self._centre, radius + MARGIN)
+        for lift in world.lifts:
+            low, high = lift.corners.min(axis=0) - radius, lift.corners.max(axis=0) + radius
+            free &= ~((self._centre > low) & (self._centre < high)).all(axis=1)
+        self._free = free.reshape(rows, columns)
+        inner = self._joined()
+        self.places: Float = self._centre[inner.ravel()]
+        """f8[k,2] centres of the cells of the largest connected part."""
+        if not len(self.places):
+            raise InputError(f"crowds: nobody of radius {radius:g} m fits on level {level} of world {world.name}")
+        self._routes: dict[int, Int32] = {}
+
+    def _joined(self) -> Bool:
+        """The largest part of the free cells that is connected and does not reach the border of the raster."""
+        left, best = self._free.copy(), np.zeros_like(self._free)
+        while left.any():
+            seed = int(left.ravel().argmax())
+            part = (walking_routes(self._free.astype(np.uint8), seed) >= 0).reshape(left.shape) & self._free
+            border = part[0].any() or part[-1].any() or part[:, 0].any() or part[:, -1].any()
+            if not border and part.sum() > best.sum():
+                best = part
+            left &= ~part
+        return best
+
+    def cell(self, place: Float) -> Int:
+        """Numbers i8[k] of the cells in which places f8[k,2] are."""
+        rows, columns = self._free.shape
+        x, y = ((place - self._origin) / CELL).astype(int).T
+        return np.clip(y, 0, rows - 1) * columns + np.clip(x, 0, columns - 1)
+
+    def reaches(self, start: Float, goal: Float) -> bool:
+        """Tell whether there is a way from a place to another one, f8[2] each."""
+        return bool(self._route(goal)[self.cell(start[None])[0]] >= 0)
+
+    def towards(self, place: Float, goal: Float) -> Float:
+        """The point f8[2] to which to walk straight on the way from a place to a goal, f8[2] each."""
+        route, end = self._route(goal), int(self.cell(goal[None])[0])
+        following = int(route[self.cell(place[None])[0]])
+        return goal if following in (end, -1) else self._centre[following]
+
+    def _route(self, goal: Float) -> Int32:
+        end = int(self.cell(goal[None])[0])
+        if end not in self._routes:
+            self._routes[end] = walking_routes(self._free.astype(np.uint8), end)
+        return self._routes[end]

@@ -1,0 +1,256 @@
+"""People under way: goals, waiting, doors and reactions; the native `Walkers` moves them."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from mrpbench_native.sim import Walkers
+
+from mrpbench_core.api import CrowdSession, CrowdView, Mover, Movers
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.common.arrays import Float, Int, Int16
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.worlds.facilities import Facilities
+from mrpbench_core.model.worlds.solids import segments
+from mrpbench_core.model.worlds.world import World
+from mrpbench_crowds_walking.floor import Floor
+from mrpbench_crowds_walking.reactions import (
+    AS_OBSTACLES,
+    AS_PEOPLE,
+    NOT_AT_ALL,
+    PATIENCE,
+    SIGHT,
+    Act,
+    nearest_seen,
+    react,
+)
+
+REACHED = 0.4
+"""Metres from a goal, in addition to the radius, at which a person is there."""
+AT_DOOR = 1.2
+"""Metres from a door within which a person who walks on wants it to be open."""
+ASIDE = 0.1
+"""Radians by which people who avoid by velocities keep to the right."""
+TURNS = np.pi
+"""rad/s of people who look at something."""
+
+
+class WalkingSession(CrowdSession):
+    """The people of one crowd; `recipe` has the options of `_Walking`, `options` those of the native code."""
+
+    def __init__(self, recipe: Any, options: Mapping[str, Any], world: World, fleet: Fleet, seed: int) -> None:
+        if recipe.level >= len(world.levels):
+            raise InputError(f"crowds: world {world.name} has no level {recipe.level}")
+        self._recipe, self._seed, self._robot_radius = recipe, seed, fleet.radii
+        self._floor = Floor(world, recipe.level, recipe.radius)
+        self._facilities, self._level = Facilities(world), recipe.level
+        self._doors = [
+            (door.name, np.array([*door.door.start, *door.door.end]))
+            for door in self._facilities.doors
+            if door.lift is None and recipe.level in door.levels
+        ]
+        count = recipe.people + len(recipe.given)
+        self._random = [self._draws(person, 0) for person in range(count)]
+        self._group = self._groups()
+        self._speed = self._speeds()
+        self._aside = self._turns()
+        drawn = np.random.default_rng([seed % 2**64, 2**32])
+        self._places = self._floor.places[drawn.integers(len(self._floor.places), size=recipe.places)]
+        start = self._starts(drawn)
+        self._goal_number = np.zeros(count, int)
+        self._goal = np.array([self._next_goal(person) for person in range(count)]).reshape(-1, 2)
+        self._waits = np.zeros(count)
+        self._seen_for, self._done = np.zeros(count), np.zeros(count, bool)
+        leg = recipe.leg_radius if recipe.legs else 0.0
+        self.members = (Mover(radius=recipe.radius, kind=recipe.kind, leg_radius=leg),) * count
+        self._yaw = np.arctan2(*(self._goal - start).T[::-1])
+        fastest = np.maximum(self._speed, 2.0) if recipe.reaction in ("curious", "threatening") else self._speed
+        self._walkers = Walkers(
+            segments=segments(world, recipe.level),
+            people={
+                "place": start,
+                "radius": np.full(count, recipe.radius),
+                "speed": fastest,
+                "group": self._group.astype(np.int32),
+            },
+            options=dict(options),
+            orca=recipe.orca,
+        )
+        self._wanted: set[str] = set()
+
+    @property
+    def movers(self) -> Movers:
+        """Where they are now."""
+        level: Int16 = np.full(len(self.members), self._level, np.int16)
+        return Movers(
+            pose=np.column_stack([self._walkers.place, self._yaw]), velocity=self._walkers.velocity, level=level
+        )
+
+    def wanted_doors(self) -> set[str]:
+        """Doors near people who walk towards them, and doors in which somebody stands."""
+        return self._wanted
+
+    def step(self, dt: float, seen: CrowdView) -> Movers:
+        """Walk for `dt` seconds."""
+        place = self._walkers.place
+        robots = np.flatnonzero(seen.state.level == self._level)
+        pose, twist = seen.state.pose[robots], seen.state.twist[robots]
+        others = np.flatnonzero(seen.others.level == self._level)
+        ahead = np.column_stack([np.cos(pose[:, 2]), np.sin(pose[:, 2])])
+        discs = np.vstack(
+            [
+                np.hstack([pose[:, :2], ahead * twist[:, :1]]),
+                np.hstack([seen.others.pose[others, :2], seen.others.velocity[others]]),
+            ]
+        )
+        radius = np.concatenate([self._robot_radius[robots], seen.radius[others]])
+        velocity, push, regard, looks = self._wishes(dt, place, pose, radius[: len(robots)])
+        wishes = {"velocity": velocity, "push": push, "regard": regard}
+        leaves = self._facilities.outlines(seen.state.facilities, self._level) if seen.state.facilities else _NO_LEAVES
+        self._walkers.step(dt, wishes, discs, radius, len(robots), np.ascontiguousarray(leaves))
+        self._look(dt, looks)
+        self._wanted = self._doors_ahead(velocity)
+        return self.movers
+
+    def _wishes(self, dt: float, place: Float, robots: Float, radius: Float) -> tuple[Float, Float, Any, Float]:
+        count = len(place)
+        velocity, push, looks = np.zeros((count, 2)), np.zeros((count, 2)), np.full(count, np.nan)
+        reaction = self._recipe.reaction
+        regard = np.full(count, AS_OBSTACLES if reaction == "impassive" else AS_PEOPLE, np.uint8)
+        self._waits = np.maximum(self._waits - dt, 0.0)
+        away = np.hypot(*(self._goal - place).T)
+        for person in np.flatnonzero(away < self._recipe.radius + REACHED).tolist():
+            if self._goals_of(person) and self._waits[person] == 0:
+                self._arrive(person)
+        for person in range(count):
+            to_goal = np.zeros(2)
+            if self._waits[person] == 0 and away[person] > self._recipe.radius:
+                way = self._floor.towards(place[person], self._goal[person]) - place[person]
+                distance = float(np.hypot(*way))
+                if distance > 0:
+                    to_goal = self._aside[person] @ way / distance * self._speed[person]
+            velocity[person] = to_goal
+            if reaction in SIGHT:
+                act = self._act(person, dt, place[person], robots, radius, to_goal)
+                if act is not None:
+                    velocity[person], push[person], looks[person] = act.velocity, act.push, act.looks
+                    regard[person] = NOT_AT_ALL
+        return velocity, push, regard, looks
+
+    def _act(self, person: int, dt: float, place: Float, robots: Float, radius: Float, to_goal: Float) -> Act | None:
+        """What a person does about the nearest robot that it sees; it grows tired of it."""
+        reaction = self._recipe.reaction
+        if self._done[person]:
+            return None
+        nearest = nearest_seen(place, self._yaw[person], robots[:, :2], SIGHT[reaction])
+        if nearest < 0:
+            return None
+        self._seen_for[person] += dt
+        if self._seen_for[person] >= PATIENCE[reaction]:
+            self._seen_for[person], self._done[person] = 0.0, reaction != "scared"
+        gap = float(np.hypot(*(robots[nearest, :2] - place))) - self._recipe.radius - radius[nearest]
+        return react(reaction, place, robots[nearest, :2], robots[nearest, 2], gap, to_goal)
+
+    def _arrive(self, person: int) -> None:
+        """Stay for a while, then go to the next goal; a group goes together."""
+        together = np.flatnonzero(self._group == self._group[person]) if self._group[person] >= 0 else [person]
+        for member in together:
+            self._goal_number[member] += 1
+            own = self._draws(
+                int(member if self._group[person] < 0 else self._leader(person)), self._goal_number[member]
+            )
+            self._waits[member] = own.exponential(self._recipe.stay) if self._recipe.stay else 0.0
+            self._goal[member] = self._next_goal(int(member))
+
+    def _look(self, dt: float, looks: Float) -> None:
+        """Turn ahead while walking, or to what a person looks at."""
+        velocity = self._walkers.velocity
+        moving = np.hypot(*velocity.T) > 0.1
+        wanted = np.where(
+            np.isnan(looks), np.where(moving, np.arctan2(velocity[:, 1], velocity[:, 0]), self._yaw), looks
+        )
+        turn = (wanted - self._yaw + np.pi) % (2 * np.pi) - np.pi
+        self._yaw = self._yaw + np.clip(turn, -TURNS * dt, TURNS * dt)
+
+    def _doors_ahead(self, velocity: Float) -> set[str]:
+        place, wanted = self._walkers.place, set()
+        for name, line in self._doors:
+            gap = point_segment_distance(place, line[:2], line[2:])
+            towards = ((line[:2] + line[2:]) / 2 - place) * velocity
+            if ((gap < AT_DOOR) & ((towards.sum(axis=1) > 0) | (gap < 2 * self._recipe.radius))).any():
+                wanted.add(name)
+        return wanted
+
+    def _draws(self, person: int, number: int) -> np.random.Generator:
+        """The stream of a person for a goal: what happens to one shifts no draws of another."""
+        return np.random.default_rng([self._seed % 2**64, person, int(number)])
+
+    def _leader(self, person: int) -> int:
+        return int(np.flatnonzero(self._group == self._group[person])[0])
+
+    def _goals_of(self, person: int) -> bool:
+        return person < self._recipe.people or len(self._recipe.given[person - self._recipe.people].goals) > 0
+
+    def _next_goal(self, person: int) -> Float:
+        """The goal of the number at which a person is."""
+        number = int(self._goal_number[person])
+        if person >= self._recipe.people:
+            own = self._recipe.given[person - self._recipe.people]
+            return np.array(own.goals[number % len(own.goals)] if own.goals else own.start)
+        who = self._leader(person) if self._group[person] >= 0 else person
+        return self._places[self._draws(who, number + 1).integers(len(self._places))]
+
+    def _groups(self) -> Int:
+        """Groups i8[m], -1 = none; those that are given come after those of people at random places."""
+        recipe = self._recipe
+        size = recipe.group_size
+        drawn = np.arange(recipe.people) // size if size > 1 else np.full(recipe.people, -1)
+        first = int(drawn.max(initial=-1)) + 1
+        return np.concatenate([drawn, [-1 if p.group is None else first + p.group for p in recipe.given]]).astype(int)
+
+    def _speeds(self) -> Float:
+        recipe = self._recipe
+        drawn = [own.normal(recipe.speed, recipe.speed_deviation) for own in self._random]
+        speed = np.clip(np.array(drawn, float), min(0.5, recipe.speed), 2.2)
+        for index, person in enumerate(recipe.given):
+            if person.speed is not None:
+                speed[recipe.people + index] = person.speed
+        return speed
+
+    def _turns(self) -> Float:
+        """Rotations f8[m,2,2] of the wanted velocity, a little to the right: `orca` would stop head-on."""
+        own = [stream.normal(ASIDE, ASIDE / 4) if self._recipe.orca else 0.0 for stream in self._random]
+        cosine, sine = np.cos(own), np.sin(own)
+        return np.stack([cosine, sine, -sine, cosine], axis=-1).reshape(-1, 2, 2)
+
+    def _starts(self, drawn: np.random.Generator) -> Float:
+        """Given places first, then random ones; nobody overlaps.
+
+        Raises:
+            InputError: a given place is not free, or there is no room.
+        """
+        recipe, taken = self._recipe, []
+        for index, person in enumerate(recipe.given):
+            for place in map(np.array, (person.start, *person.goals)):
+                if not self._floor.reaches(np.array(person.start), place.astype(float)):
+                    raise InputError(
+                        f"crowds: person {index} of `given` cannot walk from {person.start} to {tuple(place)}"
+                    )
+            taken.append(np.array(person.start, float))
+        found: list[Float] = []
+        for place in self._floor.places[drawn.permutation(len(self._floor.places))]:
+            if len(found) == recipe.people:
+                break
+            if _apart(place, [*taken, *found], 2 * recipe.radius + 0.05):
+                found.append(place)
+        if len(found) < recipe.people:
+            raise InputError(f"crowds: there is room for {len(found)} of {recipe.people} people")
+        return np.array([*found, *taken]).reshape(-1, 2)
+
+
+_NO_LEAVES = np.empty((0, 4))
+
+
+def _apart(place: Float, others: Sequence[Float], distance: float) -> bool:
+    return not others or bool((np.hypot(*(np.array(others) - place).T) >= distance).all())

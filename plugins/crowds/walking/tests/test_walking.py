@@ -1,0 +1,117 @@
+import numpy as np
+import pytest
+from mrpbench_crowds_walking import Carts, Orca, SocialForce
+from mrpbench_crowds_walking.crowds import Person
+from mrpbench_crowds_walking.reactions import nearest_seen, react
+
+from mrpbench_core.api import CrowdView, Movers
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.execution.state import State
+from mrpbench_core.model.worlds.facilities import Facilities
+from mrpbench_core.testing import CrowdConformance
+from mrpbench_core.testing.fixtures.building import building
+from mrpbench_core.testing.fixtures.room import PERIOD, fleet, room
+
+NOBODY = Movers(pose=np.empty((0, 3)), velocity=np.empty((0, 2)), level=np.empty(0, "i2"))
+ACROSS = (
+    Person(start=(0.6, 1.5), goals=((3.4, 1.5), (0.6, 1.5)), speed=1.2),
+    Person(start=(3.4, 1.5), goals=((0.6, 1.5), (3.4, 1.5)), speed=1.2),
+)
+
+
+class TestSocialForce(CrowdConformance):
+    def make(self):
+        return SocialForce(people=6, group_size=2)
+
+
+class TestOrca(CrowdConformance):
+    def make(self):
+        return Orca(people=6, given=ACROSS[:1])
+
+
+class TestCarts(CrowdConformance):
+    def make(self):
+        return Carts(people=2)
+
+
+def view(*robots, facilities=()):
+    pose = np.array(robots, float).reshape(-1, 3)
+    state = State(
+        pose=pose, twist=np.zeros((len(pose), 2)), level=[0] * len(pose), contacts=[], facilities=dict(facilities)
+    )
+    return CrowdView(state=state, others=NOBODY, radius=np.empty(0))
+
+
+def walk(crowd, seconds, *robots, world=None, seed=0):
+    session, seen = crowd.start(world or room(), fleet(len(robots)), seed), view(*robots)
+    return session, np.array([session.step(PERIOD, seen).pose for _ in range(round(seconds / PERIOD))])
+
+
+@pytest.mark.parametrize("kind", [SocialForce, Orca])
+def test_two_people_who_meet_head_on_pass_and_arrive(kind):
+    _, found = walk(kind(given=ACROSS, stay=60.0), 12)
+    assert found[:, 0, 0].max() > 2.7
+    assert found[:, 1, 0].min() < 1.3
+    assert np.hypot(*(found[:, 0, :2] - found[:, 1, :2]).T).min() >= 0.5 - 2e-4
+
+
+@pytest.mark.parametrize("kind", [SocialForce, Orca])
+def test_a_person_walks_round_a_robot_that_stands(kind):
+    _, found = walk(kind(given=ACROSS[:1], stay=60.0), 12, (2.0, 1.5, 0.0))
+    assert found[:, 0, 0].max() > 2.7
+    gap = np.hypot(*(found[:, 0, :2] - (2.0, 1.5)).T).min()
+    assert gap >= 0.25 + fleet(1).radii[0] - 2e-4
+
+
+def test_people_go_through_doors_that_they_open():
+    crowd = Orca(given=(Person(start=(1.2, 1.5), goals=((2.3, 0.6),)),), radius=0.2)
+    session = crowd.start(building(), fleet(0), 0)
+    state = Facilities(building()).initial_state()
+    shut, opened = view(facilities=state), view(facilities=state | {"door": 1.0})
+    asked = False
+    for _ in range(100):
+        session.step(PERIOD, shut)
+        asked |= "door" in session.wanted_doors()
+    assert asked
+    assert session.movers.pose[0, 0] < 2.0  # the leaf is solid
+    for _ in range(100):
+        session.step(PERIOD, opened)
+    assert session.movers.pose[0, 0] > 2.15
+
+
+def test_what_one_does_at_random_depends_on_its_index_alone():
+    few, many = (SocialForce(people=n, group_size=1).start(room(), fleet(0), 3) for n in (2, 5))
+    assert np.array_equal(few._speed, many._speed[:2])
+    assert np.array_equal(few._goal, many._goal[:2])
+
+
+def test_surprised_people_stand_and_look():
+    crowd = SocialForce(given=ACROSS[:1], reaction="surprised")
+    _, found = walk(crowd, 3, (2.5, 1.5, 0.0))
+    assert found[-1, 0, 0] < 0.8
+    assert abs(found[-1, 0, 2]) < 0.05
+
+
+def test_reactions_have_the_speeds_of_hunavsim():
+    place, robot, goal = np.zeros(2), np.array([3.0, 0.0]), np.array([0.0, 1.3])
+    assert react("curious", place, robot, 0.0, 2.5, goal).velocity.tolist() == [pytest.approx(0.54), 0]
+    assert np.hypot(*react("scared", place, robot, 0.0, 2.0, goal).velocity) == pytest.approx(0.6)
+    assert react("scared", place, robot, 0.0, 2.0, goal).push.tolist() == [pytest.approx(-2.0), 0]
+    assert react("threatening", place, robot, np.pi, 2.5, goal).velocity.tolist() == pytest.approx([2.0, 0])
+
+
+def test_robots_behind_or_far_away_are_not_seen():
+    robots = np.array([[-1.0, 0.0], [0.0, 2.0], [9.0, 0.0]])
+    assert nearest_seen(np.zeros(2), 0.0, robots, 4.0) == 1
+    assert nearest_seen(np.zeros(2), np.pi, robots, 4.0) == 0
+    assert nearest_seen(np.zeros(2), -np.pi / 2, robots[2:], 4.0) == -1
+
+
+@pytest.mark.parametrize(
+    ("crowd", "said"),
+    [(Orca(people=500), "room for"), (Orca(level=3), "no level 3"), (Carts(radius=3.0), "nobody of radius"),
+     (Orca(given=(Person(start=(0.0, 1.0)),)), "cannot walk")],
+)  # fmt: skip
+def test_what_does_not_fit_is_said_in_one_line(crowd, said):
+    with pytest.raises(InputError, match=said):
+        crowd.start(room(), fleet(0), 0)
