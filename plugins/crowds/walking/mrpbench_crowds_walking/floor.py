@@ -59,7 +59,8 @@ class Floor:
         """Numbers i8[k] of the cells in which places f8[k,2] are."""
         rows, columns = self._free.shape
         x, y = ((place - self._origin) / CELL).astype(int).T
-        return np.clip(y, 0, rows - 1) * columns + np.clip(x, 0, columns - 1)
+        cell: Int = np.clip(y, 0, rows - 1) * columns + np.clip(x, 0, columns - 1)
+        return cell
 
     def reaches(self, start: Float, goal: Float) -> bool:
         """Tell whether there is a way from a place to another one, f8[2] each."""

@@ -199,7 +199,8 @@ class WalkingSession(CrowdSession):
             own = self._recipe.given[person - self._recipe.people]
             return np.array(own.goals[number % len(own.goals)] if own.goals else own.start)
         who = self._leader(person) if self._group[person] >= 0 else person
-        return self._places[self._draws(who, number + 1).integers(len(self._places))]
+        goal: Float = self._places[self._draws(who, number + 1).integers(len(self._places))]
+        return goal
 
     def _groups(self) -> Int:
         """Groups i8[m], -1 = none; those that are given come after those of people at random places."""
@@ -212,7 +213,7 @@ class WalkingSession(CrowdSession):
     def _speeds(self) -> Float:
         recipe = self._recipe
         drawn = [own.normal(recipe.speed, recipe.speed_deviation) for own in self._random]
-        speed = np.clip(np.array(drawn, float), min(0.5, recipe.speed), 2.2)
+        speed: Float = np.clip(np.array(drawn, float), min(0.5, recipe.speed), 2.2)
         for index, person in enumerate(recipe.given):
             if person.speed is not None:
                 speed[recipe.people + index] = person.speed
@@ -222,7 +223,8 @@ class WalkingSession(CrowdSession):
         """Rotations f8[m,2,2] of the wanted velocity, a little to the right: `orca` would stop head-on."""
         own = [stream.normal(ASIDE, ASIDE / 4) if self._recipe.orca else 0.0 for stream in self._random]
         cosine, sine = np.cos(own), np.sin(own)
-        return np.stack([cosine, sine, -sine, cosine], axis=-1).reshape(-1, 2, 2)
+        rotation: Float = np.stack([cosine, sine, -sine, cosine], axis=-1).reshape(-1, 2, 2)
+        return rotation
 
     def _starts(self, drawn: np.random.Generator) -> Float:
         """Given places first, then random ones; nobody overlaps.
