@@ -49,6 +49,27 @@ def exclusions(roadmap: Roadmap, distance: float) -> Exclusions:
     vertices = np.arange(len(roadmap.position))
     start = np.concatenate([vertices, roadmap.edges[:, 0]]).astype(np.int64)
     end = np.concatenate([vertices, roadmap.edges[:, 1]]).astype(np.int64)
+    # Elements at one place, such as headings, turns and both directions of a lane, share a row, which is found once.
+    place = np.unique(np.column_stack([roadmap.position, roadmap.level]), axis=0, return_inverse=True)[1].ravel()
+    ends = np.sort(np.stack([place[start], place[end]]), axis=0)
+    _, sample, shape = np.unique(ends, axis=1, return_index=True, return_inverse=True)
+    shape = shape.ravel()
+    left, right, gap = _near(roadmap, start[sample], end[sample], distance)
+    by_shape, first_of = np.argsort(shape, kind="stable"), np.searchsorted(np.sort(shape), np.arange(len(sample) + 1))
+    size = np.diff(first_of)[right]
+    row, gap = np.repeat(left, size), np.repeat(gap, size)
+    element = by_shape[np.arange(len(row)) + np.repeat(first_of[right] - np.cumsum(size) + size, size)]
+    order = np.lexsort((element, row))
+    element, gap = element[order].astype(np.int32), gap[order]
+    begin = np.searchsorted(row[order], np.arange(len(sample) + 1))
+    size = np.diff(begin)[shape]
+    first = np.concatenate([[0], np.cumsum(size)])
+    index = np.arange(first[-1]) + np.repeat(begin[shape] - first[:-1], size)
+    return Exclusions(first, element[index], gap[index])
+
+
+def _near(roadmap: Roadmap, start: Int, end: Int, distance: float) -> tuple[Int, Int, Float]:
+    """Ordered pairs i8[k] of segments between vertices i8[m] that share a level and are near, and their distances."""
     left, right = _near_boxes(roadmap.position[start], roadmap.position[end], distance)
     low, high = roadmap.level[start], roadmap.level[end]
     shared = (low[left] == low[right]) | (high[left] == high[right])
@@ -57,10 +78,7 @@ def exclusions(roadmap: Roadmap, distance: float) -> Exclusions:
     a, b, c, d = (roadmap.position[ends] for ends in (start[left], end[left], start[right], end[right]))
     gap = segment_distance(a, b, c, d)
     near = gap < distance - TOLERANCE
-    left, right, gap = left[near], right[near], gap[near]
-    order = np.lexsort((right, left))
-    first = np.searchsorted(left[order], np.arange(len(start) + 1))
-    return Exclusions(first, right[order].astype(np.int32), gap[order])
+    return left[near], right[near], gap[near]
 
 
 def _near_boxes(start: Float, end: Float, distance: float) -> tuple[Int, Int]:
