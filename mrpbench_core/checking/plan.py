@@ -26,7 +26,8 @@ class PlanReport:
 def check_plan(problem: Problem, plan: Plan, conflict_limit: int | None = None) -> PlanReport:
     """Check every path and, if none has a fault, every pair of robots.
 
-    All rules of `mrpbench_core.model.planning.conflicts` are checked, resources included; headings of vertices are not.
+    All rules of `mrpbench_core.model.planning.conflicts` are checked, resources included. A turn is a move between
+    vertices at one place, so that headings need no rule of their own.
 
     Args:
         problem: what was planned.

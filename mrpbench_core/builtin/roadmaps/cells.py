@@ -4,6 +4,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.builtin.roadmaps.facilities import with_facilities
+from mrpbench_core.builtin.roadmaps.motion import TimedRoadmap, dividing_tick, driving_ticks
 from mrpbench_core.builtin.roadmaps.open_doors import clears_open_doors
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
@@ -133,10 +134,12 @@ def only_reachable(cells: Cells, place: Int) -> tuple[Cells, Int]:
     return cells.only(kept), np.where(place >= 0, number[np.maximum(place, 0)] if len(kept) else -1, -1)
 
 
-def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: list[str]) -> Roadmap:
-    """Return the roadmap: two directed edges per pair of neighbours, sorted by start. Every edge takes one tick.
+def cell_roadmap(
+    timing: TimedRoadmap, cells: Cells, place: Int, world: World, fleet: Fleet, notes: list[str]
+) -> Roadmap:
+    """Return the roadmap: two directed edges per pair of neighbours, sorted by start.
 
-    A tick is the time in which the slowest robot crosses a cell.
+    If durations are constant, every edge takes one tick, in which the slowest robot crosses a cell.
 
     Raises:
         InputError: no cell is free, or robots are bound to a navigation graph.
@@ -148,25 +151,30 @@ def cell_roadmap(cells: Cells, place: Int, world: World, fleet: Fleet, notes: li
         notes = [*notes, f"No robot can stand at {', '.join(lost)}."]
     edges = np.concatenate([cells.edges, cells.edges[:, ::-1]])
     edges = edges[np.lexsort((edges[:, 1], edges[:, 0]))]
-    profiles, _ = fleet.profiles
+    profiles = timing.profiles(fleet)
     if any(robot.graph is not None for robot in profiles):
         raise InputError(
             "a raster has no lanes, so robots cannot keep to a navigation graph", hint="use roadmap: graph"
         )
-    slowest = min(robot.max_speed for robot in profiles)
     count = len(cells.cell)
     raster = cells.raster
+    tick = raster.cell_size / min(robot.max_speed for robot in profiles)
+    duration = np.ones((len(profiles), len(edges)), np.int64)
+    if timing.is_kinodynamic:
+        tick = dividing_tick(tick)
+        speed = np.array([robot.max_speed for robot in profiles])
+        duration *= driving_ticks(np.array(raster.cell_size), speed, tick)[:, None]
     roadmap = Roadmap(
         position=cells.centre,
         level=np.zeros(count, np.int16),
         heading=np.full(count, np.nan),
         edges=edges,
-        duration=np.ones((len(profiles), len(edges)), np.int32),
-        tick=raster.cell_size / slowest,
+        duration=duration.astype(np.int32),
+        tick=tick,
         grid=Raster(
             shape=raster.shape, cell_size=raster.cell_size, origin=raster.origin, cell=cells.cell.astype(np.int32)
         ),
         place=place.astype(np.int32),
         notes=tuple(notes),
     )
-    return with_facilities(roadmap, world, float(fleet.radii.max()))
+    return timing.timed(with_facilities(roadmap, world, float(fleet.radii.max())), profiles)

@@ -4,9 +4,9 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.component import option
-from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.builtin.roadmaps.facilities import with_facilities
 from mrpbench_core.builtin.roadmaps.junctions import LaneSegments, cut_at_junctions
+from mrpbench_core.builtin.roadmaps.motion import KINODYNAMIC_TICK, TimedRoadmap, driving_ticks
 from mrpbench_core.builtin.roadmaps.open_doors import clears_open_doors
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.navigation import called
@@ -18,7 +18,7 @@ from mrpbench_core.model.worlds.world import Lane, World
 
 
 @attrs.frozen(kw_only=True)
-class Graph(RoadmapBuilder):
+class Graph(TimedRoadmap):
     """Vertices are places and junctions of lanes, edges are lanes of the RMF navigation graphs. A robot that is bound
     to a graph (`fleet: [{robot: …, graph: 0}]`) uses the lanes of that graph only.
 
@@ -27,7 +27,12 @@ class Graph(RoadmapBuilder):
     plan of minutes has a few hundred ticks.
     """
 
-    tick: float = option(0.5, help="Time step of durations.", unit="s", validator=attrs.validators.gt(0))
+    tick: float | None = option(
+        None,
+        help="Time step of durations; by default 0.5 s, or 0.1 s if they are kinodynamic.",
+        unit="s",
+        validator=attrs.validators.optional(attrs.validators.gt(0)),
+    )
     tolerance: float = option(
         0.2,
         help="A lane that passes a vertex nearer than this leads through it; vertices nearer to one another are one.",
@@ -39,12 +44,13 @@ class Graph(RoadmapBuilder):
         """Cut the lanes of each level at their junctions and leave out those on which no robot can drive."""
         if not world.lanes:
             raise InputError(f"world {world.name!r} has no lanes", hint="try roadmap: grid")
+        tick = self.tick or (KINODYNAMIC_TICK if self.is_kinodynamic else 0.5)
         pieces, level = _cut(world, self.tolerance)
-        profiles, _ = fleet.profiles
+        profiles = self.profiles(fleet)
         smallest = min(robot.radius for robot in profiles)
         stands = _clear(world, level, pieces.position, pieces.position, smallest)
         offered: Bool = np.stack([_lanes_of(world, robot)[pieces.lane] for robot in profiles])
-        duration = np.stack([_ticks(world, pieces, level, robot, self.tick) for robot in profiles])
+        duration = np.stack([_ticks(world, pieces, level, robot, tick) for robot in profiles])
         duration = np.where(offered, duration, -1)
         drivable = (duration >= 0).any(axis=0) & stands[pieces.ends[:, 0]] & stands[pieces.ends[:, 1]]
         edges, duration = _directed(pieces, world.lanes, duration, drivable)
@@ -57,12 +63,12 @@ class Graph(RoadmapBuilder):
             heading=np.full(stands.sum(), np.nan),
             edges=number[edges],
             duration=duration.astype(np.int32),
-            tick=self.tick,
+            tick=tick,
             place=number[pieces.vertex],
             resources=_mutexes(world, pieces, number, number[edges]),
             notes=(*_notes(world, pieces, drivable, np.any(offered, axis=0)), *_lost(world, number[pieces.vertex] < 0)),
         )
-        return with_facilities(roadmap, world, float(fleet.radii.max()))
+        return self.timed(with_facilities(roadmap, world, float(fleet.radii.max())), profiles)
 
 
 def _cut(world: World, tolerance: float) -> tuple[LaneSegments, Int]:
@@ -106,7 +112,7 @@ def _ticks(world: World, pieces: LaneSegments, level: Int, robot: RobotModel, ti
     start, end = pieces.position[pieces.ends[:, 0]], pieces.position[pieces.ends[:, 1]]
     limit = np.array([lane.speed_limit or np.inf for lane in world.lanes])[pieces.lane]
     length = np.hypot(*(end - start).T)
-    ticks = np.maximum(1, np.ceil(length / np.minimum(limit, robot.max_speed) / tick - 1e-9)).astype(np.int64)
+    ticks = driving_ticks(length, np.minimum(limit, robot.max_speed), tick)
     clear = _clear(world, level[pieces.ends[:, 0]], start, end, robot.radius)
     return np.where(clear, ticks, -1)
 

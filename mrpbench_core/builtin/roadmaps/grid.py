@@ -4,7 +4,6 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.component import option
-from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.builtin.roadmaps.cells import (
     cell_roadmap,
     connect,
@@ -14,6 +13,7 @@ from mrpbench_core.builtin.roadmaps.cells import (
     places,
     without_contacts,
 )
+from mrpbench_core.builtin.roadmaps.motion import TimedRoadmap
 from mrpbench_core.checking.clearance import solids
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
@@ -25,7 +25,7 @@ DEFAULT_CELL_SIZE = 0.4
 
 
 @attrs.frozen(kw_only=True)
-class GridRoadmap(RoadmapBuilder):
+class GridRoadmap(TimedRoadmap):
     """Cells in which the largest robot touches nothing, with edges on which it touches nothing.
 
     Only cells that are connected with a place of the world are kept, so that robots stay inside the building; in a
@@ -51,12 +51,12 @@ class GridRoadmap(RoadmapBuilder):
             if 2 * radius <= own.cell_size and not solids(
                 level
             ):  # moving between neighbours never leaves the two cells
-                return cell_roadmap(cells, places(cells, world), world, fleet, [])
+                return cell_roadmap(self, cells, places(cells, world), world, fleet, [])
         else:
             cells = connect(_open_raster(world, self.cell_size or DEFAULT_CELL_SIZE))
         cells = without_contacts(cells, world, radius)
         cells, place = only_reachable(cells, places(cells, world))
-        return cell_roadmap(cells, place, world, fleet, [])
+        return cell_roadmap(self, cells, place, world, fleet, [])
 
 
 def _default(own: Occupancy, radius: float) -> float:

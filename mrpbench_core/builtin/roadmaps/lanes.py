@@ -6,7 +6,6 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.component import option
-from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.builtin.roadmaps.cells import (
     cell_roadmap,
     connect,
@@ -16,6 +15,7 @@ from mrpbench_core.builtin.roadmaps.cells import (
     places,
     without_contacts,
 )
+from mrpbench_core.builtin.roadmaps.motion import TimedRoadmap
 from mrpbench_core.builtin.roadmaps.mrp_bench import mrp_bench_raster
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
@@ -32,7 +32,7 @@ _ROUNDING = 1e-6
 
 
 @attrs.frozen(kw_only=True)
-class Lanes(RoadmapBuilder):
+class Lanes(TimedRoadmap):
     """Roads along the lanes, wide enough for two robots to pass.
 
     A cell belongs to a road if its centre is less than one cell from a lane; at exactly one cell it belongs to the road
@@ -60,7 +60,7 @@ class Lanes(RoadmapBuilder):
             cells = connect(mrp_bench_raster(world, self.cell_size))
             place = _own_cells(cells.cell, cells.raster, world)
             left = without_contacts(cells, world, radius)
-            return cell_roadmap(cells, place, world, fleet, _contacts(len(cells.edges) - len(left.edges), "kept"))
+            return cell_roadmap(self, cells, place, world, fleet, _contacts(len(cells.edges) - len(left.edges), "kept"))
         wide = connect(_roads(world, self.cell_size))
         clear = without_contacts(wide, world, radius)
         place = places(clear, world)
@@ -69,7 +69,7 @@ class Lanes(RoadmapBuilder):
             *_broken(world, place, components(len(clear.cell), clear.edges), radius),
         ]
         cells, place = only_reachable(clear, place)
-        return cell_roadmap(cells, place, world, fleet, notes)
+        return cell_roadmap(self, cells, place, world, fleet, notes)
 
 
 def _roads(world: World, size: float) -> Occupancy:

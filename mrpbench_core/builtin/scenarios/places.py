@@ -63,8 +63,9 @@ def places_of_world(world: World, roadmap: Roadmap | None = None) -> Places:
 
 
 def places_of_roadmap(roadmap: Roadmap) -> Places:
-    """Return every vertex of the roadmap, without names."""
-    return Places(position=roadmap.position, level=roadmap.level, vertex=np.arange(len(roadmap.position)), names=())
+    """Return every place of the roadmap, without names: the first vertex where several are at one place."""
+    vertex = roadmap.distinct
+    return Places(position=roadmap.position[vertex], level=roadmap.level[vertex], vertex=vertex, names=())
 
 
 def connected(roadmap: Roadmap, places: Places) -> Int:

@@ -67,8 +67,9 @@ def speed_limits(world: World, roadmap: Roadmap) -> np.ndarray:
     start, end = roadmap.edges[:, 0], roadmap.edges[:, 1]
     span = roadmap.position[end] - roadmap.position[start]
     ticks = np.where(roadmap.duration > 0, roadmap.duration, np.iinfo("i4").max).min(axis=0)
-    limits: np.ndarray = np.hypot(span[:, 0], span[:, 1]) / (ticks * roadmap.tick)
-    return np.where(roadmap.level[start] == roadmap.level[end], limits, np.inf)  # in a lift it is the lift that drives
+    length = np.hypot(span[:, 0], span[:, 1])
+    drives = (roadmap.level[start] == roadmap.level[end]) & (length > 0)  # in a lift it is the lift that drives
+    return np.where(drives, length / (ticks * roadmap.tick), np.inf)
 
 
 def start_poses(routes: tuple[Route, ...], start_yaw: np.ndarray) -> np.ndarray:

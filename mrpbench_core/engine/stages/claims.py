@@ -13,9 +13,6 @@ from mrpbench_core.engine.stages.judge import Promises
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
 
-UNCHECKED = frozenset({Feature.HEADINGS})
-"""Features that `check_plan` does not check: a plan for such a problem refutes no claim."""
-
 
 def claims_of(promises: Promises, problem: Problem, result: PlanResult) -> dict[str, Any]:
     """Return the entry `plan` of the record; see `docs/reference/results-folder.md`.
@@ -25,8 +22,6 @@ def claims_of(promises: Promises, problem: Problem, result: PlanResult) -> dict[
         problem: the first problem of the run.
         result: the answer, which breaks no promise within this run.
     """
-    if problem.features & UNCHECKED:
-        return {}
     setting = fingerprint(attrs.evolve(problem, goals=(), features=problem.features & {Feature.FOOTPRINTS}))
     sound = result.plan is not None and not result.statistics.get("conflicts")
     bounds = bool({Promise.OPTIMAL, Promise.BOUNDED} & promises.kept) and not result.clock_bound

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mrpbench_core.api.assigner import Cost
+from mrpbench_core.engine.stages.prepare import goal_vertices, start_vertices
 from mrpbench_core.engine.travel import travel_ticks
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.common.fleet import Fleet
@@ -33,8 +34,7 @@ def _length(span: Float, kind: Cost) -> Float:
 
 
 def _travel_times(roadmap: Roadmap, fleet: Fleet, scenario: Scenario) -> Float:
-    start = roadmap.locate(scenario.start[:, :2], scenario.start_level)
-    goals = [roadmap.locate(task.goals[:, :2], task.levels).tolist() for task in scenario.tasks]
+    start, goals = start_vertices(roadmap, scenario), goal_vertices(roadmap, scenario)
     profile = np.array(fleet.profiles[1], np.int64)
     costs = np.empty((len(start), len(goals)))
     for row in np.unique(profile):
@@ -43,7 +43,7 @@ def _travel_times(roadmap: Roadmap, fleet: Fleet, scenario: Scenario) -> Float:
     return costs * roadmap.tick
 
 
-def _profile_times(roadmap: Roadmap, profile: int, start: Int, goals: list[list[int]]) -> Float:
+def _profile_times(roadmap: Roadmap, profile: int, start: Int, goals: list[tuple[int, ...]]) -> Float:
     """Ticks f8[robots,tasks] for robots of one motion profile; inf where there is no way or a place is off the map."""
     targets = sorted({goal for sequence in goals for goal in sequence if goal >= 0})
     sources = sorted({*start.tolist(), *targets} - {-1})

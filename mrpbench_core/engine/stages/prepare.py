@@ -11,6 +11,7 @@ from mrpbench_core.engine.own import Handed, own
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.fleet import build_fleet
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario
@@ -60,13 +61,12 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
         scenario = attrs.evolve(scenario, tasks=(), stream=f"{options_text(config.tasks)} {config.seed}")
     if any(task.release > 0 for task in scenario.tasks) or len(scenario.tasks) > len(fleet):
         raise InputError("scenario: tasks released over time, or more tasks than robots, cannot be executed yet")
-    start = roadmap.locate(scenario.start[:, :2], scenario.start_level)
     return RunInstance(
         world=world,
         fleet=fleet,
         roadmap=roadmap,
         scenario=scenario,
-        start=start,
+        start=start_vertices(roadmap, scenario),
         goals=goal_vertices(roadmap, scenario),
     )
 
@@ -88,6 +88,15 @@ def summary(faults: list[str], shown: int = 3) -> str:
     return "; ".join(faults[:shown]) + more
 
 
+def start_vertices(roadmap: Roadmap, scenario: Scenario) -> Int32:
+    """The roadmap vertices i4[n] at which robots start; -1 = not on the roadmap. Robots with any yaw start with 0."""
+    vertex = roadmap.locate(scenario.start[:, :2], scenario.start_level)
+    return roadmap.facing(vertex, np.nan_to_num(scenario.start[:, 2]))
+
+
 def goal_vertices(roadmap: Roadmap, scenario: Scenario) -> list[tuple[int, ...]]:
     """The roadmap vertices of each task's goals, in order; -1 = not on the roadmap."""
-    return [tuple(int(vertex) for vertex in roadmap.locate(task.goals[:, :2], task.levels)) for task in scenario.tasks]
+    found = [
+        roadmap.facing(roadmap.locate(task.goals[:, :2], task.levels), task.goals[:, 2]) for task in scenario.tasks
+    ]
+    return [tuple(vertices.tolist()) for vertices in found]

@@ -63,8 +63,9 @@ def problem_with_features(
     """The problem of driving `fleet` from vertices `start` i4[n] to `goals`, with the features it needs.
 
     Footprints matter where discs of the fleet's radii do not fit on the roadmap side by side: on every roadmap that is
-    no raster, and on a raster whose cells are smaller than the two largest robots. On a wider raster the field's usual
-    point-like conflicts suffice, since a dispatcher admits no robot to a cell before the last one has cleared it.
+    no raster, on one with several vertices at a place, and on a raster whose cells are smaller than the two largest
+    robots. On a wider raster the field's usual point-like conflicts suffice, since a dispatcher admits no robot to a
+    cell before the last one has cleared it.
     """
     profile = np.array(fleet.profiles[1], np.int32)
     problem = Problem(
@@ -76,8 +77,9 @@ def problem_with_features(
         goals=goals,
     )
     wide = 2 * float(np.sort(fleet.radii)[-2:].mean())
-    crowded = roadmap.grid is None or wide > roadmap.grid.cell_size + 1e-9
-    features = features_of(problem) | ({Feature.FOOTPRINTS} if crowded else set())
+    features = features_of(problem)
+    crowded = Feature.HEADINGS in features or roadmap.grid is None or wide > roadmap.grid.cell_size + 1e-9
+    features |= {Feature.FOOTPRINTS} if crowded else set()
     return attrs.evolve(problem, features=features)
 
 

@@ -24,6 +24,7 @@ class Feature(StrEnum):
     PROFILES = "profiles"
     """More than one motion profile."""
     HEADINGS = "headings"
+    """Some vertices prescribe a yaw. A move that turns on the spot is an edge between vertices at one place."""
     GOAL_SETS = "goal_sets"
     GOAL_SEQUENCES = "goal_sequences"
     COMMITMENTS = "commitments"

@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.model.common.arrays import Float, Int16, Int32, array
+from mrpbench_core.model.common.arrays import Float, Int, Int16, Int32, array
 
 
 @attrs.frozen(kw_only=True)
@@ -75,15 +75,38 @@ class Roadmap:
     def locate(self, points: Float, levels: Int16) -> Int32:
         """Return the vertex i4[n] that represents each of `points` f8[n,2] on `levels` i2[n]; -1 means none.
 
-        On a raster it is the vertex of the cell that contains the point, otherwise the nearest vertex within 1 m.
+        On a raster it is the vertex of the cell that contains the point, otherwise the nearest vertex within 1 m; the
+        first of several at one place.
         """
         if self.grid is None:
             found = [self.nearest(x, y, level) for (x, y), level in zip(points, levels, strict=True)]
             return np.array([vertex if distance <= 1.0 else -1 for vertex, distance in found], "i4")
         rows, columns = self.grid.shape
         table = np.full(rows * columns, -1, "i4")
-        table[self.grid.cell[:, 0] * columns + self.grid.cell[:, 1]] = np.arange(len(self.grid.cell))
+        flat = self.grid.cell[:, 0] * columns + self.grid.cell[:, 1]
+        table[flat[::-1]] = np.arange(len(flat))[::-1]  # the first vertex of each cell
         cell = np.floor((np.atleast_2d(points) - self.grid.origin) / self.grid.cell_size).astype(int)
         inside = (cell >= 0).all(1) & (cell[:, 0] < columns) & (cell[:, 1] < rows)
         inside &= np.isin(levels, self.level)  # a raster has one level
         return np.where(inside, table[np.where(inside, cell[:, 1] * columns + cell[:, 0], 0)], -1).astype("i4")
+
+    def facing(self, vertices: Int32, yaw: Float) -> Int32:
+        """Return the vertices i4[n] at the places of `vertices` i4[n] whose headings are nearest to `yaw` f8[n].
+
+        A vertex remains as it is where the yaw is NaN, where no vertex at its place has a heading, and where it is -1.
+        """
+        found = np.array(vertices, np.int32)
+        headed = np.flatnonzero(~np.isnan(self.heading))
+        position, level, heading = self.position[headed], self.level[headed], self.heading[headed]
+        for index in np.flatnonzero((found >= 0) & ~np.isnan(yaw)).tolist() if len(headed) else ():
+            here = (position == self.position[found[index]]).all(axis=1) & (level == self.level[found[index]])
+            if here.any():
+                error = np.abs(np.remainder(heading[here] - yaw[index] + np.pi, 2 * np.pi) - np.pi)
+                found[index] = headed[here][error.argmin()]
+        return found
+
+    @property
+    def distinct(self) -> Int:
+        """The first vertex i8[k] of each place, in order; all vertices where no two are at one place."""
+        place = np.column_stack([self.position, self.level])
+        return np.sort(np.unique(place, axis=0, return_index=True)[1])

@@ -17,8 +17,8 @@ from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.testing.oracles.conflict_rules import ConflictRules, Uses
 from mrpbench_core.testing.oracles.robot_steps import DONE, RobotState, RobotStep, RobotSteps
 
-UNSUPPORTED = frozenset({Feature.HORIZON, Feature.HEADINGS})
-"""Features that this search does not support."""
+UNSUPPORTED = frozenset({Feature.HORIZON})
+"""The feature that this search does not support."""
 MOST_STATES = 6_000
 """States after which a search ends without an answer, by default."""
 

@@ -18,7 +18,6 @@ from mrpbench_core.testing.oracles.optimum import UNSUPPORTED, least_sum_of_cost
 from mrpbench_core.testing.oracles.planner_call import call
 from mrpbench_core.testing.suites.component import ComponentConformance
 
-UNCHECKED = frozenset({Feature.HEADINGS})
 """Features that `check_plan` does not check."""
 MOST_STATES = 400_000
 """Joint states that the search for an optimum may see; the problems here need far fewer."""
@@ -91,8 +90,6 @@ class PlannerConformance(ComponentConformance):
                 require(
                     not (promised and report.conflicts), f"{name}: {'; '.join(str(each) for each in report.conflicts)}"
                 )
-        if unchecked := sorted(planner.supports & UNCHECKED):
-            raise Skip(f"the plans are valid, but {' and '.join(unchecked)} cannot be validated yet")
 
     def test_gives_every_robot_a_task_of_its_own(self) -> None:
         planner = self.make()

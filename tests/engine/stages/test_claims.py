@@ -36,11 +36,6 @@ def test_a_proof_that_no_plan_exists_is_a_claim(run_context):
     assert found["cost"] is found["lower_bound"] is found["factor"] is None
 
 
-def test_problems_whose_plans_cannot_be_checked_have_no_claims(run_context):
-    problem = attrs.evolve(run_context.problem, features=frozenset({Feature.HEADINGS}))
-    assert claims_of(OPTIMAL, problem, run_context.result) == {}
-
-
 @pytest.mark.parametrize(
     "change",
     [

@@ -21,6 +21,7 @@ SUPPORTED = frozenset(
         Feature.EDGE_DURATIONS,
         Feature.FOOTPRINTS,
         Feature.PROFILES,
+        Feature.HEADINGS,
         Feature.GOAL_SETS,
         Feature.COMMITMENTS,
         Feature.FOLLOWING_FORBIDDEN,
