@@ -25,8 +25,9 @@ class CrowdSession(ABC):
     def step(self, dt: float, seen: CrowdView) -> Movers:
         """Move for `dt` simulated seconds; nothing but the crowd itself keeps its members out of walls and robots.
 
-        All crowds move at once, from what was at the beginning of the period. Levels do not change on the way through
-        doors; a member stays on its level.
+        Crowds move in turn, in the order of the configuration: those before this one have moved already, so that nobody
+        of two crowds comes to the same place. Robots are seen where they were at the beginning of the period. A member
+        stays on its level.
         """
 
     def wanted_doors(self) -> Set[str]:

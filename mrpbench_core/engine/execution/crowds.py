@@ -1,4 +1,4 @@
-"""The crowds of one execution: all move at once and see one another; their members are numbered one after another."""
+"""The crowds of one execution: they move in turn and see one another; their members are numbered one after another."""
 
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
@@ -53,14 +53,14 @@ class Crowds:
         """Let a control period pass, from the `state` at its beginning."""
         if not self._sessions:
             return
-        before = self.movers
-        parts = []
-        for session, (first, last) in zip(self._sessions, pairwise(self._first), strict=True):
+        parts = [session.movers for session in self._sessions]
+        for index, (first, last) in enumerate(pairwise(self._first)):
+            before = self.movers
             rest = np.r_[0:first, last : len(self.members)]
             others = Movers(pose=before.pose[rest], velocity=before.velocity[rest], level=before.level[rest])
             seen = CrowdView(state=own(state), others=others, radius=self._radius[rest])
-            parts.append(session.step(self._period, seen))
-        self.movers = self._joined(parts)
+            parts[index] = self._sessions[index].step(self._period, seen)
+            self.movers = self._joined(parts)
 
     def doors(self, state: State, commands: Mapping[str, float]) -> dict[str, float]:
         """Return `commands` to facilities with the doors that members want to be open, or no longer want."""

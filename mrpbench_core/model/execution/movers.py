@@ -37,12 +37,12 @@ class Movers:
 
 @attrs.frozen(kw_only=True)
 class CrowdView:
-    """What a crowd sees at the beginning of a control period: the truth."""
+    """What a crowd sees of the truth when it moves: robots as at the beginning of the control period."""
 
     state: State
     """The robots, and what doors and lifts do."""
     others: Movers
-    """The movers of the other crowds."""
+    """The movers of the other crowds; those of crowds before this one have moved in this period already."""
     radius: Float = array("f8")
     """f8 of those, metres."""
 

@@ -56,14 +56,17 @@ def start(*crowds, world=None):
     return Crowds(crowds, world or room(), fleet(1), PERIOD, 0, 0)
 
 
-def test_members_are_numbered_through_and_see_the_other_crowds_as_they_were():
+def test_members_are_numbered_through_and_see_the_other_crowds_which_move_in_turn():
     crowds = start(ONE, Asking(), TWO)
     assert [member.radius for member in crowds.members] == [0.2, 0.1, 0.4]
     for _ in range(2):
         crowds.step(STATE)
     assert crowds.movers.pose[:, 0].tolist() == pytest.approx([1 + 2 * 2 / 180, 1, 1 + 2 * 2 / 180])
     seen = crowds._sessions[1].seen
-    assert [view.others.pose[:, 0].tolist() for view in seen] == [[1, 1], pytest.approx([1 + 2 / 180] * 2)]
+    assert [view.others.pose[:, 0].tolist() for view in seen] == [
+        pytest.approx([1 + 2 / 180, 1]),
+        pytest.approx([1 + 4 / 180, 1 + 2 / 180]),
+    ]
     assert seen[0].radius.tolist() == [0.2, 0.4]
 
 
