@@ -11,9 +11,17 @@ from mrpbench_core.config.study import load_study
 from mrpbench_core.plugins.registry import Registry
 
 FOLDER = Path(__file__).parents[1] / "studies"
-RUNS_PER_PLANNER = {"table2": 216, "table3": 216, "fig5": 34, "table4": 54, "replicability": 300, "safe": 216}
+RUNS_PER_PLANNER = {
+    "table2": 216,
+    "table3": 216,
+    "fig5": 34,
+    "table4": 54,
+    "replicability": 300,
+    "safe": 216,
+    "late_robots": 180,
+}
 """Runs of each planner that is installed."""
-PLANNERS = {"table2": 4, "table3": 4, "fig5": 6, "table4": 6, "replicability": 1, "safe": 1}
+PLANNERS = {"table2": 4, "table3": 4, "fig5": 6, "table4": 6, "replicability": 1, "safe": 1, "late_robots": 1}
 
 
 def missing_planners():
