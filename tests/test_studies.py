@@ -19,9 +19,19 @@ RUNS_PER_PLANNER = {
     "replicability": 300,
     "safe": 216,
     "late_robots": 180,
+    "orders": 10,
 }
 """Runs of each planner that is installed."""
-PLANNERS = {"table2": 4, "table3": 4, "fig5": 6, "table4": 6, "replicability": 1, "safe": 1, "late_robots": 1}
+PLANNERS = {
+    "table2": 4,
+    "table3": 4,
+    "fig5": 6,
+    "table4": 6,
+    "replicability": 1,
+    "safe": 1,
+    "late_robots": 1,
+    "orders": 1,
+}
 
 
 def missing_planners():
