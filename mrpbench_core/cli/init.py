@@ -66,7 +66,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _first_installed(kind: str, names: tuple[str, ...]) -> str:
     offered = _offered(kind)
-    return next((name for name in (*names, *offered) if name in offered), names[0])
+    return next((name for name in names if name in offered), names[0])
 
 
 def _offered(kind: str) -> list[str]:

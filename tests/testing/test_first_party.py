@@ -64,6 +64,7 @@ def required(kind, name, folder):
     (folder / "tiny.scen").write_text(INSTANCES)
     (folder / "tiny.pgm").write_text("P2 2 1 255 0 255")
     (folder / "tiny.yaml").write_text("image: tiny.pgm\nresolution: 1\norigin: [0, 0, 0]\n")
+    (folder / "barn.csv").write_text("world,x,y\n0,-2,5\n")
     solver = folder / "solver"
     solver.write_text(SOLVER.format(python=sys.executable))
     solver.chmod(0o755)
@@ -72,7 +73,10 @@ def required(kind, name, folder):
         ("world", "movingai"): {"file": folder / "tiny.map"},
         ("world", "ros_map"): {"file": folder / "tiny.yaml"},
         ("world", "rmf"): {"file": FOLDER / "office.building.yaml"},
+        ("world", "barn"): {"file": folder / "barn.csv", "index": 0},
+        ("task_source", "poisson"): {"rate": 6.0},
         ("controller", "rotation_shim"): {"primary_controller": load(named("controller", "rpp"))()},
+        ("planner", "rolling_horizon"): {"planner": load(named("planner", "prioritized"))()},
         ("planner", "external"): {"binary": solver, "arguments": "{map} {scen} {paths}"},
         ("scenario", "random"): {"robots": 3},
         ("scenario", "named"): {"starts": tuple(places[:2]), "goals": tuple(places[2:4])},

@@ -4,10 +4,11 @@ import math
 from collections.abc import Mapping
 
 from mrpbench_core.api.metric import Column, Metric, Value
+from mrpbench_core.checking.recording import LAYOUTS
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.testing.faults import Skip, require
-from mrpbench_core.testing.fixtures.finished_run import channels, context, finished, permuted
+from mrpbench_core.testing.fixtures.finished_run import context, finished, permuted
 from mrpbench_core.testing.suites.component import ComponentConformance
 
 
@@ -47,7 +48,7 @@ class MetricConformance(ComponentConformance):
     def test_requires_channels_that_exist(self) -> None:
         metric = self.make()
         required = metric.requires.union(*(column.requires for column in metric.columns))
-        unknown = sorted(required - {*channels(), "plan", "path", "end"})
+        unknown = sorted(required - {*LAYOUTS, "plan", "path", "end"})
         require(not unknown, f"requires channels that no recording has: {', '.join(unknown)}")
 
     def test_gives_exactly_its_columns(self) -> None:
