@@ -15,8 +15,9 @@ constexpr int kUnit = 50;
 ///< Of value per unit of cost; below it operations of equal cost are told apart.
 constexpr int kCalls = 3000;
 ///< Of `build` for one robot.
-constexpr std::uint64_t kHaste = 4;
-///< Cost by which a robot counts as nearer for each step in which it has not come nearer: nobody waits for ever.
+constexpr std::uint64_t kPatience = 8, kTurn = 16;
+///< A robot that has not come nearer for `kPatience` steps counts as nearer by a share that is drawn anew every `kTurn`
+///< steps: robots that are in one another's way change places in the order, so that nobody waits for ever.
 constexpr double kTemperature = 0.001, kCooling = 0.999;
 constexpr int kNobody = -1, kSeveral = -2;
 
@@ -76,6 +77,7 @@ void Epibt::inherit(const View& view) {
 
 void Epibt::rank(const View& view) {
   const std::size_t robots = view.pose.size();
+  ++steps_;
   std::vector<std::uint64_t> length(robots);
   for (std::size_t i = 0; i < robots; ++i) {
     const int goal = view.goal[i];
@@ -87,7 +89,8 @@ void Epibt::rank(const View& view) {
     waited_[i] = way < nearest_[i] ? 0 : waited_[i] + 1;
     nearest_[i] = std::min(nearest_[i], way);
     const std::uint64_t whole = std::uint64_t{way} + view.rest[i];
-    length[i] = goal < 0 ? ~0ull : whole - std::min(whole, kHaste * waited_[i]);
+    const double share = waited_[i] < kPatience ? 1 : drawn_unit(seed_, i, steps_ / kTurn);
+    length[i] = goal < 0 ? ~0ull : static_cast<std::uint64_t>(share * static_cast<double>(whole));
   }
   order_.resize(robots);
   std::iota(order_.begin(), order_.end(), 0);
@@ -252,8 +255,8 @@ void Epibt::construct(const View& view) {
     if (fixed_[robot]) continue;
     ++stamp_;
     calls_ = 0;
-    build(view, robot, 0);
-    fixed_[robot] = 1;
+    // One that stays gives way to others, or two of them would wait for one another in a dead end.
+    fixed_[robot] = build(view, robot, 0) || std::ranges::count(held_[robot], Action::forward) > 0;
   }
 }
 

@@ -50,7 +50,7 @@ class Epibt final : public Planner {
   std::vector<std::vector<Choice>> choices_;
   std::vector<std::uint8_t> known_, fixed_;
   std::vector<std::uint64_t> visited_;
-  std::uint64_t stamp_ = 0, draws_ = 0;
+  std::uint64_t stamp_ = 0, draws_ = 0, steps_ = 0;
   std::vector<double> weight_;
   std::vector<std::int32_t> order_;
   std::vector<std::int32_t> last_goal_;
