@@ -38,6 +38,14 @@ class Moody(Prioritized):
         return Session(self)
 
 
+@attrs.frozen(kw_only=True)
+class Hopeless(Prioritized):
+    """Finds no plan."""
+
+    def plan(self, problem, budget):
+        return PlanResult(status=PlanStatus.GAVE_UP)
+
+
 class Session(PlannerSession):
     def __init__(self, planner):
         self.planner, self.calls = planner, 0
@@ -118,3 +126,11 @@ def test_a_planner_that_fails_now_and_then_does_not_end_the_run(tmp_path):
     assert record["status"] == "succeeded", record
     assert "replan_failed" in channels["event_kind"]
     assert happened(channels, "done")
+
+
+def test_a_run_in_which_no_plan_is_found_does_not_succeed(tmp_path):
+    (tmp_path / "hopeless.py").write_text(PLANNERS)
+    planner = {"plugin": "rolling_horizon", "planner": f"{tmp_path}/hopeless.py:Hopeless"}
+    record, _ = run(tmp_path, planner=planner, limits={"execution": 12})
+    assert record["status"] == "goals_missed"
+    assert "no plan was found and no task was done within 12 simulated seconds" in record["error"]["message"]

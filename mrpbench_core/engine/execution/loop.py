@@ -92,7 +92,8 @@ class ExecutionResult:
     """The end of an execution."""
 
     succeeded: bool
-    """Every robot completed the last move of its path; with tasks that come over time: no robot gave up."""
+    """Every robot completed the last move of its path; with tasks that come over time: no robot gave up, and
+    the planner found plans."""
     gave_up: tuple[str, ...]
     """Robots that gave up, each with the cause if the navigator named one."""
     simulated_s: float
@@ -308,7 +309,7 @@ class ExecutionLoop:
             for robot in gave_up.nonzero()[0].tolist()
         )
         return ExecutionResult(
-            succeeded=bool(arrivals.arrived.all() if tasks is None else not gave_up.any()),
+            succeeded=bool(arrivals.arrived.all() if tasks is None else not (gave_up.any() or tasks.unserved)),
             gave_up=causes,
             simulated_s=self._now,
             contradiction=arrivals.contradiction(),

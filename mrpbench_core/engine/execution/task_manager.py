@@ -86,6 +86,11 @@ class TaskManager:
         """True if all tasks are done and none will come."""
         return self._stream.ended and not self._board.jobs
 
+    @property
+    def unserved(self) -> bool:
+        """True if no task was done and the planner finds no plan."""
+        return self._failures > 0 and self._board.finished == 0
+
     def begin(self, now: float, head: Int, aborted: Bool) -> None:
         """Take in the tasks released until `now`, and have them assigned.
 

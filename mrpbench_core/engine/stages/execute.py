@@ -208,5 +208,6 @@ def _failure(result: ExecutionResult, config: RunConfig) -> RunEnded | None:
         causes = "; ".join(result.gave_up[:3]) + ("; …" if len(result.gave_up) > 3 else "")
         said = f"a robot gave up before all had arrived: {causes}"
         return RunEnded(RunStatus.EXECUTION_ABORTED, Stage.EXECUTION, said)
-    late = f"not all robots arrived within {config.limits.execution:g} simulated seconds"
+    missed = "not all robots arrived" if config.tasks is None else "no plan was found and no task was done"
+    late = f"{missed} within {config.limits.execution:g} simulated seconds"
     return RunEnded(RunStatus.GOALS_MISSED, Stage.EXECUTION, result.contradiction or late)

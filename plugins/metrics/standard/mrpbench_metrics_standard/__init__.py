@@ -8,6 +8,7 @@ from mrpbench_metrics_standard.delay import Delay
 from mrpbench_metrics_standard.efficiency import Efficiency
 from mrpbench_metrics_standard.execution import Execution
 from mrpbench_metrics_standard.fairness import Fairness
+from mrpbench_metrics_standard.people import People
 from mrpbench_metrics_standard.planning import Planning
 from mrpbench_metrics_standard.smoothness import Smoothness
 from mrpbench_metrics_standard.stops import Stops
@@ -25,6 +26,7 @@ __all__ = [
     "Efficiency",
     "Execution",
     "Fairness",
+    "People",
     "Planning",
     "Smoothness",
     "Stops",

@@ -1,0 +1,65 @@
+"""The metric `people` on encounters counted by hand."""
+
+import attrs
+import numpy as np
+import pytest
+from mrpbench_metrics_standard import People
+from mrpbench_metrics_standard.people import time_to_collision
+
+from mrpbench_core.model.execution.movers import Mover
+
+
+@pytest.fixture
+def met(executed):
+    """A robot (radius 0.2 m) in the origin for 100 s, at `speed`, and a person (0.3 m) along y = 1 from x = -5 to 5."""
+
+    def make(speed=0.0, contacts=(), absent=()):
+        time = np.arange(101.0)
+        run = executed(time, [[(0, 0)] * 101], [[0] * 101], [[(0, 0)]], radii=[0.2], contacts=contacts)
+        person = np.zeros((101, 1, 5))
+        person[:, 0, 0], person[:, 0, 1], person[:, 0, 3] = np.linspace(-5, 5, 101), 1.0, 0.1
+        level = np.zeros((101, 1), "i2")
+        level[list(absent)] = -1
+        twist = np.zeros((101, 1, 2))
+        twist[..., 0] = speed
+        channels = {"truth_twist": twist, "mover": person, "mover_level": level}
+        loaders = {name: (lambda rows=rows: rows) for name, rows in channels.items()}
+        context = attrs.evolve(run.context, movers=(Mover(radius=0.3),))
+        return attrs.evolve(run, context=context, channels={**run.channels, **loaders})
+
+    return make
+
+
+def test_times_within_hall_s_distances_are_those_of_a_hand_count(met):
+    found = People().measure(met())
+    assert found["distance_min_m"] == pytest.approx(0.5)
+    assert found["intimate_standing_s_per_h"] == found["personal_moving_s_per_h"] == 0
+    assert found["personal_standing_s_per_h"] == pytest.approx(27 * 36)  # 27 of 101 samples, a second each, in 100 s
+    assert People().measure(met(speed=0.1))["personal_moving_s_per_h"] == pytest.approx(27 * 36)
+
+
+def test_contacts_count_by_hours_of_robots_and_of_people(met):
+    contacts = [(10.0, 0, 1), (10.5, 0, 1), (20.0, 0, 1), (30.0, 0, -1)]
+    found = People().measure(met(contacts=contacts))
+    assert found["contacts_per_robot_h"] == found["contacts_per_person_h"] == pytest.approx(2 * 36)
+    half = People().measure(met(contacts=contacts, absent=range(50, 101)))
+    assert half["contacts_per_robot_h"] == pytest.approx(2 * 36)
+    assert half["contacts_per_person_h"] == pytest.approx(2 * 72)
+
+
+def test_one_who_is_absent_is_nowhere_near(met):
+    assert People().measure(met(absent=range(45, 56)))["distance_min_m"] == pytest.approx(np.hypot(0.6, 1) - 0.5)
+
+
+@pytest.mark.parametrize(
+    ("offset", "expected"),
+    [((2, 0), 0.7), ((2, 0.5), 0.834169), ((2, 0.7), np.inf), ((0.5, 0), 0.0), ((-2, 0), np.inf)],
+)
+def test_the_time_to_a_collision_is_that_of_two_discs(offset, expected):
+    found = time_to_collision(np.array(offset, float), np.array([-2.0, 0.0]), np.array(0.6))
+    assert found == pytest.approx(expected, abs=1e-6)
+
+
+def test_runs_without_movers_have_null(executed):
+    run = executed([0, 1], [[(0, 0)] * 2], [[0, 0]], [[(0, 0)]])
+    assert set(People().measure(run).values()) == {None}
