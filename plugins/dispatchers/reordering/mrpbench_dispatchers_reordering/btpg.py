@@ -1,4 +1,4 @@
-"""The dispatcher `btpg`: where both orders of two robots are safe, whoever comes first goes first.
+"""The dispatcher `btpg`: where both orders of two robots are safe, the first to arrive passes first.
 
 Su, Veerapaneni and Li, "Bidirectional temporal plan graph: enabling switchable passing orders for more efficient
 multi-agent path finding plan execution", AAAI 2024. `bidirectional` decides once per plan which orders stay open. Every
@@ -8,28 +8,21 @@ new order is also verified like that of a plan (`mrpbench_core.dispatching`) bef
 import attrs
 import numpy as np
 
-from mrpbench_core.api import DispatchError, option
+from mrpbench_core.api import option
 from mrpbench_core.dispatching.dependency_graph import CLEARED, REACHED
-from mrpbench_core.dispatching.order_keeping import OrderKeepingDispatcher, OrderKeepingSession
 from mrpbench_core.model.common.arrays import Bool, Int
 from mrpbench_core.model.execution.orders import FleetView, Orders
-from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.model.planning.type2_edges import without_implied
 from mrpbench_dispatchers_reordering.bidirectional import open_groups
-from mrpbench_dispatchers_reordering.visits import NONE, Pairs, conflicting, order_of, visits_of
+from mrpbench_dispatchers_reordering.switching import SwitchingDispatcher, SwitchingSession
+from mrpbench_dispatchers_reordering.visits import NONE
 
 
 @attrs.frozen(kw_only=True)
-class Btpg(OrderKeepingDispatcher):
-    """Releases moves in the order of the plan, except that a robot that comes first goes first where that is safe."""
+class Btpg(SwitchingDispatcher):
+    """Releases moves in the order of the plan, except that the first robot to arrive passes first where it is safe."""
 
-    lookahead: int = option(
-        4,
-        help="segments released at most beyond the one under way; their order cannot change any more",
-        validator=attrs.validators.ge(1),
-    )
     group_limit: int = option(
         2000,
         help="groups of places that are searched for cycles at the start of a plan; the others keep their order",
@@ -45,7 +38,7 @@ class Btpg(OrderKeepingDispatcher):
         return BtpgSession(self, problem, plan)
 
 
-class BtpgSession(OrderKeepingSession):
+class BtpgSession(SwitchingSession):
     """Releases one plan after another, each at first in its own order."""
 
     options: Btpg
@@ -57,10 +50,6 @@ class BtpgSession(OrderKeepingSession):
             DispatchError: as `OrderKeepingSession.adopt`.
         """
         super().adopt(problem, plan)
-        moves = self.graph.moves
-        self.visits = visits_of(problem, moves)
-        self.pairs = conflicting(problem, self.visits)
-        self.resources = resource_edges(problem, occupations_of(problem, moves))
         limit = self.options.group_limit if problem.horizon is None else 0
         self.group = open_groups(self.graph, self.visits, self.pairs, self.resources, limit)
 
@@ -92,13 +81,7 @@ class BtpgSession(OrderKeepingSession):
         switched = np.isin(self.group, groups)
         if (self._is_released(first[switched]) | self._is_released(second[switched])).any():
             return False
-        order = order_of(self.visits, self.pairs, switched, self.resources)
-        try:
-            self.keep(self.problem, self.plan, without_implied(self.graph.moves, order))
-        except DispatchError:
-            return False  # robots go on in the order that they have
-        self.pairs = Pairs(np.where(switched, second, first), np.where(switched, first, second))
-        return True
+        return self.switch(switched)
 
     def _is_released(self, visit: Int) -> Bool:
         """Tell whether the robots of visits may begin them already."""

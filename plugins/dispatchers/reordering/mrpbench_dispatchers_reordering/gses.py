@@ -12,29 +12,21 @@ import attrs
 import numpy as np
 from mrpbench_native.mapf import reorder
 
-from mrpbench_core.api import DispatchError, option
-from mrpbench_core.dispatching.order_keeping import OrderKeepingDispatcher, OrderKeepingSession
+from mrpbench_core.api import option
 from mrpbench_core.model.execution.orders import FleetView, Orders
-from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.model.planning.type2_edges import without_implied
 from mrpbench_dispatchers_reordering.alternative_graph import MILLISECONDS, State, alternative_graph
 from mrpbench_dispatchers_reordering.progress import Progress
-from mrpbench_dispatchers_reordering.visits import Pairs, conflicting, order_of, visits_of
+from mrpbench_dispatchers_reordering.switching import SwitchingDispatcher, SwitchingSession
 
 MEMORY_BYTES = 1 << 30
 
 
 @attrs.frozen(kw_only=True)
-class Gses(OrderKeepingDispatcher):
+class Gses(SwitchingDispatcher):
     """Releases moves in the order that lets robots arrive earliest, given how late they are."""
 
-    lookahead: int = option(
-        4,
-        help="segments released at most beyond the one under way; their order cannot change any more",
-        validator=attrs.validators.ge(1),
-    )
     period: float = option(1.0, help="least time between two searches", unit="s", validator=attrs.validators.ge(0))
     lateness: float = option(
         1.0,
@@ -69,7 +61,7 @@ class Gses(OrderKeepingDispatcher):
         return GsesSession(self, problem, plan)
 
 
-class GsesSession(OrderKeepingSession):
+class GsesSession(SwitchingSession):
     """Releases one plan after another, each at first in its own order."""
 
     options: Gses
@@ -89,11 +81,7 @@ class GsesSession(OrderKeepingSession):
             DispatchError: as `OrderKeepingSession.adopt`.
         """
         super().adopt(problem, plan)
-        moves = self.graph.moves
-        self.visits = visits_of(problem, moves)
-        self.pairs = conflicting(problem, self.visits)
-        self.resources = resource_edges(problem, occupations_of(problem, moves))
-        self.progress.use(problem, moves)
+        self.progress.use(problem, self.graph.moves)
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Change the order if robots are late and that helps; release the moves that no longer wait for anything."""
@@ -124,10 +112,4 @@ class GsesSession(OrderKeepingSession):
             return
         switched = np.zeros(len(self.pairs.first), bool)
         switched[graph.open] = found.switched.astype(bool)
-        order = order_of(self.visits, self.pairs, switched, self.resources)
-        try:
-            self.keep(self.problem, self.plan, without_implied(self.graph.moves, order))
-        except DispatchError:
-            return  # robots go on in the order that they have
-        first, second = self.pairs
-        self.pairs = Pairs(np.where(switched, second, first), np.where(switched, first, second))
+        self.switch(switched)
