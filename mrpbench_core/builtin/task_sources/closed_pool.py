@@ -7,7 +7,7 @@ import attrs
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.task_source import TaskStream
-from mrpbench_core.builtin.task_sources.drawn import Drawing, DrawnTasks
+from mrpbench_core.builtin.task_sources.drawn import AnyPlace, Drawing
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Task
@@ -15,7 +15,7 @@ from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)
-class ClosedPool(DrawnTasks):
+class ClosedPool(AnyPlace):
     """A finished task is replaced at once, as in the League of Robot Runners: floor(`per_robot` · robots) are always
     unfinished. Errands are drawn at random places of the world.
     """

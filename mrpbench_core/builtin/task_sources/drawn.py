@@ -1,5 +1,7 @@
 """Tasks whose errands are drawn at random places, each from a random stream of its own."""
 
+from abc import abstractmethod
+
 import attrs
 import numpy as np
 
@@ -29,12 +31,9 @@ def stream(seed: int, key: int, index: int) -> np.random.Generator:
 
 @attrs.frozen(kw_only=True)
 class DrawnTasks(TaskSource):
-    """Base of sources whose tasks are drawn: at the named places of the world if it has any, else at any vertex of the
-    roadmap, outside of doors, lifts and mutexes, where every robot can drive between any two.
-    """
+    """Base of sources whose tasks are drawn."""
 
-    errands: int = option(1, help="places that each task visits, in order", validator=attrs.validators.ge(1))
-    service: float = option(0.0, help="rest at each of them", unit="s", validator=attrs.validators.ge(0))
+    service: float = option(0.0, help="rest at each place", unit="s", validator=attrs.validators.ge(0))
     due: float | None = option(
         None,
         help="the deadline of a task, counted from its release; none: no deadlines",
@@ -42,12 +41,25 @@ class DrawnTasks(TaskSource):
         validator=attrs.validators.optional(attrs.validators.gt(0)),
     )
 
+    @abstractmethod
     def places(self, world: World, roadmap: Roadmap) -> tuple[Places, ...]:
         """Return the places from which each errand is drawn, in the order of the errands.
 
         Raises:
             InputError: there are too few.
         """
+
+
+@attrs.frozen(kw_only=True)
+class AnyPlace(DrawnTasks):
+    """Base of sources whose errands are drawn at the named places of the world if it has any, else at any vertex of the
+    roadmap, outside of doors, lifts and mutexes, where every robot can drive between any two.
+    """
+
+    errands: int = option(1, help="places that each task visits, in order", validator=attrs.validators.ge(1))
+
+    def places(self, world: World, roadmap: Roadmap) -> tuple[Places, ...]:
+        """Return the same places for each errand."""
         found = usable_places(world, roadmap)
         if len(found) < min(2, self.errands):
             raise InputError(f"tasks: world {world.name} has {len(found)} places that all robots can reach")

@@ -6,7 +6,7 @@ import attrs
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.task_source import TaskStream
-from mrpbench_core.builtin.task_sources.drawn import ARRIVALS, Drawing, DrawnTasks, stream
+from mrpbench_core.builtin.task_sources.drawn import ARRIVALS, AnyPlace, Drawing, stream
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Task
@@ -14,7 +14,7 @@ from mrpbench_core.model.worlds.world import World
 
 
 @attrs.frozen(kw_only=True)
-class Poisson(DrawnTasks):
+class Poisson(AnyPlace):
     """Tasks arrive independently of one another (a Poisson process), at random places of the world."""
 
     rate: float = option(help="tasks per simulated minute", validator=attrs.validators.gt(0))
