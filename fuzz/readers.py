@@ -23,6 +23,7 @@ from mutation import Mutate, in_zip, mutate_bytes, mutate_npy, mutate_text
 from PIL import Image
 
 from mrpbench_core.builtin.scenarios.movingai import MovingAiScenario
+from mrpbench_core.builtin.task_sources.trace import read_arrivals
 from mrpbench_core.builtin.worlds.barn import Barn
 from mrpbench_core.builtin.worlds.movingai import MovingAi
 from mrpbench_core.builtin.worlds.rmf import Rmf
@@ -35,6 +36,7 @@ from mrpbench_core.engine.stages.measure import measure_recording
 from mrpbench_core.files.jsonl import line
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.files.scenario import read_scenario, write_scenario
+from mrpbench_core.files.tasks import read_tasks
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.world import World
 from mrpbench_core.report.data import write_estimates
@@ -364,6 +366,13 @@ READERS = {
             seeds=lambda: [b"version 1\n0\ta.map\t4\t3\t0\t0\t3\t2\t5\n0\ta.map\t4\t3\t1\t0\t0\t1\t2\n"],
         ),
         Reader(name="scenarios", file="scenario.yaml", read=read_scenario, seeds=scenarios),
+        Reader(
+            name="tasks",
+            file="tasks.csv",
+            read=lambda file: read_tasks(file, lambda _: ((0.0, 0.0, 0.0), 0)),
+            seeds=lambda: [b"release,errands,service,deadline,priority,name\n12,a;1 2 1 0.5,5;0,90,1,x\n0,b,,,,\n"],
+        ),
+        Reader(name="arrivals", file="arrivals.txt", read=read_arrivals, seeds=lambda: [b"0\n2.5 # second\n1e3\n"]),
         Reader(
             name="nav2",
             file="nav2.yaml",

@@ -7,8 +7,8 @@ robots:                       # start of each robot in metres; yaw in radians, a
 tasks:                        # the assigner `identity` assigns task i to robot i
   - {name: "dugong", goals: [{x: 3.0, y: 4.5}]}
 ```
-`level` (index into the world's levels) is absent when 0, and so are `release` (simulated seconds), `service` (seconds at
-each goal, one number or a list), `deadline` (simulated seconds), `priority` and names that say nothing.
+`level` (index into the world's levels) is absent when 0, and so is what says nothing of `release` (simulated seconds),
+`service` (seconds at each goal, one number or a list), `deadline` (simulated seconds), `priority` and names.
 Numbers have enough digits to restore the same double, so that `Scenario.id` does not change.
 """
 

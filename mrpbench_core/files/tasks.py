@@ -5,10 +5,10 @@ release,errands,service,deadline,priority,name
 0,returns;pick_station_1,5,,,
 12.5,3.0 4.5;1.5 2.0 1;dock_1,2;0;8,120,1,urgent
 ```
-Only the column `errands` is required: places in order, separated by `;`. A place is the name of a vertex of the world, or
-x y (metres), then level (index, 0 if absent), then yaw (radians, any if absent), separated by spaces. `service` (seconds)
-is one number for all errands, or one for each. `release` and `deadline` are simulated seconds. Empty cells stand for 0,
-and no deadline.
+Only the column `errands` is required: places in order, separated by `;`. A place is the name of a vertex of the world,
+or x y (metres), then level (index, 0 if absent), then yaw (radians, any if absent), separated by spaces. `service`
+(seconds) is one number for all errands, or one for each. `release` and `deadline` are simulated seconds. Empty cells
+stand for 0, and no deadline.
 """
 
 import csv

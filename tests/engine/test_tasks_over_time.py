@@ -134,3 +134,19 @@ def test_a_run_in_which_no_plan_is_found_does_not_succeed(tmp_path):
     record, _ = run(tmp_path, planner=planner, limits={"execution": 12})
     assert record["status"] == "goals_missed"
     assert "no plan was found and no task was done within 12 simulated seconds" in record["error"]["message"]
+
+
+def test_a_task_of_a_file_takes_a_robot_to_another_floor(tmp_path):
+    (tmp_path / "tasks.csv").write_text("release,errands,service\n2,pharmacy_pickup;ward_21_dropoff,3;1\n")
+    record, channels = run(
+        tmp_path,
+        world="hospital",
+        scenario={"plugin": "named", "starts": ["L1_charger_west_south"], "goals": ["L1_charger_west_south"]},
+        tasks={"plugin": "file", "file": str(tmp_path / "tasks.csv")},
+        control_rate=2,
+        limits={"execution": 500, "iterations": 5},
+    )
+    assert record["status"] == "succeeded"
+    ((_, task, robot),) = happened(channels, "done")
+    assert (task, robot) == (0, 0)
+    assert channels["level"][-1].tolist() == [1]

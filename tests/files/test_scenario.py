@@ -19,12 +19,21 @@ NAME = st.text(st.characters(exclude_categories=["Cs"]), max_size=8) | st.sample
 LEVEL = st.integers(0, 3)
 PLACES = st.lists(st.tuples(POSE, LEVEL), min_size=1, max_size=3)
 TASK = st.builds(
-    lambda places, name, release: Task(
-        goals=[pose for pose, _ in places], levels=[level for _, level in places], name=name, release=release
+    lambda places, name, release, service, deadline, priority: Task(
+        goals=[pose for pose, _ in places],
+        levels=[level for _, level in places],
+        name=name,
+        release=release,
+        service=service[: len(places)],
+        deadline=deadline,
+        priority=priority,
     ),
     PLACES,
     NAME,
     st.floats(0, 1e6),
+    st.lists(st.floats(0, 1e3), min_size=3, max_size=3),
+    st.floats(0, 1e6) | st.just(math.inf),
+    st.integers(-3, 3),
 )
 
 

@@ -65,16 +65,21 @@ def required(kind, name, folder):
     (folder / "tiny.pgm").write_text("P2 2 1 255 0 255")
     (folder / "tiny.yaml").write_text("image: tiny.pgm\nresolution: 1\norigin: [0, 0, 0]\n")
     (folder / "barn.csv").write_text("world,x,y\n0,-2,5\n")
+    places = [vertex.name for vertex in office().vertices if vertex.name]
+    (folder / "arrivals.txt").write_text("0\n2.5\n60\n")
+    (folder / "tasks.csv").write_text(f"errands\n{places[0]};{places[1]}\n")
     solver = folder / "solver"
     solver.write_text(SOLVER.format(python=sys.executable))
     solver.chmod(0o755)
-    places = [vertex.name for vertex in office().vertices if vertex.name]
     return {
         ("world", "movingai"): {"file": folder / "tiny.map"},
         ("world", "ros_map"): {"file": folder / "tiny.yaml"},
         ("world", "rmf"): {"file": FOLDER / "office.building.yaml"},
         ("world", "barn"): {"file": folder / "barn.csv", "index": 0},
         ("task_source", "poisson"): {"rate": 6.0},
+        ("task_source", "pickup_delivery"): {"rate": 6.0, "pickups": tuple(places[:2]), "dropoffs": tuple(places[2:4])},
+        ("task_source", "trace"): {"file": folder / "arrivals.txt"},
+        ("task_source", "file"): {"file": folder / "tasks.csv"},
         ("controller", "rotation_shim"): {"primary_controller": load(named("controller", "rpp"))()},
         ("planner", "rolling_horizon"): {"planner": load(named("planner", "prioritized"))()},
         ("planner", "external"): {"binary": solver, "arguments": "{map} {scen} {paths}"},

@@ -8,6 +8,7 @@ from mrpbench_core.api.component import option
 from mrpbench_core.api.task_source import TaskSource, TaskStream
 from mrpbench_core.builtin.scenarios.names import Names
 from mrpbench_core.builtin.task_sources.listed import ListedStream
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.tasks import Place, read_tasks
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
@@ -31,6 +32,8 @@ class FromFile(TaskSource):
             return (vertex.x, vertex.y, float("nan")), vertex.level
 
         filed = sorted(read_tasks(self.file, find), key=lambda entry: entry.task.release)
+        if not filed:
+            raise InputError("has no tasks", file=self.file)
         for entry in filed:
             off = roadmap.locate(entry.task.goals[:, :2], entry.task.levels) < 0
             if off.any():

@@ -63,7 +63,7 @@ def _chosen(world: World, roadmap: Roadmap, usable: Places, key: str, patterns: 
     position = np.array([(vertex.x, vertex.y) for vertex in vertices])
     located = roadmap.locate(position, np.array([vertex.level for vertex in vertices], np.int16))
     away = ~np.isin(located, usable.vertex)
-    if patterns and away.any() or away.all():
+    if (patterns and away.any()) or away.all():
         name = vertices[int(away.argmax())].name
         raise InputError(f"tasks.{key}: some robot cannot reach {name!r}, or it is in a door, lift or mutex")
     return usable[np.flatnonzero(np.isin(usable.vertex, located))]

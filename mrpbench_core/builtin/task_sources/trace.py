@@ -18,7 +18,7 @@ from mrpbench_core.model.worlds.world import World
 
 @attrs.frozen(kw_only=True)
 class Trace(AnyPlace):
-    """Tasks arrive at the times of a file, e.g. those of the orders of a day. Their errands are drawn at random places."""
+    """Tasks arrive at the times of a file, e.g. those of a day's orders. Their errands are drawn at random places."""
 
     file: Path = option(help="arrivals, one time in seconds a line, in order; `#` begins a comment")
     scale: float = option(1.0, help="factor on all times; 0.5 doubles the rate", validator=attrs.validators.gt(0))
@@ -49,4 +49,6 @@ def read_arrivals(file: Path) -> list[float]:
         if time < times[-1]:
             raise InputError(f"{word} s comes after {times[-1]:g} s", file=file, line=line, hint="sort the times")
         times.append(time)
+    if len(times) == 1:
+        raise InputError("has no times", file=file)
     return times[1:]
