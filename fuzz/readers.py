@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import attrs
+import lorr
 import numpy as np
+from bundles import bundles, read_bundle
 from mrpbench_controllers_dwb.dwb import Dwb
 from mrpbench_exporters_rosbag2.exporter import Rosbag2
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
@@ -325,6 +327,7 @@ def _files(pattern: str) -> Callable[[], list[bytes]]:
 
 
 _RECORDING = in_zip(mutate_npy)
+_BUNDLE = in_zip(mutate_text)
 READERS = {
     reader.name: reader
     for reader in (
@@ -388,6 +391,18 @@ READERS = {
         Reader(name="urdfs", file="cart.urdf", read=read_urdf, seeds=urdfs),
         Reader(name="mcap", file="bag.mcap", read=read_bag, seeds=lambda: bags("mcap"), mutate=mutate_bytes),
         Reader(name="sqlite3", file="bag.db3", read=read_bag, seeds=lambda: bags("sqlite3"), mutate=mutate_bytes),
+        Reader(
+            name="bundles",
+            file="tiny.zip",
+            read=read_bundle,
+            seeds=bundles,
+            mutate=lambda data, rng: (_BUNDLE if rng.random() < 0.8 else mutate_bytes)(data, rng),
+        ),
+        Reader(name="league problems", file="p.json", read=lorr.read_problems, seeds=lorr.problems),
+        Reader(
+            name="league tasks", file="t.tasks", read=lorr.read_cells, seeds=lambda: [lorr.FILES["t.tasks"].encode()]
+        ),
+        Reader(name="league outputs", file="out.json", read=lorr.read_outputs, seeds=lorr.outputs),
         Reader(
             name="outputs",
             file="out.txt",

@@ -89,7 +89,10 @@ def unpack(file: Path, folder: Path, *, programs: bool = False) -> None:
 def _fault(entries: list[zipfile.ZipInfo], size: int) -> str | None:
     """Why a zip file of `size` bytes with these entries is not unpacked."""
     for entry in entries:
-        if fault := _entry_fault(entry):
+        fault = _entry_fault(entry)
+        if fault is None and not 0 <= entry.header_offset < size:
+            fault = "is not inside the zip file"
+        if fault:
             return f"{entry.filename!r:.80} {fault}"
     names: set[str] = set()
     for entry in entries:

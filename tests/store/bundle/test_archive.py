@@ -1,5 +1,6 @@
 """Zip files of bundles: the same bytes for the same files, and no way out of their folder."""
 
+import struct
 import zipfile
 
 import pytest
@@ -42,6 +43,17 @@ def test_entries_that_overlap_are_refused(tmp_path):
             twin.header_offset = first.header_offset
             archive.filelist.append(twin)
     with pytest.raises(InputError, match="its entries overlap"):
+        unpack(file, tmp_path)
+
+
+def test_an_entry_before_the_beginning_of_the_file_is_refused(tmp_path):
+    file = tmp_path / "a.zip"
+    pack(file, {"top/one": b"1"})
+    data = bytearray(file.read_bytes())
+    (place,) = struct.unpack_from("<L", data, len(data) - 6)  # of the central directory
+    struct.pack_into("<L", data, len(data) - 6, place + 50)  # readers take the difference for bytes before the zip file
+    file.write_bytes(data)
+    with pytest.raises(InputError, match="'top/one' is not inside the zip file"):
         unpack(file, tmp_path)
 
 

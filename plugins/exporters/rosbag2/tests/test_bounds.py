@@ -6,10 +6,12 @@ import tracemalloc
 
 import lz4.frame
 import pytest
+from mrpbench_exporters_rosbag2.reading import bounds
 from mrpbench_exporters_rosbag2.reading.bounds import LARGEST, inflate
 from mrpbench_exporters_rosbag2.reading.salvage import END, MAGIC
 from mrpbench_exporters_rosbag2.reading.stream import Stream
-from rosbags.rosbag2 import ReaderError, storage_mcap
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, ReaderError, StoragePlugin, Writer, storage_mcap
+from rosbags.typesys import Stores, get_typestore
 
 from mrpbench_core.files.errors import InputError
 
@@ -79,3 +81,44 @@ def test_a_table_whose_messages_are_computed_is_refused(tmp_path):
     database.close()
     with pytest.raises(InputError, match="table messages computes its values"):
         Stream(file)
+
+
+def written(folder, storage, mode=None):
+    """Write a bag with one message."""
+    writer = Writer(folder, version=9, storage_plugin=storage)
+    if mode is not None:
+        writer.set_compression(mode, CompressionFormat.ZSTD)
+    with writer:
+        connection = writer.add_connection("/a", "std_msgs/msg/String", typestore=get_typestore(Stores.ROS2_HUMBLE))
+        writer.write(connection, 1, struct.pack("<BBBBI", 0, 1, 0, 0, 2) + b"x\0")
+    return folder
+
+
+def test_chunks_that_would_grow_large_together_are_not_read_at_once(tmp_path):
+    folder = written(tmp_path / "bag", StoragePlugin.MCAP)
+    with Stream(folder) as stream:
+        assert len(list(stream.messages(["/a"]))) == 1
+    (file,) = folder.glob("*.mcap")
+    data, place, found = bytearray(file.read_bytes()), len(MAGIC), 0
+    while place < len(data) - len(MAGIC):
+        opcode, length = struct.unpack_from("<BQ", data, place)
+        place += 9 + length
+        if opcode == 8:  # the index of a chunk ends with the size of the chunk when it is decompressed
+            struct.pack_into("<Q", data, place - 8, 2**41)
+            found += 1
+    assert found
+    file.write_bytes(data)
+    with Stream(folder) as stream:  # reads chunk by chunk what such an index does not describe
+        assert "its chunks would take 2048.0 GiB of memory" in stream.notes[-1]
+        assert len(list(stream.messages(["/a"]))) == 1
+
+
+def test_a_file_that_is_compressed_as_a_whole_is_decompressed_within_bounds(tmp_path, monkeypatch):
+    folder = written(tmp_path / "bag", StoragePlugin.SQLITE3, CompressionMode.FILE)
+    with Stream(folder) as stream:
+        assert len(list(stream.messages(["/a"]))) == 1
+    (file,) = folder.glob("*.zstd")
+    monkeypatch.setattr(bounds, "FREE", 2**20)
+    file.write_bytes(PACK["zstd"](bytes(2**24)))
+    with pytest.raises(InputError, match="would grow to more than"):
+        Stream(folder)

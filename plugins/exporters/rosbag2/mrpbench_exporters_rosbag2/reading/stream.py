@@ -111,6 +111,8 @@ class Stream:
             files = [self.path] if self.path.is_file() else sorted(self.path.iterdir())
             files = [file for file in files if file.suffix in STORAGES]
             if not files:
+                if (self.path / "metadata.yaml").is_file():
+                    raise
                 raise InputError("is no rosbag2", file=self.path, hint="give the folder with metadata.yaml") from error
             reason = error.message
         readers = []
