@@ -4,6 +4,7 @@ from abc import ABC, abstractmethod
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -17,10 +18,11 @@ class DispatcherSession(ABC):
         """Return how far along its path each robot may go. Called every control period; `now` in simulated seconds."""
 
     @abstractmethod
-    def adopt(self, problem: Problem, plan: Plan) -> None:
+    def adopt(self, problem: Problem, plan: Plan, cut: Int32 | None = None) -> None:
         """Continue with a new plan that begins with the released part of the old one (`problem.commitments`).
 
-        Segments keep their indices, so progress counts for the new plan as it did for the old one.
+        The first `cut` i4[n] segments of each path, which were driven long ago, are left out; None = nothing is. All
+        counts of segments are less by that from now on, but never below 0; apart from that segments keep their indices.
 
         Raises:
             DispatchError: the new plan cannot be released safely from here. The session continues with the old one.

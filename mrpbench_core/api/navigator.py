@@ -6,6 +6,7 @@ from typing import ClassVar
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.controller import Controller
+from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Motion
 from mrpbench_core.model.execution.observation import FleetObservation
@@ -18,8 +19,12 @@ class NavigatorSession(ABC):
     """Drives a fleet."""
 
     @abstractmethod
-    def adopt(self, routes: Sequence[Route]) -> None:
-        """Follow new routes, one per robot; each begins with the released part of the old one, index by index."""
+    def adopt(self, routes: Sequence[Route], cut: Int32 | None = None) -> None:
+        """Follow new routes, one per robot; each begins with the released part of the old one, index by index.
+
+        The first `cut` i4[n] segments, which were driven long ago, are left out; None = nothing is. All counts of
+        segments are less by that from now on, but never below 0.
+        """
 
     @abstractmethod
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:

@@ -58,7 +58,7 @@ def find_conflicts(problem: Problem, plan: Plan, limit: int | None = None) -> li
 def _occupations(problem: Problem, plan: Plan, robot: int) -> Iterator[Occupation]:
     path = plan.paths[robot]
     at = int(problem.start[robot])
-    since = 0
+    since = problem.begin(robot)
     for edge, enter, leave in zip(path.edge.tolist(), path.enter.tolist(), path.leave.tolist(), strict=True):
         if edge < 0:
             continue
@@ -66,7 +66,7 @@ def _occupations(problem: Problem, plan: Plan, robot: int) -> Iterator[Occupatio
         yield Occupation(robot, at, at, since, enter)
         yield Occupation(robot, tail, head, enter, leave)
         at, since = head, leave
-    last = int(path.leave[-1]) if len(path) else 0
+    last = int(path.leave[-1]) if len(path) else since
     yield Occupation(robot, at, at, since, FOREVER if problem.rules.at_goal == "stay" else max(since, last))
 
 

@@ -48,6 +48,7 @@ def check_rows(name: str, rows: NDArray[Any], time: NDArray[Any], context: RunCo
         "route_level": (0, len(context.world.levels)),
         "mode": (0, max(Mode) + 1),
         "waits_for": (-1, len(context.problem.roadmap.resources)),
+        "route_segment": (0, 2**31),
         "route_edge": (-1, len(context.problem.roadmap.edges)),
         "route_leave": (0, 2**31),
         "released": (0, 2**31),
@@ -161,6 +162,8 @@ def _problem(problem: Problem, robots: int, levels: int) -> Iterator[str]:
     yield from _roadmap(roadmap, levels)
     for name in ("profile", "radius", "start", "ready", "goals"):
         yield from _one_each(f"problem.{name}", getattr(problem, name), robots)
+    if len(problem.since):
+        yield from _one_each("problem.since", problem.since, robots)
     yield from _finite("problem.radius", problem.radius)
     yield from _indices("problem.profile", problem.profile, len(roadmap.duration))
     vertices = len(roadmap.position)

@@ -52,8 +52,8 @@ def path_fault(problem: Problem, robot: int, path: Path) -> str | None:
         return "edge, enter and leave differ in length"
     if ((path.edge < -1) | (path.edge >= len(problem.roadmap.edges))).any():
         return "uses an edge that does not exist"
-    if len(path) and path.enter[0] != 0:
-        return f"begins at tick {path.enter[0]} instead of 0"
+    if len(path) and path.enter[0] != problem.begin(robot):
+        return f"begins at tick {path.enter[0]} instead of {problem.begin(robot)}"
     if (path.enter[1:] != path.leave[:-1]).any():
         segment = int(np.flatnonzero(path.enter[1:] != path.leave[:-1])[0])
         return f"segment {segment + 1} does not begin when segment {segment} ends"

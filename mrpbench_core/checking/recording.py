@@ -41,7 +41,10 @@ LAYOUTS: Mapping[str, Layout] = {
     "scan_robot": Layout("iu", "scan_time"),
     "scan_ranges": Layout("f", "scan_time", (ANY,)),
     "route_time": Layout("f", "route_time"),
-    **{f"route_{name}": Layout("iu", "route_time") for name in ("revision", "robot", "level", "edge", "leave")},
+    **{
+        f"route_{name}": Layout("iu", "route_time")
+        for name in ("revision", "robot", "segment", "level", "edge", "leave")
+    },
     "route_waypoint": Layout("f", "route_time", (3,)),
     "route_speed": Layout("f", "route_time"),
     "errand_time": Layout("f", "errand_time"),
@@ -57,7 +60,7 @@ LAYOUTS: Mapping[str, Layout] = {
     "event_robot": Layout("i", "event_time"),
     "event_detail": Layout("U", "event_time"),
 }
-OPTIONAL = frozenset({"route_edge", "route_leave"})
+OPTIONAL = frozenset({"route_segment", "route_edge", "route_leave"})
 """Channels that older recordings lack beside the others with their time axis."""
 LARGEST = 1e9
 """Bound of positions (metres), angles, speeds and times (seconds)."""

@@ -47,7 +47,7 @@ class OrderKeepingSession(DispatcherSession):
         self.plan = plan
         self.adopt(problem, plan)
 
-    def adopt(self, problem: Problem, plan: Plan) -> None:
+    def adopt(self, problem: Problem, plan: Plan, cut: Int32 | None = None) -> None:
         """Continue with `plan`; released segments remain released.
 
         Raises:
@@ -57,10 +57,17 @@ class OrderKeepingSession(DispatcherSession):
                 on its way already. The session then continues with its old plan.
         """
         _check(problem, plan)
-        for robot, count in enumerate(self.released.tolist()):
-            if not np.array_equal(plan.paths[robot].edge[:count], self.plan.paths[robot].edge[:count]):
+        gone: Int32 = np.zeros(len(problem), np.int32) if cut is None else cut
+        for robot, (first, count) in enumerate(zip(gone.tolist(), self.released.tolist(), strict=True)):
+            if not np.array_equal(plan.paths[robot].edge[: count - first], self.plan.paths[robot].edge[first:count]):
                 raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
-        self.keep(problem, plan)
+        before = self.seen, self.released
+        self.seen, self.released = np.maximum(self.seen - gone, 0), self.released - gone
+        try:
+            self.keep(problem, plan)
+        except DispatchError:
+            self.seen, self.released = before
+            raise
 
     def keep(self, problem: Problem, plan: Plan, order: Type2Edges | None = None) -> None:
         """Release a plan in an `order` of its moves from now on, None = its own.

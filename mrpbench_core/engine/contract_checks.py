@@ -43,9 +43,11 @@ class ContractChecks:
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
 
-    def adopt(self, length: NDArray[Any]) -> None:
-        """Continue with the paths of a new plan."""
+    def adopt(self, length: NDArray[Any], cut: Int32) -> None:
+        """Continue with the paths of a new plan, which leave out the first `cut` i4[n] segments."""
         self.length = length
+        self._released, self._reached = self._released - cut, self._reached - cut
+        self._cleared = np.maximum(self._cleared - cut, 0)
 
     def state(self, state: State) -> State:
         """Check the state that a simulator returns."""

@@ -20,7 +20,8 @@ from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.files.output import create_file
 from mrpbench_core.model.runs.recording import Chunk
-from mrpbench_core.model.runs.run import RunContext, all_routes
+from mrpbench_core.model.runs.routes import RouteHistory
+from mrpbench_core.model.runs.run import RunContext
 
 FORMAT = 1
 """Raised when a reader of the old format would misread the new one."""
@@ -170,10 +171,10 @@ class Recording:
     def context(self) -> RunContext:
         """The context with the routes of the last plan, to which `reached` and `cleared` refer."""
         with self._naming("is damaged: its routes"):
-            plans = all_routes(self.first_context().routes, self.channels)
-        if not all(len(route.waypoint) for _, routes in plans for route in routes):
-            raise self._fault("its routes: a plan has none for a robot")
-        return attrs.evolve(self.first_context(), routes=plans[-1][1])
+            history = RouteHistory(self.first_context(), self.channels)
+            if history.complete:
+                return attrs.evolve(self.first_context(), routes=history.latest()[0])
+        raise self._fault("its routes: a plan has none for a robot")
 
     def channel(self, name: str) -> NDArray[Any]:
         """All rows of a channel; scans are as wide as the widest lidar's, filled with NaN."""

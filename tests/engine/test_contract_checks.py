@@ -132,6 +132,6 @@ def test_wrong_scenarios_are_refused(start, goal, message):
 def test_earlier_return_values_are_checked_against_a_new_plan():
     checked = checks()
     checked.orders(ORDERS)
-    checked.adopt(np.array([1, 1]))
+    checked.adopt(np.array([1, 1]), np.zeros(2, np.int32))
     with pytest.raises(BrokenContractError, match="for robot 0: released more segments than there are"):
         checked.orders(ORDERS)

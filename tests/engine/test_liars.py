@@ -80,7 +80,7 @@ class _Claims(NavigatorSession):
     def __init__(self, session, robots):
         self.session, self.robots = session, robots
 
-    def adopt(self, routes):
+    def adopt(self, routes, cut=None):
         raise AssertionError
 
     def step(self, now, observation, orders):

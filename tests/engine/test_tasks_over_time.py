@@ -110,6 +110,31 @@ def test_a_run_with_a_budget_of_iterations_repeats_bit_for_bit(tmp_path):
     assert (tmp_path / "a" / "run.zip").read_bytes() == (tmp_path / "b" / "run.zip").read_bytes()
 
 
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"dispatcher": "adg", "assigner": "insertion", "delays": {"p_delay": 0.01, "speed": 0.3}},
+        {"dispatcher": "gses", "navigator": {"plugin": "waypoints", "waypoints": "stop"}},
+    ],
+)
+def test_it_changes_nothing_that_driven_segments_are_left_out_of_plans(tmp_path, monkeypatch, changes):
+    changes = {"planner": {"plugin": "rolling_horizon", "planner": "pibt"}, "roadmap": "grid", **changes}
+    _, shorter = run(tmp_path / "cut", **changes)
+    lengths = []
+
+    def nothing(plan, reached, _cleared):
+        lengths.append(max(len(path) for path in plan.paths))
+        return np.zeros_like(reached)
+
+    monkeypatch.setattr("mrpbench_core.engine.execution.replanning.driven", nothing)
+    _, whole = run(tmp_path / "whole", **changes)
+    assert shorter.keys() == whole.keys()
+    for name, rows in shorter.items():
+        assert np.array_equal(rows, whole[name], equal_nan=rows.dtype.kind == "f"), name
+    assert "done" in whole["task_event"]
+    assert lengths[-1] > 40
+
+
 def test_a_finite_stream_ends_the_run(tmp_path):
     record, channels = run(
         tmp_path, tasks={"plugin": "closed_pool", "per_robot": 1, "total": 4}, limits={"execution": 400}

@@ -9,6 +9,7 @@ import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
 from mrpbench_core.checking.facility_use import check_facility_use
+from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -40,11 +41,13 @@ class AllAtOnceSession(DispatcherSession):
         self.released = np.zeros(len(plan.paths), np.int32)
         self.adopt(problem, plan)
 
-    def adopt(self, problem: Problem, plan: Plan) -> None:
+    def adopt(self, problem: Problem, plan: Plan, cut: Int32 | None = None) -> None:
         """Continue with the new paths."""
         if uses := check_facility_use(problem, plan):
             raise DispatchError(f"{uses[0]}, and the dispatcher all_at_once does not request doors or lifts: use adg")
         self.length = np.array([len(path) for path in plan.paths], np.int32)
+        if cut is not None:
+            self.released = self.released - cut
         if problem.commitments:
             self.released = np.maximum(self.released, [len(path) for path in problem.commitments])
 

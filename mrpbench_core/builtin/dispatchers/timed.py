@@ -5,6 +5,7 @@ import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession
 from mrpbench_core.checking.facility_use import check_facility_use
+from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -30,10 +31,12 @@ class TimedSession(DispatcherSession):
         self.released = np.zeros(len(plan.paths), np.int32)
         self.adopt(problem, plan)
 
-    def adopt(self, problem: Problem, plan: Plan) -> None:
+    def adopt(self, problem: Problem, plan: Plan, cut: Int32 | None = None) -> None:
         """Continue with the times of the new plan."""
         if uses := check_facility_use(problem, plan):
             raise DispatchError(f"{uses[0]}, and the dispatcher timed does not request doors or lifts: use adg")
+        if cut is not None:
+            self.released = self.released - cut
         if problem.commitments:
             self.released = np.maximum(self.released, [len(path) for path in problem.commitments])
         robot = np.repeat(np.arange(len(plan.paths)), [len(path) for path in plan.paths])

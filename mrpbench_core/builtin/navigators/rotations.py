@@ -17,7 +17,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
-from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.common.poses import wrapped
 from mrpbench_core.model.execution.orders import Orders
@@ -98,6 +98,13 @@ class Rotations:
             [ready.get((group, place), False) for group in in_step for place in range(len(group))], bool
         )
         self._progress, self._since = np.array([known.get(group, (0.0, now)) for group in in_step]).reshape(-1, 2).T
+
+    def cut(self, cut: Int32) -> None:
+        """Note that the first `cut` i4[n] segments of the routes are left out from now on."""
+        self._in_step = tuple(
+            tuple((robot, segment - int(cut[robot])) for robot, segment in group) for group in self._in_step
+        )
+        self._segments = self._segments - cut[self._robots]
 
     def command(self, now: float, pose: Float, able: Bool, twist: Float) -> Bool:
         """Write the commands of rotating robots into `twist` f8[n,2].

@@ -41,9 +41,9 @@ class RouteFollower:
     def __len__(self) -> int:
         return len(self.reached)
 
-    def adopt(self, routes: Sequence[Route]) -> None:
-        """Continue with routes that begin with the released parts of the old ones."""
-        self._progress.adopt(routes)
+    def adopt(self, routes: Sequence[Route], cut: Int32 | None = None) -> None:
+        """Continue with routes that begin with the released parts of the old ones, but for `cut` i4[n] segments."""
+        self._progress.adopt(routes, cut)
         self.corners = self._progress.tables.corners
         self._wants_yaw = any(not np.isnan(route.waypoint[:, 2]).all() for route in routes)
         self._refresh(np.arange(len(routes)))

@@ -37,8 +37,12 @@ class RouteProgress:
         """i8[n]: each robot drives from this corner of its route to the next one."""
         self.adopt(routes)
 
-    def adopt(self, routes: Sequence[Route]) -> None:
-        """Continue with routes that begin with the released parts of the old ones."""
+    def adopt(self, routes: Sequence[Route], cut: Int32 | None = None) -> None:
+        """Continue with routes that begin with the released parts of the old ones, but for `cut` i4[n] segments."""
+        if cut is not None:
+            self.leg = np.maximum(self.leg - self._corner(slice(None), cut.astype(np.int64)), 0)
+            self.reached = np.maximum(self.reached - cut, 0)
+            self.cleared = np.maximum(self.cleared - cut, 0)
         self.tables = RouteTables(routes, self._rules, self._clearances)
         self.released: Int = self.reached.copy()
         """i8[n]: as far as each robot may go now. A robot that stops at waypoints goes to the next one first."""

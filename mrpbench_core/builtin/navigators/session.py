@@ -13,7 +13,7 @@ from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
 from mrpbench_core.builtin.navigators.recovery_manager import RecoveryManager
 from mrpbench_core.builtin.navigators.rotations import Rotations
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
-from mrpbench_core.model.common.arrays import Bool, Byte, Float, Int
+from mrpbench_core.model.common.arrays import Bool, Byte, Float, Int, Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.observation import FleetObservation, Observations
@@ -40,9 +40,11 @@ class WaypointsSession(NavigatorSession):
     fleet: Fleet
     world: World
 
-    def adopt(self, routes: Sequence[Route]) -> None:
+    def adopt(self, routes: Sequence[Route], cut: Int32 | None = None) -> None:
         """Follow new routes; robots that gave up try again."""
-        self.follower.adopt(routes)
+        self.follower.adopt(routes, cut)
+        if cut is not None:
+            self.rotations.cut(cut)
         self.detours.cancel_all()
         self.recoveries.reset()
 

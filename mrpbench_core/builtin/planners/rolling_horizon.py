@@ -27,8 +27,8 @@ class RollingHorizon(Planner):
 
     @property
     def supports(self) -> frozenset[Feature]:  # type: ignore[override]
-        """What the planner supports, and commitments."""
-        return self.planner.supports | {Feature.COMMITMENTS}
+        """What the planner supports, and commitments, also such that begin later than others."""
+        return self.planner.supports | {Feature.COMMITMENTS, Feature.SINCE}
 
     @property
     def promises(self) -> frozenset[Promise]:  # type: ignore[override]
@@ -67,15 +67,17 @@ def from_rest(problem: Problem) -> Problem:
     start: Int32 = problem.start.copy()
     for robot, path in enumerate(problem.commitments):
         start[robot] = path.end(problem.roadmap, int(start[robot]))
-    rest = attrs.evolve(problem, start=start, ready=np.zeros_like(problem.ready), commitments=())
-    return attrs.evolve(rest, features=problem.features - {Feature.COMMITMENTS})
+    rest = attrs.evolve(
+        problem, start=start, ready=np.zeros_like(problem.ready), since=np.zeros(0, np.int64), commitments=()
+    )
+    return attrs.evolve(rest, features=problem.features - {Feature.COMMITMENTS, Feature.SINCE})
 
 
 def after_commitments(problem: Problem, plan: Plan) -> Plan:
     """Return the commitments of a problem, a wait until the last of them ends, and then `plan`."""
     if not problem.commitments:
         return plan
-    ends = [int(path.leave[-1]) if len(path) else 0 for path in problem.commitments]
+    ends = [int(path.leave[-1]) if len(path) else problem.begin(i) for i, path in enumerate(problem.commitments)]
     begin = max([*ends, *problem.ready.tolist()])
     return Plan(
         paths=tuple(

@@ -27,7 +27,8 @@ from mrpbench_core.files.robot import load_robot
 from mrpbench_core.files.scenario import read_scenario
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Mode
-from mrpbench_core.model.runs.run import FinishedRun, RunContext, with_latest_routes
+from mrpbench_core.model.runs.routes import with_latest_routes
+from mrpbench_core.model.runs.run import FinishedRun, RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.provenance import provenance
 from mrpbench_core.store.folder import ResultsFolder, new_invocation

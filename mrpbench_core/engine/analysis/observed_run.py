@@ -23,7 +23,8 @@ from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.model.runs.recording import Chunk
-from mrpbench_core.model.runs.run import RunContext, with_latest_routes
+from mrpbench_core.model.runs.routes import with_latest_routes
+from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.worlds.world import World
 
 FAR = 1.0

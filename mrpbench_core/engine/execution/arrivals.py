@@ -36,10 +36,11 @@ class Arrivals:
         """bool[n]: the robot is reported to have arrived, is at its goal, and rests."""
         self.mistaken: Bool = self.claimed
         """bool[n]: the robot is reported to have arrived, and stands elsewhere."""
-        self.adopt(routes)
+        self.adopt(routes, self._recorded)
 
-    def adopt(self, routes: Sequence[Route]) -> None:
-        """Continue with the routes of a new plan."""
+    def adopt(self, routes: Sequence[Route], cut: Int32) -> None:
+        """Continue with the routes of a new plan, which leave out the first `cut` i4[n] segments."""
+        self._recorded = np.maximum(self._recorded - cut, 0).astype(np.int32)
         self._last: Int = np.array([route.last_move for route in routes], np.int64)
         self._goal: Float = np.array([route.waypoint[-1, :2] for route in routes])
         self._level: Int16 = np.array([route.level[-1] for route in routes], np.int16)

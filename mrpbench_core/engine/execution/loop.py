@@ -17,6 +17,7 @@ from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import ContractChecks
 from mrpbench_core.engine.execution.arrivals import Arrivals
 from mrpbench_core.engine.execution.crowds import Crowds
+from mrpbench_core.engine.execution.cutting import DrivenSegments, shifted
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.destinations import heads
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
@@ -157,6 +158,8 @@ class ExecutionLoop:
         self._step = self._revision = 0
         self._now = 0.0
         """Simulated seconds at the beginning of this control period."""
+        self._driven = DrivenSegments(robots)
+        """The segments that are not part of the plan any more."""
         self._causes: dict[int, str] = {}
         self._checks = ContractChecks(_segments(plan), _reach(context), len(inputs.crowds.members))
         self._checks.state(attrs.evolve(inputs.simulation.state, pose=inputs.placed))
@@ -230,7 +233,8 @@ class ExecutionLoop:
             self._ask_dispatcher(view)
             self._replan(view)
         if (revision := replanner.take_due(now)) and self._adopt(revision):
-            view = attrs.evolve(view, revision=self._revision)
+            reached, cleared = self._motion.reached, self._motion.cleared
+            view = attrs.evolve(view, revision=self._revision, reached=reached, cleared=cleared)
             self._ask_dispatcher(view)
         self._facility_manager.assign(self._orders)
 
@@ -259,19 +263,21 @@ class ExecutionLoop:
         now, fault = self._now, new.fault
         if new.plan is not None and not fault:
             try:
-                self._dispatcher.adopt(own(new.problem), own(new.plan))
+                self._dispatcher.adopt(own(new.problem), own(new.plan), new.cut.copy())
             except DispatchError as error:
                 fault = str(error)
             else:
                 self._revision += 1
-                self._arrivals.adopt(new.routes)
+                self._driven.cut(new.cut)
+                self._motion = shifted(self._motion, new.cut)
+                self._arrivals.adopt(new.routes, new.cut)
                 self._given_routes = own(new.routes)
-                self._navigator.adopt(self._given_routes)
+                self._navigator.adopt(self._given_routes, new.cut.copy())
                 self._inputs.replanner.use(new.problem, new.plan)
-                self._checks.adopt(_segments(new.plan))
+                self._checks.adopt(_segments(new.plan), new.cut)
                 self._facility_manager.adopt(new.problem, new.plan)
                 self._inputs.recorder.events((Event(stamp=now, kind="replan", detail=new.reason),))
-                self._inputs.recorder.routes(now, self._revision, new.routes, new.plan)
+                self._inputs.recorder.routes(now, self._revision, new.routes, new.plan, new.kept, self._driven.count)
                 if self._inputs.tasks is not None and new.destinations is not None:
                     self._inputs.tasks.adopt(new.destinations)
                 return True
@@ -325,8 +331,8 @@ class ExecutionLoop:
             state=state,
             estimate=observation.estimate,
             odometry=observation.odometry,
-            orders=self._orders,
-            motion=self._confirmed,
+            orders=self._driven.orders(self._orders),
+            motion=self._driven.motion(self._confirmed),
             waits_for=self._facility_manager.waits_for(len(state.pose)),
             facility=self._facility_manager.states(state),
             movers=inputs.crowds.movers if inputs.crowds.members else None,
@@ -341,7 +347,9 @@ class ExecutionLoop:
         commands = self._facility_manager.commands(self._motion.reached, self._orders.released, self._state)
         commands = inputs.crowds.doors(self._state, commands)
         inputs.crowds.step(self._state)
-        twist = inputs.delays.driven(inputs.noise.actuated(self._motion.twist), self._motion.reached)
+        twist = inputs.delays.driven(
+            inputs.noise.actuated(self._motion.twist), self._motion.reached + self._driven.count
+        )
         driven = Inputs(twist=twist, facilities=commands)
         self._state = self._checks.state(inputs.simulation.step(inputs.crowds.inputs(driven)))
         self._step += 1

@@ -6,21 +6,24 @@ from typing import Any
 
 import attrs
 import numpy as np
+from numpy.typing import NDArray
 
 from mrpbench_core.engine.execution.task_board import TaskEvent
-from mrpbench_core.model.common.arrays import Int32
+from mrpbench_core.model.common.arrays import Int, Int32
 from mrpbench_core.model.execution.motion import Event, Motion
 from mrpbench_core.model.execution.movers import Movers
 from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.execution.state import State
-from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.model.runs.recording import Chunk
 
 SAMPLES = 256
 """Periodic samples per chunk."""
+WAYPOINTS = 1 << 18
+"""Waypoints of new plans per chunk, at least: a thousand robots that plan every second get as many in some seconds."""
 SCANS = 4096
 """Scans per chunk: a thousand robots take that many in a second."""
 
@@ -30,6 +33,7 @@ IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
     "route_time": ("f8", ()),
     "route_revision": ("i4", ()),
     "route_robot": ("i4", ()),
+    "route_segment": ("i4", ()),
     "route_waypoint": ("f8", (3,)),
     "route_level": ("i2", ()),
     "route_speed": ("f8", ()),
@@ -61,7 +65,7 @@ TASKS: dict[str, tuple[str, tuple[int, ...]]] = {
 
 INTEGERS = dict.fromkeys(
     (
-        *("contact", "scan_robot", "event_robot", "route_revision", "route_robot", "route_edge"),
+        *("contact", "scan_robot", "event_robot"),
         *("errand_task", "errand_priority", "task_index", "task_robot", "task_errand"),
     ),
     "i4",
@@ -101,6 +105,7 @@ class Recorder:
         channels = IRREGULAR | (TASKS if tasks else {})
         sink({name: np.empty((0, *shape), kind) for name, (kind, shape) in channels.items()})
         self._rows: dict[str, list[Any]] = defaultdict(list)
+        self._waypoints = 0
         self._touching: set[tuple[int, int]] = set()
 
     def sample(self, step: int, sample: Sample, last: bool) -> None:
@@ -180,26 +185,67 @@ class Recorder:
             rows["task_robot"].append(event.robot)
             rows["task_errand"].append(event.errand)
 
-    def routes(self, now: float, revision: int, routes: Sequence[Route], plan: Plan) -> None:
-        """Record a new plan and its routes: one row per waypoint, with the segment that leads there and its limit."""
-        for robot, (route, path) in enumerate(zip(routes, plan.paths, strict=True)):
-            self._rows["route_time"] += [now] * len(route.waypoint)
-            self._rows["route_revision"] += [revision] * len(route.waypoint)
-            self._rows["route_robot"] += [robot] * len(route.waypoint)
-            self._rows["route_waypoint"] += [*route.waypoint]
-            self._rows["route_level"] += [*route.level]
-            self._rows["route_speed"] += [np.inf, *route.speed]
-            self._rows["route_edge"] += [-1, *path.edge]
-            self._rows["route_leave"] += [*path.enter[:1], *path.leave] or [0]
+    def routes(
+        self, now: float, revision: int, routes: Sequence[Route], plan: Plan, kept: Int32, driven: Int32
+    ) -> None:
+        """Record a new plan and its routes: one row per waypoint, with the segment that leads there and its limit.
+
+        Args:
+            now: simulated seconds.
+            revision: its number.
+            routes: one per robot.
+            plan: the same.
+            kept: i4[n] leading waypoints of each route that are known already, and left out.
+            driven: i4[n] segments of each robot that are not part of the plan any more.
+        """
+        paths, begin = plan.paths, kept.tolist()
+        size = np.array([len(route.waypoint) for route in routes]) - kept
+        rows = int(size.sum())
+        within = np.arange(rows) - np.repeat(np.cumsum(size) - size, size)
+        for name, values in {
+            "time": np.full(rows, now),
+            "revision": np.full(rows, revision, np.int32),
+            "robot": np.repeat(np.arange(len(routes), dtype=np.int32), size),
+            "segment": (within + np.repeat(kept + driven, size)).astype(np.int32),
+            "waypoint": np.concatenate([route.waypoint[at:] for route, at in zip(routes, begin, strict=True)]),
+            "level": np.concatenate([route.level[at:] for route, at in zip(routes, begin, strict=True)]),
+            "speed": _after(np.inf, [route.speed for route in routes], begin),
+            "edge": _after(np.int32(-1), [path.edge for path in paths], begin),
+            "leave": _leaves(paths, begin),
+        }.items():
+            self._rows[f"route_{name}"].append(values)
+        self._waypoints += rows
+        if self._waypoints >= WAYPOINTS:
+            self.flush()
 
     def flush(self) -> None:
         """Hand on what has been collected."""
         if self._rows:
             self._sink({name: _stack(name, rows) for name, rows in self._rows.items()})
             self._rows.clear()
+            self._waypoints = 0
+
+
+def _after(first: float | np.int32, segments: list[NDArray[Any]], begin: list[int]) -> NDArray[Any]:
+    """Values of waypoints from `begin` on: `first`, then those of the segments that lead to the others."""
+    head = np.array([first])
+    parts = [own[at - 1 :] if at else np.concatenate([head, own]) for own, at in zip(segments, begin, strict=True)]
+    return np.concatenate(parts)
+
+
+def _leaves(paths: Sequence[Path], begin: list[int]) -> Int:
+    """Ticks at which robots come to waypoints from `begin` on; the first is where the path begins."""
+    nothing = np.zeros(1, np.int64)
+    parts = [
+        path.leave[at - 1 :] if at else np.concatenate([path.enter[:1] if len(path) else nothing, path.leave])
+        for path, at in zip(paths, begin, strict=True)
+    ]
+    return np.concatenate(parts)
 
 
 def _stack(name: str, rows: list[Any]) -> np.ndarray:
+    if name.startswith("route_"):
+        return np.concatenate(rows)
     if name == "scan_ranges":
         beams = max(len(row) for row in rows)
         padded = np.full((len(rows), beams), np.nan, "f4")

@@ -8,6 +8,7 @@ import numpy as np
 
 from mrpbench_core.config.settings import Replanning, RunConfig
 from mrpbench_core.engine.execution.commitments import commitments
+from mrpbench_core.engine.execution.cutting import driven, without
 from mrpbench_core.engine.execution.destinations import Destinations
 from mrpbench_core.engine.execution.routes import Router
 from mrpbench_core.model.common.arrays import Float, Int, Int32
@@ -35,6 +36,10 @@ class Revision:
     routes: tuple[Route, ...] = ()
     fault: str = ""
     """The reason why there is no plan, or why it must not be used."""
+    cut: Int32
+    """i4[n] leading segments of the plan before that are left out."""
+    kept: Int32
+    """i4[n] leading waypoints of its routes that are those of the routes before."""
     destinations: Destinations | None = None
     """Where it leads, if that is not where the plan before led."""
 
@@ -48,9 +53,13 @@ class Replanner:
         router: turns plans into routes.
         problem: of the first plan.
         plan: the first plan.
+        cuts: leave out what robots drove long ago.
     """
 
-    def __init__(self, settings: Replanning, ask: Ask, router: Router, problem: Problem, plan: Plan) -> None:
+    def __init__(
+        self, settings: Replanning, ask: Ask, router: Router, problem: Problem, plan: Plan, cuts: bool = False
+    ) -> None:
+        self._cuts = cuts and router.plan_filter is None  # which may shift waypoints anywhere
         self._settings = settings
         self._ask = ask
         self._router = router
@@ -96,9 +105,13 @@ class Replanner:
         due = now + self._settings.latency
         ready = math.ceil(now / tick - 1e-9) + self._left(view)
         prefix = commitments(self.problem, self.plan, released, view.reached, ready, math.ceil(due / tick - 1e-9))
-        features = self.problem.features | {Feature.COMMITMENTS}
-        problem = attrs.evolve(self.problem, commitments=prefix, features=features)
-        router = self._router
+        cut: Int32 = np.zeros(len(prefix), np.int32)
+        if self._cuts:
+            cut = driven(self.plan, view.reached, view.cleared)
+        problem = without(self.problem, prefix, cut)
+        features = self.problem.features | {Feature.COMMITMENTS} | ({Feature.SINCE} if problem.since.any() else set())
+        problem = attrs.evolve(problem, features=features)
+        router = attrs.evolve(self._router, problem=problem)
         if to is not None:
             problem = attrs.evolve(problem, goals=to.goals)
             problem = attrs.evolve(problem, features=features_of(problem) | (features & {Feature.FOOTPRINTS}))
@@ -109,7 +122,15 @@ class Replanner:
         plan = None if fault else result.plan
         routes = () if plan is None else router(plan)
         self.pending = Revision(
-            due=due, reason=reason, problem=problem, plan=plan, routes=routes, fault=fault or "", destinations=to
+            due=due,
+            reason=reason,
+            problem=problem,
+            plan=plan,
+            routes=routes,
+            fault=fault or "",
+            cut=cut,
+            kept=np.zeros_like(cut) if router.plan_filter is not None else view.reached - cut,
+            destinations=to,
         )
 
     def take_due(self, now: float) -> Revision | None:

@@ -114,7 +114,8 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
         return result, fault or (f"the planner ended with {result.status}" if result.plan is None else None), late
 
     assert context.result.plan is not None
-    return Replanner(config.replanning, ask, router, context.problem, context.result.plan)
+    cuts = Feature.SINCE in config.planner.supports
+    return Replanner(config.replanning, ask, router, context.problem, context.result.plan, cuts)
 
 
 def _calls(seconds: list[float], limit: float) -> dict[str, float]:

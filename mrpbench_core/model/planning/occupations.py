@@ -58,7 +58,11 @@ def _occupation(
     """The occupation from element `begin` to element `end` of a robot's path."""
     zero, stop = int(moves.first[robot]), int(moves.first[robot + 1])
     first = -1 if begin == 0 else zero + (begin - 1) // 2
-    since = 0 if begin == 0 else int(2 * moves.enter[first] + 1 if begin % 2 else 2 * moves.leave[first])
+    since = (
+        2 * problem.begin(robot)
+        if begin == 0
+        else int(2 * moves.enter[first] + 1 if begin % 2 else 2 * moves.leave[first])
+    )
     on_lane = end % 2 == 1
     last = zero + (end - 1) // 2 if on_lane else zero + end // 2
     if not on_lane and last == stop:  # it ends at its goal

@@ -28,6 +28,8 @@ class Feature(StrEnum):
     GOAL_SETS = "goal_sets"
     GOAL_SEQUENCES = "goal_sequences"
     COMMITMENTS = "commitments"
+    SINCE = "since"
+    """Some path begins after tick 0, because what its robot drove before is left out."""
     HORIZON = "horizon"
     FOLLOWING_FORBIDDEN = "following_forbidden"
 
@@ -55,6 +57,8 @@ class Problem:
     """i4[n] roadmap vertices."""
     ready: Int = array("i8")
     """i8[n] ticks: a robot stays at its start at least until then."""
+    since: Int = array("i8", factory=lambda: np.zeros(0, np.int64))
+    """i8[n] ticks: the path of a robot begins then, and it occupies nothing before; empty: all begin at 0."""
     goals: tuple[tuple[GoalSet, ...], ...]
     """goals[robot] = the goal sets to visit in order; the robot ends at the last. Empty: it may end anywhere."""
     commitments: tuple[Path, ...] = ()
@@ -66,6 +70,10 @@ class Problem:
 
     def __len__(self) -> int:
         return len(self.start)
+
+    def begin(self, robot: int) -> int:
+        """Return the tick at which the path of `robot` begins."""
+        return int(self.since[robot]) if len(self.since) else 0
 
     def duration(self, robot: int) -> Int32:
         """Return the duration i4[E] of each edge for `robot`, in ticks, -1 = forbidden."""
@@ -91,6 +99,8 @@ def features_of(problem: Problem) -> frozenset[Feature]:
         found.add(Feature.GOAL_SEQUENCES)
     if any(len(path) for path in problem.commitments) or problem.ready.any():
         found.add(Feature.COMMITMENTS)
+    if problem.since.any():
+        found.add(Feature.SINCE)
     if problem.horizon is not None:
         found.add(Feature.HORIZON)
     if problem.rules.following == "forbidden":

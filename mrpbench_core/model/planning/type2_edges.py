@@ -79,7 +79,8 @@ def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
     is_last = np.append(moves.robot[1:] != moves.robot[:-1], True)[: len(index)]
     vertex = np.concatenate([problem.start, moves.head])
     robot = np.concatenate([robots, moves.robot])
-    begin = np.concatenate([np.zeros(len(robots), np.int64), moves.leave])
+    since = problem.since if len(problem.since) else np.zeros(len(robots), np.int64)
+    begin = np.concatenate([since, moves.leave])
     arrival = np.concatenate([np.full(len(robots), -1), index])
     departure = np.concatenate([np.where(count > 0, starts, -1), np.where(is_last, -1, index + 1)])
     order = np.lexsort((begin, vertex))
@@ -90,7 +91,7 @@ def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
     earlier, later = earlier[pairs], later[pairs]
     gone = departure[earlier] < 0  # only with `at_goal: disappear`: it is gone when its last move has ended
     before, after = np.where(gone, arrival[earlier], departure[earlier]), arrival[later]
-    some = before >= 0
+    some = (before >= 0) & (after >= 0)  # a robot that is there from the beginning waits for none
     before, after, gone = before[some], after[some], gone[some]
     passed = gone.copy()  # where it is enough that the move is completed
     if Feature.FOOTPRINTS in problem.features:

@@ -17,8 +17,9 @@
 | `mover_level` | i2[m] | index into `World.levels`, -1 = absent; with `mover` |
 | `contact_time`, `contact` | f8; i4[2] | per pair and period in contact: robot; robot, -1 = wall or n + j = mover j |
 | `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
-| `route_time`, `route_revision`, `route_robot` | f8; i4; i4 | one row per waypoint of each plan after the first |
-| `route_waypoint`, `route_level`, `route_speed` | f8[3]; i2; f8 | see `mrpbench_core.model.runs.run.latest_routes` |
+| `route_time`, `route_revision`, `route_robot` | f8; i4; i4 | one row per new waypoint of each plan after the first |
+| `route_segment` | i4 | segments of the robot before this waypoint, from the beginning of the execution |
+| `route_waypoint`, `route_level`, `route_speed` | f8[3]; i2; f8 | see `mrpbench_core.model.runs.routes.RouteHistory` |
 | `route_edge`, `route_leave` | i4; i8 | of the segment to the waypoint: edge, -1 = wait; tick at which it ends |
 | `errand_time`, `errand_task` | f8; i4 | one row per errand of each task: its release and index; only with `tasks` |
 | `errand_goal`, `errand_level` | f8[3]; i2 | see `mrpbench_core.model.planning.scenario.Task` |

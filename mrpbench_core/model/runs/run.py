@@ -4,14 +4,12 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import attrs
-import numpy as np
 from numpy.typing import NDArray
 
-from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import Mover
 from mrpbench_core.model.execution.route import Route
-from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.scenario import Scenario
 from mrpbench_core.model.worlds.world import World
@@ -83,58 +81,3 @@ class FinishedRun:
         if name == "end":
             return self.ended
         return self.planned if name == "path" else name in self.channels
-
-
-def latest_routes(routes: tuple[Route, ...], channels: Loaders) -> tuple[Route, ...]:
-    """The routes of the last plan of an execution that began with `routes`, from its recording's channels `route_...`.
-
-    Every plan's routes begin with what was released of the plan before, index by index: `reached` and `cleared` refer
-    to the last routes as well as to those of their time.
-    """
-    return all_routes(routes, channels, newest=1)[-1][1]
-
-
-def all_routes(
-    routes: tuple[Route, ...], channels: Loaders, newest: int | None = None
-) -> list[tuple[float, tuple[Route, ...]]]:
-    """The routes of every plan, or of the `newest`, with the simulated second since which they hold."""
-    found = [(0.0, routes)]
-    if rows := _rows(channels, len(routes)):
-        time, waypoint, level, speed = (channels[f"route_{name}"]() for name in ("time", "waypoint", "level", "speed"))
-        for own in rows if newest is None else rows[-newest:]:
-            plan = tuple(Route(waypoint=waypoint[r], level=level[r], speed=speed[r][1:]) for r in own)
-            found.append((float(time[own[0][0]]), plan))
-    return found
-
-
-def all_plans(context: RunContext, channels: Loaders) -> list[Plan | None]:
-    """The plans whose routes are `all_routes`; None for a plan that the recording does not hold.
-
-    Args:
-        context: as it was before the execution.
-        channels: those of its recording; older ones hold new plans as routes alone.
-    """
-    found = [context.result.plan]
-    if rows := _rows(channels, len(context.routes)):
-        if "route_edge" not in channels:
-            return found + [None] * len(rows)
-        edge, leave = channels["route_edge"](), channels["route_leave"]()
-        paths = ([Path(edge=edge[r][1:], enter=leave[r][:-1], leave=leave[r][1:]) for r in own] for own in rows)
-        found += [Plan(paths=tuple(plan)) for plan in paths]
-    return found
-
-
-def _rows(channels: Loaders, robots: int) -> list[list[Int]]:
-    """The rows of the channels `route_...` of each robot, by plan after the first."""
-    if "route_time" not in channels or not robots:
-        return []
-    revision, robot = channels["route_revision"](), channels["route_robot"]()
-    return [
-        [np.flatnonzero((revision == number) & (robot == one)) for one in range(robots)]
-        for number in np.unique(revision)
-    ]
-
-
-def with_latest_routes(context: RunContext, channels: Loaders) -> RunContext:
-    """The context of a finished run, from that of its beginning."""
-    return attrs.evolve(context, routes=latest_routes(context.routes, channels))

@@ -16,7 +16,7 @@ from mrpbench_core.report.replay.facts import facts_of
 from mrpbench_core.report.replay.motion import pack_motion
 from mrpbench_core.report.replay.movers import pack_movers
 from mrpbench_core.report.replay.packing import Packing
-from mrpbench_core.report.replay.plans import read_plans, shown_plans
+from mrpbench_core.report.replay.plans import read_plans
 from mrpbench_core.report.replay.scans import pack_scans
 from mrpbench_core.report.replay.scene import pack_resources, pack_robots, pack_world
 from mrpbench_core.report.replay.schedule import pack_schedule
@@ -51,8 +51,7 @@ def write_page(
     motion, scans = Packing(), Packing()
     pack_motion(recording, motion)
     plans = read_plans(recording)
-    shown = shown_plans(plans)
-    pack_schedule(shown, context.problem.roadmap.tick, motion)
+    pack_schedule(plans, context.problem.roadmap.tick, motion)
     pack_waits(recording, plans, record.get("config") or {}, motion)
     thinned = pack_scans(recording, scans)
     data = {
@@ -60,7 +59,7 @@ def write_page(
         "world": pack_world(context.world, motion)
         | pack_facilities(recording, context.world, motion)
         | {"resources": pack_resources(context.problem.roadmap)},
-        "robots": pack_robots(context, motion, shown),
+        "robots": pack_robots(context, motion, plans),
         "events": read_events(recording, context),
         "contacts": read_contacts(recording),
         "movers": pack_movers(recording, motion),

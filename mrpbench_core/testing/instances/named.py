@@ -65,6 +65,15 @@ def commitments() -> Problem:
     return problem(CROSSING, ready=[0, 3], commitments=(unit_path([down]), unit_path([])))
 
 
+def since() -> Problem:
+    """The path of the first robot begins in tick 2, when the second one has been driving for long."""
+    drawn = problem(CROSSING)
+    down, right = edge_between(drawn, (1.5, 2.5), (1.5, 1.5)), edge_between(drawn, (0.5, 1.5), (1.5, 1.5))
+    late = attrs.evolve(unit_path([down]), enter=np.array([2]), leave=np.array([3]))
+    begun = problem(CROSSING, commitments=(late, unit_path([right])))
+    return attrs.evolve(begun, since=np.array([2, 0]), features=begun.features | {Feature.SINCE})
+
+
 def goal_sequences() -> Problem:
     """The robot must visit the left end before its goal."""
     drawn = problem(". a . A")
@@ -116,6 +125,7 @@ _SOLVABLE: dict[str, Callable[[], Problem]] = {
     "two motion profiles": profiles,
     "goal sets": lambda: problem("A b B\n . a .\n A . B"),
     "commitments": commitments,
+    "commitments that begin at different times": since,
     "goal sequences": goal_sequences,
     "a horizon": lambda: problem(BAY, horizon=2),
     "following forbidden": lambda: problem(CONVOY, rules=Rules(following="forbidden")),

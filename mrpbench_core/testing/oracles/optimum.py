@@ -17,7 +17,7 @@ from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.testing.oracles.conflict_rules import ConflictRules, Uses
 from mrpbench_core.testing.oracles.robot_steps import DONE, RobotState, RobotStep, RobotSteps
 
-UNSUPPORTED = frozenset({Feature.HORIZON})
+UNSUPPORTED = frozenset({Feature.HORIZON, Feature.SINCE})
 """The feature that this search does not support."""
 MOST_STATES = 6_000
 """States after which a search ends without an answer, by default."""

@@ -97,7 +97,7 @@ class DispatcherConformance(ComponentConformance):
                 for path, count in zip(plan.paths, released.tolist(), strict=True)
             )
             again = attrs.evolve(asked, commitments=prefixes)
-            session.adopt(again, plan)
+            session.adopt(again, plan, np.zeros(len(asked), np.int32))
             executor.adopt(again, plan)
             try:
                 drain(session, executor, revision=1, released=released)

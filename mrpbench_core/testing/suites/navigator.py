@@ -140,7 +140,7 @@ class NavigatorConformance(ComponentConformance):
             for step in range(round(seconds / PERIOD)):
                 now = step * PERIOD
                 if now >= adopt_at:
-                    session.adopt(ROUTES)
+                    session.adopt(ROUTES, np.zeros(2, np.int32))
                     adopt_at = math.inf
                 seen = FleetObservation(
                     estimate=Estimate(pose=state.pose),

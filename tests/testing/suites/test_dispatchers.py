@@ -18,7 +18,7 @@ class Session(DispatcherSession):
     def __init__(self, problem, plan):
         self.adopt(problem, plan)
 
-    def adopt(self, problem, plan):
+    def adopt(self, problem, plan, cut=None):
         self.length = np.array([len(path) for path in plan.paths])
 
     def update(self, now, view):

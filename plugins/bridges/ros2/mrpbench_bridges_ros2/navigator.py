@@ -7,6 +7,7 @@ from importlib.metadata import entry_points
 from typing import Any, ClassVar
 
 import attrs
+import numpy as np
 from attrs.validators import gt
 
 from mrpbench_bridges_ros2.commands import Commands, Outside
@@ -15,6 +16,7 @@ from mrpbench_bridges_ros2.pace import Pace
 from mrpbench_bridges_ros2.publisher import Publisher
 from mrpbench_core.api import Controller, Navigator, NavigatorSession, option
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.common.geometry import facing
 from mrpbench_core.model.execution.motion import Motion
@@ -110,8 +112,10 @@ class _Session(NavigatorSession):
         self._reached = [0] * len(names)
         self._take(0.0, routes)
 
-    def adopt(self, routes: Sequence[Route]) -> None:
-        self._inner.adopt(routes)
+    def adopt(self, routes: Sequence[Route], cut: Int32 | None = None) -> None:
+        self._inner.adopt(routes, cut)
+        if cut is not None:
+            self._reached = np.maximum(self._reached - cut, 0).tolist()
         self._take(self._commands.now, routes)
 
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:

@@ -10,7 +10,7 @@ import numpy as np
 
 from mrpbench_core.api import option
 from mrpbench_core.dispatching.dependency_graph import CLEARED, REACHED
-from mrpbench_core.model.common.arrays import Bool, Int
+from mrpbench_core.model.common.arrays import Bool, Int, Int32
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -43,13 +43,13 @@ class BtpgSession(SwitchingSession):
 
     options: Btpg
 
-    def adopt(self, problem: Problem, plan: Plan) -> None:
+    def adopt(self, problem: Problem, plan: Plan, cut: Int32 | None = None) -> None:
         """Continue with `plan`, in its order; released segments remain released.
 
         Raises:
             DispatchError: as `OrderKeepingSession.adopt`.
         """
-        super().adopt(problem, plan)
+        super().adopt(problem, plan, cut)
         limit = self.options.group_limit if problem.horizon is None else 0
         self.group = open_groups(self.graph, self.visits, self.pairs, self.resources, limit)
 

@@ -13,6 +13,7 @@ import numpy as np
 from mrpbench_native.mapf import reorder
 
 from mrpbench_core.api import option
+from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -74,14 +75,14 @@ class GsesSession(SwitchingSession):
         """Seconds f8[n] by which robots were late then."""
         super().__init__(options, problem, plan)
 
-    def adopt(self, problem: Problem, plan: Plan) -> None:
+    def adopt(self, problem: Problem, plan: Plan, cut: Int32 | None = None) -> None:
         """Continue with `plan`, in its order; released segments remain released.
 
         Raises:
             DispatchError: as `OrderKeepingSession.adopt`.
         """
-        super().adopt(problem, plan)
-        self.progress.use(problem, self.graph.moves)
+        super().adopt(problem, plan, cut)
+        self.progress.use(problem, self.graph.moves, cut)
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Change the order if robots are late and that helps; release the moves that no longer wait for anything."""

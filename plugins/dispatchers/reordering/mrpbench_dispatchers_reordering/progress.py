@@ -13,14 +13,20 @@ class Progress:
     def __init__(self, robots: int) -> None:
         self._now = 0.0
         self._reached: Int = np.zeros(robots, np.int64)
+        self._moves: Moves
+        self._sum: Float
         self._may_drive: Bool = np.zeros(robots, bool)
         self.driven: Float = np.zeros(robots)
         """seconds f8[n] in which each robot had a move to make."""
         self._begin: Float = np.zeros(robots)
         """`driven` at the beginning of each robot's present move."""
 
-    def use(self, problem: Problem, moves: Moves) -> None:
-        """Continue with the `moves` of a plan that begins with what was released of the old one."""
+    def use(self, problem: Problem, moves: Moves, cut: Int32 | None = None) -> None:
+        """Continue with the `moves` of a plan that begins with what was released of the old one, but for `cut`."""
+        if cut is not None:
+            gone = self._sum[self._first_left(cut.astype(np.int64))] - self._sum[self._moves.first[:-1]]
+            self.driven, self._begin = self.driven - gone, self._begin - gone
+            self._reached = np.maximum(self._reached - cut, 0)
         self._moves, self.tick = moves, problem.roadmap.tick
         ticks = problem.roadmap.duration[problem.profile[moves.robot], moves.edge]
         self.duration: Float = ticks.astype(np.float64) * self.tick

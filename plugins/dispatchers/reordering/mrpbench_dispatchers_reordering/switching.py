@@ -5,7 +5,7 @@ import numpy as np
 
 from mrpbench_core.api import DispatchError, option
 from mrpbench_core.dispatching.order_keeping import OrderKeepingDispatcher, OrderKeepingSession
-from mrpbench_core.model.common.arrays import Bool
+from mrpbench_core.model.common.arrays import Bool, Int32
 from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -27,13 +27,13 @@ class SwitchingDispatcher(OrderKeepingDispatcher):
 class SwitchingSession(OrderKeepingSession):
     """Releases one plan after another, each at first in its own order."""
 
-    def adopt(self, problem: Problem, plan: Plan) -> None:
+    def adopt(self, problem: Problem, plan: Plan, cut: Int32 | None = None) -> None:
         """Continue with `plan`, in its order; released segments remain released.
 
         Raises:
             DispatchError: as `OrderKeepingSession.adopt`.
         """
-        super().adopt(problem, plan)
+        super().adopt(problem, plan, cut)
         moves = self.graph.moves
         self.visits = visits_of(problem, moves)
         self.pairs = conflicting(problem, self.visits)

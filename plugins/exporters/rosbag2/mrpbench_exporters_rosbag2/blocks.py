@@ -21,6 +21,7 @@ AXES = {
     "route_time": (
         "route_revision",
         "route_robot",
+        "route_segment",
         "route_waypoint",
         "route_level",
         "route_speed",

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from mrpbench_core import run as run_study
 from mrpbench_core.model.execution.route import Route
-from mrpbench_core.model.runs.run import with_latest_routes
+from mrpbench_core.model.runs.routes import with_latest_routes
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.testing.fixtures.finished_run import ROBOTS, SAMPLES, channels, context, executed
