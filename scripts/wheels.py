@@ -31,7 +31,7 @@ def folders() -> list[Path]:
 
 def projects(part: str) -> list[Path]:
     """The projects in a folder, without copies in folders of builds."""
-    return [file for file in (ROOT / part).rglob("pyproject.toml") if "build" not in file.parts]
+    return [file for file in (ROOT / part).rglob("pyproject.toml") if "build" not in file.relative_to(ROOT).parts]
 
 
 def build(out: Path, chosen: list[Path]) -> None:
