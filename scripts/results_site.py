@@ -8,6 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import yaml
+
 STUDIES = Path(__file__).parents[1] / "studies"
 CHOSEN = ("table2", "table4", "fig5", "safe", "table3")
 
@@ -17,7 +19,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--out", type=Path, required=True, help="folder for results, bundles and site")
     parser.add_argument("--seeds", default="3000..3053", help="seeds of the scenarios")
-    parser.add_argument("--studies", nargs="*", default=CHOSEN, help="names of files in studies/")
+    parser.add_argument("--studies", nargs="*", default=CHOSEN, help="names of studies")
+    parser.add_argument(
+        "--folder",
+        type=Path,
+        default=STUDIES,
+        help="folder of studies and of the maps that they name (default: studies)",
+    )
     parser.add_argument(
         "--workers", default="1", help="number of runs at a time; with 1, times are what they are alone"
     )
@@ -28,16 +36,11 @@ def main() -> int:
     bundles, findings = [], 0
     for name in arguments.studies:
         results, bundle = str(out / name), out / f"{name}.zip"
-        mrpbench(
-            "run",
-            str(STUDIES / f"{name}.yaml"),
-            f"seed={arguments.seeds}",
-            "--out",
-            results,
-            "--workers",
-            arguments.workers,
-        )
-        mrpbench("publish", results, "--out", str(bundle), "--recordings", "5%", "--inputs", str(STUDIES))
+        study = arguments.folder / f"{name}.yaml"
+        has_seeds = "seed" in yaml.safe_load(study.read_text(encoding="utf-8"))["matrix"]
+        seeds = [f"seed={arguments.seeds}"] if has_seeds else []
+        mrpbench("run", str(study), *seeds, "--out", results, "--workers", arguments.workers)
+        mrpbench("publish", results, "--out", str(bundle), "--recordings", "5%", "--inputs", str(arguments.folder))
         verdict = str(bundle.with_name(f"{bundle.name}.verdict.json"))
         findings |= mrpbench("verify", str(bundle), "--rerun", arguments.rerun, "--out", verdict)
         bundles.append(str(bundle))

@@ -113,12 +113,17 @@ def _convert(file: Path, world: "World", roadmap: "Roadmap", cell_size: float | 
         size = cell_size or (RESOLUTION if own is None else own.cell_size)
         write_ros_map(file, rasterise(world.levels[0], size, "touched"))
     elif file.suffix == ".map":
-        write_movingai_map(file, _planned_raster(roadmap))
+        write_movingai_map(file, planned_raster(roadmap))
     else:
         raise InputError(f"cannot convert to {file.suffix or 'a file without suffix'}", hint="use .yaml or .map")
 
 
-def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
+def planned_raster(roadmap: "Roadmap") -> "Occupancy":
+    """Return the cells of a roadmap as a raster; print how many neighbours no edge connects.
+
+    Raises:
+        InputError: the roadmap has no raster.
+    """
     import numpy as np
 
     from mrpbench_core.model.worlds.occupancy import Occupancy
@@ -129,7 +134,8 @@ def _planned_raster(roadmap: "Roadmap") -> "Occupancy":
     row, column = roadmap.grid.cell.T
     blocked[row, column] = False
     pairs = sum(int((~a & ~b).sum()) for a, b in ((blocked[:, 1:], blocked[:, :-1]), (blocked[1:], blocked[:-1])))
-    walled = pairs - len(roadmap.edges) // 2
+    cells = np.sort(roadmap.grid.cell[roadmap.edges] @ (roadmap.grid.shape[1], 1), axis=1)  # of the ends of edges
+    walled = pairs - len(np.unique(cells[cells[:, 0] < cells[:, 1]], axis=0))  # vertices of a cell differ by heading
     if walled:
         print(
             f"{walled} pairs of neighbouring cells are separated by something solid, which a .map cannot express",

@@ -4,7 +4,6 @@ Only wheels, masses and collision shapes of the format (wiki.ros.org/urdf/XML) a
 """
 
 import math
-import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -14,6 +13,7 @@ import numpy as np
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.files.text import position, read_text
+from mrpbench_core.files.xml import parse_xml
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Urdf
 
@@ -45,13 +45,7 @@ def read_urdf(file: Path) -> ET.Element:
         InputError: it cannot be read, or is not a URDF.
     """
     text = read_text(file)
-    if re.search(r"<!(DOCTYPE|ENTITY)", text):
-        raise InputError("has a DOCTYPE, which a URDF must not have", file=file)
-    try:
-        robot = ET.fromstring(text)  # noqa: S314 - without a DOCTYPE nothing in it expands
-    except ET.ParseError as error:
-        line, column = error.position
-        raise InputError(f"is not XML: {error}", file=file, line=line, column=column + 1) from None
+    robot = parse_xml(text, file, "a URDF")
     if robot.tag != "robot":
         raise InputError(f"is not a URDF: its root is {robot.tag!r} instead of 'robot'", file=file)
     if "xacro" in text and any("xacro" in element.tag for element in robot.iter()):

@@ -30,7 +30,7 @@ def folder(mrpbench, tmp_path):
 
 
 def test_every_kind_has_a_template():
-    assert set(kinds()) == {*KINDS, *SUITES, "critic", "hook"}
+    assert set(kinds()) == {*KINDS, *SUITES, "critic", "mppi_critic", "hook"}
 
 
 @pytest.mark.parametrize(("kind", "options"), [*((kind, ()) for kind in kinds()), ("planner", ("--external",))])

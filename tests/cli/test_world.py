@@ -3,8 +3,12 @@ import json
 
 import pytest
 
+from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
+from mrpbench_core.builtin.worlds.shipped import Household
 from mrpbench_core.cli import world as command
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.robot import load_robot
+from mrpbench_core.model.common.fleet import Fleet
 
 
 @pytest.fixture
@@ -85,6 +89,16 @@ def test_parts_that_a_map_cannot_express_are_named(invoke, tmp_path, capsys):
     command.run(parser.parse_args(["household", "--cell-size", "0.4", "--roadmap", "grid",
                                    "--convert", str(tmp_path / "a.map")]))  # fmt: skip
     assert "pairs of neighbouring cells are separated by something solid" in capsys.readouterr().err
+
+
+def test_headings_do_not_change_the_number_of_such_pairs(capsys):
+    fleet = Fleet(robots=(load_robot("turtlebot3_burger"),))
+    counts = set()
+    for model in ("constant", "kinodynamic"):
+        command.planned_raster(GridRoadmap(cell_size=0.4, duration_model=model).build(Household().load(), fleet))
+        counts.add(capsys.readouterr().err)
+    (message,) = counts
+    assert int(message.split()[0]) > 0
 
 
 def test_further_levels_are_drawn_next_to_the_first(invoke, tmp_path, shared_data):

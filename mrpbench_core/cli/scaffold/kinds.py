@@ -43,6 +43,11 @@ KINDS: Mapping[str, Kind] = {
     ),
     "importer": Kind(usage="On the command line: `mrpbench analyze FILE --importer $name`."),
     "metric": Kind(usage="In a configuration: `metrics: [planning, execution, $name]`."),
+    "mppi_critic": Kind(
+        usage="In a configuration: `controller: {plugin: mppi, extra_critics: [{plugin: $name, cost_weight: 5.0}]}`.",
+        standard=True,
+        suites="mrpbench_controllers_mppi.testing",
+    ),
     "recovery": Kind(usage="In a configuration: `navigator: {plugin: waypoints, recoveries: [clear, $name, wait]}`."),
     "scenario": Kind(options={"robots": 3}),
     "task_source": Kind(usage="In a configuration: `tasks: {plugin: $name}`."),

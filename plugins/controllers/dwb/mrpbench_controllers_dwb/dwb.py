@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import attrs
 from mrpbench_controllers_local import Critic as AnyCritic
-from mrpbench_controllers_local import LocalController, NativeCritic, limited
+from mrpbench_controllers_local import LocalController, NativeCritic, chosen, limited
 from mrpbench_native.local import controller_options, critic_options
 from mrpbench_native.options import Option
 
@@ -17,7 +17,6 @@ from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE, OF_CONTROLLER
 from mrpbench_core.api import option
 from mrpbench_core.api.described import described
 from mrpbench_core.api.nav2 import as_parameter
-from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.fleet import RobotModel
 
@@ -102,26 +101,4 @@ class Dwb(LocalController):
 
     def chosen_critics(self, block: Nav2Block | None) -> tuple[AnyCritic, ...]:
         """Return the critics of the options, or else of the block, or else of the default."""
-        if block is None:
-            return self._with_extra(self.critics or DEFAULT)
-        names = block.take_names("critics")
-        found: list[Critic] = []
-        for name in names:
-            if name not in NATIVE:
-                raise block.error(f"there is no critic {name!r}", "critics", hint=f"known critics: {', '.join(NATIVE)}")
-            found.append(NATIVE[name].from_nav2(block))
-        block.ignore(*(name for name in NATIVE if name not in names))
-        block.refuse_unknown()
-        return self._with_extra(self.critics or tuple(found) or DEFAULT)
-
-    def _with_extra(self, critics: tuple[Critic, ...]) -> tuple[Critic, ...]:
-        """Add the extra critics.
-
-        Raises:
-            InputError: one of Nav2's critics would score twice.
-        """
-        kinds = {type(critic) for critic in critics}
-        if twice := next((critic for critic in self.extra_critics if type(critic) in kinds), None):
-            name = type(twice).__name__
-            raise InputError(f"extra_critics: {name} is there already", hint="set its scale in `critics`")
-        return critics + self.extra_critics
+        return chosen(block, NATIVE, own=self.critics, extra=self.extra_critics, default=DEFAULT)

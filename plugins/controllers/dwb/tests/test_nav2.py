@@ -204,7 +204,7 @@ def test_an_extra_critic_is_added_to_the_default_or_to_those_of_the_file(tmp_pat
 
 
 def test_an_extra_critic_that_is_there_already_is_refused():
-    with pytest.raises(InputError, match=r"extra_critics: PathDist is there already \(set its scale in `critics`\)"):
+    with pytest.raises(InputError, match=r"extra_critics: PathDist is there already \(set its weight in `critics`\)"):
         Dwb(extra_critics=(PathDist(scale=3.0),))
 
 

@@ -1,11 +1,14 @@
 """Critics score the trajectories that a controller samples. Each controller with critics has a kind of its own."""
 
 from abc import ABC, abstractmethod
-from typing import Any
+from collections.abc import Mapping
+from typing import Any, Protocol, TypeVar
 
 import attrs
 
 from mrpbench_core.api import Component
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.worlds.world import World
@@ -57,3 +60,50 @@ class NativeCritic(Critic):
     @abstractmethod
     def parameters(self) -> dict[str, Any]:
         """The options of the native part."""
+
+
+C = TypeVar("C", bound=Critic)
+C_co = TypeVar("C_co", bound=Critic, covariant=True)
+
+
+class FromNav2(Protocol[C_co]):
+    """The class of a critic of Nav2."""
+
+    def from_nav2(self, block: Nav2Block) -> C_co:
+        """Create the critic from a Nav2 file."""
+
+
+def chosen(
+    block: Nav2Block | None,
+    known: Mapping[str, FromNav2[C]],
+    *,
+    own: tuple[C, ...] | None,
+    extra: tuple[C, ...],
+    default: tuple[C, ...],
+) -> tuple[C, ...]:
+    """Return the critics of an option, or else of a block FollowPath, or else the default; and the extra ones.
+
+    Args:
+        block: the block, in which nothing may be left unread; None = there is none.
+        known: the critics of Nav2 by name.
+        own: the option `critics`.
+        extra: the option `extra_critics`.
+        default: the critics of Nav2's own file.
+
+    Raises:
+        InputError: the block is wrong, or a critic would score twice.
+    """
+    found: tuple[C, ...] = ()
+    if block is not None:
+        names = block.take_names("critics")
+        for name in names:
+            if name not in known:
+                raise block.error(f"there is no critic {name!r}", "critics", hint=f"known critics: {', '.join(known)}")
+        found = tuple(known[name].from_nav2(block) for name in names)
+        block.ignore(*(name for name in known if name not in names))
+        block.refuse_unknown()
+    critics = own or found or default
+    kinds = {type(critic) for critic in critics}
+    if twice := next((critic for critic in extra if type(critic) in kinds), None):
+        raise InputError(f"extra_critics: {type(twice).__name__} is there already", hint="set its weight in `critics`")
+    return critics + extra

@@ -7,7 +7,7 @@ Williams, Drews, Goldfain, Rehg and Theodorou, "Aggressive driving with model pr
 from typing import Any, ClassVar
 
 import attrs
-from mrpbench_controllers_local import Critic, LocalController, limited
+from mrpbench_controllers_local import Critic, LocalController, chosen, limited
 from mrpbench_native.local import controller_options
 
 from mrpbench_controllers_mppi.critic import MppiCritic
@@ -38,6 +38,9 @@ class Mppi(LocalController):
         None,
         help="critics that score trajectories, in order; default, with weights: "
         + ", ".join(f"{type(critic).__name__} {critic.weight:g}" for critic in DEFAULT),
+    )
+    extra_critics: tuple[MppiCritic, ...] = option(
+        (), help="critics in addition to those of `critics` or of the Nav2 file"
     )
 
     def settled(self, block: Nav2Block | None) -> dict[str, Any]:
@@ -73,13 +76,4 @@ class Mppi(LocalController):
 
     def chosen_critics(self, block: Nav2Block | None) -> tuple[Critic, ...]:
         """Return the critics of the options, or else of the block, or else of the default."""
-        if block is None:
-            return self.critics or DEFAULT
-        names = block.take_names("critics")
-        for name in names:
-            if name not in NATIVE:
-                raise block.error(f"there is no critic {name!r}", "critics", hint=f"known critics: {', '.join(NATIVE)}")
-        found = tuple(NATIVE[name].from_nav2(block) for name in names)
-        block.ignore(*(name for name in NATIVE if name not in names))
-        block.refuse_unknown()
-        return self.critics or found or DEFAULT
+        return chosen(block, NATIVE, own=self.critics, extra=self.extra_critics, default=DEFAULT)
