@@ -24,7 +24,7 @@ def main() -> int:
         "--folder",
         type=Path,
         default=STUDIES,
-        help="folder of studies and of the maps that they name (default: studies)",
+        help="folder of studies and the maps that they name (default: studies)",
     )
     parser.add_argument(
         "--workers", default="1", help="number of runs at a time; with 1, times are what they are alone"

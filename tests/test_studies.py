@@ -1,5 +1,6 @@
-"""The paper's studies: every file loads, and is as large as the page says."""
+"""The studies: every file loads, and is as large as the page says."""
 
+import shutil
 from collections import Counter
 from pathlib import Path
 
@@ -39,7 +40,17 @@ def missing_planners():
 
 
 def test_every_study_is_known_here():
-    assert {file.stem for file in FOLDER.glob("*.yaml")} == set(RUNS_PER_PLANNER)
+    assert {file.stem for file in FOLDER.glob("*.yaml")} == {*RUNS_PER_PLANNER, "movingai"}
+
+
+def test_the_study_of_the_movingai_benchmark_finds_its_files_beside_it(shared_data, tmp_path):
+    for file in ("maps/random-32-32-10.map", *(f"scens/random-32-32-10-random-{n}.scen" for n in range(1, 6))):
+        shutil.copy(shared_data / "movingai" / file, tmp_path)
+    study = load_study(shutil.copy(FOLDER / "movingai.yaml", tmp_path))
+    assert not study.errors
+    assert Counter(point.canonical["planner"]["plugin"] for point in study.runs) == dict.fromkeys(
+        ("prioritized", "eecbs", "pibt", "lacam", "lns"), 15
+    )
 
 
 @pytest.mark.parametrize("name", RUNS_PER_PLANNER)
