@@ -17,6 +17,9 @@ class Promise(StrEnum):
     """Least sum of costs."""
     BOUNDED = "bounded"
     """The sum of costs is at most the planner's option `w` times `PlanResult.lower_bound`."""
+    ROBUST = "robust"
+    """There is no conflict although each robot is up to as many ticks late as the planner's option `k` says, and the
+    other promises are about such plans."""
     COMPLETE = "complete"
     """Finds a plan, given enough time, if one exists."""
     DETERMINISTIC = "deterministic"

@@ -32,7 +32,10 @@ class Conflict(NamedTuple):
 
 
 class Occupation(NamedTuple):
-    """A robot's time on one element: at a vertex (`tail == head`, closed interval) or on an edge (open interval)."""
+    """A robot's time on one element: at a vertex (`tail == head`, closed interval) or on an edge (open interval).
+
+    Where robots may be late, it ends when the latest leaves, so that the next one of the same robot may begin before.
+    """
 
     robot: int
     tail: int
@@ -57,17 +60,18 @@ def find_conflicts(problem: Problem, plan: Plan, limit: int | None = None) -> li
 
 def _occupations(problem: Problem, plan: Plan, robot: int) -> Iterator[Occupation]:
     path = plan.paths[robot]
+    late = problem.rules.k
     at = int(problem.start[robot])
     since = problem.begin(robot)
     for edge, enter, leave in zip(path.edge.tolist(), path.enter.tolist(), path.leave.tolist(), strict=True):
         if edge < 0:
             continue
         tail, head = (int(vertex) for vertex in problem.roadmap.edges[edge])
-        yield Occupation(robot, at, at, since, enter)
-        yield Occupation(robot, tail, head, enter, leave)
+        yield Occupation(robot, at, at, since, enter + late)
+        yield Occupation(robot, tail, head, enter, leave + late)
         at, since = head, leave
     last = int(path.leave[-1]) if len(path) else since
-    yield Occupation(robot, at, at, since, FOREVER if problem.rules.at_goal == "stay" else max(since, last))
+    yield Occupation(robot, at, at, since, FOREVER if problem.rules.at_goal == "stay" else max(since, last) + late)
 
 
 def _pairs(problem: Problem, occupations: list[Occupation]) -> Iterator[Conflict]:

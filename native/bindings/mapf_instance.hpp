@@ -90,8 +90,8 @@ inline std::vector<mapf::Resource> resources_of(const nb::dict& given) {
 }
 
 inline void construct(mapf::Instance* self, const nb::dict& roadmap, const nb::dict& robots, const nb::dict& exclusions,
-                      const nb::dict& resources, bool following_forbidden, bool disappear_at_goal) {
-  new (self) mapf::Instance(roadmap_of(roadmap), robots_of(robots), {following_forbidden, disappear_at_goal},
+                      const nb::dict& resources, bool following_forbidden, bool disappear_at_goal, std::int64_t k) {
+  new (self) mapf::Instance(roadmap_of(roadmap), robots_of(robots), {following_forbidden, disappear_at_goal, tick(k)},
                             exclusions_of(exclusions), resources_of(resources));
 }
 

@@ -22,6 +22,7 @@ def claims_of(promises: Promises, problem: Problem, result: PlanResult) -> dict[
         problem: the first problem of the run.
         result: the answer, which breaks no promise within this run.
     """
+    problem = promises.asked(problem)
     setting = fingerprint(attrs.evolve(problem, goals=(), features=problem.features & {Feature.FOOTPRINTS}))
     sound = result.plan is not None and not result.statistics.get("conflicts")
     bounds = bool({Promise.OPTIMAL, Promise.BOUNDED} & promises.kept) and not result.clock_bound

@@ -21,13 +21,20 @@ class Promises:
     factor: float
     """The sum of costs is at most this times the lower bound, where a bound is promised."""
     assigns: bool
+    k: int = 0
+    """ticks that each robot may be late without a conflict."""
 
     @classmethod
     def of(cls, planner: Planner) -> Self:
         """The promises of a planner as it is configured."""
         promised = frozenset(planner.promises)
         factor = float(getattr(planner, "w", 1.0)) if Promise.BOUNDED in promised else 1.0
-        return cls(kept=promised, factor=factor, assigns=bool(planner.assigns))
+        k = int(getattr(planner, "k", 0)) if Promise.ROBUST in promised else 0
+        return cls(kept=promised, factor=factor, assigns=bool(planner.assigns), k=k)
+
+    def asked(self, problem: Problem) -> Problem:
+        """The problem with the rules that the plan keeps."""
+        return attrs.evolve(problem, rules=attrs.evolve(problem.rules, k=self.k))
 
 
 def judge(promises: Promises, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
@@ -40,7 +47,7 @@ def judge(promises: Promises, problem: Problem, result: PlanResult) -> tuple[Pla
         return PlanResult(status=PlanStatus.GAVE_UP), fault
     if result.plan is None:
         return result, None if result.status != PlanStatus.SOLVED else "has the status solved but returns no plan"
-    report = check_plan(problem, result.plan)
+    report = check_plan(promises.asked(problem), result.plan)
     if report.faults:
         return result, report.faults[0]
     if promises.assigns and (shared := check_choice(problem, result.plan)):

@@ -13,6 +13,10 @@ Time is in ticks. A robot stands at a vertex during the *closed* interval [arriv
 6. *resource*: they are among more robots than its `capacity` that use a resource of the roadmap at one time. A robot
    uses it while it is on one of its elements and for `setup_ticks` ticks afterwards.
 
+With `rules.k` the plan is *k-robust* (Atzmon et al., "Robust Multi-Agent Path Finding and Executing", JAIR 2020): no
+conflict although each robot is up to k ticks late anywhere. A robot that comes in time and leaves k ticks late is in
+the way longest, so each stay at a vertex and each time on an edge ends k ticks later for these rules.
+
 With unit durations, rules 1 and 2 are the vertex and edge conflicts of Stern et al., "Multi-Agent Pathfinding:
 Definitions, Variants, and Benchmarks", SoCS 2019; rule 5 is the multi-agent path finding with large agents of Li et
 al., AAAI 2019, on discs and straight lanes.

@@ -42,6 +42,8 @@ class Rules:
     """allowed | forbidden: may a robot enter a vertex in the tick in which another leaves it?"""
     at_goal: str = "stay"
     """stay | disappear."""
+    k: int = 0
+    """Ticks: no conflict although each robot is up to this late anywhere. Planners set it from their option `k`."""
 
 
 @attrs.frozen(kw_only=True)

@@ -23,6 +23,7 @@ class Instance:
         resources: dict[str, Any],
         following_forbidden: bool,
         disappear_at_goal: bool,
+        k: int = 0,
     ) -> None: ...
 
 class Answer:

@@ -106,13 +106,13 @@ bool ConfigurationSpace::prove_unsolvable(DistanceTables& tables, Limits& limits
 }
 
 bool is_suitable(const Instance& instance) {
-  if (instance.rules().disappear_at_goal) return false;
+  if (instance.rules().disappear_at_goal || instance.rules().k > 0) return false;
   return std::ranges::all_of(instance.robots(), [](const Robot& robot) { return robot.goals.size() == 1; });
 }
 
 void require_suitable(const Instance& instance, const char* solver) {
   if (!is_suitable(instance)) {
-    throw std::invalid_argument(std::string(solver) + " needs robots with one goal each, where they stay");
+    throw std::invalid_argument(std::string(solver) + " needs robots with one goal each, where they stay, and k = 0");
   }
 }
 

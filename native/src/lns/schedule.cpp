@@ -48,10 +48,11 @@ void Schedule::reject(const std::vector<int>& robots) {
   }
 }
 
-/// Does the robot bind others before it has a path? Standing at its start at tick 0 alone binds none.
+/// Does the robot bind others before it has a path? Standing at its start at tick 0 alone binds none, unless robots may
+/// be late.
 bool Schedule::holds(int robot) const {
   const Beginning& beginning = instance_.beginning(robot);
-  return beginning.occupied.size() > 1 || beginning.free_at > 0;
+  return beginning.occupied.size() > 1 || beginning.free_at > 0 || instance_.rules().k > 0;
 }
 
 void Schedule::hold(int robot) {

@@ -106,11 +106,14 @@ Sipps::Row Sipps::states_of(int vertex) {
 std::span<const Visit> Sipps::visits_at(int vertex) {
   const std::span<const Near> row = traffic_.relations().row(vertex);
   const std::span<const std::int32_t> resources = instance_.resources_of(vertex);
-  if (row.size() == 1 && resources.empty()) return traffic_.at(vertex);
+  const Tick k = instance_.rules().k;
+  if (row.size() == 1 && resources.empty() && k == 0) return traffic_.at(vertex);
   visits_.clear();
   for (const Near& near : row) {
     for (const Visit& visit : traffic_.at(near.element)) {
-      if (near.distance < instance_.reach(robot_, visit.robot)) visits_.push_back(visit);
+      if (near.distance >= instance_.reach(robot_, visit.robot)) continue;
+      const Range late = widened(visit.begin, visit.end, k);
+      visits_.push_back({late.first, late.last, visit.robot});
     }
   }
   ranges_.clear();
@@ -177,8 +180,8 @@ std::span<const Range> Sipps::departures_of(int edge) {
       for (const Visit& visit : traffic_.at(near.element)) {
         const Relation relation = near.relation(instance_.reach(robot_, visit.robot));
         if (relation == Relation::none) continue;
-        Range range{visit.begin / 2 + 1 - duration, (visit.end - 1) >> 1};  // [2d+1, 2(d+duration)-1] meets the visit
-        if (relation == Relation::ordered) {                                // not the same order at both ends
+        Range range = departures_into(widened(visit.begin, visit.end, instance_.rules().k), duration);
+        if (relation == Relation::ordered) {  // not the same order at both ends
           const Tick enter = visit.begin / 2, level = (visit.end + 1) / 2 - duration;
           range = {std::min(enter, level), std::max(enter, level)};
         }

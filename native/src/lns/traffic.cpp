@@ -8,6 +8,7 @@ namespace {
 
 /// What else is forbidden on lanes follows, where all moves take one tick.
 bool has_unit_moves(const Instance& instance) {
+  if (instance.rules().k > 0) return false;
   if (instance.footprints() || !instance.resources().empty() || instance.rules().following_forbidden) return false;
   const auto committed = [](const Robot& robot) { return !robot.committed.empty(); };  // perhaps to slow moves
   if (std::ranges::any_of(instance.robots(), committed)) return false;

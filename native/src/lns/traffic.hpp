@@ -30,10 +30,11 @@ class Traffic {
       swappers(instance_.roadmap().tail(edge), instance_.roadmap().head(edge), enter_tick(occupation), found);
       return;
     }
+    const Range late = widened(occupation.begin, occupation.end, instance_.rules().k);
     for (const Near& near : relations_.row(occupation.element)) {
       for (const Visit& visit : visits_[near.element]) {
-        if (visit.begin > occupation.end) break;
-        if (visit.end < occupation.begin || visit.robot == robot) continue;
+        if (visit.begin > late.last) break;
+        if (visit.end < late.first || visit.robot == robot) continue;
         const Relation relation = near.relation(instance_.reach(robot, visit.robot));
         if (relation == Relation::none) continue;
         if (relation == Relation::ordered && !overtakes(occupation, {near.element, visit.begin, visit.end})) continue;

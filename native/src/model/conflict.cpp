@@ -10,22 +10,23 @@ PairConflict find_conflict(const Instance& instance, const Relations& relations,
   const double reach = instance.reach(one, other);
   const int vertices = instance.roadmap().vertex_count();
   const bool footprints = instance.footprints();
-  std::size_t i = 0, j = 0;
-  while (i < one_path.size() && j < other_path.size()) {
-    const Occupation &a = one_path[i], &b = other_path[j];
-    const bool comparable = footprints || (a.element < vertices) == (b.element < vertices);
-    const Relation relation = comparable ? relations.between(a.element, b.element, reach) : Relation::none;
-    if (relation == Relation::exclusive || (relation == Relation::ordered && overtakes(a, b))) {
-      if (found.count++ == 0) {
-        found.one_step = static_cast<std::int32_t>(i);
-        found.other_step = static_cast<std::int32_t>(j);
-        found.time = std::max(a.begin, b.begin);
-        found.relation = relation;
-      }
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < one_path.size(); ++i) {
+    const Occupation& a = one_path[i];
+    const Range near = widened(a.begin, a.end, instance.rules().k);
+    while (first < other_path.size() && other_path[first].end < near.first) ++first;
+    for (std::size_t j = first; j < other_path.size() && other_path[j].begin <= near.last; ++j) {
+      const Occupation& b = other_path[j];
+      const bool comparable = footprints || (a.element < vertices) == (b.element < vertices);
+      const Relation relation = comparable ? relations.between(a.element, b.element, reach) : Relation::none;
+      if (relation == Relation::none || (relation == Relation::ordered && !overtakes(a, b))) continue;
+      const Half time = std::max(a.begin, b.begin);
+      if (found.count++ > 0 && time >= found.time) continue;
+      found.one_step = static_cast<std::int32_t>(i);
+      found.other_step = static_cast<std::int32_t>(j);
+      found.time = time;
+      found.relation = relation;
     }
-    const Half end = std::min(a.end, b.end);
-    i += a.end == end;
-    j += b.end == end;
   }
   return found;
 }

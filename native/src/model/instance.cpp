@@ -22,6 +22,7 @@ Instance::Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Excl
       exclusions_(std::move(exclusions)),
       resources_(std::move(resources)) {
   validate();
+  for (Resource& it : resources_) it.setup += rules_.k;
   if (!resources_.empty()) resources_of_.resize(roadmap_.element_count());
   for (std::size_t resource = 0; resource < resources_.size(); ++resource) {
     for (const int element : resources_[resource].elements) {
@@ -58,6 +59,7 @@ Beginning Instance::begin(int robot) const {
 }
 
 void Instance::validate() const {
+  if (rules_.k < 0 || rules_.k > kLongestEdge) throw std::invalid_argument("k must be 0 to 2^20 ticks");
   if (footprints()) {
     const auto rows = static_cast<std::size_t>(roadmap_.element_count());
     const auto size = static_cast<std::int64_t>(exclusions_.element.size());

@@ -34,7 +34,7 @@ void Reservations::at_vertex(int robot, int vertex, std::vector<Range>& halves) 
     for (std::int32_t k = head_[near.element]; k >= 0; k = entries_[k].next) {
       const Entry& entry = entries_[k];
       if (entry.robot == robot || near.distance >= instance_.reach(robot, entry.robot)) continue;
-      halves.push_back({entry.begin, entry.end});
+      halves.push_back(widened(entry.begin, entry.end, instance_.rules().k));
     }
   }
   for (const std::int32_t resource : instance_.resources_of(vertex)) users_.full(robot, resource, halves);
@@ -46,8 +46,8 @@ void Reservations::on_edge(int robot, int edge, Tick duration, std::vector<Range
       const Entry& entry = entries_[k];
       if (entry.robot == robot) continue;
       switch (near.relation(instance_.reach(robot, entry.robot))) {
-        case Relation::exclusive:  // [2d+1, 2(d+duration)-1] must not meet [begin, end]
-          departures.push_back({entry.begin / 2 + 1 - duration, (entry.end - 1) >> 1});
+        case Relation::exclusive:
+          departures.push_back(departures_into(widened(entry.begin, entry.end, instance_.rules().k), duration));
           break;
         case Relation::ordered: {  // in one order both at the entrance and at the exit
           const Tick enter = entry.begin / 2, level = (entry.end + 1) / 2 - duration;
@@ -68,7 +68,8 @@ void Reservations::on_edge(int robot, int edge, Tick duration, std::vector<Range
 void reserve_beginnings(const Instance& instance, Reservations& reservations) {
   for (int robot = 0; robot < instance.size(); ++robot) {
     const Beginning& beginning = instance.beginning(robot);
-    if (beginning.occupied.size() > 1 || beginning.free_at > 0) reservations.add(robot, beginning.occupied);
+    if (beginning.occupied.size() > 1 || beginning.free_at > 0 || instance.rules().k > 0)
+      reservations.add(robot, beginning.occupied);
   }
 }
 

@@ -62,7 +62,7 @@ void ResourceUsers::full_departures(int robot, int resource, Tick duration, std:
   std::vector<Range> halves;
   full(robot, resource, halves);
   for (const Range& it : halves) {
-    const Range hit{it.first / 2 + 1 - duration, (it.last - 1) >> 1};
+    const Range hit = departures_into(it, duration);
     if (hit.first <= hit.last) departures.push_back(hit);
   }
 }

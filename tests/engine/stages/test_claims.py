@@ -52,6 +52,13 @@ def test_each_part_of_a_problem_changes_its_fingerprint(run_context, change):
     assert fingerprint(attrs.evolve(problem)) == fingerprint(problem) != fingerprint(attrs.evolve(problem, **change))
 
 
+def test_claims_about_robust_plans_are_about_a_problem_of_their_own(run_context):
+    robust = attrs.evolve(OPTIMAL, k=1)
+    one, other = (claims_of(promises, run_context.problem, run_context.result) for promises in (OPTIMAL, robust))
+    assert one["problem"] != other["problem"]
+    assert one["setting"] != other["setting"]
+
+
 def test_the_roadmap_changes_the_fingerprint_and_its_notes_do_not(run_context):
     roadmap = run_context.problem.roadmap
     slower = attrs.evolve(roadmap, duration=2 * np.asarray(roadmap.duration))

@@ -44,6 +44,11 @@ class Bounded(Fixed):
     w = 1.5
 
 
+class Robust(Careful):
+    promises = frozenset({Promise.CONFLICT_FREE, Promise.ROBUST})
+    k = 3
+
+
 class Assigning(Fixed):
     supports = frozenset({Feature.GOAL_SETS})
     assign = True
@@ -78,6 +83,13 @@ def test_conflicts_break_the_promise_of_a_planner_that_makes_it(run_context):
     _, fault = judged(Careful, run_context.problem, PlanResult(status=PlanStatus.SOLVED, plan=COLLIDING))
     assert fault is not None
     assert "vertex conflict of robots 0 and 1" in fault
+
+
+def test_a_plan_must_leave_the_robots_as_far_apart_as_its_planner_promises(run_context):
+    assert judged(Careful, run_context.problem, run_context.result)[1] is None
+    _, fault = judged(Robust, run_context.problem, run_context.result)
+    assert fault is not None
+    assert "conflict of robots 0 and 1" in fault
 
 
 def test_an_unsound_path_is_a_fault_of_every_planner(run_context):

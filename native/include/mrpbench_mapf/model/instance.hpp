@@ -27,6 +27,9 @@ struct Robot {
 struct Rules {
   bool following_forbidden = false;
   bool disappear_at_goal = false;
+  /// No conflict although each robot may be up to `k` ticks late anywhere: k-robust plans of Atzmon et al., "Robust
+  /// Multi-Agent Path Finding and Executing", JAIR 2020.
+  Tick k = 0;
 };
 
 /// Pairs of elements closer than some distance, as sparse rows (`mrpbench_core.model.planning.conflicts.Exclusions`).
@@ -37,7 +40,8 @@ struct Exclusions {
   std::vector<double> distance;  // metres
 };
 
-/// Elements that at most `capacity` robots use at a time, each for `setup` ticks longer than it is on them (rule 6).
+/// Elements that at most `capacity` robots use at a time, each for `setup` ticks longer than it is on them (rule 6). An
+/// instance counts the ticks that a robot may be late as setup.
 struct Resource {
   int capacity;
   Tick setup;

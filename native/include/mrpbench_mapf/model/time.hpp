@@ -3,6 +3,7 @@
 // every occupation is a closed interval of integers, and two of them overlap exactly when the intervals meet.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 namespace mrpbench::mapf {
@@ -40,6 +41,17 @@ inline Occupation at_vertex(int vertex, Tick arrive, Tick depart) {
 }
 inline Occupation on_edge(int element, Tick enter, Tick leave) {
   return {element, 2 * enter + 1, 2 * leave - 1};
+}
+
+/// The half-ticks during which another robot must not be there, when each of both may be up to `k` ticks late: before
+/// the occupation, because the other one may leave late, and after it, because this one may.
+inline Range widened(Half begin, Half end, Tick k) {
+  return {std::max(begin - 2 * k, 0), end > kForeverHalf - 2 * k ? kForeverHalf : end + 2 * k};
+}
+
+/// The departures d at which a robot would be on an edge, [2d + 1, 2(d + duration) - 1], during `halves`; perhaps none.
+inline Range departures_into(const Range& halves, Tick duration) {
+  return {halves.first / 2 + 1 - duration, (halves.last - 1) >> 1};
 }
 
 /// Tick at which the robot entered the edge, or arrived at the vertex.

@@ -26,10 +26,11 @@ class Reservations {
   /// Call `found(entry, relation)` for every reservation of another robot with which `occupation` conflicts.
   template <class Found>
   void conflicts_of(int robot, const Occupation& occupation, Found found) const {
+    const Range late = widened(occupation.begin, occupation.end, instance_.rules().k);
     for (const Near& near : relations_.row(occupation.element)) {
       for (std::int32_t k = head_[near.element]; k >= 0; k = entries_[k].next) {
         const Entry& entry = entries_[k];
-        if (entry.robot == robot || entry.begin > occupation.end || entry.end < occupation.begin) continue;
+        if (entry.robot == robot || entry.begin > late.last || entry.end < late.first) continue;
         const Relation relation = near.relation(instance_.reach(robot, entry.robot));
         if (relation == Relation::none) continue;
         if (relation == Relation::ordered && !overtakes(occupation, {near.element, entry.begin, entry.end})) continue;
@@ -83,7 +84,8 @@ class Others final : public Obstacles {
   int robot_;
 };
 
-/// Reserve what every robot does for certain (standing at its start at tick 0 alone binds no robot).
+/// Reserve what every robot does for certain (standing at its start at tick 0 alone binds no robot, unless robots may
+/// be late).
 void reserve_beginnings(const Instance& instance, Reservations& reservations);
 
 }  // namespace mrpbench::mapf

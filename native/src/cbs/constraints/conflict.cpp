@@ -87,7 +87,13 @@ class Occupations {
  public:
   Occupations(const Space& space, const AvoidanceTable& present, int robot, const TimedPath& path,
               Arena<Constraint>& constraints, std::vector<Conflict>& found)
-      : space_(space), present_(present), robot_(robot), path_(path), constraints_(constraints), found_(found) {}
+      : space_(space),
+        present_(present),
+        robot_(robot),
+        path_(path),
+        constraints_(constraints),
+        found_(found),
+        k_(space.instance().rules().k) {}
 
   void sweep() {
     for (std::size_t step = 0; step < path_.occupied.size(); ++step) {
@@ -98,7 +104,7 @@ class Occupations {
         if (!meet_at_junctions(pair, other)) {
           const Occupation &here = path_.occupied[step], &there = other.occupied[entry.step];
           meet(pair, other, {here.begin, here.end}, {there.begin, there.end},
-               split(pair, path_.occupied, other.occupied, space_.vertex_count()));
+               split(pair, path_.occupied, other.occupied, space_.vertex_count(), k_));
         }
       });
     }
@@ -106,11 +112,13 @@ class Occupations {
 
  private:
   /// Two robots that are on one junction at the same time have one conflict there, found when they first meet. Each
-  /// branch forbids one of them the whole junction at the same instant. False if they are not on one junction.
-  ///   Complete: a plan that breaks both constraints has both robots on the junction at that instant, on two elements
-  ///   that exclude each other, or on one element, which excludes itself. Progress: both present paths are on the
-  ///   junction at that instant, so each branch forbids the path of its robot. Nothing is missed: at the instant from
-  ///   which both are on the junction, they are on elements that exclude each other, so that this conflict is found.
+  /// branch forbids one of them the whole junction in the same window, an instant unless robots may be late. False if
+  /// they are not on one junction.
+  ///   Complete: a plan that breaks both constraints has both robots on the junction within that window, on two
+  ///   elements that exclude each other, or on one element, which excludes itself. Progress: both present paths are on
+  ///   the junction within it, so each branch forbids the path of its robot. Nothing is missed: from the instant at
+  ///   which the second is on the junction, they are on elements that exclude each other, so that this conflict is
+  ///   found.
   bool meet_at_junctions(const PairConflict& pair, const TimedPath& other) {
     const std::int32_t here = path_.occupied[pair.one_step].element, there = other.occupied[pair.other_step].element;
     bool met = false;
@@ -120,9 +128,9 @@ class Occupations {
       const Range one = time_on(space_, vertex, path_.occupied, pair.one_step);
       const Range two = time_on(space_, vertex, other.occupied, pair.other_step);
       if (pair.time > std::max(one.first, two.first)) continue;  // found when they met there
-      const Half instant = instant_of(one, two);
+      const Range window = window_from(instant_of(one, two), k_);
       meet(pair, other, one, two,
-           {junction_constraint(pair.one, vertex, instant), junction_constraint(pair.other, vertex, instant)});
+           {junction_constraint(pair.one, vertex, window), junction_constraint(pair.other, vertex, window)});
     }
     return met;
   }
@@ -139,6 +147,7 @@ class Occupations {
   const TimedPath& path_;
   Arena<Constraint>& constraints_;
   std::vector<Conflict>& found_;
+  Tick k_;
 };
 
 /// Two robots use a resource, which holds one robot, at the same time. Each branch forbids one of them the resource at
@@ -195,7 +204,7 @@ bool stands_in_way(const Space& space, int robot, const TimedPath& path, const C
   });
   const double reach = space.instance().reach(robot, parked.robot);
   return shared || std::ranges::any_of(path.occupied, [&](const Occupation& it) {
-           return it.end >= 2 * from &&
+           return widened(it.begin, it.end, space.instance().rules().k).last >= 2 * from &&
                   space.relations().between(it.element, parked.element, reach) == Relation::exclusive;
          });
 }

@@ -77,8 +77,9 @@ void ConstraintTable::make_way(const Constraint& parked) {
   if (space_.classical()) return forbid(parked.element, {2 * from, kForeverHalf});
   const Instance& instance = space_.instance();
   const double reach = instance.reach(robot_, parked.robot);
+  const Half since = widened(2 * from, 2 * from, instance.rules().k).first;
   for (const Near& near : space_.relations().row(parked.element)) {
-    if (near.relation(reach) == Relation::exclusive) keep_away(near.element, {2 * from, kForeverHalf});
+    if (near.relation(reach) == Relation::exclusive) keep_away(near.element, {since, kForeverHalf});
   }
   for (const std::int32_t resource : instance.resources_of(parked.element)) {
     forbid_resource(resource, {2 * from, kForeverHalf});

@@ -29,7 +29,7 @@ Space::Space(const Instance& instance, Limits& limits) : instance_(instance), cl
 bool Space::is_classical() const {
   const Roadmap& roadmap = instance_.roadmap();
   if (instance_.footprints() || instance_.rules().following_forbidden || !instance_.resources().empty()) return false;
-  if (instance_.size() > kMostRobots) return false;
+  if (instance_.size() > kMostRobots || instance_.rules().k > 0) return false;
   for (int profile = 0; profile < roadmap.profile_count(); ++profile) {
     if (std::ranges::any_of(roadmap.duration(profile), [](Tick ticks) { return ticks != 1 && ticks != -1; })) {
       return false;

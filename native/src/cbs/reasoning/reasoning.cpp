@@ -47,13 +47,15 @@ bool Reasoning::examine_passing(const NodeState& state, Conflict& conflict) {
 void Reasoning::examine_junction(const NodeState& state, Conflict& conflict) {
   const Constraint present = conflict.branch[0][0];
   if (present.kind != Constraint::Kind::junction || conflict.cardinality == Conflict::Cardinality::both) return;
+  if (present.range.first < conflict.time) return;  // one would leave before the other one comes
   for (const int robot : {conflict.one, conflict.other}) {
     const Half instant = earliest_done(state, conflict, robot, present.element);
     if (instant < conflict.time || instant >= present.range.first) continue;
     Conflict sooner = conflict;
+    const Range window = window_from(instant, context_.space.instance().rules().k);
     use(sooner, conflict.kind,
-        {junction_constraint(conflict.one, present.element, instant),
-         junction_constraint(conflict.other, present.element, instant)});
+        {junction_constraint(conflict.one, present.element, window),
+         junction_constraint(conflict.other, present.element, window)});
     rate(state, sooner);
     if (sooner.cardinality > conflict.cardinality) conflict = sooner;
   }

@@ -16,7 +16,7 @@ Half last_in_way(const Space& space, const NodeState& state, const Conflict& con
     for (const Occupation& it : path) {
       if (it.end < conflict.time) continue;
       if (space.relations().between(it.element, target, reach) != Relation::exclusive) break;
-      last = it.end;
+      last = widened(it.begin, it.end, space.instance().rules().k).last;
     }
     return last;
   }

@@ -4,13 +4,13 @@ from typing import ClassVar
 
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.planning.problem import Feature, Problem
-from mrpbench_planners_mapf.recipe import SUPPORTED, NativePlanner
+from mrpbench_planners_mapf.recipe import SUPPORTED, RobustPlanner
 
-OPTIMAL = frozenset({Promise.CONFLICT_FREE, Promise.OPTIMAL, Promise.COMPLETE, Promise.DETERMINISTIC})
-BOUNDED = frozenset({Promise.CONFLICT_FREE, Promise.BOUNDED, Promise.COMPLETE, Promise.DETERMINISTIC})
+OPTIMAL = frozenset(Promise) - {Promise.BOUNDED}
+BOUNDED = frozenset(Promise) - {Promise.OPTIMAL}
 
 
-class ConflictBased(NativePlanner):
+class ConflictBased(RobustPlanner):
     """A planner that splits conflicts of two robots, so no resource may hold more than one."""
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}

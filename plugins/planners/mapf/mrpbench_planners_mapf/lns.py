@@ -4,11 +4,11 @@ from typing import ClassVar
 
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.planning.problem import Feature
-from mrpbench_planners_mapf.recipe import SUPPORTED, NativePlanner, native_planner
+from mrpbench_planners_mapf.recipe import SUPPORTED, RobustPlanner, native_planner
 
 
 @native_planner("lns")
-class Lns(NativePlanner):
+class Lns(RobustPlanner):
     """Repairs a plan with conflicts (Li et al., AAAI 2022), then improves it (Li et al., IJCAI 2021).
 
     Improvement ends when all robots arrive as early as if they were alone, after `limits.iterations` groups, or when
@@ -17,4 +17,4 @@ class Lns(NativePlanner):
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
-    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
+    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.ROBUST, Promise.DETERMINISTIC})

@@ -76,6 +76,7 @@ def _instance(problem: Problem, module: ModuleType) -> mapf.Instance:
         resources=resources,
         following_forbidden=problem.rules.following == "forbidden",
         disappear_at_goal=problem.rules.at_goal == "disappear",
+        k=problem.rules.k,
         module=module,
     )
 

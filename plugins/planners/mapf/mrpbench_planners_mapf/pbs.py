@@ -4,11 +4,11 @@ from typing import ClassVar
 
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.planning.problem import Feature
-from mrpbench_planners_mapf.recipe import SUPPORTED, NativePlanner, native_planner
+from mrpbench_planners_mapf.recipe import SUPPORTED, RobustPlanner, native_planner
 
 
 @native_planner("pbs")
-class Pbs(NativePlanner):
+class Pbs(RobustPlanner):
     """Searches depth first over partial orders of robots (Ma et al., AAAI 2019).
 
     Each robot plans around those before it. Often near the optimum and much faster than an optimal planner. Incomplete:
@@ -17,4 +17,4 @@ class Pbs(NativePlanner):
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
-    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
+    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.ROBUST, Promise.DETERMINISTIC})

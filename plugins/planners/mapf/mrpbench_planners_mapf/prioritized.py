@@ -4,11 +4,11 @@ from typing import ClassVar
 
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.planning.problem import Feature
-from mrpbench_planners_mapf.recipe import SUPPORTED, NativePlanner, native_planner
+from mrpbench_planners_mapf.recipe import SUPPORTED, RobustPlanner, native_planner
 
 
 @native_planner("prioritized")
-class Prioritized(NativePlanner):
+class Prioritized(RobustPlanner):
     """Plans one robot after another, each on its earliest path around the robots before it.
 
     Fast, but incomplete. When a robot finds no path, it moves to the front of the order and all robots are planned
@@ -19,4 +19,4 @@ class Prioritized(NativePlanner):
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
-    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
+    promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.ROBUST, Promise.DETERMINISTIC})

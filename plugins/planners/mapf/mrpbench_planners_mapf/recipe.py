@@ -53,6 +53,22 @@ class NativePlanner(Planner):
         return options
 
 
+@attrs.frozen(kw_only=True)
+class RobustPlanner(NativePlanner):
+    """A planner that keeps robots as far apart in time as they may be late."""
+
+    k: int = option(
+        0,
+        help="The plan is k-robust (Atzmon et al., JAIR 2020): it has no conflict although each robot is up to `k` "
+        "ticks late anywhere. Costs, bounds and proofs that there is no plan are those of such plans",
+        validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(1 << 20)),
+    )
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
+        """See `Planner.plan`."""
+        return super().plan(attrs.evolve(problem, rules=attrs.evolve(problem.rules, k=self.k)), budget)
+
+
 def native_planner(algorithm: str, solvers: ModuleType = mapf) -> Callable[[type[P]], type[P]]:
     """Make a class the recipe of an algorithm: each option that the algorithm offers becomes a field.
 

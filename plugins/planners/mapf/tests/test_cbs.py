@@ -19,7 +19,7 @@ from mrpbench_core.testing.instances.variations import with_late_release, with_p
 from mrpbench_core.testing.oracles.judge import AMPLE, BUDGET, ask, compare_with_optimum
 from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
-TECHNIQUES = tuple(attrs.fields_dict(Cbs))
+TECHNIQUES = tuple(field.name for field in attrs.fields(Cbs) if isinstance(field.default, bool))
 ABLATIONS = [
     Cbs(**dict.fromkeys(TECHNIQUES, False)),
     *(Cbs(**{technique: False}) for technique in TECHNIQUES),

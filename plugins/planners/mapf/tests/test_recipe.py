@@ -31,7 +31,7 @@ def test_a_planner_has_the_name_and_defaults_of_its_algorithm(name):
 def test_what_the_name_decides_is_no_option():
     assert "goal_choice" not in attrs.fields_dict(Cbs)
     assert "iterations" not in attrs.fields_dict(Lacam)
-    assert [field.name for field in attrs.fields(PLANNERS["ecbs"])] == ["w"]
+    assert [field.name for field in attrs.fields(PLANNERS["ecbs"])] == ["k", "w"]
     assert {option.name for option in describe("ecbs").options} == {option.name for option in describe("eecbs").options}
 
 

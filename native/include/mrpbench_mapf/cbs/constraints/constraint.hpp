@@ -30,9 +30,15 @@ inline Constraint avoid_vertex(int robot, int vertex, Tick first, Tick last) {
   return {robot, vertex, {2 * first, last >= kForever ? kForeverHalf : 2 * last}};
 }
 
-/// `robot` must not be on the junction at `vertex` (the vertex and its edges) at the half-tick `instant`.
-inline Constraint junction_constraint(int robot, int vertex, Half instant) {
-  return {robot, vertex, {instant, instant}, Constraint::Kind::junction};
+/// The half-ticks from `instant` to `k` ticks later: two robots that are each somewhere then are never farther apart in
+/// time than robots may be late. Without delays this is the instant alone.
+inline Range window_from(Half instant, Tick k) {
+  return {instant, widened(instant, instant, k).last};
+}
+
+/// `robot` must not be on the junction at `vertex` (the vertex and its edges) at the half-ticks `range`.
+inline Constraint junction_constraint(int robot, int vertex, Range range) {
+  return {robot, vertex, range, Constraint::Kind::junction};
 }
 
 /// Two constraints, one for each robot, at least one of which every solution keeps: everything that one forbids
@@ -40,7 +46,9 @@ inline Constraint junction_constraint(int robot, int vertex, Half instant) {
 ///
 /// The ranges of departures are those of Andreychuk et al., "Multi-agent pathfinding with continuous time", AIJ 2022,
 /// in integer time; standing is constrained by instants, so that no wait without an end has to be reasoned about.
+/// Robots that may be up to `k` ticks late are constrained by the ranges of Atzmon et al., JAIR 2020, instead of
+/// instants.
 std::array<Constraint, 2> split(const PairConflict& conflict, std::span<const Occupation> one,
-                                std::span<const Occupation> other, int vertex_count);
+                                std::span<const Occupation> other, int vertex_count, Tick k);
 
 }  // namespace mrpbench::mapf
