@@ -51,27 +51,53 @@ class Occupation(NamedTuple):
 
 def find_conflicts(problem: Problem, plan: Plan, limit: int | None = None) -> list[Conflict]:
     """The first `limit` conflicts (None = all) of a plan whose paths have no faults, in order of time."""
-    occupations = [occupation for robot in range(len(problem)) for occupation in _occupations(problem, plan, robot)]
+    occupations = [Occupation(*row) for row in _candidates(problem, _occupations(problem, plan)).tolist()]
     horizon = FOREVER if problem.horizon is None else problem.horizon
     pairs = chain(_pairs(problem, occupations), _over_capacity(problem, occupations))
     found = [conflict for conflict in pairs if conflict.tick <= horizon]
     return sorted(set(found), key=lambda conflict: (conflict.tick, conflict))[:limit]
 
 
-def _occupations(problem: Problem, plan: Plan, robot: int) -> Iterator[Occupation]:
-    path = plan.paths[robot]
-    late = problem.rules.k
-    at = int(problem.start[robot])
-    since = problem.begin(robot)
-    for edge, enter, leave in zip(path.edge.tolist(), path.enter.tolist(), path.leave.tolist(), strict=True):
-        if edge < 0:
-            continue
-        tail, head = (int(vertex) for vertex in problem.roadmap.edges[edge])
-        yield Occupation(robot, at, at, since, enter + late)
-        yield Occupation(robot, tail, head, enter, leave + late)
-        at, since = head, leave
-    last = int(path.leave[-1]) if len(path) else since
-    yield Occupation(robot, at, at, since, FOREVER if problem.rules.at_goal == "stay" else max(since, last) + late)
+def _occupations(problem: Problem, plan: Plan) -> Int:
+    """All occupations i8[k,5] of all robots, columns as in `Occupation`."""
+    tables, late = [np.empty((0, 5), np.int64)], problem.rules.k
+    for robot, path in enumerate(plan.paths):
+        moves = np.flatnonzero(path.edge >= 0)
+        enter, leave = path.enter[moves], path.leave[moves]
+        tail, head = problem.roadmap.edges[path.edge[moves]].reshape(-1, 2).T
+        last = int(path.leave[-1]) if len(path) else problem.begin(robot)
+        begin = np.append(problem.begin(robot), leave)
+        stays = problem.rules.at_goal == "stay"
+        end = np.append(enter + late, FOREVER if stays else max(int(begin[-1]), last) + late)
+        at = np.append(problem.start[robot], head)
+        table = np.empty((len(at) + len(moves), 5), np.int64)
+        table[:, 0] = robot
+        table[0::2, 1:] = np.column_stack([at, at, begin, end])
+        table[1::2, 1:] = np.column_stack([tail, head, enter, leave + late])
+        tables.append(table)
+    return np.concatenate(tables)
+
+
+def _candidates(problem: Problem, occupations: Int) -> Int:
+    """The occupations that have to be compared one by one.
+
+    Where only robots on one and the same element can conflict, these are the ones on elements that are occupied again
+    before the last occupation is over.
+    """
+    if Feature.FOOTPRINTS in problem.features or problem.rules.following == "forbidden" or problem.roadmap.resources:
+        return occupations
+    _, tail, head, begin, end = occupations.T
+    _, element = np.unique(np.sort(np.column_stack([tail, head]), axis=1), axis=0, return_inverse=True)
+    order = np.lexsort((end, begin, element))
+    rank = np.argsort(np.argsort(end, kind="stable"), kind="stable")[order]  # so that groups can be kept apart below
+    until = np.maximum.accumulate(rank + element[order] * len(rank)) - element[order] * len(rank)
+    ends = np.sort(end)[until]
+    begin, at_vertex = begin[order][1:], (tail == head)[order][1:]
+    meets = (begin < ends[:-1]) | (at_vertex & (begin == ends[:-1]))
+    again = (element[order][1:] == element[order][:-1]) & meets
+    crowded = np.zeros(len(occupations), bool)
+    crowded[element[order][1:][again]] = True
+    return occupations[crowded[element]]
 
 
 def _pairs(problem: Problem, occupations: list[Occupation]) -> Iterator[Conflict]:

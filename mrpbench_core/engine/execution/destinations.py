@@ -81,24 +81,24 @@ class Places:
                 only just make room, an incomplete planner may never find how the others pass.
         """
         robots = len(self._problem)
-        taken: Int = np.full(robots, -1, np.int64)
+        taken = _Taken(self._problem)
         chosen: list[tuple[int, int] | None] = [None] * robots
         yaw = np.full(robots, np.nan)
         for errand in errands:
-            if self._free(errand.robot, np.array([errand.vertex]), taken)[0]:
-                taken[errand.robot] = errand.vertex
+            if taken.leaves(errand.robot, errand.vertex):
+                taken.add(errand.robot, errand.vertex)
                 chosen[errand.robot], yaw[errand.robot] = (errand.task, errand.number), errand.yaw
-        goals: list[tuple[GoalSet, ...]] = [((int(vertex),),) for vertex in taken]
-        for robot in np.flatnonzero(taken < 0).tolist():
+        goals: list[tuple[GoalSet, ...]] = [((taken.vertex.get(robot, -1),),) for robot in range(robots)]
+        for robot in [robot for robot in range(robots) if robot not in taken.vertex]:
             goals[robot] = (self._room(robot, int(head[robot]), taken, attempt),)
             if len(goals[robot][0]) == 1:
-                taken[robot] = goals[robot][0][0]
+                taken.add(robot, goals[robot][0][0])
         return Destinations(goals=tuple(goals), yaw=yaw, errand=tuple(chosen))
 
-    def _room(self, robot: int, head: int, taken: Int, attempt: int) -> GoalSet:
+    def _room(self, robot: int, head: int, taken: "_Taken", attempt: int) -> GoalSet:
         """Where a robot without an errand may stand."""
         label = self._labels[int(self._problem.profile[robot])]
-        able = self._free(robot, np.arange(len(label)), taken) & (label == label[head]) & ~self._kept_free
+        able = taken.free(robot) & (label == label[head]) & ~self._kept_free
         home = int(self._problem.start[robot])
         sent = attempt > 0 and (not able[head] or attempt % 2 == 0)
         if able[home] and (self._parking == "home" or (sent and attempt <= 2)):
@@ -119,16 +119,46 @@ class Places:
         elsewhere = able & (roadmap.level != roadmap.level[head])
         return int(np.argmin(gap + 1e6 * elsewhere))
 
-    def _free(self, robot: int, vertex: Int, taken: Int) -> Bool:
-        """Tell bool[k] which vertices exclude none that is `taken` i8[n] (-1 = none) by another robot."""
-        roadmap, radius = self._problem.roadmap, self._problem.radius
-        free = np.ones(len(vertex), bool)
-        for other in np.flatnonzero(taken >= 0).tolist():
-            if other != robot:
-                there = int(taken[other])
-                gap = np.hypot(*(roadmap.position[vertex] - roadmap.position[there]).T)
-                beside = (gap < radius[robot] + radius[other] - TOLERANCE) & (
-                    roadmap.level[vertex] == roadmap.level[there]
-                )
-                free &= ~beside & (vertex != there)
-        return free
+
+class _Taken:
+    """The vertices at which robots come to rest, and what they leave to others."""
+
+    def __init__(self, problem: Problem) -> None:
+        self._problem = problem
+        self._radii, self._size = np.unique(problem.radius, return_inverse=True)
+        vertices = len(problem.roadmap.position)
+        self._count = 0
+        self._places = np.full((len(problem), 4), np.nan)
+        """Vertex, x, y and radius of each robot in `vertex`, in its order."""
+        self._seen = np.zeros(len(self._radii), np.int64)
+        self._free = np.ones((len(self._radii), vertices), bool)
+        """For robots of each radius, the vertices that the first `_seen` robots leave to them."""
+        self.vertex: dict[int, int] = {}
+        """Of each robot."""
+
+    def add(self, robot: int, vertex: int) -> None:
+        """Let a robot rest at a vertex."""
+        self.vertex[robot] = vertex
+        self._places[self._count] = vertex, *self._problem.roadmap.position[vertex], self._problem.radius[robot]
+        self._count += 1
+
+    def leaves(self, robot: int, vertex: int) -> bool:
+        """Tell whether there is room for one more robot at a vertex."""
+        roadmap = self._problem.roadmap
+        there, x, y, radius = self._places[: self._count].T
+        gap = np.hypot(x - roadmap.position[vertex, 0], y - roadmap.position[vertex, 1])
+        near = there[gap < radius + self._problem.radius[robot] - TOLERANCE].astype(np.int64)
+        return not ((there == vertex).any() or (roadmap.level[near] == roadmap.level[vertex]).any())
+
+    def free(self, robot: int) -> Bool:
+        """The vertices bool[V] at which there is room for one more robot."""
+        roadmap, size = self._problem.roadmap, int(self._size[robot])
+        free = self._free[size]
+        for vertex, x, y, radius in self._places[self._seen[size] : self._count].tolist():
+            gap = np.hypot(roadmap.position[:, 0] - x, roadmap.position[:, 1] - y)
+            beside = gap < radius + self._radii[size] - TOLERANCE
+            free &= ~(beside & (roadmap.level == roadmap.level[int(vertex)]))
+            free[int(vertex)] = False
+        self._seen[size] = self._count
+        left: Bool = free.copy()
+        return left
