@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.api.discrete import DiscreteSimulator
 from mrpbench_core.config.items import Item
 from mrpbench_core.config.settings import (
     EXECUTION,
@@ -19,6 +20,11 @@ from mrpbench_core.files.robot import load_robot
 from mrpbench_core.plugins.provenance import origin
 
 IDLE = "has no effect: "
+BETWEEN_STEPS = (
+    *("assigner", "plan_filter", "control_rate", "goal_tolerance", "grant_truth"),
+    *(f"replanning.{name}" for name in ("delay", "period", "latency", "interval", "parking")),
+)
+"""Keys that do not change what a discrete simulator does."""
 NO_SIMULATOR = f"{IDLE}there is no simulator"
 
 
@@ -29,6 +35,16 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
         return [_place(root, key).location.error(key, reason, advice) for key in without]
     if config.simulator is None:
         return [] if config.tasks is None else [_place(root, "tasks").location.error("tasks", "needs a simulator")]
+    if isinstance(config.simulator, DiscreteSimulator):
+        if config.tasks is None:
+            return [_place(root, "tasks").location.error("tasks", f"{_name(config.simulator)} needs a task source")]
+        return [
+            _place(root, key).location.error(
+                key, f"means nothing with `simulator: {_name(config.simulator)}`", "leave it out"
+            )
+            for key, given in (("crowds", config.crowds), ("noise", config.noise != Noise()), ("delays", config.delays))
+            if given
+        ]
     if config.tasks is not None and config.planner.assigns:
         reason = "a planner that assigns cannot be called when tasks come over time"
         return [_place(root, "planner").location.error("planner", reason, "switch `assign` off, or choose another one")]
@@ -104,6 +120,10 @@ def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:
 
 def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
     localizer = config.localizer
+    if isinstance(config.simulator, DiscreteSimulator):
+        for key in (*BETWEEN_STEPS, *EXECUTION):
+            yield key, f"{IDLE}{_name(config.simulator)} counts steps, and gives tasks to robots itself"
+        return
     if config.execution == "schedule_only":
         yield "goal_tolerance", f"{IDLE}robots do not leave their paths in `execution: schedule_only`"
     if localizer is not None and (not localizer.needs_truth or _is(localizer, "ground_truth")):

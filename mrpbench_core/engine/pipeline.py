@@ -7,6 +7,7 @@ from typing import Any
 import attrs
 import numpy as np
 
+from mrpbench_core.api.discrete import DiscreteSimulator
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution.loop import granted_localizer
 from mrpbench_core.engine.execution.replanning import replanning_fault
@@ -18,6 +19,7 @@ from mrpbench_core.engine.record import RunError, RunRecord
 from mrpbench_core.engine.stage import Announce, RunEnded, RunInputs
 from mrpbench_core.engine.stages.assign import assign, tasks_of_plan
 from mrpbench_core.engine.stages.claims import claims_of
+from mrpbench_core.engine.stages.discrete import execute_steps
 from mrpbench_core.engine.stages.execute import execute_plan
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.measure import measure, measure_recording
@@ -82,7 +84,10 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
     context = _context(inputs, record.run_id, instance, router, result, assigned)
     if failure is None and config.executes:
         record.true_poses = granted_localizer(config)
-        failure, record.unexported = execute_plan(inputs, context, router)
+        if isinstance(config.simulator, DiscreteSimulator):
+            failure, record.unexported = execute_steps(inputs, context)
+        else:
+            failure, record.unexported = execute_plan(inputs, context, router)
         inputs.announce(Stage.METRICS, {})
         record.executed = True
         kept = config.recording.keep == "all" or (config.recording.keep == "failed" and failure is not None)
@@ -134,9 +139,13 @@ def _stand(inputs: RunInputs, problem: Problem, record: RunRecord) -> PlanResult
     """
     config = inputs.config
     inputs.announce(Stage.PLANNING, {"limit_s": config.limits.planning, "scenario_id": record.scenario_id})
-    asked = attrs.evolve(problem, features=problem.features | {Feature.COMMITMENTS})
-    if reason := replanning_fault(config) or config.planner.skip(own(asked)):
-        raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, str(reason))
+    if isinstance(config.simulator, DiscreteSimulator):
+        reason = config.simulator.skip(config.planner)
+    else:
+        asked = attrs.evolve(problem, features=problem.features | {Feature.COMMITMENTS})
+        reason = replanning_fault(config) or config.planner.skip(own(asked))
+    if reason:
+        raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, reason)
     nothing = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
     result = PlanResult(status=PlanStatus.SOLVED, plan=Plan(paths=(nothing,) * len(problem)))
     inputs.observers.planned(problem=own(problem), result=own(result))

@@ -29,11 +29,14 @@ from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.engine.stages.export import Exports
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
+from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
+from mrpbench_core.model.worlds.world import World
 from mrpbench_core.store.recording import RecordingWriter
 
 
@@ -107,7 +110,7 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
             return PlanResult(status=PlanStatus.GAVE_UP), f"the planner {skipped}", 0.0
         inputs.announce(Stage.EXECUTION, {})
         calls.append(spent["planning_s"])
-        timing.update(_calls(calls, limit))
+        timing.update(call_timing(calls, limit))
         timing["clock_bound"] = timing.get("clock_bound", False) or spent["clock_bound"]
         result, fault = judge(promises, problem, result)
         late = max(0.0, calls[-1] - limit)
@@ -118,8 +121,8 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
     return Replanner(config.replanning, ask, router, context.problem, context.result.plan, cuts)
 
 
-def _calls(seconds: list[float], limit: float) -> dict[str, float]:
-    """The timing of the calls during execution, for the record."""
+def call_timing(seconds: list[float], limit: float) -> dict[str, float]:
+    """Return the timing of the planner's calls during execution, for the record."""
     return {
         "replanning_s": sum(seconds),
         "replanning_calls": len(seconds),
@@ -135,17 +138,24 @@ def _tasks(inputs: RunInputs, context: RunContext, recorder: Recorder) -> TaskMa
     config = inputs.config
     if config.tasks is None:
         return None
-    handed = Handed((context.world, context.problem.roadmap, context.fleet), "world, roadmap or fleet")
-    stream = config.tasks.start(*handed.given, config.seed)
-    if not isinstance(stream, TaskStream):
-        raise BrokenContractError(f"{name_of(config.tasks)} returned {type(stream).__name__} instead of a stream")
-    handed.check(config.tasks)
+    stream = start_stream(config, context.world, context.problem.roadmap, context.fleet)
     costs = QueueCosts(config.assigner.cost, context.problem.roadmap, context.fleet)
     sets = Feature.GOAL_SETS in config.planner.supports
     places = Places(context.problem, costs.labels, config.replanning.parking, sets)
     return TaskManager(
         stream, config.assigner, costs, places, context.problem, recorder, interval=config.replanning.interval
     )
+
+
+def start_stream(config: RunConfig, world: World, roadmap: Roadmap, fleet: Fleet) -> TaskStream:
+    """Begin the stream of a run with tasks that come over time."""
+    assert config.tasks is not None
+    handed = Handed((world, roadmap, fleet), "world, roadmap or fleet")
+    stream = config.tasks.start(*handed.given, config.seed)
+    if not isinstance(stream, TaskStream):
+        raise BrokenContractError(f"{name_of(config.tasks)} returned {type(stream).__name__} instead of a stream")
+    handed.check(config.tasks)
+    return stream
 
 
 def _simulate(

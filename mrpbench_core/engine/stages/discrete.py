@@ -1,0 +1,68 @@
+"""Executes a run in a simulator that counts steps, and writes what happens to the recording."""
+
+import math
+import time
+
+import numpy as np
+
+from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimulator
+from mrpbench_core.engine.contract_checks import check_returned
+from mrpbench_core.engine.execution.recorder import IRREGULAR, TASKS
+from mrpbench_core.engine.own import name_of, own
+from mrpbench_core.engine.stage import RunEnded, RunInputs
+from mrpbench_core.engine.stages.execute import call_timing, start_stream
+from mrpbench_core.engine.stages.export import Exports
+from mrpbench_core.engine.stages.plan import budget_of
+from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.model.runs.status import Stage
+from mrpbench_core.store.recording import RecordingWriter
+
+
+def execute_steps(inputs: RunInputs, context: RunContext) -> tuple[RunEnded | None, dict[str, str]]:
+    """Execute the tasks of a run; returns what `execute_plan` returns."""
+    config, timing = inputs.config, inputs.timing
+    simulator = config.simulator
+    assert isinstance(simulator, DiscreteSimulator)
+    inputs.announce(Stage.EXECUTION, {})
+    given = own(context)
+    stream = start_stream(config, given.world, given.problem.roadmap, given.fleet)
+    limit = min(config.replanning.budget or math.inf, config.limits.planning)
+    run = DiscreteRun(
+        world=given.world,
+        fleet=given.fleet,
+        scenario=given.scenario,
+        stream=stream,
+        planner=config.planner,
+        duration=config.limits.execution,
+        seed=budget_of(config).seed,
+        limit=limit,
+        iterations=config.limits.iterations,
+        rate=config.recording.rate,
+        exports=inputs.paths.exports,
+    )
+    began = time.perf_counter()
+    result = check_returned(simulator, simulator.execute(run), DiscreteResult)
+    timing["execution_wall_s"] = time.perf_counter() - began
+    channels = {name: np.empty((0, *shape), kind) for name, (kind, shape) in (IRREGULAR | TASKS).items()}
+    channels |= result.channels
+    if "time" not in channels or not len(channels["time"]):
+        raise BrokenContractError(f"{name_of(simulator)} returned no samples")
+    timing["real_time_factor"] = float(channels["time"][-1]) / timing["execution_wall_s"]
+    if len(result.calls):
+        timing.update(call_timing(list(result.calls), limit))
+    timing["replanning_overruns"] = result.overruns
+    timing["clock_bound"] = config.limits.iterations is None
+    writer, exports = RecordingWriter(inputs.paths.recording, context), Exports()
+    try:
+        exports.open(config.export, given, inputs.paths.exports)
+        writer.write(channels)
+        exports.write(channels)
+    except BaseException:
+        writer.discard()
+        exports.abandon()
+        raise
+    writer.close()
+    inputs.announce(Stage.EXPORT, {})
+    exports.close()
+    return None, exports.failed

@@ -1,0 +1,174 @@
+"""Runs of studies by the rules of the League of Robot Runners: a simulator and the planner that it executes."""
+
+import math
+from typing import ClassVar, Literal
+
+import attrs
+import numpy as np
+
+from mrpbench_core.api import Planner, Promise, option
+from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimulator
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.lorr.problem import LARGEST_POOL, LorrProblem
+from mrpbench_core.model.common.arrays import Int
+from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.scenario import Task
+from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.world import World
+from mrpbench_simulators_league.channels import channels_of
+from mrpbench_simulators_league.execute import Options, execute
+
+SECONDS = {2024: 1.0, 2026: 0.1}
+"""Of a step or tick, as in the competition."""
+
+
+@attrs.frozen(kw_only=True)
+class StepPlanner(Planner):
+    """Plans the next steps of robots with headings in a discrete execution. It gives no plan of a whole run, and serves
+    `simulator: league` alone.
+    """
+
+    promises: ClassVar[frozenset[Promise]] = frozenset()
+
+    method: Literal["epibt", "pibt"] = option(
+        "epibt", help="pibt: PIBT with turns; epibt: PIBT over operations of several actions"
+    )
+    depth: int = option(4, help="actions of an operation of epibt", validator=attrs.validators.in_((3, 4, 5)))
+    improve: bool = option(True, help="improve the operations of epibt by large neighbourhood search")
+
+    def idle_options(self) -> dict[str, str]:
+        """Return options that `method` makes idle."""
+        return {} if self.method == "epibt" else dict.fromkeys(("depth", "improve"), "`method` is not epibt")
+
+    def skip(self, problem: Problem) -> str | None:  # noqa: ARG002
+        """Return that a plan of the whole run is not asked of it."""
+        return "plans steps of `simulator: league` alone"
+
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:  # noqa: ARG002
+        """Give up, see `skip`."""
+        return PlanResult(status=PlanStatus.GAVE_UP)
+
+
+@attrs.frozen(kw_only=True)
+class League(DiscreteSimulator):
+    """Executes tasks on the cells of a raster by the rules of the League of Robot Runners, with a greedy scheduler.
+    Robots move one cell or turn by 90 degrees in a step. `tasks` must always keep the same number unfinished.
+    """
+
+    season: Literal[2024, 2026] = option(
+        2024, help="2024: all robots act in steps; 2026: in ticks, at their own pace, on squares that must not overlap"
+    )
+    step: float | None = option(
+        None,
+        help="simulated time of a step or tick; none: 1 s, and 0.1 s in 2026",
+        unit="s",
+        validator=attrs.validators.optional(attrs.validators.gt(0)),
+    )
+    counter: int = option(10, help="ticks of a move or turn in 2026", validator=attrs.validators.in_(range(1, 1001)))
+    size: float = option(
+        1.0,
+        help="side of a robot's square in 2026, in cells",
+        validator=[attrs.validators.ge(0.01), attrs.validators.le(1)],
+    )
+    period: int = option(10, help="ticks between two calls of the planner in 2026", validator=attrs.validators.ge(1))
+
+    def idle_options(self) -> dict[str, str]:
+        """Return options that `season` makes idle."""
+        return {} if self.season == 2026 else dict.fromkeys(("counter", "size", "period"), "`season` is not 2026")
+
+    def skip(self, planner: Planner) -> str | None:
+        """Return why a planner cannot be executed: only `planner: league` plans steps."""
+        return None if isinstance(planner, StepPlanner) else "`simulator: league` executes `planner: league` alone"
+
+    def execute(self, run: DiscreteRun) -> DiscreteResult:
+        """Execute a run."""
+        assert isinstance(run.planner, StepPlanner)
+        raster = raster_of(run.world)
+        seconds = self.step or SECONDS[self.season]
+        steps = math.floor(run.duration / seconds + 1e-9)
+        if not 1 <= steps <= 10**6:
+            raise InputError(
+                f"limits.execution: {run.duration:g} s are {steps} steps of {seconds:g} s, not 1 to 1000000"
+            )
+        start = cells_of(raster, run.scenario.start, "the start of a robot")
+        if len(np.unique(start)) < len(start):
+            raise InputError("scenario: two robots start in one cell")
+        options = Options(
+            planner=run.planner.method,
+            depth=run.planner.depth,
+            improve=run.planner.improve,
+            limit=run.limit,
+            iterations=run.iterations,
+            period=self.period,
+            seed=run.seed % 2**63,
+        )
+        tasks = list(run.stream.released(0.0, 0))
+        pool, wanted = len(tasks), 0
+        if not 1 <= pool <= LARGEST_POOL:
+            raise InputError(
+                "tasks: `simulator: league` needs tasks that are there from the start, as `closed_pool` has"
+            )
+        while True:
+            wanted = max(2 * wanted, pool + _likely(raster, tasks, len(start), steps))
+            tasks += run.stream.released(0.0, wanted - pool)
+            if len(tasks) < wanted:
+                raise InputError("tasks: `simulator: league` needs a pool without end")
+            errands = [cells_of(raster, task.goals, f"an errand of task {task.index}") for task in tasks]
+            if any(task.service.any() for task in tasks):
+                raise InputError("tasks: errands of `simulator: league` take no service time")
+            problem = LorrProblem(
+                season=self.season,
+                blocked=raster.blocked[::-1],
+                start=start.astype(np.int32),
+                errands=np.concatenate(errands).astype(np.int32),
+                first=np.cumsum([0, *map(len, errands)]).astype(np.int32),
+                reveal=(pool + 0.5) / len(start),
+                counter=self.counter if self.season == 2026 else 1,
+                size=self.size if self.season == 2026 else 1.0,
+            )
+            done = execute(problem, steps, options)
+            if len(done.output.tasks) <= len(tasks):
+                break
+        run.exports.mkdir(parents=True, exist_ok=True)
+        done.write(run.exports / "output.json")
+        return DiscreteResult(
+            channels=channels_of(done.output, tasks, raster, seconds, run.rate),
+            calls=done.call_seconds.tolist(),
+            overruns=done.late_calls,
+        )
+
+
+def raster_of(world: World) -> Occupancy:
+    """Return the raster of a world that is one.
+
+    Raises:
+        InputError: it is none.
+    """
+    level = world.levels[0] if len(world.levels) == 1 else None
+    if level is None or level.occupancy is None or len(level.walls) or level.obstacles:
+        hint = "`movingai` or a generated world"
+        raise InputError(f"world: `simulator: league` needs a raster, which {world.name} is not", hint=hint)
+    return level.occupancy
+
+
+def cells_of(raster: Occupancy, poses: np.ndarray, what: str) -> Int:
+    """Return the cells i8[k] of poses f8[k,3], counted row by row from the top left.
+
+    Raises:
+        InputError: a pose is not in a free cell.
+    """
+    rows, columns = raster.shape
+    found = raster.cells(poses[:, :2])
+    inside = ((found >= 0) & (found < (rows, columns))).all(axis=1)
+    if not inside.all() or raster.blocked[found[:, 0], found[:, 1]].any():
+        raise InputError(f"{what} is not in a free cell of the raster")
+    cells: Int = (rows - 1 - found[:, 0]) * columns + found[:, 1]
+    return cells
+
+
+def _likely(raster: Occupancy, tasks: list[Task], robots: int, steps: int) -> int:
+    """More tasks than robots will do: twice what they would do on straight ways."""
+    ways = [np.abs(np.diff(task.goals[:, :2], axis=0)).sum() for task in tasks]
+    cells = max(1.0, (np.mean(ways) + 0.25 * sum(raster.shape) * raster.cell_size) / raster.cell_size)
+    return 1 + math.ceil(2 * robots * steps / cells)
