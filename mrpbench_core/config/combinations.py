@@ -38,10 +38,9 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
     if isinstance(config.simulator, DiscreteSimulator):
         if config.tasks is None:
             return [_place(root, "tasks").location.error("tasks", f"{_name(config.simulator)} needs a task source")]
+        reason = f"means nothing with {_name(config.simulator)}, which counts steps"
         return [
-            _place(root, key).location.error(
-                key, f"means nothing with `simulator: {_name(config.simulator)}`", "leave it out"
-            )
+            _place(root, key).location.error(key, reason, "leave it out")
             for key, given in (("crowds", config.crowds), ("noise", config.noise != Noise()), ("delays", config.delays))
             if given
         ]

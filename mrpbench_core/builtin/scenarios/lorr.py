@@ -9,7 +9,7 @@ from mrpbench_core.api.component import option
 from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.lorr.problem import LorrProblem, problem_reads, read_problem
-from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.common.arrays import Float, Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario
@@ -18,8 +18,8 @@ from mrpbench_core.model.worlds.world import World
 
 @attrs.frozen(kw_only=True)
 class LorrStarts(ScenarioSource):
-    """The starts of a problem of the League of Robot Runners, on its map (`world: movingai`). Robots head east. The tasks
-    are those of `tasks: lorr`.
+    """The starts of a problem of the League of Robot Runners, on its map (`world: movingai`). Robots head east. Its
+    tasks are those of `tasks: lorr`.
     """
 
     file: Path = option(help="the problem, a JSON file")
@@ -47,7 +47,7 @@ class LorrStarts(ScenarioSource):
         return Scenario(start=start, start_level=np.zeros(len(start), np.int16), tasks=())
 
 
-def centres_of(file: Path, problem: LorrProblem, world: World, cells: Int) -> Float:
+def centres_of(file: Path, problem: LorrProblem, world: World, cells: Int32) -> Float:
     """Return the poses f8[k,3] of cells of a problem in a world, any yaw.
 
     Raises:

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import Protocol
 
 import attrs
 
@@ -33,10 +34,17 @@ class ClosedPool(AnyPlace):
         return ClosedPoolStream(Drawing(self, self.places(world, roadmap), seed), size, self.total)
 
 
+class Draws(Protocol):
+    """Gives tasks by their index."""
+
+    def task(self, index: int, release: float) -> Task:
+        """Return task `index`, released at `release` seconds."""
+
+
 class ClosedPoolStream(TaskStream):
     """Keeps `size` tasks unfinished, as long as there are any of the `total`."""
 
-    def __init__(self, drawing: Drawing, size: int, total: int | None) -> None:
+    def __init__(self, drawing: Draws, size: int, total: int | None) -> None:
         self._drawing, self._size = drawing, size
         self._total = math.inf if total is None else total
         self._index = 0

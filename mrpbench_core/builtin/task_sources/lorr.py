@@ -20,8 +20,8 @@ from mrpbench_core.model.worlds.world import World
 
 @attrs.frozen(kw_only=True)
 class LorrTasks(TaskSource):
-    """The tasks of a problem of the League of Robot Runners of 2024 or 2026: a closed pool of `numTasksReveal` tasks per
-    robot. After the last task the first one follows. All seeds have the same tasks.
+    """The tasks of a problem of the League of Robot Runners of 2024 or 2026: a closed pool of `numTasksReveal` tasks
+    per robot. After the last task the first one follows. All seeds have the same tasks.
     """
 
     file: Path = option(help="the problem, a JSON file")

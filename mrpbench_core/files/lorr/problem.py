@@ -97,6 +97,16 @@ def read_problem(file: Path) -> LorrProblem:
     return problem
 
 
+def problem_reads(file: Path) -> tuple[Path, ...]:
+    """Return the files that a problem names, as far as it can be read."""
+    try:
+        values = JsonObject.read(file).values
+    except InputError:
+        return ()
+    names = (values.get(key) for key in ("mapFile", "agentFile", "taskFile"))
+    return tuple(file.parent / name for name in names if isinstance(name, str))
+
+
 def _delays(head: JsonObject) -> Delays | None:
     if "delayConfig" not in head.values:
         return None

@@ -60,7 +60,7 @@ def _motion(output: LorrOutput, raster: Occupancy, seconds: float, rate: float) 
 
 def _tasks(output: LorrOutput, tasks: Sequence[Task], seconds: float) -> Chunk:
     """One row per errand of each task that was revealed."""
-    revealed = [(tasks[index], time * seconds) for index, time, _ in output.tasks]
+    revealed = [(tasks[index], time * seconds) for index, time, _ in output.tasks or ()]
     count = [len(task.goals) for task, _ in revealed]
 
     def each(values: Sequence[Any], kind: str) -> NDArray[Any]:
@@ -79,10 +79,10 @@ def _tasks(output: LorrOutput, tasks: Sequence[Task], seconds: float) -> Chunk:
 
 def _events(output: LorrOutput, seconds: float) -> Chunk:
     """What happens to tasks, by time."""
-    rows = [(time, ORDER["released"], index, "released", -1, -1) for index, time, _ in output.tasks]
-    errands = {index: len(places) // 2 for index, _, places in output.tasks}
+    rows = [(time, ORDER["released"], index, "released", -1, -1) for index, time, _ in output.tasks or ()]
+    errands = {index: len(places) // 2 for index, _, places in output.tasks or ()}
     done_at: dict[int, int] = {}
-    for time, robot, task, done in output.events:
+    for time, robot, task, done in output.events or ():
         if done == 1:
             rows.append((time, ORDER["begun"], task, "begun", robot, -1))
         rows.append((time, ORDER["errand"], task, "errand", robot, done - 1))

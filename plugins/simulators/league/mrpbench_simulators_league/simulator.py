@@ -1,6 +1,7 @@
 """Runs of studies by the rules of the League of Robot Runners: a simulator and the planner that it executes."""
 
 import math
+from pathlib import Path
 from typing import ClassVar, Literal
 
 import attrs
@@ -9,7 +10,7 @@ import numpy as np
 from mrpbench_core.api import Planner, Promise, option
 from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimulator
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.lorr.problem import LARGEST_POOL, LorrProblem
+from mrpbench_core.files.lorr.problem import LARGEST_POOL, Delays, LorrProblem, problem_reads, read_problem
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
@@ -51,6 +52,16 @@ class StepPlanner(Planner):
 
 
 @attrs.frozen(kw_only=True)
+class Rules:
+    """What a problem says besides its map, starts and tasks."""
+
+    season: Literal[2024, 2026]
+    counter: int
+    size: float
+    delays: Delays | None = None
+
+
+@attrs.frozen(kw_only=True)
 class League(DiscreteSimulator):
     """Executes tasks on the cells of a raster by the rules of the League of Robot Runners, with a greedy scheduler.
     Robots move one cell or turn by 90 degrees in a step. `tasks` must always keep the same number unfinished.
@@ -69,13 +80,22 @@ class League(DiscreteSimulator):
     size: float = option(
         1.0,
         help="side of a robot's square in 2026, in cells",
-        validator=[attrs.validators.ge(0.01), attrs.validators.le(1)],
+        validator=attrs.validators.and_(attrs.validators.ge(0.01), attrs.validators.le(1)),
+    )
+    rules: Path | None = option(
+        None, help="a problem file whose season, ticks, size and delays hold instead of these options"
     )
     period: int = option(10, help="ticks between two calls of the planner in 2026", validator=attrs.validators.ge(1))
 
     def idle_options(self) -> dict[str, str]:
-        """Return options that `season` makes idle."""
+        """Return options that others make idle."""
+        if self.rules is not None:
+            return dict.fromkeys(("season", "counter", "size"), "`rules` names a problem")
         return {} if self.season == 2026 else dict.fromkeys(("counter", "size", "period"), "`season` is not 2026")
+
+    def reads(self) -> tuple[Path, ...]:
+        """Return the files that the problem names."""
+        return () if self.rules is None else problem_reads(self.rules)
 
     def skip(self, planner: Planner) -> str | None:
         """Return why a planner cannot be executed: only `planner: league` plans steps."""
@@ -85,12 +105,13 @@ class League(DiscreteSimulator):
         """Execute a run."""
         assert isinstance(run.planner, StepPlanner)
         raster = raster_of(run.world)
-        seconds = self.step or SECONDS[self.season]
+        rules = Rules(season=self.season, counter=self.counter, size=self.size)
+        if self.rules is not None:
+            rules = rules_of(self.rules)
+        seconds = self.step or SECONDS[rules.season]
         steps = math.floor(run.duration / seconds + 1e-9)
         if not 1 <= steps <= 10**6:
-            raise InputError(
-                f"limits.execution: {run.duration:g} s are {steps} steps of {seconds:g} s, not 1 to 1000000"
-            )
+            raise InputError(f"limits.execution: {run.duration:g} s are {steps} steps of {seconds:g} s, not 1 to 10^6")
         start = cells_of(raster, run.scenario.start, "the start of a robot")
         if len(np.unique(start)) < len(start):
             raise InputError("scenario: two robots start in one cell")
@@ -106,9 +127,7 @@ class League(DiscreteSimulator):
         tasks = list(run.stream.released(0.0, 0))
         pool, wanted = len(tasks), 0
         if not 1 <= pool <= LARGEST_POOL:
-            raise InputError(
-                "tasks: `simulator: league` needs tasks that are there from the start, as `closed_pool` has"
-            )
+            raise InputError("tasks: `simulator: league` needs tasks from the start on", hint="use `closed_pool`")
         while True:
             wanted = max(2 * wanted, pool + _likely(raster, tasks, len(start), steps))
             tasks += run.stream.released(0.0, wanted - pool)
@@ -118,17 +137,18 @@ class League(DiscreteSimulator):
             if any(task.service.any() for task in tasks):
                 raise InputError("tasks: errands of `simulator: league` take no service time")
             problem = LorrProblem(
-                season=self.season,
+                season=rules.season,
                 blocked=raster.blocked[::-1],
                 start=start.astype(np.int32),
                 errands=np.concatenate(errands).astype(np.int32),
                 first=np.cumsum([0, *map(len, errands)]).astype(np.int32),
                 reveal=(pool + 0.5) / len(start),
-                counter=self.counter if self.season == 2026 else 1,
-                size=self.size if self.season == 2026 else 1.0,
+                counter=rules.counter if rules.season == 2026 else 1,
+                size=rules.size if rules.season == 2026 else 1.0,
+                delays=rules.delays,
             )
             done = execute(problem, steps, options)
-            if len(done.output.tasks) <= len(tasks):
+            if len(done.output.tasks or ()) <= len(tasks):
                 break
         run.exports.mkdir(parents=True, exist_ok=True)
         done.write(run.exports / "output.json")
@@ -137,6 +157,18 @@ class League(DiscreteSimulator):
             calls=done.call_seconds.tolist(),
             overruns=done.late_calls,
         )
+
+
+def rules_of(file: Path) -> Rules:
+    """Return the rules of a problem.
+
+    Raises:
+        InputError: it cannot be read, or is of 2023.
+    """
+    problem = read_problem(file)
+    if problem.season == 2023:
+        raise InputError("is of 2023, which gives goals to robots itself", file=file, hint="use `mrpbench-league`")
+    return Rules(season=problem.season, counter=problem.counter, size=problem.size, delays=problem.delays)
 
 
 def raster_of(world: World) -> Occupancy:
@@ -170,5 +202,5 @@ def cells_of(raster: Occupancy, poses: np.ndarray, what: str) -> Int:
 def _likely(raster: Occupancy, tasks: list[Task], robots: int, steps: int) -> int:
     """More tasks than robots will do: twice what they would do on straight ways."""
     ways = [np.abs(np.diff(task.goals[:, :2], axis=0)).sum() for task in tasks]
-    cells = max(1.0, (np.mean(ways) + 0.25 * sum(raster.shape) * raster.cell_size) / raster.cell_size)
+    cells = max(1.0, float(np.mean(ways)) / raster.cell_size + 0.25 * sum(raster.shape))
     return 1 + math.ceil(2 * robots * steps / cells)
