@@ -20,6 +20,7 @@ RUNS_PER_PLANNER = {
     "replicability": 300,
     "safe": 216,
     "late_robots": 180,
+    "league": 120,
     "orders": 10,
 }
 """Runs of each planner that is installed."""
@@ -31,6 +32,7 @@ PLANNERS = {
     "replicability": 1,
     "safe": 1,
     "late_robots": 1,
+    "league": 1,
     "orders": 1,
 }
 

@@ -4,6 +4,7 @@ from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.api.component import Component, option
 from mrpbench_core.api.controller import Controller, ControllerSession, FleetControllerSession, FleetOfOne
 from mrpbench_core.api.crowd import Crowd, CrowdSession, CrowdView, Mover, Movers
+from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimulator
 from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.api.exporter import Exporter, ExporterSession
@@ -53,6 +54,9 @@ __all__ = [
     "Crowd",
     "CrowdSession",
     "CrowdView",
+    "DiscreteResult",
+    "DiscreteRun",
+    "DiscreteSimulator",
     "DispatchError",
     "Dispatcher",
     "DispatcherSession",

@@ -25,6 +25,7 @@ from mrpbench_core.testing.suites.assigner import AssignerConformance
 from mrpbench_core.testing.suites.component import ComponentConformance
 from mrpbench_core.testing.suites.controller import ControllerConformance
 from mrpbench_core.testing.suites.crowd import CrowdConformance
+from mrpbench_core.testing.suites.discrete import DiscreteSimulatorConformance
 from mrpbench_core.testing.suites.dispatcher import DispatcherConformance
 from mrpbench_core.testing.suites.executor import ExecutorConformance
 from mrpbench_core.testing.suites.exporter import ExporterConformance
@@ -49,6 +50,7 @@ __all__ = [
     "ComponentConformance",
     "ControllerConformance",
     "CrowdConformance",
+    "DiscreteSimulatorConformance",
     "DispatcherConformance",
     "ExecutorConformance",
     "ExporterConformance",

@@ -1,5 +1,6 @@
 """Every plugin that is installed here keeps the contract of its kind."""
 
+import json
 import sys
 
 import pytest
@@ -50,8 +51,8 @@ with open(out, "w") as file:
 """
 COMPONENTS = [provider for provider in installed() if provider.group != HOOKS]
 
-NEEDS_A_CLUSTER = {("executor", "dask")}
-"""Its own tests start one."""
+ELSEWHERE = {("executor", "dask"): "needs a cluster", ("task_source", "lorr"): "needs the map of its problem"}
+"""Their own tests give them what they need."""
 
 
 def named(kind, name):
@@ -68,6 +69,10 @@ def required(kind, name, folder):
     places = [vertex.name for vertex in office().vertices if vertex.name]
     (folder / "arrivals.txt").write_text("0\n2.5\n60\n")
     (folder / "tasks.csv").write_text(f"errands\n{places[0]};{places[1]}\n")
+    files = {"mapFile": "tiny.map", "agentFile": "tiny.agents", "taskFile": "tiny.tasks"}
+    (folder / "problem.json").write_text(json.dumps({"version": "2024 LoRR", "teamSize": 2, **files}))
+    (folder / "tiny.agents").write_text("2\n0\n11\n")
+    (folder / "tiny.tasks").write_text("2\n3,8\n2\n")
     solver = folder / "solver"
     solver.write_text(SOLVER.format(python=sys.executable))
     solver.chmod(0o755)
@@ -87,13 +92,14 @@ def required(kind, name, folder):
         ("scenario", "named"): {"starts": tuple(places[:2]), "goals": tuple(places[2:4])},
         ("scenario", "movingai"): {"file": folder / "tiny.scen", "robots": 2},
         ("scenario", "file"): {"file": folder / "frozen.yaml"},
+        ("scenario", "lorr"): {"file": folder / "problem.json"},
     }.get((kind, name), {})
 
 
 @pytest.mark.parametrize("provider", COMPONENTS, ids=lambda provider: f"{provider.kind}:{provider.name}")
 def test_keeps_the_contract_of_its_kind(provider, tmp_path, monkeypatch, frozen_scenario):
-    if (provider.kind, provider.name) in NEEDS_A_CLUSTER:
-        pytest.skip("needs a cluster; its own tests start one")
+    if reason := ELSEWHERE.get((provider.kind, provider.name)):
+        pytest.skip(f"{reason}; its own tests have one")
     monkeypatch.chdir(tmp_path)
     frozen_scenario(tmp_path / "frozen.yaml")
     try:

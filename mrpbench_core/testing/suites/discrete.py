@@ -34,7 +34,7 @@ class DiscreteSimulatorConformance(ComponentConformance):
         simulator = self.make()
         for provider in providers(Planner.group):
             try:
-                planner = load(provider)()
+                planner: Planner = load(provider)()
             except (InputError, TypeError, ValueError):  # it cannot be imported, or has options without defaults
                 continue
             if simulator.skip(planner) is None:

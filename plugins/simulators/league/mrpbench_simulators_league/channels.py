@@ -28,7 +28,7 @@ def channels_of(output: LorrOutput, tasks: Sequence[Task], raster: Occupancy, se
         seconds: simulated time of a step or tick.
         rate: samples per simulated second.
     """
-    return _motion(output, raster, seconds, rate) | _tasks(output, tasks, seconds) | _events(output, seconds)
+    return {**_motion(output, raster, seconds, rate), **_tasks(output, tasks, seconds), **_events(output, seconds)}
 
 
 def _motion(output: LorrOutput, raster: Occupancy, seconds: float, rate: float) -> Chunk:
@@ -98,11 +98,10 @@ def _events(output: LorrOutput, seconds: float) -> Chunk:
                 rows.append((time, ORDER["assigned"], task, "assigned", robot, -1))
             before = task
     rows.sort(key=lambda row: row[:3])
-    time, _, index, event, robot, errand = zip(*rows, strict=True)
     return {
-        "task_time": np.array(time) * seconds,
-        "task_index": np.array(index, np.int32),
-        "task_event": np.array(event),
-        "task_robot": np.array(robot, np.int32),
-        "task_errand": np.array(errand, np.int32),
+        "task_time": np.array([row[0] for row in rows]) * seconds,
+        "task_index": np.array([row[2] for row in rows], np.int32),
+        "task_event": np.array([row[3] for row in rows]),
+        "task_robot": np.array([row[4] for row in rows], np.int32),
+        "task_errand": np.array([row[5] for row in rows], np.int32),
     }
