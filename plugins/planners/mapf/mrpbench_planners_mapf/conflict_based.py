@@ -14,6 +14,7 @@ class ConflictBased(RobustPlanner):
     """A planner that splits conflicts of two robots, so no resource may hold more than one."""
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
+    without_k: ClassVar[tuple[str, ...]] = ("rectangle",)
 
     def skip(self, problem: Problem) -> str | None:
         """See `Planner.skip`; also resources that hold several robots."""

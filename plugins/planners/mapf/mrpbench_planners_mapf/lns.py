@@ -13,8 +13,9 @@ class Lns(RobustPlanner):
 
     Improvement ends when all robots arrive as early as if they were alone, after `limits.iterations` groups, or when
     the time is over. Incomplete if the first plan comes from repairing alone, and where moves take several ticks;
-    there, LaCAM plans if repairing takes long.
+    there, LaCAM plans if repairing takes long. LaCAM cannot plan for robots that are late (`k`).
     """
 
     supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES}
+    without_k: ClassVar[tuple[str, ...]] = ("initial",)
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.ROBUST, Promise.DETERMINISTIC})

@@ -57,6 +57,9 @@ class NativePlanner(Planner):
 class RobustPlanner(NativePlanner):
     """A planner that keeps robots as far apart in time as they may be late."""
 
+    without_k: ClassVar[tuple[str, ...]] = ()
+    """Options that have an effect only if `k` is 0."""
+
     k: int = option(
         0,
         help="The plan is k-robust (Atzmon et al., JAIR 2020): it has no conflict although each robot is up to `k` "
@@ -67,6 +70,10 @@ class RobustPlanner(NativePlanner):
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
         return super().plan(attrs.evolve(problem, rules=attrs.evolve(problem.rules, k=self.k)), budget)
+
+    def idle_options(self) -> dict[str, str]:
+        """Return options that `k` makes idle."""
+        return dict.fromkeys(self.without_k, f"k is {self.k}") if self.k else {}
 
 
 def native_planner(algorithm: str, solvers: ModuleType = mapf) -> Callable[[type[P]], type[P]]:

@@ -110,6 +110,12 @@ def test_cbs_finds_the_optimum_of_brute_force(asked, k):
     assert ask(Cbs(k=k), asked, optimum, budget=BUDGET).plan is not None
 
 
+def test_options_without_effect_are_named():
+    assert Lns(k=2, initial="lacam").idle_options() == {"initial": "k is 2"}
+    assert Cbs(k=1).idle_options() == {"rectangle": "k is 1"}
+    assert not Cbs().idle_options()
+
+
 @pytest.mark.parametrize("planner", PLANNERS)
 @pytest.mark.parametrize("k", [0, 1, 3])
 def test_the_second_of_a_crossing_comes_k_ticks_later(planner, k):
