@@ -15,6 +15,8 @@ constexpr int kUnit = 50;
 ///< Of value per unit of cost; below it operations of equal cost are told apart.
 constexpr int kCalls = 3000;
 ///< Of `build` for one robot.
+constexpr int kTries = 4;
+///< Of one robot in these calls: an operation that is not possible at once may be possible after the pusher's turn.
 constexpr std::uint64_t kPatience = 8, kTurn = 16;
 ///< A robot that has not come nearer for `kPatience` steps counts as nearer by a share that is drawn anew every `kTurn`
 ///< steps: robots that are in one another's way change places in the order, so that nobody waits for ever.
@@ -58,7 +60,7 @@ void Epibt::inherit(const View& view) {
     waited_.resize(robots, 0);
     expected_.resize(robots);
     choices_.resize(robots);
-    visited_.assign(robots, 0);
+    visit_.assign(robots, {});
   } else {
     for (Operation& it : held_) {
       it.erase(it.begin());
@@ -200,8 +202,11 @@ int Epibt::hit(const View& view, int robot, const Path& path) const {
 
 /// Give a robot an operation, and others where it pushes. `spent` is the weighted value that the robots before it lose.
 bool Epibt::build(const View& view, int robot, double spent) {
-  visited_[robot] = stamp_;
-  if (++calls_ > kCalls) return false;
+  Visit& visit = visit_[robot];
+  if (visit.stamp != stamp_) visit = {stamp_, 0, false};
+  if (++calls_ > kCalls || visit.tries == kTries) return false;
+  ++visit.tries;
+  visit.pushing = true;
   const Path old_path = path_[robot];
   const std::int32_t old_value = value_[robot];
   remove(robot);
@@ -220,7 +225,7 @@ bool Epibt::build(const View& view, int robot, double spent) {
       fixed_[robot] = any_;
       return true;
     }
-    if (visited_[other] == stamp_ || (any_ && fixed_[other])) continue;
+    if ((visit_[other].stamp == stamp_ && visit_[other].pushing) || (any_ && fixed_[other])) continue;
     if (!any_) {
       const auto& others = choices(view, other);
       const double most = others.empty() ? 0 : weight_[other] * (value_[other] - others.front().value) / kUnit;
@@ -245,6 +250,7 @@ bool Epibt::build(const View& view, int robot, double spent) {
     if (calls_ > kCalls) break;
   }
   place(robot, old_path);
+  visit.pushing = false;
   return false;
 }
 

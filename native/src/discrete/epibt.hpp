@@ -26,6 +26,14 @@ class Epibt final : public Planner {
     std::int16_t operation;
   };
 
+  /// Of a robot in the search that has this stamp. `pushing`: it has, or is about to get, an operation that others make
+  /// room for.
+  struct Visit {
+    std::uint64_t stamp = 0;
+    int tries = 0;
+    bool pushing = false;
+  };
+
   void inherit(const View& view);
   void rank(const View& view);
   const std::vector<Choice>& choices(const View& view, int robot);
@@ -49,7 +57,7 @@ class Epibt final : public Planner {
   std::vector<std::vector<std::int32_t>> at_;
   std::vector<std::vector<Choice>> choices_;
   std::vector<std::uint8_t> known_, fixed_;
-  std::vector<std::uint64_t> visited_;
+  std::vector<Visit> visit_;
   std::uint64_t stamp_ = 0, draws_ = 0, steps_ = 0;
   std::vector<double> weight_;
   std::vector<std::int32_t> order_;
