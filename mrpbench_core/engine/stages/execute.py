@@ -123,13 +123,17 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
 
 def call_timing(seconds: list[float], limit: float) -> dict[str, float]:
     """Return the timing of the planner's calls during execution, for the record."""
+    return {**_calls("replanning", seconds), "replanning_overruns": sum(spent > limit for spent in seconds)}
+
+
+def _calls(what: str, seconds: list[float]) -> dict[str, float]:
+    """Return the timing of the calls during execution, for the record."""
     return {
-        "replanning_s": sum(seconds),
-        "replanning_calls": len(seconds),
-        "replanning_p50_s": float(np.percentile(seconds, 50)),
-        "replanning_p99_s": float(np.percentile(seconds, 99)),
-        "replanning_max_s": max(seconds),
-        "replanning_overruns": sum(spent > limit for spent in seconds),
+        f"{what}_s": sum(seconds),
+        f"{what}_calls": len(seconds),
+        f"{what}_p50_s": float(np.percentile(seconds, 50)),
+        f"{what}_p99_s": float(np.percentile(seconds, 99)),
+        f"{what}_max_s": max(seconds),
     }
 
 
@@ -177,6 +181,7 @@ def _simulate(
     levels = np.array([route.level[0] for route in context.routes], np.int16)
     radii = [mover.radius for mover in crowds.members]
     placed = poses.copy(), seed, context.period, radii
+    tasks = _tasks(inputs, context, recorder)
     with config.simulator.open(given.world, given.fleet, *placed, levels=levels.copy()) as simulation:
         if not np.array_equal(simulation.state.level, levels):
             raise ExecutionError("the simulator supports the lowest level only, and robots start on other levels")
@@ -192,7 +197,7 @@ def _simulate(
                 delays=DelayStream(config.delays, len(context.fleet), *seeds),
                 recorder=recorder,
                 replanner=replanner,
-                tasks=_tasks(inputs, context, recorder),
+                tasks=tasks,
                 limit_s=config.limits.execution,
                 goal_tolerance=config.goal_tolerance,
                 seeds=seeds,
@@ -200,7 +205,10 @@ def _simulate(
                 progress=ExecutionProgress(inputs.observers.progress, config.limits.execution),
             )
         )
-        return loop.run()
+        result = loop.run()
+    if tasks is not None and tasks.assignment_s:
+        inputs.timing.update(_calls("assignment", tasks.assignment_s))
+    return result
 
 
 def _follow_schedule(config: RunConfig, context: RunContext, recorder: Recorder) -> ExecutionResult:

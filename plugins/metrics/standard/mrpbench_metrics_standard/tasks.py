@@ -64,6 +64,13 @@ class Tasks(Metric):
         Column("tardiness_mean_s", "s", "lower", "mean time by which tasks with a deadline are late, also if not done"),
         Column("late", "", "lower", "number of tasks with a deadline that were late, also if not done"),
         Column("utilisation", "", "higher", "share of the robots' time in which they have a task"),
+        Column(
+            "loaded_m",
+            "m",
+            "neither",
+            "distance that robots drove between the first errand of a task and its end: what they carry is on its way",
+        ),
+        Column("empty_m", "m", "lower", "distance that robots drove otherwise, to a first errand or out of the way"),
         Column("jain", "", "higher", "Jain's index of the tasks done per robot: 1 if all do as many", JAIN),
     )
     requires: ClassVar[frozenset[str]] = frozenset({"time", "task_time", "errand_time"})
@@ -108,6 +115,7 @@ class Tasks(Metric):
             "tardiness_mean_s": mean(late),
             "late": int((late > 0).sum()) if due.any() else None,
             "utilisation": _busy(run, end) / (robots * (end - begin)) if end > begin else None,
+            **_distances(run),
             "jain": jain(np.bincount(by, minlength=robots).astype(float)) if len(by) else None,
         }
 
@@ -117,6 +125,31 @@ def _times(when: Float, index: np.ndarray, chosen: np.ndarray, count: int) -> Fl
     times = np.full(count, np.nan)
     times[index[chosen]] = when[chosen]
     return times
+
+
+def _distances(run: FinishedRun) -> dict[str, Value]:
+    """Metres driven by all robots with and without a load; None if no true positions were recorded."""
+    if not run.has("truth") or not run.has("task_errand"):
+        return {"loaded_m": None, "empty_m": None}
+    time, track = run.channel("time"), run.channel("truth")[..., :2]
+    driven = np.zeros(track.shape[:2])
+    driven[1:] = np.cumsum(np.hypot(*np.moveaxis(np.diff(track, axis=0), -1, 0)), axis=0)
+    loads: dict[int, float] = {}
+    loaded: list[float] = []
+    names = ("time", "index", "event", "robot", "errand")
+    for stamp, task, event, robot, errand in zip(
+        *(run.channel(f"task_{name}").tolist() for name in names), strict=True
+    ):
+        if event == "errand" and errand == 0:
+            loads[task] = np.interp(stamp, time, driven[:, robot])
+        elif event == "done" and task in loads:
+            loaded.append(np.interp(stamp, time, driven[:, robot]) - loads.pop(task))
+    event, index, by = (run.channel(f"task_{name}") for name in ("event", "index", "robot"))
+    left = np.isin(index, list(loads)) & (event == "errand")
+    for task, robot in dict(zip(index[left].tolist(), by[left].tolist(), strict=True)).items():
+        loaded.append(driven[-1, robot] - loads[task])
+    total = math.fsum(loaded)
+    return {"loaded_m": total, "empty_m": math.fsum(driven[-1]) - total}
 
 
 def _busy(run: FinishedRun, end: float) -> float:

@@ -56,6 +56,28 @@ def test_tasks_are_measured_as_counted_by_hand(served):
     assert values["jain"] == pytest.approx(0.5)
 
 
+def test_distances_are_split_by_what_robots_carry(executed):
+    run = executed(
+        [0, 10, 20, 30, 40],
+        [[(0, 0), (2, 0), (2, 4), (2, 4), (8, 4)], [(0, 9), (1, 9), (1, 9), (5, 9), (5, 9)]],
+        [[0] * 2] * 5,
+        [[(0, 0)]] * 2,
+    )
+    events = [
+        (0, 0, "released", -1, -1), (0, 1, "released", -1, -1), (5, 1, "begun", 1, -1), (10, 0, "errand", 0, 0),
+        (15, 1, "errand", 1, 0), (20, 0, "errand", 0, 1), (20, 0, "done", 0, -1),
+    ]  # fmt: skip
+    kinds = {"time": float, "index": "i4", "event": "U9", "robot": "i4", "errand": "i4"}
+    columns = {
+        f"task_{name}": np.array(row, kinds[name]) for name, row in zip(kinds, np.array(events, object).T, strict=True)
+    }
+    columns |= {"errand_time": np.zeros(2), "errand_task": np.arange(2), "errand_deadline": np.full(2, np.inf)}
+    channels = {name: (lambda rows=rows: rows) for name, rows in columns.items()}
+    values = Tasks().measure(attrs.evolve(run, channels={**run.channels, **channels}))
+    assert values["loaded_m"] == pytest.approx(4 + 4)  # the task of robot 1 is not done yet
+    assert values["empty_m"] == pytest.approx(2 + 6 + 1)
+
+
 def test_throughput_leaves_out_the_warm_up(served):
     assert Tasks(warm_up=30.0).measure(served(TASKS))["per_hour"] == pytest.approx(3600 / 70)
     assert Tasks(warm_up=100.0).measure(served(TASKS))["per_hour"] is None
@@ -67,7 +89,7 @@ def test_without_tasks_times_are_null(served):
 
 
 @settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(st.lists(st.tuples(st.integers(0, 50), st.integers(0, 49)), min_size=1, max_size=20))
+@given(st.lists(st.tuples(st.integers(0, 50), st.integers(1, 49)), min_size=1, max_size=20))
 def test_when_all_are_done_littles_law_holds(served, drawn):
     """L = λW: the mean number of open tasks is the throughput times the mean service time."""
     values = Tasks().measure(
