@@ -2,6 +2,8 @@
 
     python benchmarks/barn.py --data ../shared/data/barn --every 12 --controllers graceful rpp
 
+As in the challenge, the robot does not know the field: `global_planner` plans on what its lidar has seen. With `--known`
+`astar` plans on the whole field instead.
 `--data` holds the tables cylinders.csv.gz and paths.csv.gz, see docs/reference/worlds.md. Prints for each controller
 the mean of `barn.score` (at most 0.5) with a 95 % interval over worlds, the numbers of successes and of runs with
 contacts, and the median time of successes. `--out` keeps the runs; the same command continues after an interruption.
@@ -28,19 +30,27 @@ CONTROLLERS: dict[str, dict[str, Any]] = {
 """Each with Nav2's defaults but for the speed, and for the deviation of the samples of MPPI, which grows with it."""
 
 
-def study(data: Path, controller: str, worlds: list[int], seeds: int) -> dict[str, Any]:
-    """Return the configuration of the runs of one controller."""
+def study(data: Path, controller: str, worlds: list[int], seeds: int, known: bool = False) -> dict[str, Any]:
+    """Return the configuration of the runs of one controller, in fields that are `known` or not."""
+    local = {"plugin": controller, **CONTROLLERS[controller]}
+    planned_at_once = {
+        "roadmap": {"plugin": "grid", "cell_size": 0.15},
+        "plan_filter": "mrp_bench_stairs",
+        "navigator": {"plugin": "waypoints", "path_end": "release", "waypoint_tolerance": 0.5},
+        "controller": local,
+    }
+    planned_on_the_way = {
+        "roadmap": "straight",
+        "controller": {"plugin": "global_planner", "primary_controller": local, "replan_frequency": 5.0},
+    }
     return {
         "name": f"barn-{controller}",
         "world": {"plugin": "barn", "file": str(data / "cylinders.csv.gz"), "path": str(data / "paths.csv.gz")},
         "scenario": "barn",
         "fleet": str(HERE / "jackal.yaml"),
-        "roadmap": {"plugin": "grid", "cell_size": 0.15},
         "planner": "astar",
-        "plan_filter": "mrp_bench_stairs",
         "dispatcher": "all_at_once",
-        "navigator": {"plugin": "waypoints", "path_end": "release", "waypoint_tolerance": 0.5},
-        "controller": {"plugin": controller, **CONTROLLERS[controller]},
+        **(planned_at_once if known else planned_on_the_way),
         "simulator": "planar",
         "limits": {"execution": "100 s"},
         "metrics": ["execution", "barn"],
@@ -55,6 +65,7 @@ def main() -> None:
     parser.add_argument("--controllers", nargs="+", choices=list(CONTROLLERS), default=list(CONTROLLERS))
     parser.add_argument("--every", type=int, default=1, help="take worlds whose number is a multiple of this")
     parser.add_argument("--seeds", type=int, default=1)
+    parser.add_argument("--known", action="store_true", help="let astar plan on the whole field")
     parser.add_argument("--out", type=Path, default=Path("results"))
     given = parser.parse_args()
     with gzip.open(given.data / "cylinders.csv.gz", "rt") as stream:
@@ -63,8 +74,11 @@ def main() -> None:
     print("| controller | worlds | runs | score | successes | with contacts | median time |")
     print("|---|---|---|---|---|---|---|", flush=True)
     for controller in given.controllers:
-        config = study(given.data.resolve(), controller, worlds, given.seeds)
-        print(row(controller, list(run(config, out=given.out / f"barn-{controller}"))), flush=True)
+        config = study(given.data.resolve(), controller, worlds, given.seeds, given.known)
+        print(
+            row(controller, list(run(config, out=given.out / f"barn-{controller}{'-known' if given.known else ''}"))),
+            flush=True,
+        )
 
 
 def row(controller: str, records: list[dict[str, Any]]) -> str:

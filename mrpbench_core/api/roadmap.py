@@ -13,10 +13,12 @@ class RoadmapBuilder(Component):
     """Builds the discrete graph that planners search."""
 
     group: ClassVar[str] = "mrpbench.roadmaps"
+    clears_walls: ClassVar[bool] = True
+    """False if edges may lead through walls, because controllers find the way."""
 
     @abstractmethod
     def build(self, world: World, fleet: Fleet) -> Roadmap:
-        """Return a roadmap on which each robot of `fleet` keeps clear of walls.
+        """Return a roadmap on which each robot of `fleet` keeps clear of walls, unless `clears_walls` is false.
 
         `Roadmap.duration` has one row per profile of `fleet.profiles`. `Roadmap.notes` lists what was left out.
 

@@ -24,7 +24,7 @@ _PLANNERS = (
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
         "mrpbench.assigners": ("hungarian",),
-        "mrpbench.controllers": ("dwb", "graceful", "mppi", "pure_pursuit", "rotation_shim", "rpp"),
+        "mrpbench.controllers": ("dwb", "global_planner", "graceful", "mppi", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
         "mrpbench.crowds": ("carts", "orca", "social_force"),
         "mrpbench.dispatchers": ("btpg", "gses"),

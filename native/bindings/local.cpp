@@ -57,13 +57,16 @@ nb::dict selected(const nb::dict& given, const std::vector<Parameter>& options, 
   return found;
 }
 
+RobotOptions of_robot(const nb::dict& settings, const Matrix<2>& footprint) {
+  auto options = configured_by<RobotOptions>(selected(settings, parameters(RobotOptions::description()), true));
+  options.costmap.footprint = padded(options.by_radius ? rounded(options.robot_radius) : copy<Point>(footprint),
+                                     options.costmap.footprint_padding);
+  return options;
+}
+
 void add(Fleet& self, const std::string& controller, const nb::dict& settings, const Matrix<2>& footprint,
          const Critics& critics, std::uint64_t seed) {
   const ControllerKind& kind = controller_kind(controller);
-  const std::vector<Parameter> of_robots = parameters(RobotOptions::description());
-  auto options = configured_by<RobotOptions>(selected(settings, of_robots, true));
-  options.costmap.footprint = padded(options.by_radius ? rounded(options.robot_radius) : copy<Point>(footprint),
-                                     options.costmap.footprint_padding);
   std::vector<CriticChoice> chosen;
   for (const auto& [name, weight, given] : critics) {
     require(static_cast<bool>(kind.critic_options), "this controller has no critics");
@@ -71,7 +74,8 @@ void add(Fleet& self, const std::string& controller, const nb::dict& settings, c
   }
   std::vector<Parameter> own = kind.nav2;
   for (const auto* group : {&kind.further, &kind.derived}) own.insert(own.end(), group->begin(), group->end());
-  const OptionValues values = from_python(selected(settings, of_robots, false), own);
+  const OptionValues values = from_python(selected(settings, parameters(RobotOptions::description()), false), own);
+  const RobotOptions options = of_robot(settings, footprint);
   self.add(options, kind.make(values, options, {seed, self.size()}, chosen));
 }
 
@@ -163,6 +167,12 @@ NB_MODULE(local, module) {
           nb::kw_only(), "walls"_a, "reach"_a, "threads"_a)
       .def("add", &add, nb::kw_only(), "controller"_a, "settings"_a, "footprint"_a, "critics"_a = Critics{},
            "seed"_a = 0)
+      .def(
+          "add_costmap",
+          [](Fleet& self, const nb::dict& settings, const Matrix<2>& footprint) {
+            self.add(of_robot(settings, footprint), nullptr);
+          },
+          nb::kw_only(), "settings"_a, "footprint"_a)
       .def("see", &see, "now"_a, "robots"_a, "pose"_a, "ranges"_a)
       .def("command", &command, "seen"_a, "score"_a = nb::none())
       .def("clear", &Fleet::clear, "robot"_a)
@@ -176,6 +186,14 @@ NB_MODULE(local, module) {
                          const Matrix<2>& path) { return way_array(self.reroute(robot, {x, y}, whole(path))); })
       .def("approach", [](const Fleet& self, std::size_t robot, double x, double y, const Matrix<2>& path,
                           double tolerance) { return way_array(self.approach(robot, {x, y}, whole(path), tolerance)); })
+      .def(
+          "plan",
+          [](Fleet& self, double now, std::size_t robot, const Matrix<3>& pose, const Matrix<2>& goal,
+             double tolerance) {
+            require(pose.shape(0) == 1 && goal.shape(0) == 1, "one pose and one goal");
+            return way_array(self.plan(now, robot, rows<Pose>(pose)[0], rows<Point>(goal)[0], tolerance));
+          },
+          "now"_a, "robot"_a, "pose"_a, "goal"_a, "tolerance"_a)
       .def("explain", &explain, "robot"_a)
       .def("costmap", &costmap, "robot"_a);
 

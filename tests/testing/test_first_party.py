@@ -73,6 +73,8 @@ def required(kind, name, folder):
     (folder / "problem.json").write_text(json.dumps({"version": "2024 LoRR", "teamSize": 2, **files}))
     (folder / "tiny.agents").write_text("2\n0\n11\n")
     (folder / "tiny.tasks").write_text("2\n3,8\n2\n")
+    (folder / "dynabarn.csv").write_text("world,class,index\n0,easy,3\n")
+    (folder / "keyframes.csv").write_text("class,index,t,x,y\neasy,3,0,2,1.5\neasy,3,60,3,1.5\n")
     solver = folder / "solver"
     solver.write_text(SOLVER.format(python=sys.executable))
     solver.chmod(0o755)
@@ -85,6 +87,12 @@ def required(kind, name, folder):
         ("task_source", "pickup_delivery"): {"rate": 6.0, "pickups": tuple(places[:2]), "dropoffs": tuple(places[2:4])},
         ("task_source", "trace"): {"file": folder / "arrivals.txt"},
         ("task_source", "file"): {"file": folder / "tasks.csv"},
+        ("crowd", "dynabarn"): {
+            "worlds": folder / "dynabarn.csv",
+            "keyframes": folder / "keyframes.csv",
+            "index": 0,
+        },
+        ("controller", "global_planner"): {"primary_controller": load(named("controller", "rpp"))()},
         ("controller", "rotation_shim"): {"primary_controller": load(named("controller", "rpp"))()},
         ("planner", "rolling_horizon"): {"planner": load(named("planner", "prioritized"))()},
         ("planner", "external"): {"binary": solver, "arguments": "{map} {scen} {paths}"},

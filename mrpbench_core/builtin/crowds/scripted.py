@@ -18,6 +18,8 @@ from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.world import World
 
 _COLUMNS = ("id", "t", "x", "y")
+_JUMP = 1.0
+"""metres in a control period from which on a mover is put at its new place instead of moving there."""
 
 
 def _in_order(_: object, __: object, rows: tuple[tuple[float, float, float], ...]) -> None:
@@ -37,6 +39,7 @@ class Track:
     )
     level: int = option(0, help="index of the level", validator=validators.ge(0))
     loop: bool = option(False, help="begin again after the last keyframe, at the place of the first")
+    jump: bool = option(False, help="begin again at once, without the way from the last keyframe back to the first")
 
 
 @attrs.frozen(kw_only=True)
@@ -107,7 +110,8 @@ class ScriptedSession(CrowdSession):
         """Follow the tracks for `dt` seconds."""
         self._now += dt
         place = np.array([self._at(index, self._now) for index in range(len(self._ways))]).reshape(-1, 2)
-        self._velocity = (place - self._place) / dt
+        moved = place - self._place
+        self._velocity = np.where(np.hypot(*moved.T)[:, None] > _JUMP, 0.0, moved / dt)
         moving = np.hypot(*self._velocity.T) > 1e-6
         self._yaw = np.where(moving, np.arctan2(self._velocity[:, 1], self._velocity[:, 0]), self._yaw)
         self._place = place
@@ -123,7 +127,7 @@ class ScriptedSession(CrowdSession):
 def _way(track: Track) -> Float:
     """Keyframes f8[k,3], at least two, which end where they begin if the track is a loop."""
     way = np.array(track.keyframes, float)
-    if track.loop and len(way) > 1 and (way[-1, 1:] != way[0, 1:]).any():
+    if track.loop and not track.jump and len(way) > 1 and (way[-1, 1:] != way[0, 1:]).any():
         speed = np.hypot(*np.diff(way[:, 1:], axis=0).T).sum() / (way[-1, 0] - way[0, 0])
         back = math.dist(way[-1, 1:], way[0, 1:]) / max(speed, 0.1)  # as fast as on the way there
         way = np.vstack([way, (way[-1, 0] + back, *way[0, 1:])])

@@ -1,4 +1,4 @@
-"""The task of the BARN challenge."""
+"""The task of the BARN and DynaBARN challenges."""
 
 import math
 
@@ -14,7 +14,10 @@ from mrpbench_core.model.worlds.world import World
 
 @attrs.frozen(kw_only=True)
 class BarnTask(ScenarioSource):
-    """One robot drives from the place `start` of a BARN world, where it faces north, to the place `goal`."""
+    """One robot drives from the place `start` of a BARN world to the place `goal`.
+
+    At the start it faces north, or as the parameter `yaw` of the place says.
+    """
 
     def size(self) -> int:
         """Return one robot."""
@@ -24,5 +27,6 @@ class BarnTask(ScenarioSource):
         """Return the scenario, which is the same for every seed."""
         scenario = Named(starts=("start",), goals=("goal",)).draw(world, roadmap, fleet, seed)
         start = scenario.start.copy()
-        start[:, 2] = math.pi / 2
+        place = next(vertex for vertex in world.vertices if vertex.name == "start")
+        start[:, 2] = place.parameters.get("yaw", math.pi / 2)
         return attrs.evolve(scenario, start=start)

@@ -57,17 +57,8 @@ class Barn(WorldSource):
             cylinders = np.column_stack([places, np.full(len(places), RADIUS)])
         else:
             cylinders = read_cylinders(self.file)
-        parameters = {} if self.path is None else {PATH_LENGTH: path_length(self._path(self.path))}
-        vertices = (
-            Vertex(name="start", x=START[0], y=START[1]),
-            Vertex(name="goal", x=GOAL[0], y=GOAL[1], parameters=parameters),
-        )
-        obstacles = tuple(
-            Obstacle(name=f"cylinder_{number}", polygon=_polygon(x, y, radius))
-            for number, (x, y, radius) in enumerate(cylinders.tolist())
-        )
-        name = f"barn_{self.index}" if is_table else self.file.name.split(".")[0]
-        return World(name=name, levels=(Level(name="L1", obstacles=obstacles),), vertices=vertices)
+        length = None if self.path is None else path_length(self._path(self.path))
+        return field_world(f"barn_{self.index}" if is_table else self.file.name.split(".")[0], cylinders, length)
 
     def _path(self, file: Path) -> Float:
         """The cells f8[k,2] (row, column) of the reference path."""
@@ -102,6 +93,23 @@ class Barn(WorldSource):
         if not found:
             raise InputError(f"has no world {self.index}", file=file)
         return np.array(found)
+
+
+def field_world(name: str, cylinders: Float, length: float | None) -> World:
+    """Return a world of cylinders f8[k,3] (x, y, radius), with the places of the challenge's task.
+
+    `length` is that of the reference path, metres; None = unknown.
+    """
+    parameters = {} if length is None else {PATH_LENGTH: length}
+    vertices = (
+        Vertex(name="start", x=START[0], y=START[1]),
+        Vertex(name="goal", x=GOAL[0], y=GOAL[1], parameters=parameters),
+    )
+    obstacles = tuple(
+        Obstacle(name=f"cylinder_{number}", polygon=_polygon(x, y, radius))
+        for number, (x, y, radius) in enumerate(cylinders.tolist())
+    )
+    return World(name=name, levels=(Level(name="L1", obstacles=obstacles),), vertices=vertices)
 
 
 def read_cylinders(file: Path) -> Float:

@@ -26,6 +26,7 @@ class Fleet {
   Fleet(const Fleet&) = delete;
   Fleet& operator=(const Fleet&) = delete;
 
+  /// Without a controller, a robot has a costmap only: it is not commanded.
   void add(const RobotOptions& options, std::unique_ptr<Controller> controller);
   std::size_t size() const { return robots_.size(); }
 
@@ -40,8 +41,13 @@ class Fleet {
   bool is_free(std::size_t robot, Pose pose) const;
   std::optional<std::vector<Point>> reroute(std::size_t robot, Point place, const Path& path) const;
   std::optional<std::vector<Point>> approach(std::size_t robot, Point place, const Path& path, double tolerance) const;
+  /// Update the costmap if it is due, and plan on it.
+  std::optional<std::vector<Point>> plan(double now, std::size_t robot, Pose pose, Point goal, double tolerance);
   const Costmap& costmap(std::size_t robot) const { return robots_.at(robot)->costmap; }
-  Explanation explain(std::size_t robot) const { return robots_.at(robot)->controller->explain(); }
+  Explanation explain(std::size_t robot) const {
+    const auto& controller = robots_.at(robot)->controller;
+    return controller ? controller->explain() : Explanation{};
+  }
 
  private:
   struct Robot {

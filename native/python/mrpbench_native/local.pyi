@@ -29,6 +29,8 @@ class Fleet:
         """Add a robot: the name of its controller, options of robot and controller by Nav2's names, footprint f8[k,2],
         critics with weight and options, seed of the run, by which and by the robot's index its controller draws.
         """
+    def add_costmap(self, *, settings: dict[str, Any], footprint: NDArray[np.float64]) -> None:
+        """Add a robot that has only a costmap: it is not commanded, and nothing is to be explained."""
     def see(
         self, now: float, robots: NDArray[np.int32], pose: NDArray[np.float64], ranges: NDArray[np.float64]
     ) -> None:
@@ -55,6 +57,12 @@ class Fleet:
     ) -> NDArray[np.float64] | None:
         """Points f8[k,2] from (x, y) to the free place nearest to the end of the path f8[p,2], at most `tolerance`
         metres from it; None = the end is free, or there is no such path.
+        """
+    def plan(
+        self, now: float, robot: int, pose: NDArray[np.float64], goal: NDArray[np.float64], tolerance: float
+    ) -> NDArray[np.float64] | None:
+        """Points f8[k,2] from `pose` f8[1,3] to `goal` f8[1,2], or to a cell at most `tolerance` metres from it, over
+        cells that the costmap does not show as occupied; None = there is no such way.
         """
     def explain(self, robot: int) -> dict[str, Any]:
         """What the controller computed for the last command, by name: arrays and lists of words."""

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <limits>
+#include <stdexcept>
 #include <thread>
 
 #include "mrpbench_local/costmap/collision.hpp"
@@ -66,6 +67,7 @@ void Fleet::command(double now, std::span<const Request> requests, std::span<Twi
   const auto answer = [&](std::size_t i) {
     const Request& it = requests[i];
     Robot& robot = *robots_[it.robot];
+    if (!robot.controller) throw std::invalid_argument("a robot without a controller cannot be commanded");
     refresh(robot, now, it.pose);
     Extra more;
     if (extra) more = [&](const Samples& all, std::span<double> totals) { extra(it.robot, all, totals); };
@@ -93,6 +95,12 @@ std::optional<std::vector<Point>> Fleet::approach(std::size_t robot, Point place
                                                   double tolerance) const {
   const Robot& it = *robots_.at(robot);
   return local::approach(it.costmap, place, path.first, path.rest, it.options.max_detour, tolerance);
+}
+
+std::optional<std::vector<Point>> Fleet::plan(double now, std::size_t robot, Pose pose, Point goal, double tolerance) {
+  Robot& it = *robots_.at(robot);
+  refresh(it, now, pose);
+  return local::plan(it.costmap, {pose.x, pose.y}, goal, tolerance);
 }
 
 }  // namespace mrpbench::local
