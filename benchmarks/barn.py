@@ -2,8 +2,8 @@
 
     python benchmarks/barn.py --data ../shared/data/barn --every 12 --controllers graceful rpp
 
-As in the challenge, the robot does not know the field: `global_planner` plans on what its lidar has seen. With `--known`
-`astar` plans on the whole field instead.
+As in the challenge, the robot does not know the field: `global_planner` plans on what its lidar has seen. With
+`--known`, `astar` plans on the whole field instead.
 `--data` holds the tables cylinders.csv.gz and paths.csv.gz, see docs/reference/worlds.md. Prints for each controller
 the mean of `barn.score` (at most 0.5) with a 95 % interval over worlds, the numbers of successes and of runs with
 contacts, and the median time of successes. `--out` keeps the runs; the same command continues after an interruption.
@@ -75,10 +75,8 @@ def main() -> None:
     print("|---|---|---|---|---|---|---|", flush=True)
     for controller in given.controllers:
         config = study(given.data.resolve(), controller, worlds, given.seeds, given.known)
-        print(
-            row(controller, list(run(config, out=given.out / f"barn-{controller}{'-known' if given.known else ''}"))),
-            flush=True,
-        )
+        folder = f"barn-{controller}-known" if given.known else f"barn-{controller}"
+        print(row(controller, list(run(config, out=given.out / folder))), flush=True)
 
 
 def row(controller: str, records: list[dict[str, Any]]) -> str:

@@ -19,9 +19,9 @@ std::optional<std::vector<Point>> reroute(const Costmap& costmap, Point robot, P
 std::optional<std::vector<Point>> approach(const Costmap& costmap, Point robot, Point first,
                                            std::span<const Point> rest, double farthest, double tolerance);
 
-/// Points from the robot along the cheapest way to a place, over everything that the map shows as free or does not know;
-/// where there is none, to the nearest reachable cell at most `tolerance` metres from the place, with room around it. As
-/// NavFn of Nav2, with A* and a shortened way. Nothing when there is no way.
+/// Points from the robot along the cheapest way to a place, over all cells that the map does not show as occupied;
+/// where there is none, to the nearest reachable cell at most `tolerance` metres from the place, with room around it.
+/// As NavFn of Nav2, with A* and a shortened way. Nothing when there is no way.
 std::optional<std::vector<Point>> plan(const Costmap& costmap, Point robot, Point goal, double tolerance);
 
 }  // namespace mrpbench::local
