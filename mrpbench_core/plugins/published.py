@@ -19,7 +19,7 @@ _METRICS = (
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
-    *("pbs", "pibt", "lacam", "lns", "example", "external"),
+    *("pbs", "pibt", "lacam", "lns", "league", "example", "external"),
 )
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
@@ -32,7 +32,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.metrics": _METRICS,
         "mrpbench.mppi_critics": _MPPI_CRITICS,
         "mrpbench.planners": _PLANNERS,
-        "mrpbench.simulators": ("planar",),
+        "mrpbench.simulators": ("league", "planar"),
     },
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},
     "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},
