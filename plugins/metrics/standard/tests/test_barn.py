@@ -46,3 +46,9 @@ def test_there_is_no_score_without_a_reference_path_and_nothing_in_other_worlds(
     assert (values["score"], values["success"]) == (None, 1)
     other = executed([0, 1], [[(0, 0), (1, 0)]], [[0, 0]], [[(0, 0)]])
     assert set(Barn().measure(other).values()) == {None}
+
+
+@pytest.mark.parametrize("duration", [10.0, 60.0])
+def test_a_negative_length_as_in_dynabarn_gives_every_success_an_eighth(driven, duration):
+    assert Barn().measure(driven(duration, parameters={"barn_path_m": -20.0}))["score"] == pytest.approx(1 / 8)
+    assert Barn().measure(driven(duration, [1.0], parameters={"barn_path_m": -20.0}))["score"] == 0
