@@ -54,6 +54,7 @@ def config(options: argparse.Namespace) -> dict[str, Any]:
         "tasks": {"plugin": "closed_pool", "per_robot": 1, "errands": 1, "service": 0},
         "assigner": options.assigner,
         "planner": {"plugin": "rolling_horizon", "planner": "pibt"},
+        "replanning": {"period": 1},
         "simulator": "planar",
         "control_rate": options.control_rate,
         "recording": {"rate": 1},
