@@ -1,6 +1,7 @@
 // Regulated pure pursuit, and its variant with a dynamic window (S. Macenski, S. Singh, F. Martin and J. Gines,
 // "Regulated pure pursuit for robot path tracking", Autonomous Robots 47, 2023; F. Ohnishi and M. Takahashi, "DWPP:
-// dynamic window pure pursuit considering velocity and acceleration constraints", 2026), with the parameters of Nav2.
+// dynamic window pure pursuit considering velocity and acceleration constraints", 2026; this second reference is not
+// verified), with the parameters of Nav2.
 #include <algorithm>
 #include <limits>
 
