@@ -22,6 +22,7 @@ RUNS_PER_PLANNER = {
     "late_robots": 180,
     "league": 120,
     "orders": 10,
+    "faults": 160,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {
@@ -34,6 +35,7 @@ PLANNERS = {
     "late_robots": 1,
     "league": 1,
     "orders": 1,
+    "faults": 1,
 }
 VARIANTS = {"league": 2}
 """Options of one planner that a study compares."""

@@ -69,8 +69,10 @@ def _move_fault(problem: Problem, robot: int, path: Path) -> str | None:
     edges = path.edge[moves]
     ends = problem.roadmap.edges[edges]
     duration = problem.duration(robot)[edges]
-    if (duration < 0).any():
-        return f"uses edge {edges[duration < 0][0]}, which its motion profile forbids"
+    committed = len(problem.commitments[robot]) if problem.commitments else 0  # to what may be forbidden since then
+    forbidden = (duration < 0) & (moves >= committed)
+    if forbidden.any():
+        return f"uses edge {edges[forbidden][0]}, which its motion profile forbids"
     if len(moves) and ends[0, 0] != problem.start[robot]:
         return f"starts at vertex {ends[0, 0]} instead of {problem.start[robot]}"
     if (ends[1:, 0] != ends[:-1, 1]).any():

@@ -33,6 +33,9 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
     if config.execution == "schedule_only" and (without := [k for k in WITHOUT_PHYSICS if _is_set(getattr(config, k))]):
         reason, advice = "means nothing in `execution: schedule_only`, where nothing drives or senses", "leave it out"
         return [_place(root, key).location.error(key, reason, advice) for key in without]
+    if config.execution == "schedule_only" and (faults := tuple(config.faults.without_physics())):
+        named = [(f"faults.{name}", reason) for name, reason in faults]
+        return [_place(root, key).location.error(key, reason) for key, reason in named]
     if config.simulator is None:
         return [] if config.tasks is None else [_place(root, "tasks").location.error("tasks", "needs a simulator")]
     if isinstance(config.simulator, DiscreteSimulator):
@@ -41,7 +44,12 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
         reason = f"means nothing with {_name(config.simulator)}, which counts steps"
         return [
             _place(root, key).location.error(key, reason, "leave it out")
-            for key, given in (("crowds", config.crowds), ("noise", config.noise != Noise()), ("delays", config.delays))
+            for key, given in (
+                ("crowds", config.crowds),
+                ("noise", config.noise != Noise()),
+                ("delays", config.delays),
+                ("faults", config.faults),
+            )
             if given
         ]
     if config.tasks is not None and config.planner.assigns:
@@ -129,8 +137,9 @@ def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
         yield "grant_truth", f"{IDLE}{_name(localizer)} does not need it"
     if config.replanning.delay is None and config.replanning.period is None:
         yield "replanning.latency", f"{IDLE}neither `delay` nor `period` calls for new plans"
-    for name, reason in config.delays.idle_options().items():
-        yield f"delays.{name}", f"{IDLE}{reason}"
+    for block in ("delays", "faults"):
+        for name, reason in getattr(config, block).idle_options().items():
+            yield f"{block}.{name}", f"{IDLE}{reason}"
     if not any(map(_has_lidar, config.fleet)):
         yield from dict.fromkeys(("noise.lidar", "noise.lidar_dropout"), f"{IDLE}no robot has a lidar").items()
     if _is(config.dispatcher, "adg") and _is(config.navigator, "waypoints"):

@@ -26,6 +26,7 @@ from mrpbench_core.api import (
     option,
 )
 from mrpbench_core.config.delays import Delays
+from mrpbench_core.config.faults import Faults
 from mrpbench_core.files.robot import robot_file, robot_reads
 
 ROBOT = "turtlebot3_burger"
@@ -235,6 +236,7 @@ class RunConfig:
     )
     noise: Noise = option(Noise(), help="errors of sensors, motors and starts")
     delays: Delays = option(Delays(), help="stops of robots, and speeds that differ from the plan")
+    faults: Faults = option(Faults(), help="what fails during execution, and what is done about it")
     metrics: Mapping[str, Metric] = block(("planning", "execution"), help="metrics to compute")
     export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")
     recording: RecordingOptions = option(RecordingOptions(), help="settings of recordings")
@@ -283,6 +285,7 @@ ONLY_EXECUTION = (
     "grant_truth",
     "noise",
     "delays",
+    "faults",
     "replanning",
     "limits.execution",
 )

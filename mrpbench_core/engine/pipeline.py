@@ -87,7 +87,7 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
         if isinstance(config.simulator, DiscreteSimulator):
             failure, record.unexported = execute_steps(inputs, context)
         else:
-            failure, record.unexported = execute_plan(inputs, context, router)
+            failure, record.unexported, record.unarrived = execute_plan(inputs, context, router)
         inputs.announce(Stage.METRICS, {})
         record.executed = True
         kept = config.recording.keep == "all" or (config.recording.keep == "failed" and failure is not None)

@@ -32,6 +32,8 @@ class RunRecord:
     """The reason why a metric or `<metric>.<column>` cannot be measured, by name."""
     unexported: dict[str, str] = attrs.field(factory=dict)
     """The reason why an export failed, by the name of the exporter."""
+    unarrived: dict[str, str] = attrs.field(factory=dict)
+    """Why robots did not arrive, by their names; only in runs with faults."""
     reassigned: int = 0
     """The number of robots whose goal is not the one that the scenario gives them."""
     plan: dict[str, Any] = attrs.field(factory=dict)
@@ -93,6 +95,7 @@ class StoredRecord:
             "unmeasured": run.unmeasured,
             "unexported": run.unexported,
             "error": error,
+            "unarrived": run.unarrived,
             "plan": run.plan,
             "reassigned": run.reassigned,
             "true_poses": run.true_poses,

@@ -89,14 +89,15 @@ class _Plane(Simulation):
         self._movers.update(inputs)
         end = self._movers.body
         with np.errstate(invalid="ignore"):  # what was nowhere
-            way = np.hypot(*(end - begin).T)
-        begin = np.where((way <= JUMP)[:, None], begin, end)
+            shift = end - begin
+            way = np.hypot(*shift.T)
+        begin, shift = np.where((way <= JUMP)[:, None], (begin, shift), (end, np.zeros_like(shift)))
         self._operate(inputs.facilities)
         contacts: set[tuple[int, int]] = set()
         farthest = max(self._reach, float(way.max(initial=0.0, where=way <= JUMP)))
         substeps = max(1, math.ceil(farthest / self._stride))
         for substep in range(1, substeps + 1):
-            movers = end if substep == substeps else begin + (end - begin) * (substep / substeps)
+            movers = end if substep == substeps else begin + shift * (substep / substeps)
             contacts |= self._advance(command, movers, self._period / substeps)
         self._periods += 1
         self._scans += self._take_scans()

@@ -8,7 +8,9 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.api.crowd import Crowd
+from mrpbench_core.api.crowd import Crowd, CrowdSession
+from mrpbench_core.engine.execution.blockages import Blockages
+from mrpbench_core.engine.execution.faults import FaultEvent
 from mrpbench_core.engine.execution.gait import Gait
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
@@ -20,7 +22,7 @@ from mrpbench_core.model.worlds.world import World
 
 
 class Crowds:
-    """Sessions of crowds, started.
+    """Sessions of crowds, started, and what stands on blocked places.
 
     Raises:
         BrokenContractError: a crowd returned what its contract rules out, here or in any method.
@@ -28,14 +30,23 @@ class Crowds:
     """
 
     def __init__(
-        self, crowds: Sequence[Crowd], world: World, fleet: Fleet, period: float, seed: int, repeat: int
+        self,
+        crowds: Sequence[Crowd],
+        world: World,
+        fleet: Fleet,
+        period: float,
+        seed: int,
+        repeat: int,
+        blocked: Sequence[FaultEvent] = (),
     ) -> None:
         self._period, self._levels = period, len(world.levels)
         self._doors = frozenset(door.name for door in Facilities(world).doors if door.lift is None)
-        self._sessions = [
+        self._sessions: list[CrowdSession] = [
             crowd.start(own(world), own(fleet), seed_of(seed, repeat, f"crowd {index}"))
             for index, crowd in enumerate(crowds)
         ]
+        if blocked:
+            self._sessions.append(Blockages(blocked, fleet))
         parts = [own(tuple(session.members)) for session in self._sessions]
         self.members: tuple[Mover, ...] = tuple(member for part in parts for member in part)
         """By index: those of the first crowd, then those of the second."""

@@ -70,7 +70,9 @@ class Places:
         for resource in roadmap.resources:
             self._kept_free[list(resource.vertices)] = True
 
-    def destinations(self, errands: Iterable[Errand], head: Int, attempt: int = 0) -> Destinations:
+    def destinations(
+        self, errands: Iterable[Errand], head: Int, attempt: int = 0, stays: Bool | None = None
+    ) -> Destinations:
         """Return goals for all robots.
 
         Args:
@@ -79,9 +81,12 @@ class Places:
             attempt: plans in a row that were not found. Then robots that are in the way, in every other attempt all
                 robots without an errand, are sent far enough away: home, or to one place after another. Where robots
                 only just make room, an incomplete planner may never find how the others pass.
+            stays: bool[n] robots that cannot go on from there.
         """
         robots = len(self._problem)
         taken = _Taken(self._problem)
+        for robot in np.flatnonzero(stays).tolist() if stays is not None else ():
+            taken.add(robot, int(head[robot]))
         chosen: list[tuple[int, int] | None] = [None] * robots
         yaw = np.full(robots, np.nan)
         for errand in errands:

@@ -5,7 +5,7 @@ robot may use the resource (`FleetView.granted`) once the door is open (closed w
 once the cabin is at the robot's level with open doors.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -34,7 +34,10 @@ class FacilityManager:
         self._entrances = {lift.name: [g for g in self.facilities.doors if g.lift is lift] for lift in world.lifts}
         self._level = problem.roadmap.level
         self._held: dict[str, list[int]] = {name: [] for name in self._resources}
-        self._ready: tuple[tuple[int, str], ...] = ()
+        self.holders: Mapping[str, Sequence[int]] = self._held
+        """The robots that hold each resource."""
+        self.ready: tuple[tuple[int, str], ...] = ()
+        """(robot, resource) pairs that robots may use."""
         self.adopt(problem, plan)
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
@@ -46,13 +49,13 @@ class FacilityManager:
 
     def with_grants(self, view: FleetView, state: State) -> FleetView:
         """The view of a dispatcher, completed by the resources that robots may use now."""
-        self._ready = tuple(
+        self.ready = tuple(
             (robot, name)
             for name, holders in self._held.items()
             for robot in holders
             if self._is_ready(robot, name, int(view.reached[robot]), state.facilities)
         )
-        return attrs.evolve(view, granted=self._ready) if self._ready else view
+        return attrs.evolve(view, granted=self.ready) if self.ready else view
 
     def assign(self, orders: Orders) -> None:
         """Release resources that are no longer requested, and assign those with room, the longest requested first.
@@ -75,7 +78,7 @@ class FacilityManager:
         """The number i4[n] of the resource that each robot has asked for and may not use yet, -1 = none."""
         waits: Int32 = np.full(robots, -1, np.int32)
         for robot, name in self._asked:
-            if waits[robot] < 0 and (robot, name) not in self._ready:
+            if waits[robot] < 0 and (robot, name) not in self.ready:
                 waits[robot] = self._number[name]
         return waits
 

@@ -1,6 +1,6 @@
 """The loop that executes a plan: sense, dispatch, drive, record, once in every control period."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Self
 
 import attrs
@@ -15,24 +15,29 @@ from mrpbench_core.api.navigator import Navigator
 from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import ContractChecks
-from mrpbench_core.engine.execution.arrivals import Arrivals
+from mrpbench_core.engine.execution.arrivals import REST, Arrivals
 from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.execution.cutting import DrivenSegments, shifted
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.destinations import heads
+from mrpbench_core.engine.execution.detours import Detours
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
+from mrpbench_core.engine.execution.faults import FaultState
 from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.replanning import Replanner, Revision
+from mrpbench_core.engine.execution.standstill import Ending, Standstill
 from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.common.arrays import Bool
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.observation import FleetObservation
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.plugins.provenance import origin
 
@@ -100,6 +105,8 @@ class ExecutionResult:
     simulated_s: float
     contradiction: str | None = None
     """What the navigator reports and the true poses contradict."""
+    unarrived: Mapping[int, str] = attrs.field(factory=dict)
+    """Why robots did not arrive, by robot; only with faults."""
 
 
 @attrs.frozen(kw_only=True)
@@ -121,6 +128,8 @@ class LoopInputs:
     """Errors of sensors, motors and start times."""
     delays: DelayStream
     """Stops and speeds of the robots."""
+    faults: FaultState
+    """What fails."""
     recorder: Recorder
     """Receives everything that happens; flushed at the end."""
     replanner: Replanner
@@ -181,6 +190,9 @@ class ExecutionLoop:
                 raise BrokenContractError(f"the {kind} returned None instead of a session")
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
         self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
+        sets = Feature.GOAL_SETS in inputs.replanner.supports
+        self._detours = Detours(inputs.faults, context.problem, inputs.replanner.yaw, sets)
+        self._standstill = Standstill(_patience(inputs))
         self._given_routes = given.routes
         self._returned = self._orders = self._given_orders = Orders(released=np.zeros(robots, "i4"))
         self._motion = Motion(
@@ -193,6 +205,7 @@ class ExecutionLoop:
     def run(self) -> ExecutionResult:
         """Run until every robot has arrived or given up, or the simulated time is over."""
         while True:
+            self._inputs.recorder.events(self._inputs.faults.update(self._now))
             observation = self._sense()
             self._dispatch(observation)
             self._drive()
@@ -207,7 +220,7 @@ class ExecutionLoop:
         """The current data of sensors and localizers."""
         inputs, state = self._inputs, self._state
         odometry = inputs.noise.odometry(state)
-        scans = inputs.noise.scans(self._checks.scans(inputs.simulation.scans()))
+        scans = inputs.faults.scans(inputs.noise.scans(self._checks.scans(inputs.simulation.scans())))
         truth = state.pose.copy() if inputs.components.needs_truth else None
         measured, seen = own(odometry), own(scans)
         estimate = self._checks.estimate(self._localizer.update(self._now, measured, seen, truth))
@@ -228,27 +241,34 @@ class ExecutionLoop:
             level=self._state.level,
             mode=self._motion.mode,
         )
-        view = self._facility_manager.with_grants(view, self._state)
+        view = self._facility_manager.with_grants(self._inputs.faults.heard(view), self._state)
         if replanner.pending is None:
             self._ask_dispatcher(view)
             self._replan(view)
         if (revision := replanner.take_due(now)) and self._adopt(revision):
             reached, cleared = self._motion.reached, self._motion.cleared
-            view = attrs.evolve(view, revision=self._revision, reached=reached, cleared=cleared)
+            now_counted = attrs.evolve(view, revision=self._revision, reached=reached, cleared=cleared)
+            view = self._inputs.faults.heard(now_counted)
             self._ask_dispatcher(view)
         self._facility_manager.assign(self._orders)
 
     def _replan(self, view: FleetView) -> None:
         """Ask for a new plan if one is needed."""
-        now, replanner, tasks = self._now, self._inputs.replanner, self._inputs.tasks
-        wish = self._orders.replan
+        now, replanner, tasks, detours = self._now, self._inputs.replanner, self._inputs.tasks, self._detours
+        wish, released = self._orders.replan or detours.reason(now), self._orders.released
+        given_up = detours.update()
         if tasks is not None:
-            head = heads(replanner.problem, replanner.plan, self._orders.released)
-            tasks.begin(now, head, self._motion.mode == ABORTED)
+            head = heads(replanner.problem, replanner.plan, released)
+            tasks.begin(now, head, (self._motion.mode == ABORTED) | detours.held, given_up)
             wish = wish or tasks.reason(now)
         if reason := replanner.reason(now, view, wish):
-            to = None if tasks is None else tasks.destinations(now)
-            replanner.request(now, reason, view, self._orders.released, to)
+            problem = detours.restricted(replanner.problem, replanner.plan, released, view.cleared)
+            if tasks is None:
+                to = detours.destinations(problem, replanner.plan, released)
+            else:
+                detours.asked()
+                to = tasks.destinations(now, detours.held, problem)
+            replanner.request(now, reason, view, released, to, problem.roadmap)
 
     def _ask_dispatcher(self, view: FleetView) -> None:
         """Get new orders; a dispatcher that has none returns the same object again."""
@@ -275,6 +295,8 @@ class ExecutionLoop:
                 self._navigator.adopt(self._given_routes, new.cut.copy())
                 self._inputs.replanner.use(new.problem, new.plan)
                 self._checks.adopt(_segments(new.plan), new.cut)
+                self._detours.adopt()
+                self._inputs.faults.cut(new.cut)
                 self._facility_manager.adopt(new.problem, new.plan)
                 self._inputs.recorder.events((Event(stamp=now, kind="replan", detail=new.reason),))
                 self._inputs.recorder.routes(now, self._revision, new.routes, new.plan, new.kept, self._driven.count)
@@ -282,6 +304,7 @@ class ExecutionLoop:
                     self._inputs.tasks.adopt(new.destinations)
                 return True
         self._inputs.replanner.failed(now)
+        self._detours.failed(now)
         if self._inputs.tasks is not None:
             self._inputs.tasks.failed()
         self._inputs.recorder.events((Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}"),))
@@ -292,6 +315,8 @@ class ExecutionLoop:
         orders, late = self._given_orders, self._now < self._inputs.noise.start_delay
         if late.any():
             orders = attrs.evolve(orders, released=np.where(late, 0, orders.released))
+        if self._inputs.faults:
+            orders = attrs.evolve(orders, released=self._inputs.faults.received(orders.released))
         self._motion = self._checks.motion(self._navigator.step(self._now, self._given, orders))
         self._causes |= {event.robot: event.detail for event in self._motion.events if event.kind == "aborted"}
 
@@ -306,7 +331,8 @@ class ExecutionLoop:
             tasks.judge(self._now, arrivals.arrived)
             over |= tasks.ended
         else:
-            over |= bool((arrivals.arrived | arrivals.mistaken | gave_up).all())
+            over |= self._all_done(gave_up)
+            over |= self._stands_still()
         if not over:
             return None
         names = self._inputs.context.fleet.names
@@ -315,11 +341,56 @@ class ExecutionLoop:
             for robot in gave_up.nonzero()[0].tolist()
         )
         return ExecutionResult(
-            succeeded=bool(arrivals.arrived.all() if tasks is None else not (gave_up.any() or tasks.unserved)),
+            succeeded=bool(
+                (arrivals.arrived & ~self._detours.astray).all()
+                if tasks is None
+                else not (gave_up.any() or tasks.unserved)
+            ),
             gave_up=causes,
             simulated_s=self._now,
             contradiction=arrivals.contradiction(),
+            unarrived=self._unarrived() if self._inputs.faults and tasks is None else {},
         )
+
+    def _all_done(self, gave_up: Bool) -> bool:
+        """Tell whether each robot of a batch has arrived, or will not."""
+        arrivals, detours, faults = self._arrivals, self._detours, self._inputs.faults
+        done = (arrivals.arrived | arrivals.mistaken) & ~detours.astray
+        done |= gave_up | faults.lost | detours.given_up | (detours.cut_off & faults.final)
+        return bool(done.all())
+
+    def _stands_still(self) -> bool:
+        """Tell whether nothing goes on any more because of faults that do not end."""
+        inputs, motion, state = self._inputs, self._motion, self._state
+        if not inputs.faults:
+            return False
+        moves = (np.abs(state.twist[:, 0]) > REST[0]) | (motion.mode == Mode.RECOVERING)
+        busy = (moves & ~inputs.faults.stopped).any()
+        counts = (int(count.sum()) for count in (motion.reached, motion.cleared, self._orders.released))
+        progress = (*counts, self._now if busy else None, tuple(round(at, 2) for at in state.facilities.values()))
+        plans = inputs.replanner.pending is not None and not inputs.replanner.failing
+        may_end = inputs.faults.final and not plans and not inputs.delays.stopped.any()
+        return self._standstill.update(self._now, progress, may_end)
+
+    def _unarrived(self) -> dict[int, str]:
+        """Why each robot did not arrive."""
+        inputs = self._inputs
+        gave_up = np.flatnonzero(self._motion.mode == ABORTED).tolist()
+        return Ending(
+            problem=inputs.replanner.problem,
+            plan=inputs.replanner.plan,
+            names=inputs.context.fleet.names,
+            faults=inputs.faults,
+            orders=self._orders,
+            motion=self._motion,
+            pose=self._state.pose,
+            granted=self._facility_manager.ready,
+            holders=self._facility_manager.holders,
+            arrived=self._arrivals.arrived & ~self._detours.astray,
+            gave_up={robot: self._causes.get(robot, "") for robot in gave_up},
+            given_up=set(np.flatnonzero(self._detours.given_up).tolist()),
+            cut_off=set(np.flatnonzero(self._detours.cut_off).tolist()),
+        ).reasons()
 
     def _record(self, observation: FleetObservation, last: bool) -> None:
         """Record this control period, and show it to hooks."""
@@ -347,10 +418,11 @@ class ExecutionLoop:
         commands = self._facility_manager.commands(self._motion.reached, self._orders.released, self._state)
         commands = inputs.crowds.doors(self._state, commands)
         inputs.crowds.step(self._state)
+        commands = inputs.faults.held(commands, self._state.facilities)
         twist = inputs.delays.driven(
             inputs.noise.actuated(self._motion.twist), self._motion.reached + self._driven.count
         )
-        driven = Inputs(twist=twist, facilities=commands)
+        driven = Inputs(twist=inputs.faults.driven(twist), facilities=commands)
         self._state = self._checks.state(inputs.simulation.step(inputs.crowds.inputs(driven)))
         self._step += 1
         self._now = self._step * inputs.context.period
@@ -364,6 +436,11 @@ def _reach(context: RunContext) -> NDArray[np.float64]:
     """
     pushed = 2 * PUSHED * context.period if context.movers else 0.0
     return np.array([2 * robot.max_speed * context.period + pushed + 0.05 for robot in context.fleet.robots])
+
+
+def _patience(inputs: LoopInputs) -> float:
+    """Simulated seconds without progress after which an execution with faults that do not end is over."""
+    return max(inputs.faults.settings.patience, 2 * inputs.replanner.interval)
 
 
 def _segments(plan: Plan) -> NDArray[np.int64]:

@@ -16,6 +16,7 @@ from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Plan, PlanResult
 from mrpbench_core.model.planning.problem import Feature, Problem, features_of
+from mrpbench_core.model.planning.roadmap import Roadmap
 
 RETRY_S = 1.0
 """Simulated seconds after which a planner that found no new plan is asked again, unless the settings say more."""
@@ -53,13 +54,20 @@ class Replanner:
         router: turns plans into routes.
         problem: of the first plan.
         plan: the first plan.
-        cuts: leave out what robots drove long ago.
+        supports: features that the planner supports; with `since`, plans leave out what robots drove long ago.
     """
 
     def __init__(
-        self, settings: Replanning, ask: Ask, router: Router, problem: Problem, plan: Plan, cuts: bool = False
+        self,
+        settings: Replanning,
+        ask: Ask,
+        router: Router,
+        problem: Problem,
+        plan: Plan,
+        supports: frozenset[Feature] = frozenset(),
     ) -> None:
-        self._cuts = cuts and router.plan_filter is None  # which may shift waypoints anywhere
+        self.supports, self.yaw = supports, router.final_yaw
+        self._cuts = Feature.SINCE in supports and router.plan_filter is None  # which may shift waypoints anywhere
         self._settings = settings
         self._ask = ask
         self._router = router
@@ -68,10 +76,15 @@ class Replanner:
         self._not_before = 0.0
         self.pending: Revision | None = None
         """Requested, not in force yet."""
+        self.interval = max(settings.period or 0.0, settings.delay or 0.0)
+        """Simulated seconds within which the settings may call for a new plan."""
+        self.failing = False
+        """The last request led to no plan."""
         self.use(problem, plan)
 
     def use(self, problem: Problem, plan: Plan) -> None:
         """Note that a plan is in force."""
+        self.failing = False
         self.problem, self.plan = problem, plan
         self._first: Int = np.cumsum([0, *(len(path) for path in plan.paths)])
         moves = [np.flatnonzero(path.edge >= 0) for path in plan.paths]
@@ -95,9 +108,17 @@ class Replanner:
         return None
 
     def request(
-        self, now: float, reason: str, view: FleetView, released: Int32, to: Destinations | None = None
+        self,
+        now: float,
+        reason: str,
+        view: FleetView,
+        released: Int32,
+        to: Destinations | None = None,
+        roadmap: Roadmap | None = None,
     ) -> None:
         """Ask for a plan that begins with what is `released` i4[n], and leads `to` new destinations if there are some.
+
+        The planner gets `roadmap` instead of the problem's, if it may not use all of that.
 
         It takes effect after the latency, and later if the planner exceeds its budget of wall time.
         """
@@ -116,7 +137,8 @@ class Replanner:
             problem = attrs.evolve(problem, goals=to.goals)
             problem = attrs.evolve(problem, features=features_of(problem) | (features & {Feature.FOOTPRINTS}))
             router = attrs.evolve(router, final_yaw=to.yaw)
-        result, fault, late = self._ask(problem)
+        asked = problem if roadmap is None else attrs.evolve(problem, roadmap=roadmap)
+        result, fault, late = self._ask(asked)
         due += late
         self._last, self._not_before = now, due
         plan = None if fault else result.plan
@@ -142,7 +164,7 @@ class Replanner:
 
     def failed(self, now: float) -> None:
         """Note that the new plan could not be used, and delay the next request."""
-        self._not_before = now + self._retry
+        self._not_before, self.failing = now + self._retry, True
 
     def _late(self, now: float, reached: Int32) -> Float:
         """Seconds f8[n] by which robots are late with the first segment that they have not reached; 0 = arrived."""
@@ -168,6 +190,7 @@ def replanning_fault(config: RunConfig) -> str | None:
     """Return the reason why the planner cannot replan during execution as configured, or None."""
     replanning = config.replanning
     wanted = replanning.delay is not None or replanning.period is not None or config.tasks is not None
+    wanted |= bool(config.faults) and config.faults.reaction != "wait"
     if config.executes and wanted and Feature.COMMITMENTS not in config.planner.supports:
         return "does not support commitments, which replanning needs; `rolling_horizon` plans with it"
     return None

@@ -9,17 +9,21 @@ another if the dispatcher lets them; the recording has that as contacts.
   the navigator `waypoints` reports it, or at the end of a shorter move.
 - Robots that rotate (`Orders.in_step`) move when none of them stops, as fast as the slowest of them.
 - A door, lift or mutex is granted to the robot that has requested it longest as soon as there is room, but not before
-  its `setup_ticks` have passed since the last robot left it.
+  its `setup_ticks` have passed since the last robot left it, and not while it is out of order.
+- No robot begins a move that leads it to a blocked place.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence, Set
 
 import numpy as np
 
 from mrpbench_core.api.dispatcher import Dispatcher
+from mrpbench_core.config.faults import Faults
 from mrpbench_core.engine.contract_checks import ContractChecks
 from mrpbench_core.engine.execution.delays import DelayStream
+from mrpbench_core.engine.execution.faults import FaultEvent, FaultState, approaches
 from mrpbench_core.engine.execution.recorder import Recorder, Sample
+from mrpbench_core.engine.execution.standstill import Ending, Standstill
 from mrpbench_core.engine.own import own
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32
 from mrpbench_core.model.execution.motion import Mode, Motion
@@ -38,9 +42,19 @@ class ScheduleLoop:
         DispatchError: the dispatcher refuses the plan.
     """
 
-    def __init__(self, context: RunContext, dispatcher: Dispatcher, delays: DelayStream, recorder: Recorder) -> None:
+    def __init__(
+        self,
+        context: RunContext,
+        dispatcher: Dispatcher,
+        delays: DelayStream,
+        recorder: Recorder,
+        faults: FaultState | None = None,
+    ) -> None:
         plan = context.result.plan
         assert plan is not None
+        self._context = context
+        self._faults = faults or FaultState(Faults(), (), len(context.problem))
+        self._standstill = Standstill(self._faults.settings.patience)
         self._period, self._delays, self._recorder = context.period, delays, recorder
         self._session = dispatcher.start(own(context.problem), own(plan))
         self._checks = ContractChecks(np.array([len(path) for path in plan.paths], np.int64))
@@ -65,7 +79,7 @@ class ScheduleLoop:
         step, pose = 0, self._pose()
         while True:
             now = step * self._period
-            self._recorder.events(self._delays.begun(now))
+            self._recorder.events((*self._delays.begun(now), *self._faults.update(now)))
             view = FleetView(
                 revision=0,
                 reached=self._motion.reached,
@@ -75,14 +89,15 @@ class ScheduleLoop:
                 mode=self._motion.mode,
                 granted=self._resources.granted,
             )
-            self._orders = self._checks.orders(self._session.update(now, view))
-            self._resources.assign(now, self._orders.requests)
-            arrived = bool((self._reached >= self._paths.last_move).all())
-            last = arrived or now >= limit_s
+            self._orders = self._checks.orders(self._session.update(now, self._faults.heard(view)))
+            self._resources.assign(now, self._orders.requests, self._faults.broken)
+            arrived = self._reached >= self._paths.last_move
+            last = bool((arrived | self._faults.lost).all()) or now >= limit_s or self._stands_still(now)
             self._record(step, now, pose, last)
             if last:
                 self._recorder.flush()
-                return arrived, now
+                self.ending = self._ending(arrived, pose)
+                return bool(arrived.all()), now
             before = pose
             self._look(moved=self._advance())
             pose = self._pose()
@@ -90,13 +105,45 @@ class ScheduleLoop:
             step += 1
             self._recorder.contacts(step * self._period, self._state(pose))
 
+    def _stands_still(self, now: float) -> bool:
+        """Tell whether nothing goes on any more because of faults that do not end."""
+        if not self._faults:
+            return False
+        progress = (int(self._reached.sum()), float(self._done.sum()), int(self._orders.released.sum()))
+        return self._standstill.update(now, progress, self._faults.final and not self._delays.stopped.any())
+
+    def _ending(self, arrived: Bool, pose: Float) -> Ending | None:
+        """The fleet at the end, if there are faults."""
+        if not self._faults:
+            return None
+        assert self._context.result.plan is not None
+        return Ending(
+            problem=self._context.problem,
+            plan=self._context.result.plan,
+            names=self._context.fleet.names,
+            faults=self._faults,
+            orders=self._orders,
+            motion=self._motion,
+            pose=pose,
+            granted=self._resources.granted,
+            holders=self._resources.holders,
+            arrived=arrived,
+            gave_up={},
+        )
+
+    def _speed(self) -> Float:
+        """Relative speed f8[n] of each robot on its segment."""
+        return self._delays.speed(self._reached) * self._faults.speed
+
     def _advance(self) -> Bool:
         """Let one control period pass; return which robots have moved."""
-        released = self._orders.released.copy()
+        released = self._faults.received(self._orders.released).astype(np.int64)
+        for blockage in self._faults.blockages:
+            released = np.minimum(released, self._paths.before(blockage, self._reached, self._done > 0, self._radius))
         while (waits := (self._reached < released) & (self._paths.duration(self._reached) == 0)).any():
             self._reached[waits] += 1
-        left = np.where(self._delays.stopped, 0.0, self._period)
-        speed = self._delays.speed(self._reached)
+        left = np.where(self._delays.stopped | self._faults.stopped, 0.0, self._period)
+        speed = self._speed()
         moved = np.zeros(len(left), bool)
         for group in self._orders.in_step:
             robots, segments = (np.array(column) for column in zip(*group, strict=True))
@@ -118,7 +165,7 @@ class ScheduleLoop:
             left = np.where(ends, np.maximum(left - needed, 0.0), np.where(going, 0.0, left))
             self._reached[ends] += 1
             self._done[ends] = 0.0
-            speed = np.where(ends, self._delays.speed(self._reached), speed)
+            speed = np.where(ends, self._speed(), speed)
 
     def _look(self, moved: Bool) -> None:
         """What the dispatcher and the recording are told of the robots' progress."""
@@ -188,6 +235,8 @@ class _Paths:
         ahead = np.diff(self._point, axis=0, append=self._point[-1:])
         ahead[self._first[1:] - 1] = 0.0
         self._ahead = ahead
+        self._blocked: dict[FaultEvent, Int] = {}
+        """The segments, of all robots one after another, that lead to a blocked place."""
         starts = context.scenario.start[:, 2]
         self._yaw = _yaws(ahead, self._first, np.where(np.isnan(starts), 0.0, starts))
 
@@ -209,6 +258,18 @@ class _Paths:
     def level(self, segment: Int) -> Int16:
         """The level i2[n] of each robot."""
         found: Int16 = self._level[self._first + segment]
+        return found
+
+    def before(self, blockage: FaultEvent, segment: Int, under_way: Bool, radius: Float) -> Int:
+        """The first segment i8[n] of each robot, after the one `under_way`, that leads it to a blocked place."""
+        if blockage not in self._blocked:
+            owner = np.repeat(np.arange(len(self._first)), np.diff(np.append(self._first, len(self._point))))
+            place, reach = np.array(blockage.place), radius[owner] + blockage.radius
+            blocked = approaches(place, self._point, self._point + self._ahead, reach)
+            rows = np.flatnonzero(blocked & (self._level == blockage.level))
+            self._blocked[blockage] = np.append(rows, np.iinfo(np.int64).max)
+        rows = self._blocked[blockage]
+        found: Int = rows[np.searchsorted(rows, self._first + segment + under_way)] - self._first
         return found
 
     def pose(self, segment: Int, done: Float) -> Float:
@@ -236,13 +297,17 @@ class _Resources:
         self._number = {name: number for number, name in enumerate(self._resources)}
         self._tick, self._robots = problem.roadmap.tick, len(problem)
         self._held: dict[str, list[int]] = {name: [] for name in self._resources}
+        self.holders: Mapping[str, Sequence[int]] = self._held
         self._busy: dict[str, list[float]] = {name: [] for name in self._resources}
         """Times at which places that robots have left can be used again."""
         self._asked: Sequence[tuple[int, str]] = ()
         self.granted: tuple[tuple[int, str], ...] = ()
 
-    def assign(self, now: float, requests: Sequence[tuple[int, str]]) -> None:
-        """Take back what is no longer requested, and grant what there is room for, the longest requested first."""
+    def assign(self, now: float, requests: Sequence[tuple[int, str]], broken: Set[str] = frozenset()) -> None:
+        """Take back what is no longer requested, and grant what there is room for, the longest requested first.
+
+        What is `broken` is not granted to more robots.
+        """
         self._asked = requests
         for name, holders in self._held.items():
             kept = [robot for robot in holders if (robot, name) in requests]
@@ -253,7 +318,7 @@ class _Resources:
         for robot, name in requests:
             holders = self._held[name]
             in_setup = sum(time > now + 1e-9 for time in self._busy[name])
-            if robot not in holders and len(holders) + in_setup < self._resources[name].capacity:
+            if robot not in holders and name not in broken and len(holders) + in_setup < self._resources[name].capacity:
                 holders.append(robot)
         self.granted = tuple((robot, name) for name, holders in self._held.items() for robot in holders)
 

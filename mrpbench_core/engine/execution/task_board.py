@@ -15,7 +15,7 @@ class TaskEvent:
     stamp: float
     task: int
     kind: str
-    """released, refused, assigned, withdrawn, begun, errand or done."""
+    """One of `TASK_EVENTS`."""
     robot: int = -1
     errand: int = -1
 
@@ -44,7 +44,7 @@ class TaskBoard:
         self.queues: list[list[int]] = [[] for _ in range(robots)]
         """For each robot the tasks to do, in order; only the first may have begun."""
         self.finished = 0
-        """Tasks that are done, or that no robot can do."""
+        """Tasks that are done or given up, or that no robot can do."""
         self.events: list[TaskEvent] = []
         """What happened since the recorder took the events."""
 
@@ -113,6 +113,14 @@ class TaskBoard:
             del self.jobs[index]
             self.queues[robot].pop(0)
         return True
+
+    def give_up(self, now: float, robot: int) -> None:
+        """Note that the task that a robot has begun will not be finished."""
+        if (job := self.begun(robot)) is not None:
+            self._note(now, job.task.index, "given_up", robot)
+            self.finished += 1
+            del self.jobs[job.task.index]
+            self.queues[robot].pop(0)
 
     def leave(self, robot: int) -> None:
         """Note that a robot does not rest at its errand; a service that was interrupted begins again."""

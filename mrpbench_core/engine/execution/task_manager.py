@@ -16,6 +16,7 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.checking.assignment import check_queues
 from mrpbench_core.engine.execution.destinations import Destinations, Errand, Places
+from mrpbench_core.engine.execution.detours import reaches
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.task_board import Job, TaskBoard, TaskEvent
 from mrpbench_core.engine.own import Handed, name_of, own
@@ -91,14 +92,17 @@ class TaskManager:
         """True if no task was done and the planner finds no plan."""
         return self._failures > 0 and self._board.finished == 0
 
-    def begin(self, now: float, head: Int, aborted: Bool) -> None:
+    def begin(self, now: float, head: Int, aborted: Bool, given_up: Bool | None = None) -> None:
         """Take in the tasks released until `now`, and have them assigned.
 
         Args:
             now: simulated seconds.
             head: i8[n] vertices at which robots come to rest if nothing more is released.
-            aborted: bool[n]: the robot gave up.
+            aborted: bool[n]: the robot gave up, or is out of order for now; its tasks that are not begun go to others.
+            given_up: bool[n]: the robot will not go on with the task that it has begun.
         """
+        for robot in np.flatnonzero(given_up).tolist() if given_up is not None else ():
+            self._board.give_up(now, robot)
         released = list(self._stream.released(now, self._board.finished))
         tasks = [own(task) for task in released]
         for task in tasks:
@@ -220,14 +224,24 @@ class TaskManager:
         makes_room = any(ours is not None and path is None for ours, path in zip(wanted, self._in_force, strict=True))
         return "a robot that made room may go on" if makes_room else None
 
-    def destinations(self, now: float) -> Destinations:
+    def destinations(self, now: float, held: Bool | None = None, restricted: Problem | None = None) -> Destinations:
         """Return the goals of the next plan.
+
+        Robots that are `held` bool[n] stay where they come to rest, and so do those that cannot reach their errands in
+        the `restricted` problem.
 
         Robots that rest at their errand come first, then the oldest tasks. After each plan that was not found, half as
         many robots are sent to errands, others each time, until a plan is found.
         """
         self._planned_at, self._asked = now, self._wanted()
-        jobs = [(robot, job) for robot, job in enumerate(self._current()) if job is not None]
+        stays = np.zeros(len(self._robots), bool) if held is None else held
+        jobs = [(robot, job) for robot, job in enumerate(self._current()) if job is not None and not stays[robot]]
+        if restricted is not None and restricted.roadmap is not self._roadmap:
+            jobs = [
+                (robot, job)
+                for robot, job in jobs
+                if reaches(restricted, robot, int(self._head[robot]), (job.vertices[job.errand],))
+            ]
         resting = [entry for entry in jobs if not math.isnan(entry[1].since)]
         moving = sorted((entry for entry in jobs if math.isnan(entry[1].since)), key=lambda entry: entry[1].task.index)
         if self._failures and moving:
@@ -237,7 +251,7 @@ class TaskManager:
             Errand(robot, job.task.index, job.errand, job.vertices[job.errand], float(job.task.goals[job.errand, 2]))
             for robot, job in resting + moving
         ]
-        return self._places.destinations(errands, self._head, self._failures)
+        return self._places.destinations(errands, self._head, self._failures, stays)
 
     def adopt(self, destinations: Destinations) -> None:
         """Note that a plan to these goals is in force."""

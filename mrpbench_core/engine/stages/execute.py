@@ -2,6 +2,7 @@
 
 import math
 import time
+from collections.abc import Mapping
 
 import attrs
 import numpy as np
@@ -14,6 +15,7 @@ from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.destinations import Places
 from mrpbench_core.engine.execution.facility_manager import ExecutionError
+from mrpbench_core.engine.execution.faults import FaultState, draw_faults
 from mrpbench_core.engine.execution.loop import ExecutionLoop, ExecutionResult, LoopComponents, LoopInputs
 from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.progress import ExecutionProgress
@@ -30,6 +32,7 @@ from mrpbench_core.engine.stages.export import Exports
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.motion import Event
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
@@ -40,17 +43,25 @@ from mrpbench_core.model.worlds.world import World
 from mrpbench_core.store.recording import RecordingWriter
 
 
-def execute_plan(inputs: RunInputs, context: RunContext, router: Router) -> tuple[RunEnded | None, dict[str, str]]:
+def execute_plan(
+    inputs: RunInputs, context: RunContext, router: Router
+) -> tuple[RunEnded | None, dict[str, str], dict[str, str]]:
     """Execute the plan of `context`.
 
     No unfinished recording or export gets its final name.
 
     Returns:
-        How the run ended, None if every robot arrived; and why an export failed, by the exporter's name.
+        How the run ended, None if every robot arrived; why an export failed, by the exporter's name; and, in runs with
+        faults, why robots did not arrive, by their names.
+
+    Raises:
+        InputError: a fault names what does not exist.
     """
     config, timing = inputs.config, inputs.timing
     inputs.announce(Stage.EXECUTION, {})
-    crowds = Crowds(config.crowds, context.world, context.fleet, context.period, config.seed, config.repeat)
+    faults = _faults(config, context)
+    blocked = [event for event in faults.events if event.kind == "blocked"]
+    crowds = Crowds(config.crowds, context.world, context.fleet, context.period, config.seed, config.repeat, blocked)
     context = attrs.evolve(context, movers=crowds.members)
     writer = RecordingWriter(inputs.paths.recording, context)
     exports = Exports()
@@ -61,6 +72,7 @@ def execute_plan(inputs: RunInputs, context: RunContext, router: Router) -> tupl
         exports.write(chunk)
 
     ended: RunEnded | None
+    unarrived: dict[str, str] = {}
     try:
         exports.open(config.export, given, inputs.paths.exports)
         wants_scans = config.recording.scans or bool(config.export)
@@ -69,10 +81,13 @@ def execute_plan(inputs: RunInputs, context: RunContext, router: Router) -> tupl
         replanner = _replanner(inputs, context, router)
         inputs.observers.executing(context=given)
         if config.execution == "schedule_only":
-            result = _follow_schedule(config, context, recorder)
+            result = _follow_schedule(config, context, recorder, faults)
         else:
-            result = _simulate(inputs, context, given, crowds, recorder, replanner)
-        ended = _failure(result, config)
+            result = _simulate(inputs, context, given, crowds, recorder, replanner, faults)
+        unarrived = {context.fleet.names[robot]: reason for robot, reason in result.unarrived.items()}
+        for robot, reason in result.unarrived.items():
+            recorder.events([Event(stamp=result.simulated_s, kind="not_arrived", robot=robot, detail=reason)])
+        ended = _failure(result, config, unarrived)
         timing["execution_wall_s"] = time.perf_counter() - began
         timing["real_time_factor"] = result.simulated_s / timing["execution_wall_s"]
     except (DispatchError, ExecutionError) as error:
@@ -87,7 +102,16 @@ def execute_plan(inputs: RunInputs, context: RunContext, router: Router) -> tupl
     writer.close()
     inputs.announce(Stage.EXPORT, {})
     exports.close()
-    return ended, exports.failed
+    return ended, exports.failed, unarrived
+
+
+def _faults(config: RunConfig, context: RunContext) -> FaultState:
+    """The faults of the run."""
+    roadmap, robots = context.problem.roadmap, len(context.fleet)
+    names = [resource.name for resource in roadmap.resources if resource.kind != "mutex"]
+    seeds = (config.seed, config.repeat)
+    events = draw_faults(config.faults, robots, roadmap, names, config.limits.execution, *seeds)
+    return FaultState(config.faults, events, robots)
 
 
 def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replanner:
@@ -117,8 +141,7 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
         return result, fault or (f"the planner ended with {result.status}" if result.plan is None else None), late
 
     assert context.result.plan is not None
-    cuts = Feature.SINCE in config.planner.supports
-    return Replanner(config.replanning, ask, router, context.problem, context.result.plan, cuts)
+    return Replanner(config.replanning, ask, router, context.problem, context.result.plan, config.planner.supports)
 
 
 def call_timing(seconds: list[float], limit: float) -> dict[str, float]:
@@ -169,6 +192,7 @@ def _simulate(
     crowds: Crowds,
     recorder: Recorder,
     replanner: Replanner,
+    faults: FaultState,
 ) -> ExecutionResult:
     """Open the simulator and run the execution loop."""
     config = inputs.config
@@ -195,6 +219,7 @@ def _simulate(
                 placed=poses,
                 noise=noise,
                 delays=DelayStream(config.delays, len(context.fleet), *seeds),
+                faults=faults,
                 recorder=recorder,
                 replanner=replanner,
                 tasks=tasks,
@@ -211,18 +236,27 @@ def _simulate(
     return result
 
 
-def _follow_schedule(config: RunConfig, context: RunContext, recorder: Recorder) -> ExecutionResult:
+def _follow_schedule(config: RunConfig, context: RunContext, recorder: Recorder, faults: FaultState) -> ExecutionResult:
     """Execute without physics."""
     assert config.dispatcher is not None
     delays = DelayStream(config.delays, len(context.fleet), config.seed, config.repeat)
-    arrived, simulated_s = ScheduleLoop(context, config.dispatcher, delays, recorder).run(config.limits.execution)
-    return ExecutionResult(succeeded=arrived, gave_up=(), simulated_s=simulated_s)
+    loop = ScheduleLoop(context, config.dispatcher, delays, recorder, faults)
+    arrived, simulated_s = loop.run(config.limits.execution)
+    unarrived = {} if loop.ending is None else loop.ending.reasons()
+    return ExecutionResult(succeeded=arrived, gave_up=(), simulated_s=simulated_s, unarrived=unarrived)
 
 
-def _failure(result: ExecutionResult, config: RunConfig) -> RunEnded | None:
+def _failure(result: ExecutionResult, config: RunConfig, unarrived: Mapping[str, str]) -> RunEnded | None:
     """Return the status of the run, None if every robot arrived."""
     if result.succeeded:
         return None
+    if unarrived:
+        each = [f"{name} {reason}" for name, reason in unarrived.items()]
+        causes = "; ".join(each[:3]) + (f"; … ({len(each)} robots)" if len(each) > 3 else "")
+        if result.simulated_s < config.limits.execution:
+            return RunEnded(RunStatus.EXECUTION_ABORTED, Stage.EXECUTION, f"not all robots can arrive: {causes}")
+        late = f"not all robots arrived within {config.limits.execution:g} simulated seconds: {causes}"
+        return RunEnded(RunStatus.GOALS_MISSED, Stage.EXECUTION, late)
     if result.gave_up:
         causes = "; ".join(result.gave_up[:3]) + ("; …" if len(result.gave_up) > 3 else "")
         said = f"a robot gave up before all had arrived: {causes}"

@@ -54,6 +54,6 @@ PERIODIC = (
 )
 """Channels that share the time axis `time`."""
 
-TASK_EVENTS = ("released", "refused", "assigned", "withdrawn", "begun", "errand", "done")
+TASK_EVENTS = ("released", "refused", "assigned", "withdrawn", "begun", "errand", "done", "given_up")
 """What happens to a task: it is released, refused (no robot can do it), given to a robot and taken back, begun (a robot
-rests at its first errand), an errand of it is done, all are."""
+rests at its first errand), an errand of it is done, all are, or it is given up because its robot stopped."""

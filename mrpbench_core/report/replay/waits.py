@@ -12,10 +12,10 @@ from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.dependencies import Dependencies, first_samples
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.report.replay.blocked import nearest, standing
-from mrpbench_core.report.replay.dependencies import Dependencies, first_samples
 from mrpbench_core.report.replay.motion import read_poses
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.report.replay.plans import RecordedPlan
@@ -45,6 +45,8 @@ class Reason(IntEnum):
     """The dispatcher has not released the next segment, and the recording does not tell why."""
     BLOCKED = 9
     """The robot stands although its way is released; `culprit` is the nearest robot if one is near."""
+    FAULT = 10
+    """The robot is out of order (`faults:`)."""
 
 
 @attrs.frozen(kw_only=True)
@@ -88,7 +90,23 @@ def explain_waits(recording: Recording, plans: Sequence[RecordedPlan], config: M
     pending = _pending(recording, channels["time"], config)
     context = recording.first_context()
     waits = _Explanation(context.problem, channels, plans).waits(pending)
-    return _with_blocked(waits, recording, context.fleet)
+    return _with_faults(_with_blocked(waits, recording, context.fleet), recording)
+
+
+def _with_faults(waits: Waits, recording: Recording) -> Waits:
+    """Add the robots that stand because they are out of order; see `engine.execution.faults`."""
+    if "event_kind" not in recording.channels:
+        return waits
+    time, reason, culprit = recording.channel("time"), waits.reason.copy(), waits.culprit.copy()
+    names = ("event_time", "event_kind", "event_robot", "event_detail")
+    stops: dict[int, int] = defaultdict(int)
+    for at, kind, robot, detail in zip(*(recording.channel(name).tolist() for name in names), strict=True):
+        if kind in ("fault", "fault_over") and robot >= 0 and detail.startswith("stops"):
+            stops[robot] += 1 if kind == "fault" else -1
+            later = time >= at - 1e-9
+            reason[later, robot] = Reason.FAULT if stops[robot] else waits.reason[later, robot]
+            culprit[later, robot] = -1 if stops[robot] else waits.culprit[later, robot]
+    return Waits(reason=reason, culprit=culprit)
 
 
 def _with_blocked(waits: Waits, recording: Recording, fleet: Fleet) -> Waits:

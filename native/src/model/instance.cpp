@@ -102,7 +102,8 @@ void Instance::validate_robot(int robot) const {
       refuse(robot, "has committed segments that do not follow one another on the roadmap");
     }
     const Tick duration = roadmap_.duration(it.profile)[segment.edge];
-    if (duration < 0 || segment.leave - segment.enter < duration) refuse(robot, "cannot move as committed");
+    // An edge that is forbidden by now (duration -1) may be committed: the robot is on it, or has used it.
+    if (segment.leave - segment.enter < duration) refuse(robot, "cannot move as committed");
     if (!moved && segment.enter < it.ready) refuse(robot, "is committed to move before it is ready");
     moved = true;
     vertex = roadmap_.head(segment.edge);

@@ -4,10 +4,10 @@ import attrs
 import numpy as np
 import pytest
 
+from mrpbench_core.model.planning.dependencies import Dependencies
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Resource, Roadmap
-from mrpbench_core.report.replay.dependencies import Dependencies
 from mrpbench_core.report.replay.plans import read_plans
 from mrpbench_core.report.replay.waits import Reason, explain_waits
 

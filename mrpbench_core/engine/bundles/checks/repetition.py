@@ -19,7 +19,7 @@ Pair = tuple[Stored, dict[str, Any]]
 """A record of the bundle, and the one that was made here."""
 _OF_THE_MACHINE = FAILED - {RunStatus.PLAN_INVALID, RunStatus.ASSIGNMENT_FAILED, RunStatus.CONTRACT_BROKEN}
 """Statuses that may depend on the machine, whose messages are not compared."""
-_COMPARED = ("scenario_id", "status", "metrics", "unmeasured", "error", "plan", "reassigned", "true_poses")
+_COMPARED = ("scenario_id", "status", "metrics", "unmeasured", "error", "unarrived", "plan", "reassigned", "true_poses")
 _EARLY = 0.2
 """Share of the planning limit: a planner that ends here before it is not one whose search a clock decides."""
 

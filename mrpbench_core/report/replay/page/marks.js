@@ -8,6 +8,7 @@ export const MARKS = [
   { name: "other", row: 2, kinds: [""], text: "other event" },
   { name: "recovery", row: 2, kinds: ["recovery", "recovery_failed"], text: "recovery, failed" },
   { name: "plan", row: 2, kinds: ["replan", "replan_failed"], text: "new plan, none found" },
+  { name: "fault", row: 2, kinds: ["fault", "fault_over"], text: "fault, its end" },
   { name: "contact", row: 2, kinds: ["contact"], text: "contact" },
 ];
 export const ROW = 12; // pixels of a row of marks
@@ -15,6 +16,7 @@ const OTHER = MARKS.find(({ name }) => name === "other");
 const POLYGONS = {
   lift: [[0, 2], [4, 9.5], [-4, 9.5]],
   recovery: [[0, 1], [4, 6], [0, 11], [-4, 6]],
+  fault: [[-4, 2], [4, 2], [0, 10]],
   plan: [[-3, 1], [4, 6], [-3, 11]],
 };
 

@@ -3,7 +3,7 @@
 import { ABORTED } from "replay/run.js";
 
 /** `Reason` of `waits.py`. */
-export const REASONS = ["", "robot", "resource", "rotation", "replan", "recovery", "schedule", "start", "unknown", "blocked"];
+export const REASONS = ["", "robot", "resource", "rotation", "replan", "recovery", "schedule", "start", "unknown", "blocked", "fault"];
 const CROWD = 100; // robots above which lines are thin and without arrow heads, which would make pages slow
 const HEAD = 9; // pixels of an arrow head
 const WORDS = {
@@ -36,6 +36,7 @@ export class Why {
     if (reason === "robot") return `waits for ${run.names[culprit]}${this.#elsewhere(robot, culprit, sample)} to pass`;
     if (reason === "rotation") return `waits for ${run.names[culprit]}, which moves together with it`;
     if (reason === "blocked") return culprit < 0 ? "stands, though its way is free" : `is blocked near ${run.names[culprit]}`;
+    if (reason === "fault") return this.#latest(robot, run.time[sample], ["fault"])?.[3] ?? "is out of order";
     if (reason === "recovery") return this.#recovery(robot, run.time[sample]);
     if (reason !== "resource") return WORDS[reason] ?? "";
     const { kind, name } = run.world.resources[culprit];

@@ -1,0 +1,54 @@
+"""What stands on blocked places: discs among the movers, which robots touch and lidars see."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from mrpbench_core.api.crowd import CrowdSession
+from mrpbench_core.engine.execution.faults import FaultEvent
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.movers import CrowdView, Mover, Movers
+
+
+class Blockages(CrowdSession):
+    """Puts a disc on each blocked place when its fault begins, or as soon as no robot or mover is there any more."""
+
+    def __init__(self, events: Sequence[FaultEvent], fleet: Fleet) -> None:
+        self._events, self._reach = tuple(events), fleet.radii
+        self._now = 0.0
+        self.members = tuple(Mover(radius=event.radius, kind="blockage") for event in self._events)
+        place = np.reshape([(*event.place, 0.0) for event in self._events], (-1, 3))
+        absent = np.full(len(self.members), -1, np.int16)
+        self._movers = Movers(pose=place, velocity=np.zeros((len(self.members), 2)), level=absent)
+
+    @property
+    def movers(self) -> Movers:
+        """The discs; one whose fault is not in force is absent."""
+        return self._movers
+
+    def step(self, dt: float, seen: CrowdView) -> Movers:
+        """Go to the end of the control period."""
+        self._now += dt
+        level = self._movers.level.copy()
+        for index, event in enumerate(self._events):
+            if not event.begin <= self._now + 1e-9 < event.end:
+                level[index] = -1
+            elif level[index] < 0 and self._is_free(event, seen):
+                level[index] = event.level
+        self._movers = Movers(pose=self._movers.pose, velocity=self._movers.velocity, level=level)
+        return self._movers
+
+    def _is_free(self, event: FaultEvent, seen: CrowdView) -> bool:
+        return not (
+            _overlaps(
+                event, seen.state.pose[seen.state.level == event.level], self._reach[seen.state.level == event.level]
+            )
+            or _overlaps(
+                event, seen.others.pose[seen.others.level == event.level], seen.radius[seen.others.level == event.level]
+            )
+        )
+
+
+def _overlaps(event: FaultEvent, pose: Float, radius: Float) -> bool:
+    return bool((np.hypot(*(pose[:, :2] - event.place).T) < radius + event.radius).any())
