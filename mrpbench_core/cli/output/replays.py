@@ -107,17 +107,23 @@ def make_replays(report: Report, page: Path, most: int, first: Sequence[int] = (
             lacking.append((results, run_id, file))
     with slots_of_this_process():  # one worker for all replays
         for results, run_id, file in lacking:
-            try:
-                recording = results.recording(run_id)
-                try:
-                    write_replay(recording, results, results[run_id], file)
-                finally:
-                    recording.close()
-            except InputError as error:  # a damaged recording costs its replay, not the report
-                _LOG.warning("%s", error)
-                continue
-            found[run_id] = _address(file, page)
+            if is_replay_written(results, run_id, file):
+                found[run_id] = _address(file, page)
     return found
+
+
+def is_replay_written(results: Results, run_id: str, page: Path) -> bool:
+    """Write the replay of a recorded run; False, with a warning, if the recording is damaged or ends before motion."""
+    try:
+        recording = results.recording(run_id)
+        try:
+            write_replay(recording, results, results[run_id], page)
+        finally:
+            recording.close()
+    except InputError as error:
+        _LOG.warning("%s", error)
+        return False
+    return True
 
 
 def make_pair(report: Report, page: Path, first: int, second: int) -> str | None:
