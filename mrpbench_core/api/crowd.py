@@ -41,13 +41,14 @@ class Crowd(Component):
     group: ClassVar[str] = "mrpbench.crowds"
 
     @abstractmethod
-    def start(self, world: World, fleet: Fleet, seed: int) -> CrowdSession:
+    def start(self, world: World, fleet: Fleet, seed: int, seen: CrowdView) -> CrowdSession:
         """Place the movers.
 
         Args:
             world: where they move.
             fleet: the robots, whose radii they need to avoid them.
             seed: of everything random; what a member does at random depends on the seed and its index alone.
+            seen: the robots at rest where they begin, and the movers of the crowds before this one.
 
         Raises:
             InputError: the world has no room for them, or a place that an option names is not free.

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import attrs
 
-from mrpbench_core.api import Crowd, CrowdSession, Mover, option
+from mrpbench_core.api import Crowd, CrowdSession, CrowdView, Mover, option
 from mrpbench_core.builtin.crowds.scripted import ScriptedSession, Track
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import read_bytes
@@ -34,7 +34,7 @@ class DynaBarnObstacles(Crowd):
     keyframes: Path = option(help="CSV table with columns class, index, t, x, y")
     index: int = option(help="number of the world")
 
-    def start(self, world: World, fleet: Fleet, seed: int) -> CrowdSession:  # noqa: ARG002
+    def start(self, world: World, fleet: Fleet, seed: int, seen: CrowdView) -> CrowdSession:  # noqa: ARG002
         """Begin all tracks of a world; as in the challenge, they may lead through walls.
 
         Raises:

@@ -57,7 +57,7 @@ class Scripted(Crowd):
     leg_radius: float = option(0.05, help="radius of a leg", unit="m", validator=validators.gt(0))
     kind: str = option("person", help="what moves, as pictures and bags name it", validator=validators.min_len(1))
 
-    def start(self, world: World, fleet: Fleet, seed: int) -> CrowdSession:  # noqa: ARG002
+    def start(self, world: World, fleet: Fleet, seed: int, seen: CrowdView) -> CrowdSession:  # noqa: ARG002
         """Begin all tracks.
 
         Raises:

@@ -14,6 +14,7 @@ from mrpbench_core.engine.execution.faults import FaultEvent
 from mrpbench_core.engine.execution.gait import Gait
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
+from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import CrowdView, Mover, Movers
 from mrpbench_core.model.execution.state import Inputs, State
@@ -38,27 +39,42 @@ class Crowds:
         seed: int,
         repeat: int,
         blocked: Sequence[FaultEvent] = (),
+        *,
+        poses: Float,
+        levels: Int16,
     ) -> None:
         self._period, self._levels = period, len(world.levels)
         self._doors = frozenset(door.name for door in Facilities(world).doors if door.lift is None)
-        self._sessions: list[CrowdSession] = [
-            crowd.start(own(world), own(fleet), seed_of(seed, repeat, f"crowd {index}"))
-            for index, crowd in enumerate(crowds)
-        ]
-        if blocked:
-            self._sessions.append(Blockages(blocked, fleet))
-        parts = [own(tuple(session.members)) for session in self._sessions]
-        self.members: tuple[Mover, ...] = tuple(member for part in parts for member in part)
+        self._sessions: list[CrowdSession] = []
+        self._first = np.zeros(1, int)
+        self._radius = np.empty(0)
+        self.members: tuple[Mover, ...] = ()
         """By index: those of the first crowd, then those of the second."""
-        for member in self.members:
+        self.movers = self._joined([])
+        """Where the members are now."""
+        if crowds:
+            self._start(crowds, world, fleet, (seed, repeat), _at_rest(world, poses, levels))
+        if blocked:
+            self._add(Blockages(blocked, fleet))
+        self._gait = Gait(self.members)
+        self._opened: set[str] = set()
+
+    def _start(self, crowds: Sequence[Crowd], world: World, fleet: Fleet, seeds: tuple[int, int], state: State) -> None:
+        """Start the sessions in turn; each sees the robots and the members of those before."""
+        for index, crowd in enumerate(crowds):
+            seen = CrowdView(state=own(state), others=own(self.movers), radius=self._radius.copy())
+            self._add(crowd.start(own(world), own(fleet), seed_of(*seeds, f"crowd {index}"), seen))
+
+    def _add(self, session: CrowdSession) -> None:
+        members = own(tuple(session.members))
+        for member in members:
             if not (type(member) is Mover and member.radius > 0 and member.leg_radius >= 0):
                 _refuse(f"the member {member!r:.60}")
+        self._sessions.append(session)
+        self.members += members
         self._radius = np.array([member.radius for member in self.members])
-        self._first = np.cumsum([0, *(len(part) for part in parts)])
-        self._gait = Gait(self.members)
+        self._first = np.append(self._first, len(self.members))
         self.movers = self._joined([session.movers for session in self._sessions])
-        """Where the members are now."""
-        self._opened: set[str] = set()
 
     def step(self, state: State) -> None:
         """Let a control period pass, from the `state` at its beginning."""
@@ -112,6 +128,17 @@ class Crowds:
             velocity=np.concatenate([part.velocity for part in parts]),
             level=np.concatenate([part.level for part in parts]),
         )
+
+
+def _at_rest(world: World, poses: Float, levels: Int16) -> State:
+    """Robots at rest at poses f8[n,3], on levels i2[n]."""
+    return State(
+        pose=poses,
+        twist=np.zeros((len(poses), 2)),
+        level=levels,
+        contacts=np.empty((0, 2), np.int32),
+        facilities=Facilities(world).initial_state(),
+    )
 
 
 def _refuse(what: str) -> NoReturn:

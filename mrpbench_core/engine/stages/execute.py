@@ -31,6 +31,7 @@ from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.engine.stages.export import Exports
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
+from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Event
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
@@ -61,7 +62,19 @@ def execute_plan(
     inputs.announce(Stage.EXECUTION, {})
     faults = _faults(config, context)
     blocked = [event for event in faults.events if event.kind == "blocked"]
-    crowds = Crowds(config.crowds, context.world, context.fleet, context.period, config.seed, config.repeat, blocked)
+    poses = start_poses(context.routes, context.scenario.start[:, 2])
+    levels = np.array([route.level[0] for route in context.routes], np.int16)
+    crowds = Crowds(
+        config.crowds,
+        context.world,
+        context.fleet,
+        context.period,
+        config.seed,
+        config.repeat,
+        blocked,
+        poses=poses,
+        levels=levels,
+    )
     context = attrs.evolve(context, movers=crowds.members)
     writer = RecordingWriter(inputs.paths.recording, context)
     exports = Exports()
@@ -83,7 +96,7 @@ def execute_plan(
         if config.execution == "schedule_only":
             result = _follow_schedule(config, context, recorder, faults)
         else:
-            result = _simulate(inputs, context, given, crowds, recorder, replanner, faults)
+            result = _simulate(inputs, context, given, (poses, levels), crowds, recorder, replanner, faults)
         unarrived = {context.fleet.names[robot]: reason for robot, reason in result.unarrived.items()}
         for robot, reason in result.unarrived.items():
             recorder.events([Event(stamp=result.simulated_s, kind="not_arrived", robot=robot, detail=reason)])
@@ -189,6 +202,7 @@ def _simulate(
     inputs: RunInputs,
     context: RunContext,
     given: RunContext,
+    starts: tuple[Float, Int16],
     crowds: Crowds,
     recorder: Recorder,
     replanner: Replanner,
@@ -199,10 +213,9 @@ def _simulate(
     assert config.simulator is not None
     components = LoopComponents.of(config)
     seeds = (config.seed, config.repeat)
-    poses = start_poses(context.routes, context.scenario.start[:, 2])
+    poses, levels = starts
     noise = Disturbances(config.noise, context.fleet, poses, context.period, *seeds)
     seed = seed_of(*seeds, "simulator")
-    levels = np.array([route.level[0] for route in context.routes], np.int16)
     radii = [mover.radius for mover in crowds.members]
     placed = poses.copy(), seed, context.period, radii
     tasks = _tasks(inputs, context, recorder)

@@ -28,10 +28,10 @@ class CrowdConformance(ComponentConformance):
 
     def start(self, seed: int = 0) -> CrowdSession:
         """The crowd in the room."""
-        return self.make().start(room(), fleet(1), seed)
+        return self.make().start(room(), fleet(1), seed, self.seen())
 
-    def walk(self, session: CrowdSession) -> list[Movers]:
-        """Where the movers are at first and after each of 200 control periods, around a robot at rest."""
+    def seen(self) -> CrowdView:
+        """The robot at rest, and no other crowd."""
         state = State(
             pose=np.array([(1.0, 1.0, 0.0)]),
             twist=np.zeros((1, 2)),
@@ -39,7 +39,11 @@ class CrowdConformance(ComponentConformance):
             contacts=np.empty((0, 2), np.int32),
             facilities=Facilities(room()).initial_state(),
         )
-        seen = CrowdView(state=state, others=NOBODY, radius=np.empty(0))
+        return CrowdView(state=state, others=NOBODY, radius=np.empty(0))
+
+    def walk(self, session: CrowdSession) -> list[Movers]:
+        """Where the movers are at first and after each of 200 control periods, around a robot at rest."""
+        seen = self.seen()
         return [session.movers, *(session.step(PERIOD, seen) for _ in range(STEPS))]
 
     def places(self, seed: int) -> Float:

@@ -17,7 +17,7 @@ def begun(folder, index=0, worlds=WORLDS, frames=FRAMES):
     (folder / "w.csv").write_text(worlds)
     (folder / "k.csv.gz").write_bytes(gzip.compress(frames.encode()))
     crowd = DynaBarnObstacles(worlds=folder / "w.csv", keyframes=folder / "k.csv.gz", index=index)
-    return crowd.start(DynaBarn().load(), Fleet(robots=()), 0)
+    return crowd.start(DynaBarn().load(), Fleet(robots=()), 0, None)
 
 
 def test_obstacles_of_a_world_follow_their_keyframes_and_begin_again_at_the_first(tmp_path):
@@ -59,7 +59,7 @@ def test_the_task_leads_west_through_the_square():
 def test_all_tracks_of_the_challenge_keep_the_speeds_of_their_class(shared_data):
     folder = shared_data / "barn"
     files = {"worlds": folder / "dynabarn_worlds.csv", "keyframes": folder / "dynabarn_keyframes.csv.gz"}
-    session = DynaBarnObstacles(index=0, **files).start(DynaBarn().load(), Fleet(robots=()), 0)
+    session = DynaBarnObstacles(index=0, **files).start(DynaBarn().load(), Fleet(robots=()), 0, None)
     assert 5 <= len(session.members) <= 24
     fastest = max(np.hypot(*session.step(0.1, None).velocity.T).max() for _ in range(900))
     assert fastest <= 2.0

@@ -20,7 +20,7 @@ class TestScripted(CrowdConformance):
 
 
 def places(crowd, seconds, dt=0.5):
-    session = crowd.start(room(), fleet(1), 0)
+    session = crowd.start(room(), fleet(1), 0, VIEW)
     return [session.movers, *(session.step(dt, VIEW) for _ in range(round(seconds / dt)))]
 
 
@@ -53,5 +53,5 @@ def test_a_bad_file_is_named_with_its_fault(tmp_path, text, said):
     file = tmp_path / "tracks.csv"
     file.write_text(text)
     with pytest.raises(InputError, match=said) as caught:
-        Scripted(file=file).start(room(), fleet(1), 0)
+        Scripted(file=file).start(room(), fleet(1), 0, VIEW)
     assert "tracks.csv" in str(caught.value)

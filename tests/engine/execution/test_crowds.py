@@ -30,7 +30,7 @@ class Asking(Crowd):
     doors: tuple[str, ...] = ()
     place: float = 1.0
 
-    def start(self, world, fleet, seed):
+    def start(self, world, fleet, seed, seen):
         return AskingSession(self)
 
 
@@ -53,7 +53,27 @@ class AskingSession(CrowdSession):
 
 
 def start(*crowds, world=None):
-    return Crowds(crowds, world or room(), fleet(1), PERIOD, 0, 0)
+    poses, levels = np.array([(1.0, 1.0, 0.0)]), np.zeros(1, np.int16)
+    return Crowds(crowds, world or room(), fleet(1), PERIOD, 0, 0, poses=poses, levels=levels)
+
+
+@attrs.frozen(kw_only=True)
+class Looking(Asking):
+    """Remembers what it saw when it began."""
+
+    saw: list = attrs.field(factory=list)
+
+    def start(self, world, fleet, seed, seen):
+        self.saw.append(seen)
+        return AskingSession(self)
+
+
+def test_a_crowd_sees_where_robots_and_the_crowds_before_it_begin():
+    looking = Looking()
+    start(ONE, looking, TWO)
+    (seen,) = looking.saw
+    assert seen.state.pose.tolist() == [[1.0, 1.0, 0.0]]
+    assert len(seen.others.pose) == len(seen.radius) == 1
 
 
 def test_members_are_numbered_through_and_see_the_other_crowds_which_move_in_turn():

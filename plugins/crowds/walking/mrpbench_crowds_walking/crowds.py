@@ -6,7 +6,7 @@ import attrs
 from attrs import validators
 from mrpbench_native.sim import walker_options
 
-from mrpbench_core.api import Crowd, CrowdSession, option
+from mrpbench_core.api import Crowd, CrowdSession, CrowdView, option
 from mrpbench_core.api.described import described
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.world import World
@@ -55,7 +55,7 @@ class _Walking(Crowd):
     leg_radius: float = option(0.05, help="radius of a leg", unit="m", validator=validators.gt(0))
     reaction: Reaction = option("regular", help="what they do when they see a robot, in the words of HuNavSim")
 
-    def start(self, world: World, fleet: Fleet, seed: int) -> CrowdSession:
+    def start(self, world: World, fleet: Fleet, seed: int, seen: CrowdView) -> CrowdSession:
         """Place the people.
 
         Raises:
@@ -63,7 +63,7 @@ class _Walking(Crowd):
         """
         own = {field.name for field in attrs.fields(_Walking)}
         options = {name: value for name, value in attrs.asdict(self, recurse=False).items() if name not in own}
-        return WalkingSession(self, options, world, fleet, seed)
+        return WalkingSession(self, options, world, fleet, seed, seen)
 
 
 @attrs.frozen(kw_only=True)

@@ -32,6 +32,8 @@ AT_DOOR = 1.2
 """Metres from a door within which a person who walks on wants it to be open."""
 ASIDE = 0.1
 """Radians by which people who avoid by velocities keep to the right."""
+APART = 0.05
+"""Metres between bodies where people at random places begin."""
 TURNS = np.pi
 """rad/s of people who look at something."""
 
@@ -39,7 +41,9 @@ TURNS = np.pi
 class WalkingSession(CrowdSession):
     """The people of one crowd; `recipe` has the options of `_Walking`, `options` those of the native code."""
 
-    def __init__(self, recipe: Any, options: Mapping[str, Any], world: World, fleet: Fleet, seed: int) -> None:
+    def __init__(
+        self, recipe: Any, options: Mapping[str, Any], world: World, fleet: Fleet, seed: int, seen: CrowdView
+    ) -> None:
         if recipe.level >= len(world.levels):
             raise InputError(f"crowds: world {world.name} has no level {recipe.level}")
         self._recipe, self._seed, self._robot_radius = recipe, seed, fleet.radii
@@ -57,7 +61,7 @@ class WalkingSession(CrowdSession):
         self._aside = self._turns()
         drawn = np.random.default_rng([seed % 2**64, 2**32])
         self._places = self._floor.places[drawn.integers(len(self._floor.places), size=recipe.places)]
-        start = self._starts(drawn)
+        start = self._starts(drawn, seen)
         self._goal_number = np.zeros(count, int)
         self._goal = np.array([self._next_goal(person) for person in range(count)]).reshape(-1, 2)
         self._waits = np.zeros(count)
@@ -226,25 +230,32 @@ class WalkingSession(CrowdSession):
         rotation: Float = np.stack([cosine, sine, -sine, cosine], axis=-1).reshape(-1, 2, 2)
         return rotation
 
-    def _starts(self, drawn: np.random.Generator) -> Float:
-        """Given places first, then random ones; nobody overlaps.
+    def _starts(self, drawn: np.random.Generator, seen: CrowdView) -> Float:
+        """Given places first, then random ones; nobody overlaps a robot or another mover.
 
         Raises:
             InputError: a given place is not free, or there is no room.
         """
         recipe, taken = self._recipe, []
+        robots, others = seen.state.level == recipe.level, seen.others.level == recipe.level
+        bodies = np.vstack([seen.state.pose[robots, :2], seen.others.pose[others, :2]])
+        reach = np.concatenate([self._robot_radius[robots], seen.radius[others]]) + recipe.radius
         for index, person in enumerate(recipe.given):
             for place in map(np.array, (person.start, *person.goals)):
                 if not self._floor.reaches(np.array(person.start), place.astype(float)):
                     raise InputError(
                         f"crowds: person {index} of `given` cannot walk from {person.start} to {tuple(place)}"
                     )
+            if not _apart(np.array(person.start), bodies, reach):
+                raise InputError(
+                    f"crowds: person {index} of `given` begins at {person.start}, inside a robot or a mover"
+                )
             taken.append(np.array(person.start, float))
         found: list[Float] = []
         for place in self._floor.places[drawn.permutation(len(self._floor.places))]:
             if len(found) == recipe.people:
                 break
-            if _apart(place, [*taken, *found], 2 * recipe.radius + 0.05):
+            if _apart(place, [*taken, *found], 2 * recipe.radius + APART) and _apart(place, bodies, reach + APART):
                 found.append(place)
         if len(found) < recipe.people:
             raise InputError(f"crowds: there is room for {len(found)} of {recipe.people} people")
@@ -254,5 +265,5 @@ class WalkingSession(CrowdSession):
 _NO_LEAVES = np.empty((0, 4))
 
 
-def _apart(place: Float, others: Sequence[Float], distance: float) -> bool:
-    return not others or bool((np.hypot(*(np.array(others) - place).T) >= distance).all())
+def _apart(place: Float, others: Sequence[Float] | Float, distance: float | Float) -> bool:
+    return not len(others) or bool((np.hypot(*(np.array(others) - place).T) >= distance).all())

@@ -43,7 +43,8 @@ def view(*robots, facilities=()):
 
 
 def walk(crowd, seconds, *robots, world=None, seed=0):
-    session, seen = crowd.start(world or room(), fleet(len(robots)), seed), view(*robots)
+    seen = view(*robots)
+    session = crowd.start(world or room(), fleet(len(robots)), seed, seen)
     return session, np.array([session.step(PERIOD, seen).pose for _ in range(round(seconds / PERIOD))])
 
 
@@ -65,7 +66,7 @@ def test_a_person_walks_round_a_robot_that_stands(kind):
 
 def test_people_go_through_doors_that_they_open():
     crowd = Orca(given=(Person(start=(1.2, 1.5), goals=((2.3, 0.6),)),), radius=0.2)
-    session = crowd.start(building(), fleet(0), 0)
+    session = crowd.start(building(), fleet(0), 0, view(facilities=Facilities(building()).initial_state()))
     state = Facilities(building()).initial_state()
     shut, opened = view(facilities=state), view(facilities=state | {"door": 1.0})
     asked = False
@@ -79,8 +80,25 @@ def test_people_go_through_doors_that_they_open():
     assert session.movers.pose[0, 0] > 2.15
 
 
+def test_nobody_begins_inside_a_robot_or_a_member_of_another_crowd():
+    robots = [(x, y, 0.0) for x in (0.5, 1.5, 2.5, 3.5) for y in (0.6, 1.5, 2.4)]
+    seen = view(*robots)
+    cart = Movers(pose=[(2.0, 1.0, 0.0)], velocity=np.zeros((1, 2)), level=np.zeros(1, "i2"))
+    seen = CrowdView(state=seen.state, others=cart, radius=np.array([0.3]))
+    for seed in range(5):
+        place = Orca(people=2).start(room(), fleet(len(robots)), seed, seen).movers.pose[:, :2]
+        reach = np.append(fleet(len(robots)).radii, 0.3) + 0.25
+        bodies = np.array([*robots, *cart.pose])[:, :2]
+        assert (np.hypot(*(place[:, None] - bodies).transpose(2, 0, 1)) >= reach).all()
+
+
+def test_a_given_place_inside_a_robot_is_refused():
+    with pytest.raises(InputError, match=r"person 0 of `given` begins at .*, inside a robot"):
+        Orca(given=ACROSS).start(room(), fleet(1), 0, view((0.7, 1.5, 0.0)))
+
+
 def test_what_one_does_at_random_depends_on_its_index_alone():
-    few, many = (SocialForce(people=n, group_size=1).start(room(), fleet(0), 3) for n in (2, 5))
+    few, many = (SocialForce(people=n, group_size=1).start(room(), fleet(0), 3, view()) for n in (2, 5))
     assert np.array_equal(few._speed, many._speed[:2])
     assert np.array_equal(few._goal, many._goal[:2])
 
@@ -114,4 +132,4 @@ def test_robots_behind_or_far_away_are_not_seen():
 )  # fmt: skip
 def test_what_does_not_fit_is_said_in_one_line(crowd, said):
     with pytest.raises(InputError, match=said):
-        crowd.start(room(), fleet(0), 0)
+        crowd.start(room(), fleet(0), 0, view())
