@@ -25,8 +25,8 @@ class Tasks(Metric):
     """Measures the tasks of a `tasks` source: how many are done, how long they take, and how long they wait.
 
     The service time of a task runs from its release until it is done. Tasks that are not done have none; their ages at
-    the end count in `age_max_s` and `open_mean`, so that no method gains by leaving them. Throughput is measured after
-    `warm_up`; the other columns cover the whole run.
+    the end count in `age_max_s` and `open_mean`, so that no method gains by leaving them. `per_hour` and `open_growth`
+    are measured after `warm_up`; the other columns cover the whole run.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
@@ -61,6 +61,14 @@ class Tasks(Metric):
         Column("age_max_s", "s", "lower", "largest age of a task: its service time, or its age at the end"),
         Column("open_mean", "", "lower", "mean number of tasks released and not done (L of Little's law)"),
         Column("open_end", "", "lower", "number of tasks released and not done at the end"),
+        Column(
+            "open_growth",
+            "",
+            "lower",
+            "share of arriving tasks that pile up: slope of the least-squares line through the number of open tasks"
+            " from `warm_up` to the last arrival, divided by the rate of arrivals; 0 if the fleet keeps up, 1 if no"
+            " task is done; null if fewer than two tasks arrive",
+        ),
         Column("tardiness_mean_s", "s", "lower", "mean time by which tasks with a deadline are late, also if not done"),
         Column("late", "", "lower", "number of tasks with a deadline that were late, also if not done"),
         Column("utilisation", "", "higher", "share of the robots' time in which they have a task"),
@@ -76,7 +84,10 @@ class Tasks(Metric):
     requires: ClassVar[frozenset[str]] = frozenset({"time", "task_time", "errand_time"})
 
     warm_up: float = option(
-        0.0, help="time at the beginning that throughput leaves out", unit="s", validator=attrs.validators.ge(0)
+        0.0,
+        help="time at the beginning that `per_hour` and `open_growth` leave out",
+        unit="s",
+        validator=attrs.validators.ge(0),
     )
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
@@ -112,6 +123,7 @@ class Tasks(Metric):
             "age_max_s": percentile(age, 100),
             "open_mean": math.fsum(age) / (end - begin) if end > begin else None,
             "open_end": int((wanted & ~finished).sum()),
+            "open_growth": _growth(release[wanted], left[wanted], begin + self.warm_up),
             "tardiness_mean_s": mean(late),
             "late": int((late > 0).sum()) if due.any() else None,
             "utilisation": _busy(run, end) / (robots * (end - begin)) if end > begin else None,
@@ -125,6 +137,19 @@ def _times(when: Float, index: np.ndarray, chosen: np.ndarray, count: int) -> Fl
     times = np.full(count, np.nan)
     times[index[chosen]] = when[chosen]
     return times
+
+
+def _growth(release: Float, left: Float, begin: float) -> float | None:
+    """Slope of the number of open tasks over time, per arrival; `release` and `left` f8[tasks] in seconds."""
+    arrived = int((release > begin).sum())
+    if arrived < 2:
+        return None
+    end = float(release.max())
+    middle = (begin + end) / 2
+    since, until = (np.clip(times, begin, end) - middle for times in (release, left))
+    # a task that is open from a to b adds the integral of (t - middle) over a … b to the covariance with time
+    slope = 12 * math.fsum((until**2 - since**2) / 2) / (end - begin) ** 3
+    return slope * (end - begin) / arrived
 
 
 def _distances(run: FinishedRun) -> dict[str, Value]:

@@ -96,3 +96,17 @@ def test_when_all_are_done_littles_law_holds(served, drawn):
         served([(release, release, release, release + service, 0, np.inf) for release, service in drawn])
     )
     assert values["open_mean"] == pytest.approx(values["per_hour"] / 3600 * values["service_mean_s"])
+
+
+@pytest.mark.parametrize("left", [0.0, 0.25, 1.0])
+def test_the_growth_is_the_share_of_tasks_that_pile_up(served, left):
+    """One task a second; of four in turn, 4 * `left` are never done, and the others are done at once."""
+    tasks = [(i, i, i, None if i % 4 < 4 * left else i, 0, np.inf) for i in range(100)]
+    assert Tasks().measure(served(tasks))["open_growth"] == pytest.approx(left, abs=0.02)
+
+
+def test_the_growth_leaves_out_the_warm_up(served):
+    early = [(i / 10, None, None, None, -1, np.inf) for i in range(100)]
+    tasks = early + [(i, i, i, i + 1, 0, np.inf) for i in range(50, 100)]
+    assert Tasks(warm_up=40.0).measure(served(tasks))["open_growth"] == pytest.approx(0, abs=0.05)
+    assert Tasks(warm_up=98.5).measure(served(tasks))["open_growth"] is None
