@@ -44,7 +44,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=float,
         default=0.05,
         metavar="X",
-        help="least distance between neighbouring rates, as a share from 0.01 (default: %(default)s)",
+        help="least distance between neighbouring rates, as a share from 0.01 to 1 (default: %(default)s)",
     )
     parser.add_argument("--json", action="store_true", help="print the result as JSON; progress goes to stderr")
 
@@ -85,8 +85,8 @@ def run(arguments: argparse.Namespace) -> int:
     files, overrides = split_words(arguments.words)
     if len(files) > 1:
         raise InputError(f"{files[1]}: give one study at a time")
-    if not 0.01 <= arguments.resolution < 1:
-        raise InputError(f"--resolution {arguments.resolution:g}: from 0.01 to below 1")
+    if not 0.01 <= arguments.resolution <= 1:
+        raise InputError(f"--resolution {arguments.resolution:g}: from 0.01 to 1")
     with slots_of_this_process() as slots:
         study = _read(files[0], overrides)
         option = _option(study)
@@ -110,13 +110,15 @@ def _read(file: str, overrides: Sequence[str]) -> StudyRuns:
 
 def _option(study: StudyRuns) -> str:
     """The option that gives the rate, which all runs have."""
-    blocks = [point.canonical.get("tasks") or {} for point in study.runs]
+    blocks = [tasks if isinstance(tasks := point.canonical["tasks"], dict) else {} for point in study.runs]
     for option in UNITS:
         if all(option in block for block in blocks):
             break
     else:
-        without = next(block for block in blocks if not UNITS.keys() & block.keys()) if blocks else {}
-        reason = f"{without['plugin']!r} has no rate" if "plugin" in without else "the study has no task source"
+        without = next((block for block in blocks if not UNITS.keys() & block.keys()), None)
+        reason = "all combinations must have `rate`, or all `scale`"
+        if without is not None:
+            reason = f"{without['plugin']!r} has no rate" if without else "the study has no task source"
         raise InputError(f"tasks: {reason}", hint="use `poisson`, `pickup_delivery` or `trace`")
     if not any(name.endswith(COLUMN) for name in study.columns):
         raise InputError("metrics: `tasks` is missing", hint="it measures whether queues grow")
