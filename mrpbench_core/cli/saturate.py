@@ -72,7 +72,8 @@ class Search:
         """Add the growth that the records of a rate show; seeds are the sample."""
         shares: dict[int, list[float]] = defaultdict(list)
         for record in records:
-            share = next((value for name, value in record["metrics"].items() if name.endswith(COLUMN)), None)
+            metrics = record.get("metrics") or {}
+            share = next((value for name, value in metrics.items() if name.endswith(COLUMN)), None)
             if share is None:
                 self.fault = f"at {rate:g}, run {record['run_id']} ({record['status']}) has no {COLUMN[1:]}"
                 return
