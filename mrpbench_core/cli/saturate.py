@@ -75,7 +75,8 @@ class Search:
             metrics = record.get("metrics") or {}
             share = next((value for name, value in metrics.items() if name.endswith(COLUMN)), None)
             if share is None:
-                self.fault = f"at {rate:g}, run {record['run_id']} ({record['status']}) has no {COLUMN[1:]}"
+                why = "fewer than two tasks arrive after the warm-up, or the run was not measured"
+                self.fault = f"at {rate:.4g}, run {record['run_id']} ({record['status']}) has no growth: {why}"
                 return
             shares[record["seed"]].append(share)
         self.tried[rate] = growth([sum(values) / len(values) for values in shares.values()])
@@ -168,9 +169,10 @@ def _try(
 ) -> None:
     """Do the runs of one step of all searches, and judge them."""
     chosen: dict[tuple[float, str], list[StudyRun]] = defaultdict(list)
+    name = f"tasks.{option}"
+    others = [text for text in options.overrides if text.partition("=")[0].strip() != name]  # it gave the first rate
     for rate, keys in wanted.items():
-        value = rate if option == "rate" else 1 / rate
-        study = _read(file, [*options.overrides, f"tasks.{option}={value!r}"])
+        study = _read(file, [*others, f"{name}={rate if option == 'rate' else 1 / rate!r}"])
         for point in study.runs:
             if (key := _key(point, option)) in keys:
                 chosen[rate, key].append(point)

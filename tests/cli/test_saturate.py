@@ -11,7 +11,7 @@ world: {plugin: movingai, file: two.map, cell_size: 0.5}
 roadmap: grid
 scenario: {plugin: random, robots: 1}
 fleet: {robot: turtlebot3_burger, lidar: none}
-tasks: {plugin: trace, file: even.txt, scale: 4, errands: 1, service: 2 s}
+tasks: {plugin: trace, file: even.txt, errands: 1, service: 2 s}
 assigner: identity
 planner: {plugin: rolling_horizon, planner: pibt}
 limits: {execution: 150 s, iterations: 5}
@@ -32,7 +32,7 @@ def shuttle(mrpbench):
 
 
 def test_the_interval_holds_the_rate_of_a_robot_that_is_always_busy(shuttle):
-    words = ("saturate", "shuttle.yaml", "--resolution", "1", "--json")
+    words = ("saturate", "shuttle.yaml", "tasks.scale=4", "--resolution", "1", "--json")
     code, output, errors = shuttle(*words)
     assert code == 0, errors
     (found,) = json.loads(output)["combinations"]
