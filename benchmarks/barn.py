@@ -36,7 +36,7 @@ def study(data: Path, controller: str, worlds: list[int], seeds: int, known: boo
     planned_at_once = {
         "roadmap": {"plugin": "grid", "cell_size": 0.15},
         "plan_filter": "mrp_bench_stairs",
-        "navigator": {"plugin": "waypoints", "path_end": "release", "waypoint_tolerance": 0.5},
+        "navigator": {"plugin": "waypoints", "path_end": "release"},
         "controller": local,
     }
     planned_on_the_way = {

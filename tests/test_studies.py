@@ -23,6 +23,7 @@ RUNS_PER_PLANNER = {
     "league": 120,
     "orders": 10,
     "faults": 160,
+    "controllers": 240,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {
@@ -36,6 +37,7 @@ PLANNERS = {
     "league": 1,
     "orders": 1,
     "faults": 1,
+    "controllers": 1,
 }
 VARIANTS = {"league": 2}
 """Options of one planner that a study compares."""

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import attrs
 import numpy as np
-from attrs.validators import ge, gt
+from attrs.validators import ge, gt, optional
 
 from mrpbench_core.api import Controller, Navigator, NavigatorSession, option
 from mrpbench_core.api.nav2 import parameter, settle
@@ -32,6 +32,9 @@ from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.world import World
 
+_KEEPING, _CUTTING = 0.10, 0.50
+"""Metres from a waypoint on the way at which robots that keep to their routes, and robots that cut corners, pass it."""
+
 
 @attrs.frozen(kw_only=True)
 class Waypoints(Navigator):
@@ -41,16 +44,17 @@ class Waypoints(Navigator):
         "pass",
         help="drive through released waypoints on the way, or stop at each and turn to the next as MRP-Bench did",
     )
-    waypoint_tolerance: float = option(
-        0.10,
-        help="a waypoint on the way is reached within this distance, or when the robot passes it that close",
+    waypoint_tolerance: float | None = option(
+        None,
+        help="a waypoint on the way is reached within this distance, or when the robot passes it that close; default: "
+        "0.10, and 0.50 with `path_end: release`",
         unit="m",
-        validator=gt(0),
+        validator=optional(gt(0)),
     )
     path_end: Literal["bend", "release"] = option(
         "bend",
         help="where the path for the controller ends: at the next bend, where the robot slows down and keeps to "
-        "its route, or at the end of the released part, as in Nav2; a larger waypoint_tolerance lets it cut corners",
+        "its route, or at the end of the released part, as in Nav2, where it cuts corners",
     )
     nav2: Path | None = option(
         None,
@@ -155,7 +159,7 @@ class Waypoints(Navigator):
         detours = DetourOptions(
             every=round(self.replan_period / period),
             planner_tolerance=self.planner_tolerance,
-            waypoint_tolerance=self.waypoint_tolerance,
+            waypoint_tolerance=rules.waypoint_tolerance,
         )
         recoveries = RecoveryOptions(recoveries=self.recoveries, max_recoveries=self.max_recoveries, period=period)
         return WaypointsSession(
@@ -180,9 +184,12 @@ class Waypoints(Navigator):
         """When a waypoint counts as reached."""
         nav2 = self.settled()
         stands = nav2["goal_checker"] == "StoppedGoalChecker"
+        tolerance = self.waypoint_tolerance
+        if tolerance is None:
+            tolerance = _CUTTING if self.path_end == "release" else _KEEPING
         return ArrivalRules(
             stops=self.waypoints == "stop",
-            waypoint_tolerance=self.waypoint_tolerance,
+            waypoint_tolerance=tolerance,
             xy_goal_tolerance=nav2["xy_goal_tolerance"],
             yaw_goal_tolerance=np.inf if nav2["goal_checker"] == "PositionGoalChecker" else nav2["yaw_goal_tolerance"],
             stateful=nav2["stateful"],

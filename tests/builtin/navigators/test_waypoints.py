@@ -210,3 +210,9 @@ def test_without_a_tolerance_an_occupied_waypoint_is_waited_for():
     for period in range(100):
         session.step(period * 0.05, observe([[0.2, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
     assert not asked
+
+
+def test_robots_that_cut_corners_pass_waypoints_farther_away():
+    assert Waypoints().arrival_rules.waypoint_tolerance == 0.1
+    assert Waypoints(path_end="release").arrival_rules.waypoint_tolerance == 0.5
+    assert Waypoints(path_end="release", waypoint_tolerance=0.2).arrival_rules.waypoint_tolerance == 0.2

@@ -55,7 +55,7 @@ def test_a_crowd():
             return self.movers
 
     def crowd(speed, x=2.0):
-        return variant(Crowd, start=lambda self, world, fleet, seed: Walk(speed, x))()
+        return variant(Crowd, start=lambda self, world, fleet, seed, seen: Walk(speed, x))()
 
     assert not failed_checks(suite_for(crowd(0.1)))
     assert set(failed_checks(suite_for(crowd(3.0)))) == {"speeds are those of the motion"}
