@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
@@ -78,6 +78,7 @@ def test_the_door_of_every_lift_is_in_the_wall_of_the_corridor_on_the_floors_tha
 
 @pytest.mark.parametrize("name", ["pbs.Pbs", "bounded.Eecbs", "cbs.Cbs"])
 @settings(deadline=None, max_examples=6, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@example(seed=6925187, robots=2)  # PBS gives up
 @given(seed=seeds, robots=st.integers(2, 3))
 def test_robots_that_change_floors_get_plans(tmp_path, name, seed, robots):
     module, planner = name.split(".")
@@ -93,6 +94,8 @@ def test_robots_that_change_floors_get_plans(tmp_path, name, seed, robots):
     problem = problem_on(roadmap, starts, goals, radius=float(FLEET.radii.max()))
     assert Feature.RESOURCES in problem.features
     result = getattr(planners, planner)().plan(problem, BUDGET)
+    if planner == "Pbs" and result.status is PlanStatus.GAVE_UP:
+        return  # some problems have no plan in which one robot always gives way to the other
     assert result.status is PlanStatus.SOLVED
     assert check_plan(problem, result.plan).valid
 
