@@ -1,17 +1,15 @@
 """The readers of files from outside: what each reads, examples of it, and how they are changed."""
 
 import functools
-import io
 import json
-import struct
 import tempfile
-import zlib
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
 import attrs
 import lorr
+import maps
 import numpy as np
 from bundles import bundles, read_bundle
 from mrpbench_controllers_dwb.dwb import Dwb
@@ -22,14 +20,9 @@ from mrpbench_metrics_standard import execution
 from mrpbench_planners_external.outputs import READERS as OUTPUTS
 from mrpbench_planners_external.outputs import UnreadableError
 from mutation import Mutate, in_zip, mutate_bytes, mutate_npy, mutate_text
-from PIL import Image
 
-from mrpbench_core.builtin.scenarios.movingai import MovingAiScenario
 from mrpbench_core.builtin.task_sources.trace import read_arrivals
-from mrpbench_core.builtin.worlds.barn import Barn
-from mrpbench_core.builtin.worlds.movingai import MovingAi
 from mrpbench_core.builtin.worlds.rmf import Rmf
-from mrpbench_core.builtin.worlds.ros_map import RosMap
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.analysis.observed_run import Sampling, observe, observe_own
 from mrpbench_core.engine.pipeline import execute
@@ -228,77 +221,7 @@ def urdfs() -> list[bytes]:
     return [f'<robot name="cart"><link name="base"/><link name="axle"/>{above}\n{parts}</robot>'.encode()]
 
 
-def read_image(file: Path) -> None:
-    """Read a map with this image."""
-    RosMap(file=_map(file), image=file).load()
-
-
-def read_map(file: Path) -> None:
-    """Read a map with a small image."""
-    if not (image := file.with_name("map.pgm")).exists():
-        image.write_bytes(b"P5\n4 3\n255\n" + bytes(range(0, 240, 20)))
-    RosMap(file=file).load()
-
-
-def _map(file: Path) -> Path:
-    named = file.with_name("map.yaml")
-    if not named.exists():
-        named.write_text("image: x\nresolution: 0.05\norigin: [0, 0, 0]\n")
-    return named
-
-
-def images() -> Iterable[bytes]:
-    """A small image in several formats."""
-    grey = Image.fromarray(np.arange(48, dtype=np.uint8).reshape(6, 8) * 5)
-    for kind, mode in (("PNG", "L"), ("PNG", "RGBA"), ("PPM", "L"), ("BMP", "RGB"), ("PNG", "I;16"), ("JPEG", "L")):
-        buffer = io.BytesIO()
-        grey.convert(mode).save(buffer, kind)
-        yield buffer.getvalue()
-    header = b"IHDR" + struct.pack(">IIBBBBB", 9_000, 9_000, 1, 0, 0, 0, 0)
-    data = b"IDAT" + zlib.compress(bytes(9_000 * 1_126))
-    chunks = (
-        struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk)) for chunk in (header, data)
-    )
-    yield b"\x89PNG\r\n\x1a\n" + b"".join(chunks)  # 10 kB that are 81 million pixels
-
-
 AMCL = b"amcl:\n  ros__parameters:\n    alpha1: 0.2\n    max_beams: 60\n    laser_model_type: likelihood_field\n"
-
-
-def read_movingai(file: Path) -> None:
-    """Read a MovingAI map."""
-    MovingAi(file=file).load()
-
-
-def read_barn(file: Path) -> None:
-    """Read a world of the BARN challenge."""
-    Barn(file=file).load()
-
-
-def read_barn_table(file: Path) -> None:
-    """Read a table of worlds of the BARN challenge."""
-    Barn(file=file, index=0).load()
-
-
-BARN = (
-    b"<sdf version='1.6'><world name='w'>\n<model name='unit_cylinder_0'><pose frame=''>-1 4 0 0 0 0</pose>"
-    b"<link name='l'><collision name='c'><geometry><cylinder><radius>0.1</radius></cylinder></geometry></collision>"
-    b"</link></model>\n"
-    b"</world></sdf>\n"
-)
-CYLINDERS = b"world,x,y\n0,-0.075,0.075\n0,-0.225,0.075\n3,-1,4\n"
-
-
-def read_scen(file: Path) -> None:
-    """Read rows of a MovingAI scenario."""
-    named = file.with_name("a.map")
-    if not named.exists():
-        named.write_bytes(GRID)
-    MovingAiScenario(file=file, robots=2).draw(MovingAi(file=named).load(), None, None, 0)  # type: ignore[arg-type]
-
-
-MAP = b"image: map.pgm\nresolution: 0.05\norigin: [0.0, -1.5, 0.3]\nnegate: 0\noccupied_thresh: 0.65\nmode: scale\n"
-GRID = b"type octile\nheight 3\nwidth 4\nmap\n....\n.@T.\nGS..\n"
 
 
 def scenarios() -> list[bytes]:
@@ -355,17 +278,17 @@ READERS = {
         Reader(
             name="maps",
             file="map.yaml",
-            read=read_map,
-            seeds=lambda: [MAP],
+            read=maps.read_map,
+            seeds=lambda: [maps.MAP],
         ),
-        Reader(name="images", file="map.png", read=read_image, seeds=images, mutate=mutate_bytes),
-        Reader(name="movingai", file="a.map", read=read_movingai, seeds=lambda: [GRID]),
-        Reader(name="barn", file="a.world", read=read_barn, seeds=lambda: [BARN]),
-        Reader(name="barn tables", file="a.csv", read=read_barn_table, seeds=lambda: [CYLINDERS]),
+        Reader(name="images", file="map.png", read=maps.read_image, seeds=maps.images, mutate=mutate_bytes),
+        Reader(name="movingai", file="a.map", read=maps.read_movingai, seeds=lambda: [maps.GRID]),
+        Reader(name="barn", file="a.world", read=maps.read_barn, seeds=lambda: [maps.BARN]),
+        Reader(name="barn tables", file="a.csv", read=maps.read_barn_table, seeds=lambda: [maps.CYLINDERS]),
         Reader(
             name="scens",
             file="a.scen",
-            read=read_scen,
+            read=maps.read_scen,
             seeds=lambda: [b"version 1\n0\ta.map\t4\t3\t0\t0\t3\t2\t5\n0\ta.map\t4\t3\t1\t0\t0\t1\t2\n"],
         ),
         Reader(name="scenarios", file="scenario.yaml", read=read_scenario, seeds=scenarios),

@@ -89,14 +89,11 @@ def _candidates(problem: Problem, occupations: Int) -> Int:
     _, tail, head, begin, end = occupations.T
     _, element = np.unique(np.sort(np.column_stack([tail, head]), axis=1), axis=0, return_inverse=True)
     order = np.lexsort((end, begin, element))
-    rank = np.argsort(np.argsort(end, kind="stable"), kind="stable")[order]  # so that groups can be kept apart below
-    until = np.maximum.accumulate(rank + element[order] * len(rank)) - element[order] * len(rank)
-    ends = np.sort(end)[until]
-    begin, at_vertex = begin[order][1:], (tail == head)[order][1:]
-    meets = (begin < ends[:-1]) | (at_vertex & (begin == ends[:-1]))
-    again = (element[order][1:] == element[order][:-1]) & meets
+    before, after = order[:-1], order[1:]  # if any two on an element meet, so do two that follow each other
+    meets = (begin[after] < end[before]) | ((tail == head)[after] & (begin[after] == end[before]))
+    again = after[meets & (element[before] == element[after])]
     crowded = np.zeros(len(occupations), bool)
-    crowded[element[order][1:][again]] = True
+    crowded[element[again]] = True
     return occupations[crowded[element]]
 
 

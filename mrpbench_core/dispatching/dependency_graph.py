@@ -55,7 +55,7 @@ class DependencyGraph:
         sorting = np.lexsort((count, row))
         row, count, waiting = row[sorting], count[sorting], waiting[sorting]
         limits = np.searchsorted(row, np.arange(2 * len(problem) + 1))
-        self.moves = moves
+        self.moves, self.occupations = moves, occupations
         # Lists from here on, because they are read one number at a time.
         self.group: list[int] = group.tolist()
         self.unmet: list[int] = np.bincount(waiting, minlength=len(group)).tolist()

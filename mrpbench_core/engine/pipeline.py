@@ -9,7 +9,7 @@ import numpy as np
 
 from mrpbench_core.api.discrete import DiscreteSimulator
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.execution.loop import granted_localizer
+from mrpbench_core.engine.execution.loop_inputs import granted_localizer
 from mrpbench_core.engine.execution.replanning import replanning_fault
 from mrpbench_core.engine.execution.routes import Router, speed_limits
 from mrpbench_core.engine.observers import Observers

@@ -1,9 +1,5 @@
 """The moving obstacles of the worlds of the DynaBARN challenge."""
 
-import csv
-import gzip
-import io
-import zlib
 from collections import defaultdict
 from pathlib import Path
 
@@ -12,7 +8,7 @@ import attrs
 from mrpbench_core.api import Crowd, CrowdSession, CrowdView, Mover, option
 from mrpbench_core.builtin.crowds.scripted import ScriptedSession, Track
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.text import read_bytes
+from mrpbench_core.files.table import read_rows
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.world import World
 
@@ -40,12 +36,12 @@ class DynaBarnObstacles(Crowd):
         Raises:
             InputError: a table cannot be read, or lacks the world or one of its obstacles.
         """
-        chosen = [(row["class"], row["index"]) for _, row in _rows(self.worlds, "world", "class", "index")
-                  if row["world"] == str(self.index)]  # fmt: skip
+        worlds = read_rows(self.worlds, ("world", "class", "index"))
+        chosen = [(row["class"], row["index"]) for _, row in worlds if row["world"] == str(self.index)]
         if not chosen:
             raise InputError(f"has no world {self.index}", file=self.worlds)
         found: dict[tuple[str, str], list[tuple[float, float, float]]] = defaultdict(list)
-        for line, row in _rows(self.keyframes, "class", "index", "t", "x", "y"):
+        for line, row in read_rows(self.keyframes, ("class", "index", "t", "x", "y")):
             key = row["class"], row["index"]
             if key not in chosen:
                 continue
@@ -62,20 +58,3 @@ class DynaBarnObstacles(Crowd):
             except ValueError as error:
                 raise InputError(f"obstacle {' '.join(key)}: {error}", file=self.keyframes) from None
         return ScriptedSession(tuple(tracks), len(tracks), Mover(radius=RADIUS, kind="obstacle", leg_radius=0.0))
-
-
-def _rows(file: Path, *columns: str) -> list[tuple[int, dict[str, str]]]:
-    """The rows of a CSV table with their line numbers.
-
-    Raises:
-        InputError: it cannot be read, or lacks a column.
-    """
-    content = read_bytes(file)
-    try:
-        text = (gzip.decompress(content) if file.name.endswith(".gz") else content).decode("utf-8-sig")
-    except (OSError, EOFError, zlib.error, UnicodeDecodeError) as error:
-        raise InputError(f"cannot be read: {error}", file=file) from None
-    table = csv.DictReader(io.StringIO(text, newline=""))
-    if missing := [name for name in columns if name not in (table.fieldnames or ())]:
-        raise InputError(f"has no column {missing[0]}", file=file, line=1)
-    return [(table.line_num, row) for row in table]

@@ -1,6 +1,5 @@
 """The crowd `scripted`: movers that follow given or recorded tracks, whatever robots do."""
 
-import csv
 import math
 from itertools import pairwise
 from pathlib import Path
@@ -12,14 +11,13 @@ from attrs import validators
 from mrpbench_core.api import Crowd, CrowdSession, CrowdView, Mover, Movers, option
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.text import read_text
+from mrpbench_core.files.table import read_rows
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.movers import JUMP
 from mrpbench_core.model.worlds.world import World
 
 _COLUMNS = ("id", "t", "x", "y")
-_JUMP = 1.0
-"""metres in a control period from which on a mover is put at its new place instead of moving there."""
 
 
 def _in_order(_: object, __: object, rows: tuple[tuple[float, float, float], ...]) -> None:
@@ -111,7 +109,7 @@ class ScriptedSession(CrowdSession):
         self._now += dt
         place = np.array([self._at(index, self._now) for index in range(len(self._ways))]).reshape(-1, 2)
         moved = place - self._place
-        self._velocity = np.where(np.hypot(*moved.T)[:, None] > _JUMP, 0.0, moved / dt)
+        self._velocity = np.where(np.hypot(*moved.T)[:, None] > JUMP, 0.0, moved / dt)
         moving = np.hypot(*self._velocity.T) > 1e-6
         self._yaw = np.where(moving, np.arctan2(self._velocity[:, 1], self._velocity[:, 0]), self._yaw)
         self._place = place
@@ -148,19 +146,15 @@ def _read(file: Path) -> tuple[Track, ...]:
     Raises:
         InputError: a column is missing, or a row holds no numbers; times of one track do not increase.
     """
-    lines = csv.DictReader(read_text(file).splitlines())
-    missing = [name for name in _COLUMNS if name not in (lines.fieldnames or ())]
-    if missing:
-        raise InputError(f"has no column {missing[0]}", file=file, hint=f"the columns are {', '.join(_COLUMNS)}")
     rows: dict[str, list[tuple[float, float, float]]] = {}
-    for line in lines:
+    for number, line in read_rows(file, _COLUMNS):
         try:
             row = float(line["t"]), float(line["x"]), float(line["y"])
         except (TypeError, ValueError):
-            raise InputError("t, x and y must be numbers", file=file, line=lines.line_num) from None
+            raise InputError("t, x and y must be numbers", file=file, line=number) from None
         earlier = rows.setdefault(line["id"], [])
         if not all(map(math.isfinite, row)) or (earlier and row[0] <= earlier[-1][0]):
             said = f"the times of {line['id']!r:.40} must increase, and numbers be finite"
-            raise InputError(said, file=file, line=lines.line_num)
+            raise InputError(said, file=file, line=number)
         earlier.append(row)
     return tuple(Track(keyframes=tuple(found)) for found in rows.values())

@@ -3,11 +3,8 @@
 D. Perille, A. Truong, X. Xiao and P. Stone, "Benchmarking Metric Ground Navigation", SSRR 2020.
 """
 
-import csv
-import gzip
 import io
 import math
-import zlib
 
 import attrs
 import numpy as np
@@ -15,7 +12,7 @@ import numpy as np
 from mrpbench_core.api.component import Path, option
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.text import SIZE_LIMIT, read_bytes
+from mrpbench_core.files.table import read_rows, read_unpacked
 from mrpbench_core.files.xml import parse_xml
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.worlds.world import Level, Obstacle, Vertex, World
@@ -67,7 +64,7 @@ class Barn(WorldSource):
                 raise InputError("is a table of paths of many worlds, and `file` is one world", file=file)
             return self._rows(file, ("row", "col"))
         try:
-            cells = np.load(io.BytesIO(_content(file)), allow_pickle=False)
+            cells = np.load(io.BytesIO(read_unpacked(file)), allow_pickle=False)
         except (ValueError, EOFError, OSError) as error:
             raise InputError(f"is not an array of NumPy: {error}", file=file) from None
         if cells.ndim != 2 or cells.shape[1] != 2 or not len(cells) or cells.dtype.kind not in "iuf":
@@ -76,20 +73,13 @@ class Barn(WorldSource):
 
     def _rows(self, file: Path, columns: tuple[str, str]) -> Float:
         """The numbers f8[k,2] in two columns of the rows of this world."""
-        try:
-            text = _content(file).decode("utf-8-sig")
-        except UnicodeDecodeError:
-            raise InputError("is not UTF-8 text", file=file) from None
-        table = csv.DictReader(io.StringIO(text, newline=""))
-        try:
-            if missing := {"world", *columns} - set(table.fieldnames or ()):
-                raise InputError(f"has no column {', '.join(sorted(missing))}", file=file, line=1)
-            own = (row for row in table if int(row["world"]) == self.index)
-            found = [[_finite(row[column]) for column in columns] for row in own]
-        except csv.Error as error:
-            raise InputError(f"is not CSV: {error}", file=file, line=max(1, table.line_num)) from None
-        except (TypeError, ValueError):
-            raise InputError("should hold numbers", file=file, line=table.line_num) from None
+        found = []
+        for line, row in read_rows(file, ("world", *columns)):
+            try:
+                if int(row["world"]) == self.index:
+                    found.append([_finite(row[column]) for column in columns])
+            except (TypeError, ValueError):
+                raise InputError("should hold numbers", file=file, line=line) from None
         if not found:
             raise InputError(f"has no world {self.index}", file=file)
         return np.array(found)
@@ -118,7 +108,7 @@ def read_cylinders(file: Path) -> Float:
     Raises:
         InputError: it cannot be read, is not an SDF world, or has no such model.
     """
-    text = _content(file).decode("utf-8", "replace")
+    text = read_unpacked(file).decode("utf-8", "replace")
     root = parse_xml(text, file, "an SDF file")
     found = []
     for model in root.findall("./world/model"):  # the element `state` repeats them
@@ -161,17 +151,3 @@ def _finite(word: str) -> float:
     if not math.isfinite(number):
         raise ValueError(word)
     return number
-
-
-def _content(file: Path) -> bytes:
-    content = read_bytes(file)
-    if not file.name.endswith(".gz"):
-        return content
-    try:
-        with gzip.open(io.BytesIO(content)) as stream:
-            content = stream.read(SIZE_LIMIT + 1)
-    except (OSError, EOFError, zlib.error):
-        raise InputError("is not compressed by gzip", file=file) from None
-    if len(content) > SIZE_LIMIT:
-        raise InputError(f"is larger than {SIZE_LIMIT // 2**20} MiB", file=file)
-    return content

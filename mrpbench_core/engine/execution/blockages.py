@@ -6,7 +6,7 @@ import numpy as np
 
 from mrpbench_core.api.crowd import CrowdSession
 from mrpbench_core.engine.execution.faults import FaultEvent
-from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import CrowdView, Mover, Movers
 
@@ -40,15 +40,10 @@ class Blockages(CrowdSession):
         return self._movers
 
     def _is_free(self, event: FaultEvent, seen: CrowdView) -> bool:
-        return not (
-            _overlaps(
-                event, seen.state.pose[seen.state.level == event.level], self._reach[seen.state.level == event.level]
-            )
-            or _overlaps(
-                event, seen.others.pose[seen.others.level == event.level], seen.radius[seen.others.level == event.level]
-            )
-        )
+        bodies = ((seen.state, self._reach), (seen.others, seen.radius))
+        return not any(_overlaps(event, one.pose, one.level, radius) for one, radius in bodies)
 
 
-def _overlaps(event: FaultEvent, pose: Float, radius: Float) -> bool:
-    return bool((np.hypot(*(pose[:, :2] - event.place).T) < radius + event.radius).any())
+def _overlaps(event: FaultEvent, pose: Float, level: Int16, radius: Float) -> bool:
+    near = np.hypot(*(pose[:, :2] - event.place).T) < radius + event.radius
+    return bool((near & (level == event.level)).any())

@@ -71,7 +71,7 @@ class Places:
             self._kept_free[list(resource.vertices)] = True
 
     def destinations(
-        self, errands: Iterable[Errand], head: Int, attempt: int = 0, stays: Bool | None = None
+        self, errands: Iterable[Errand], head: Int, attempt: int = 0, stays: Bool | tuple[()] = ()
     ) -> Destinations:
         """Return goals for all robots.
 
@@ -85,7 +85,7 @@ class Places:
         """
         robots = len(self._problem)
         taken = _Taken(self._problem)
-        for robot in np.flatnonzero(stays).tolist() if stays is not None else ():
+        for robot in np.flatnonzero(stays).tolist():
             taken.add(robot, int(head[robot]))
         chosen: list[tuple[int, int] | None] = [None] * robots
         yaw = np.full(robots, np.nan)

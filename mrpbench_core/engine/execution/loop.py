@@ -1,36 +1,23 @@
 """The loop that executes a plan: sense, dispatch, drive, record, once in every control period."""
 
-from collections.abc import Callable, Mapping
-from typing import Any, Self
-
 import attrs
 import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.api.controller import Controller
-from mrpbench_core.api.dispatcher import Dispatcher, DispatchError
-from mrpbench_core.api.localizer import Localizer
-from mrpbench_core.api.navigator import Navigator
-from mrpbench_core.api.simulator import Simulation
-from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.engine.contract_checks import ContractChecks
 from mrpbench_core.engine.execution.arrivals import REST, Arrivals
-from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.execution.cutting import DrivenSegments, shifted
-from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.destinations import heads
-from mrpbench_core.engine.execution.detours import Detours
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
-from mrpbench_core.engine.execution.faults import FaultState
-from mrpbench_core.engine.execution.noise import Disturbances
-from mrpbench_core.engine.execution.recorder import Recorder, Sample
-from mrpbench_core.engine.execution.replanning import Replanner, Revision
+from mrpbench_core.engine.execution.loop_inputs import ExecutionResult, LoopInputs
+from mrpbench_core.engine.execution.reactions import Reactions
+from mrpbench_core.engine.execution.recorder import Sample
+from mrpbench_core.engine.execution.replanning import Revision
 from mrpbench_core.engine.execution.standstill import Ending, Standstill
-from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
-from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Bool
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.observation import FleetObservation
@@ -39,113 +26,10 @@ from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.model.runs.run import RunContext
-from mrpbench_core.plugins.provenance import origin
 
 ABORTED = int(Mode.ABORTED)
 PUSHED = 5.0
 """m/s at which movers may push a robot."""
-GROUND_TRUTH = "mrpbench_core.builtin.localizers.ground_truth"
-
-
-@attrs.frozen(kw_only=True)
-class LoopComponents:
-    """The components that take part in the loop, besides the simulator."""
-
-    localizer: Localizer
-    dispatcher: Dispatcher
-    navigator: Navigator
-    controller: Controller
-
-    @classmethod
-    def of(cls, config: RunConfig) -> Self:
-        """The components that a configuration names.
-
-        Raises:
-            InputError: a component that execution needs is `none`, or needs true poses that are not granted.
-        """
-        chosen = {}
-        for field in attrs.fields(cls):
-            chosen[field.name] = getattr(config, field.name)
-            if chosen[field.name] is None:
-                raise InputError(f"{field.name}: cannot be 'none' when there is a simulator")
-        found = cls(**chosen)
-        if granted_localizer(config) is not None and not config.grant_truth:
-            raise InputError(
-                f"localizer: {type(found.localizer).__name__} needs the true poses",
-                hint="`grant_truth: true` grants them",
-            )
-        return found
-
-    @property
-    def needs_truth(self) -> bool:
-        """True if the localizer needs the true poses."""
-        return bool(self.localizer.needs_truth)
-
-
-def granted_localizer(config: RunConfig) -> str | None:
-    """Return the name of the localizer that needs `grant_truth`, or None.
-
-    The localizer `ground_truth` of the core does not need it, because its name says what it is given.
-    """
-    localizer = config.localizer
-    if localizer is None or not localizer.needs_truth or type(localizer).__module__ == GROUND_TRUTH:
-        return None
-    return str(origin(type(localizer))["name"])
-
-
-@attrs.frozen(kw_only=True)
-class ExecutionResult:
-    """The end of an execution."""
-
-    succeeded: bool
-    """Every robot completed the last move of its path; with tasks that come over time: no robot gave up, and
-    the planner found plans."""
-    gave_up: tuple[str, ...]
-    """Robots that gave up, each with the cause if the navigator named one."""
-    simulated_s: float
-    contradiction: str | None = None
-    """What the navigator reports and the true poses contradict."""
-    unarrived: Mapping[int, str] = attrs.field(factory=dict)
-    """Why robots did not arrive, by robot; only with faults."""
-
-
-@attrs.frozen(kw_only=True)
-class LoopInputs:
-    """The inputs of an execution."""
-
-    context: RunContext
-    """World, fleet, problem, plan and routes."""
-    given: RunContext
-    """A copy of it for components."""
-    components: LoopComponents
-    crowds: Crowds
-    """The people and other movers."""
-    simulation: Simulation
-    """Opened, with the robots at `placed`."""
-    placed: NDArray[np.float64]
-    """f8[n,3] start poses."""
-    noise: Disturbances
-    """Errors of sensors, motors and start times."""
-    delays: DelayStream
-    """Stops and speeds of the robots."""
-    faults: FaultState
-    """What fails."""
-    recorder: Recorder
-    """Receives everything that happens; flushed at the end."""
-    replanner: Replanner
-    """Asks for new plans; knows the first one."""
-    tasks: TaskManager | None = None
-    """The tasks that come over time; None = the robots go to the goals of the first plan."""
-    limit_s: float
-    """Simulated seconds after which the execution ends."""
-    goal_tolerance: float
-    """Metres from its goal within which a robot has arrived."""
-    seeds: tuple[int, int]
-    """Seed and repeat of the run."""
-    stepped: Callable[..., Any] | None
-    """Called after every control period; see `mrpbench_core.api.hooks`."""
-    progress: Callable[[float, NDArray[np.bool_]], None] = lambda now, arrived: None  # noqa: ARG005
-    """Called in every control period with the simulated seconds and whether each robot has arrived."""
 
 
 class ExecutionLoop:
@@ -191,7 +75,7 @@ class ExecutionLoop:
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
         self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
         sets = Feature.GOAL_SETS in inputs.replanner.supports
-        self._detours = Detours(inputs.faults, context.problem, inputs.replanner.yaw, sets)
+        self._reactions = Reactions(inputs.faults, context.problem, inputs.replanner.yaw, sets)
         self._standstill = Standstill(_patience(inputs))
         self._given_routes = given.routes
         self._returned = self._orders = self._given_orders = Orders(released=np.zeros(robots, "i4"))
@@ -254,20 +138,20 @@ class ExecutionLoop:
 
     def _replan(self, view: FleetView) -> None:
         """Ask for a new plan if one is needed."""
-        now, replanner, tasks, detours = self._now, self._inputs.replanner, self._inputs.tasks, self._detours
-        wish, released = self._orders.replan or detours.reason(now), self._orders.released
-        given_up = detours.update()
+        now, replanner, tasks, reactions = self._now, self._inputs.replanner, self._inputs.tasks, self._reactions
+        wish, released = self._orders.replan or reactions.reason(now), self._orders.released
+        given_up = reactions.update()
         if tasks is not None:
             head = heads(replanner.problem, replanner.plan, released)
-            tasks.begin(now, head, (self._motion.mode == ABORTED) | detours.held, given_up)
+            tasks.begin(now, head, (self._motion.mode == ABORTED) | reactions.held, given_up)
             wish = wish or tasks.reason(now)
         if reason := replanner.reason(now, view, wish):
-            problem = detours.restricted(replanner.problem, replanner.plan, released, view.cleared)
+            problem = reactions.restricted(replanner.problem, replanner.plan, released, view.cleared)
             if tasks is None:
-                to = detours.destinations(problem, replanner.plan, released)
+                to = reactions.destinations(problem, replanner.plan, released)
             else:
-                detours.asked()
-                to = tasks.destinations(now, detours.held, problem)
+                reactions.asked()
+                to = tasks.destinations(now, reactions.held, problem)
             replanner.request(now, reason, view, released, to, problem.roadmap)
 
     def _ask_dispatcher(self, view: FleetView) -> None:
@@ -295,7 +179,7 @@ class ExecutionLoop:
                 self._navigator.adopt(self._given_routes, new.cut.copy())
                 self._inputs.replanner.use(new.problem, new.plan)
                 self._checks.adopt(_segments(new.plan), new.cut)
-                self._detours.adopt()
+                self._reactions.adopt()
                 self._inputs.faults.cut(new.cut)
                 self._facility_manager.adopt(new.problem, new.plan)
                 self._inputs.recorder.events((Event(stamp=now, kind="replan", detail=new.reason),))
@@ -304,7 +188,7 @@ class ExecutionLoop:
                     self._inputs.tasks.adopt(new.destinations)
                 return True
         self._inputs.replanner.failed(now)
-        self._detours.failed(now)
+        self._reactions.failed(now)
         if self._inputs.tasks is not None:
             self._inputs.tasks.failed()
         self._inputs.recorder.events((Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}"),))
@@ -342,7 +226,7 @@ class ExecutionLoop:
         )
         return ExecutionResult(
             succeeded=bool(
-                (arrivals.arrived & ~self._detours.astray).all()
+                (arrivals.arrived & ~self._reactions.astray).all()
                 if tasks is None
                 else not (gave_up.any() or tasks.unserved)
             ),
@@ -354,9 +238,9 @@ class ExecutionLoop:
 
     def _all_done(self, gave_up: Bool) -> bool:
         """Tell whether each robot of a batch has arrived, or will not."""
-        arrivals, detours, faults = self._arrivals, self._detours, self._inputs.faults
-        done = (arrivals.arrived | arrivals.mistaken) & ~detours.astray
-        done |= gave_up | faults.lost | detours.given_up | (detours.cut_off & faults.final)
+        arrivals, reactions, faults = self._arrivals, self._reactions, self._inputs.faults
+        done = (arrivals.arrived | arrivals.mistaken) & ~reactions.astray
+        done |= gave_up | faults.lost | reactions.given_up | (reactions.cut_off & faults.final)
         return bool(done.all())
 
     def _stands_still(self) -> bool:
@@ -386,10 +270,10 @@ class ExecutionLoop:
             pose=self._state.pose,
             granted=self._facility_manager.ready,
             holders=self._facility_manager.holders,
-            arrived=self._arrivals.arrived & ~self._detours.astray,
+            arrived=self._arrivals.arrived & ~self._reactions.astray,
             gave_up={robot: self._causes.get(robot, "") for robot in gave_up},
-            given_up=set(np.flatnonzero(self._detours.given_up).tolist()),
-            cut_off=set(np.flatnonzero(self._detours.cut_off).tolist()),
+            given_up=set(np.flatnonzero(self._reactions.given_up).tolist()),
+            cut_off=set(np.flatnonzero(self._reactions.cut_off).tolist()),
         ).reasons()
 
     def _record(self, observation: FleetObservation, last: bool) -> None:

@@ -16,8 +16,8 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.checking.assignment import check_queues
 from mrpbench_core.engine.execution.destinations import Destinations, Errand, Places
-from mrpbench_core.engine.execution.detours import reaches
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
+from mrpbench_core.engine.execution.reactions import reaches
 from mrpbench_core.engine.execution.task_board import Job, TaskBoard, TaskEvent
 from mrpbench_core.engine.own import Handed, name_of, own
 from mrpbench_core.model.common.arrays import Bool, Float, Int
@@ -92,7 +92,7 @@ class TaskManager:
         """True if no task was done and the planner finds no plan."""
         return self._failures > 0 and self._board.finished == 0
 
-    def begin(self, now: float, head: Int, aborted: Bool, given_up: Bool | None = None) -> None:
+    def begin(self, now: float, head: Int, aborted: Bool, given_up: Bool) -> None:
         """Take in the tasks released until `now`, and have them assigned.
 
         Args:
@@ -101,7 +101,7 @@ class TaskManager:
             aborted: bool[n]: the robot gave up, or is out of order for now; its tasks that are not begun go to others.
             given_up: bool[n]: the robot will not go on with the task that it has begun.
         """
-        for robot in np.flatnonzero(given_up).tolist() if given_up is not None else ():
+        for robot in np.flatnonzero(given_up).tolist():
             self._board.give_up(now, robot)
         released = list(self._stream.released(now, self._board.finished))
         tasks = [own(task) for task in released]
@@ -224,7 +224,7 @@ class TaskManager:
         makes_room = any(ours is not None and path is None for ours, path in zip(wanted, self._in_force, strict=True))
         return "a robot that made room may go on" if makes_room else None
 
-    def destinations(self, now: float, held: Bool | None = None, restricted: Problem | None = None) -> Destinations:
+    def destinations(self, now: float, held: Bool, restricted: Problem) -> Destinations:
         """Return the goals of the next plan.
 
         Robots that are `held` bool[n] stay where they come to rest, and so do those that cannot reach their errands in
@@ -234,9 +234,8 @@ class TaskManager:
         many robots are sent to errands, others each time, until a plan is found.
         """
         self._planned_at, self._asked = now, self._wanted()
-        stays = np.zeros(len(self._robots), bool) if held is None else held
-        jobs = [(robot, job) for robot, job in enumerate(self._current()) if job is not None and not stays[robot]]
-        if restricted is not None and restricted.roadmap is not self._roadmap:
+        jobs = [(robot, job) for robot, job in enumerate(self._current()) if job is not None and not held[robot]]
+        if restricted.roadmap is not self._roadmap:
             jobs = [
                 (robot, job)
                 for robot, job in jobs
@@ -251,7 +250,7 @@ class TaskManager:
             Errand(robot, job.task.index, job.errand, job.vertices[job.errand], float(job.task.goals[job.errand, 2]))
             for robot, job in resting + moving
         ]
-        return self._places.destinations(errands, self._head, self._failures, stays)
+        return self._places.destinations(errands, self._head, self._failures, held)
 
     def adopt(self, destinations: Destinations) -> None:
         """Note that a plan to these goals is in force."""

@@ -16,7 +16,8 @@ from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.destinations import Places
 from mrpbench_core.engine.execution.facility_manager import ExecutionError
 from mrpbench_core.engine.execution.faults import FaultState, draw_faults
-from mrpbench_core.engine.execution.loop import ExecutionLoop, ExecutionResult, LoopComponents, LoopInputs
+from mrpbench_core.engine.execution.loop import ExecutionLoop
+from mrpbench_core.engine.execution.loop_inputs import ExecutionResult, LoopComponents, LoopInputs
 from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.progress import ExecutionProgress
 from mrpbench_core.engine.execution.queue_costs import QueueCosts

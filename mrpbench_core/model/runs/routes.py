@@ -74,44 +74,30 @@ class RouteHistory:
         for first, end in zip(self._plans.tolist(), self._bounds[1:].tolist(), strict=True):
             for piece in range(first, end):
                 robot = int(self._robot[piece])
-                whole[robot] = self._joined(whole[robot], piece)
+                whole[robot] = self._joined(whole[robot], np.array([piece]))
             yield float(self._time[self._begin[first]]), tuple(map(_route, whole)), self._plan(whole)
 
     def _plan(self, whole: list[dict[str, NDArray[Any]]]) -> Plan | None:
         return Plan(paths=tuple(map(_path, whole))) if self._has_plans else None
 
     def _last(self) -> list[dict[str, NDArray[Any]]]:
-        """The columns of each robot's last route. A piece counts up to the first waypoint of any later one."""
+        """The columns of each robot's last route."""
         if not len(self._plans):
             return self._first
-        by_robot = np.lexsort((np.arange(len(self._robot)), self._robot))
-        robot, at = self._robot[by_robot], self._at[by_robot]
-        size = (self._end - self._begin)[by_robot]
-        far = int(max(at.max() + size.max(), max(len(own["edge"]) for own in self._first))) + 1
-        least = np.minimum.accumulate((at + far * robot)[::-1])[::-1] - far * robot
-        until = np.where(np.append(robot[1:] == robot[:-1], False), np.append(least[1:], 0), far)
-        taken = np.clip(until - at, 0, size)
-        found = []
-        for number, own in enumerate(self._first):
-            pieces = slice(*np.searchsorted(robot, (number, number + 1)).tolist())
-            rows = [np.arange(len(own["edge"]))[: int(least[pieces][0])]] if robot[pieces].size else []
-            begin = self._begin[by_robot[pieces]]
-            some = np.flatnonzero(taken[pieces])
-            later = np.concatenate(
-                [np.zeros(0, np.int64), *(np.arange(begin[i], begin[i] + taken[pieces][i]) for i in some.tolist())]
-            )
-            if not rows:
-                found.append(own)
-                continue
-            found.append(
-                {name: np.concatenate([own[name][rows[0]], self._columns[name][later]]) for name in self._columns}
-            )
-        return found
+        by_robot = np.argsort(self._robot, kind="stable")
+        bounds = np.searchsorted(self._robot[by_robot], np.arange(len(self._first) + 1))
+        return [self._joined(own, by_robot[slice(*bounds[robot : robot + 2])]) for robot, own in enumerate(self._first)]
 
-    def _joined(self, whole: dict[str, NDArray[Any]], piece: int) -> dict[str, NDArray[Any]]:
-        rows = slice(self._begin[piece], self._end[piece])
-        until = int(self._at[piece])
-        return {name: np.concatenate([whole[name][:until], values[rows]]) for name, values in self._columns.items()}
+    def _joined(self, whole: dict[str, NDArray[Any]], pieces: Int) -> dict[str, NDArray[Any]]:
+        """Continue a whole route with later pieces; each counts up to the first waypoint of any piece after it."""
+        if not len(pieces):
+            return whole
+        begin, at = self._begin[pieces], self._at[pieces]
+        size = self._end[pieces] - begin
+        until = np.minimum.accumulate(np.append(at, at[-1] + size[-1])[::-1])[::-1]
+        taken = np.clip(until[1:] - at, 0, size)
+        rows = np.repeat(begin - np.cumsum(taken) + taken, taken) + np.arange(taken.sum())
+        return {name: np.concatenate([whole[name][: until[0]], values[rows]]) for name, values in self._columns.items()}
 
 
 def _columns(context: RunContext, robot: int) -> dict[str, NDArray[Any]]:

@@ -8,7 +8,7 @@ import numpy as np
 from attrs.validators import ge, gt
 from mrpbench_controllers_local.costmap import LocalCostmap
 from mrpbench_controllers_local.recipe import SOME_ROBOT
-from mrpbench_controllers_local.settings import RobotSettings
+from mrpbench_controllers_local.settings import RobotSettings, lidar_values
 
 from mrpbench_controllers_global_planner.session import GlobalPlannerSession, Replanning
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
@@ -81,10 +81,7 @@ class GlobalPlanner(Controller):
         filled = {name: value for name, value in defaults.items() if getattr(given, name) is None}
         values, footprint = attrs.evolve(given, **filled).settings(robot, None)
         values["max_detour"] = 0.0
-        if robot.lidar is not None:
-            forward, leftward, _ = robot.lidar.mount
-            values |= {"lidar_forward": forward, "lidar_leftward": leftward, "lidar_range": robot.lidar.range}
-        return RobotSettings(values, footprint)
+        return RobotSettings(values | lidar_values(robot), footprint)
 
     @property
     def needs_lidar(self) -> bool:

@@ -12,7 +12,7 @@ from mrpbench_native.local import controller_options, robot_options
 
 from mrpbench_controllers_local.costmap import LocalCostmap
 from mrpbench_controllers_local.critics import Critic, NativeCritic
-from mrpbench_controllers_local.settings import RobotSettings
+from mrpbench_controllers_local.settings import RobotSettings, lidar_values
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
 from mrpbench_core.api.described import described
 from mrpbench_core.api.nav2 import settle
@@ -119,10 +119,7 @@ class LocalController(Controller):
         costmap, footprint = (self.local_costmap or LocalCostmap()).settings(robot, local)
         further = (*_FURTHER, *controller_options(self.native, further=True))
         values |= costmap | {row.name: getattr(self, row.name) for row in further}
-        if robot.lidar is not None:
-            forward, leftward, _ = robot.lidar.mount
-            values |= {"lidar_forward": forward, "lidar_leftward": leftward, "lidar_range": robot.lidar.range}
-        return RobotSettings(values, footprint, critics)
+        return RobotSettings(values | lidar_values(robot), footprint, critics)
 
     @property
     def needs_lidar(self) -> bool:

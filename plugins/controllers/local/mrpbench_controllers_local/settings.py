@@ -4,6 +4,15 @@ from typing import Any, NamedTuple
 
 from mrpbench_controllers_local.critics import Critic
 from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import RobotModel
+
+
+def lidar_values(robot: RobotModel) -> dict[str, Any]:
+    """Return the options of a costmap that tell where the lidar of a robot is; none without a lidar."""
+    if robot.lidar is None:
+        return {}
+    forward, leftward, _ = robot.lidar.mount
+    return {"lidar_forward": forward, "lidar_leftward": leftward, "lidar_range": robot.lidar.range}
 
 
 class RobotSettings(NamedTuple):

@@ -6,7 +6,7 @@ import numpy as np
 from mrpbench_core.api import DispatchError, option
 from mrpbench_core.dispatching.order_keeping import OrderKeepingDispatcher, OrderKeepingSession
 from mrpbench_core.model.common.arrays import Bool, Int32
-from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
+from mrpbench_core.model.planning.occupations import resource_edges
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import without_implied
@@ -37,7 +37,7 @@ class SwitchingSession(OrderKeepingSession):
         moves = self.graph.moves
         self.visits = visits_of(problem, moves)
         self.pairs = conflicting(problem, self.visits)
-        self.resources = resource_edges(problem, occupations_of(problem, moves))
+        self.resources = resource_edges(problem, self.graph.occupations)
 
     def switch(self, switched: Bool) -> bool:
         """Reverse the pairs `switched` bool[p]; return False, with the order as it was, if that is not safe."""

@@ -20,7 +20,7 @@ RETRY_S = 1.0
 """Simulated seconds after which a plan around faults is asked for again; doubled each time that none is found."""
 
 
-class Detours:
+class Reactions:
     """Asks for plans around faults, unless the fleet is to wait.
 
     Args:

@@ -1,0 +1,128 @@
+"""The components and inputs of the execution loop, and its result."""
+
+from collections.abc import Callable, Mapping
+from typing import Any, Self
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from mrpbench_core.api.controller import Controller
+from mrpbench_core.api.dispatcher import Dispatcher
+from mrpbench_core.api.localizer import Localizer
+from mrpbench_core.api.navigator import Navigator
+from mrpbench_core.api.simulator import Simulation
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.execution.crowds import Crowds
+from mrpbench_core.engine.execution.delays import DelayStream
+from mrpbench_core.engine.execution.faults import FaultState
+from mrpbench_core.engine.execution.noise import Disturbances
+from mrpbench_core.engine.execution.recorder import Recorder
+from mrpbench_core.engine.execution.replanning import Replanner
+from mrpbench_core.engine.execution.task_manager import TaskManager
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.plugins.provenance import origin
+
+GROUND_TRUTH = "mrpbench_core.builtin.localizers.ground_truth"
+
+
+@attrs.frozen(kw_only=True)
+class LoopComponents:
+    """The components that take part in the loop, besides the simulator."""
+
+    localizer: Localizer
+    dispatcher: Dispatcher
+    navigator: Navigator
+    controller: Controller
+
+    @classmethod
+    def of(cls, config: RunConfig) -> Self:
+        """The components that a configuration names.
+
+        Raises:
+            InputError: a component that execution needs is `none`, or needs true poses that are not granted.
+        """
+        chosen = {}
+        for field in attrs.fields(cls):
+            chosen[field.name] = getattr(config, field.name)
+            if chosen[field.name] is None:
+                raise InputError(f"{field.name}: cannot be 'none' when there is a simulator")
+        found = cls(**chosen)
+        if granted_localizer(config) is not None and not config.grant_truth:
+            raise InputError(
+                f"localizer: {type(found.localizer).__name__} needs the true poses",
+                hint="`grant_truth: true` grants them",
+            )
+        return found
+
+    @property
+    def needs_truth(self) -> bool:
+        """True if the localizer needs the true poses."""
+        return bool(self.localizer.needs_truth)
+
+
+def granted_localizer(config: RunConfig) -> str | None:
+    """Return the name of the localizer that needs `grant_truth`, or None.
+
+    The localizer `ground_truth` of the core does not need it, because its name says what it is given.
+    """
+    localizer = config.localizer
+    if localizer is None or not localizer.needs_truth or type(localizer).__module__ == GROUND_TRUTH:
+        return None
+    return str(origin(type(localizer))["name"])
+
+
+@attrs.frozen(kw_only=True)
+class ExecutionResult:
+    """The end of an execution."""
+
+    succeeded: bool
+    """Every robot completed the last move of its path; with tasks that come over time: no robot gave up, and
+    the planner found plans."""
+    gave_up: tuple[str, ...]
+    """Robots that gave up, each with the cause if the navigator named one."""
+    simulated_s: float
+    contradiction: str | None = None
+    """What the navigator reports and the true poses contradict."""
+    unarrived: Mapping[int, str] = attrs.field(factory=dict)
+    """Why robots did not arrive, by robot; only with faults."""
+
+
+@attrs.frozen(kw_only=True)
+class LoopInputs:
+    """The inputs of an execution."""
+
+    context: RunContext
+    """World, fleet, problem, plan and routes."""
+    given: RunContext
+    """A copy of it for components."""
+    components: LoopComponents
+    crowds: Crowds
+    """The people and other movers."""
+    simulation: Simulation
+    """Opened, with the robots at `placed`."""
+    placed: NDArray[np.float64]
+    """f8[n,3] start poses."""
+    noise: Disturbances
+    """Errors of sensors, motors and start times."""
+    delays: DelayStream
+    """Stops and speeds of the robots."""
+    faults: FaultState
+    """What fails."""
+    recorder: Recorder
+    """Receives everything that happens; flushed at the end."""
+    replanner: Replanner
+    """Asks for new plans; knows the first one."""
+    tasks: TaskManager | None = None
+    """The tasks that come over time; None = the robots go to the goals of the first plan."""
+    limit_s: float
+    """Simulated seconds after which the execution ends."""
+    goal_tolerance: float
+    """Metres from its goal within which a robot has arrived."""
+    seeds: tuple[int, int]
+    """Seed and repeat of the run."""
+    stepped: Callable[..., Any] | None
+    """Called after every control period; see `mrpbench_core.api.hooks`."""
+    progress: Callable[[float, NDArray[np.bool_]], None] = lambda now, arrived: None  # noqa: ARG005
+    """Called in every control period with the simulated seconds and whether each robot has arrived."""
