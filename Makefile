@@ -8,7 +8,7 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: results-site help install anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz wheels docs links
+.PHONY: results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz wheels docs links
 
 help: ## list the targets
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -64,6 +64,9 @@ cpp: install ## run the C++ tests, without Python
 
 python: install ## run the Python tests, JOBS at a time
 	$(BIN)/pytest --numprocesses $(JOBS) --dist worksteal
+
+explore: install ## run the property tests with examples that `make test` does not draw
+	$(BIN)/pytest --numprocesses $(JOBS) --dist worksteal --hypothesis-profile explore -m hypothesis
 
 soak: install ## compare random instances with brute force, disturb studies, look for robots that stand (two hours)
 	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1

@@ -8,7 +8,9 @@ from hypothesis import settings
 
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 
-settings.register_profile("mrpbench", deadline=None)  # a busy machine is no defect
+# The same examples in every run, so that a change is judged by what it changes; `make explore` draws others.
+settings.register_profile("mrpbench", deadline=None, derandomize=True)  # a busy machine is no defect
+settings.register_profile("explore", deadline=None, print_blob=True)
 settings.load_profile("mrpbench")
 
 
