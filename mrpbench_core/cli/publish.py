@@ -42,6 +42,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--inputs", default=".", metavar="DIR", help="folder of the configuration, to which its files are relative"
     )
+    parser.add_argument(
+        "--leave-out",
+        action="append",
+        default=[],
+        metavar="PATTERN",
+        help="inputs that may not be copied, such as '*.map': the bundle has their SHA-256 only; may be repeated",
+    )
     parser.add_argument("--json", action="store_true", help="print the outcome as JSON")
 
 
@@ -55,6 +62,7 @@ def run(arguments: argparse.Namespace) -> int:
         published=_date(arguments.date),
         recordings=read_share(arguments.recordings, "--recordings"),
         inputs=Path(arguments.inputs),
+        left_out=tuple(arguments.leave_out),
     )
     folders = [load(folder) for folder in dict.fromkeys(arguments.folders)]
     with slots_of_this_process() as slots:

@@ -33,6 +33,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--trust-sources", action="store_true", help="execute the local plugins and programs that the bundle contains"
     )
+    parser.add_argument("--inputs", metavar="DIR", help="folder with the inputs that the bundle leaves out")
     parser.add_argument("--workers", type=int, default=1, metavar="N", help="number of runs at a time (default: 1)")
     parser.add_argument("--json", action="store_true", help="print the verdict as JSON")
     parser.add_argument(
@@ -48,6 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
         rerun=read_share(arguments.rerun, "--rerun"),
         seed=arguments.seed,
         trusted=arguments.trust_sources,
+        inputs=Path(arguments.inputs) if arguments.inputs else None,
         workers=arguments.workers,
         progress=Printed(),
     )

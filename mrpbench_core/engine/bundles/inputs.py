@@ -1,16 +1,20 @@
 """The files that a study needs, as they are laid out in a bundle: relative names stay as they are."""
 
+import fnmatch
 import os
 import re
-from collections.abc import Iterable, Mapping
+import shutil
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 import attrs
 
 from mrpbench_core.engine.bundles.expected import Expected
+from mrpbench_core.engine.bundles.opened import Opened
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.store.bundle.layout import INPUT_FOLDER
+from mrpbench_core.store.run_files import digest
 
 _FULL_NAME = re.compile(r"""(?<![\w.])/[^\s,{}\[\]"']+""")
 _LEVEL = "_"
@@ -29,13 +33,15 @@ class Inputs:
     """The folder of the configuration, relative to that of the inputs."""
     programs: frozenset[str]
     """Names in the bundle of those that are executable."""
+    left_out: Mapping[str, str]
+    """SHA-256 of the files that are not in the bundle, by their names relative to the folder of the configuration."""
 
 
-def collect_inputs(expected: Iterable[Expected], folder: Path) -> Inputs:
-    """Return the files of studies whose configurations are in `folder`.
+def collect_inputs(expected: Iterable[Expected], folder: Path, patterns: Sequence[str] = ()) -> Inputs:
+    """Return the files of studies whose configurations are in `folder`, but for those whose names match patterns.
 
     Raises:
-        InputErrors: some are not there.
+        InputErrors, InputError: some are not there, or a pattern matches none.
     """
     names = sorted({name for each in expected for name in each.files})
     depth = max((_height(name) for name in names), default=0)
@@ -44,8 +50,36 @@ def collect_inputs(expected: Iterable[Expected], folder: Path) -> Inputs:
     missing = [InputError("no such file", file=file) for file in files.values() if not file.is_file()]
     if missing:
         raise InputErrors(*missing)
-    programs = frozenset(name for name, file in files.items() if os.access(file, os.X_OK))
-    return Inputs(files=files, names=frozenset(names), folder=base or ".", programs=programs)
+    for pattern in patterns:
+        if not fnmatch.filter(names, pattern):
+            raise InputError(f"--leave-out {pattern} matches no input", hint="inputs: " + (", ".join(names) or "none"))
+    left_out = {name for pattern in patterns for name in fnmatch.filter(names, pattern)}
+    kept = {place: file for (place, file), name in zip(files.items(), names, strict=True) if name not in left_out}
+    return Inputs(
+        files=kept,
+        names=frozenset(names),
+        folder=base or ".",
+        programs=frozenset(name for name, file in kept.items() if os.access(file, os.X_OK)),
+        left_out={name: digest(folder / name) for name in sorted(left_out)},
+    )
+
+
+def take_inputs(bundle: Opened, folder: Path | None) -> list[str]:
+    """Copy the inputs that a bundle leaves out from `folder` into it, and return the names of those that are not there.
+
+    Raises:
+        InputError: a file of `folder` is not the one that was left out.
+    """
+    missing = []
+    for name, sha256 in bundle.left_out.items():
+        if folder is None or bundle.leaves_inputs(name) or not (folder / name).is_file():
+            missing.append(name)
+            continue
+        if digest(folder / name) != sha256:
+            raise InputError("is not the file that the bundle leaves out: its SHA-256 differs", file=folder / name)
+        (bundle.folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(folder / name, bundle.folder / name)
+    return missing
 
 
 def full_names(value: Any, folder: Path) -> dict[str, str]:

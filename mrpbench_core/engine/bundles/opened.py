@@ -77,6 +77,8 @@ class Opened:
     """Folder of the configuration, among the inputs."""
     names: Mapping[str, str]
     """Relative names of files that configurations give in full."""
+    left_out: Mapping[str, str]
+    """SHA-256 of inputs that are not in the bundle, by their names relative to the folder of the configuration."""
 
     def records(self) -> Iterator[Stored]:
         """Read all records, of every attempt, in the order in which they were stored."""
@@ -100,7 +102,7 @@ def open_bundle(top: Path) -> Opened:
     results = Results(ResultsFolder(top / RESULTS))
     if not (results.folder.path / "runs").is_dir():
         raise InputError(f"has no {RESULTS}/runs")
-    base, names = _inputs(top / INPUTS)
+    base, names, left_out = _inputs(top / INPUTS)
     folder = top / INPUT_FOLDER / base
     folder.mkdir(parents=True, exist_ok=True)
     return Opened(
@@ -110,17 +112,20 @@ def open_bundle(top: Path) -> Opened:
         info=read_info(top),
         folder=Path(os.path.normpath(folder)),
         names=names,
+        left_out=left_out,
     )
 
 
-def _inputs(file: Path) -> tuple[str, dict[str, str]]:
+def _inputs(file: Path) -> tuple[str, dict[str, str], dict[str, str]]:
+    """The folder of the configuration, relative names by full ones, and the SHA-256 of inputs that are left out."""
     if not file.is_file():
-        return ".", {}
+        return ".", {}, {}
     try:
         data = json.loads(read_text(file))
-        base, names = data["folder"], data["absolute"]
+        base, names, left_out = data["folder"], data["absolute"], data.get("left_out", {})
         if not (_BASE.fullmatch(base) and len(base) < _LONGEST and all(full.startswith("/") for full in names)):
             raise ValueError("names of folders")
-        return base, {str(full): str(name) for full, name in names.items()}
+        texts = [{str(key): str(value) for key, value in part.items()} for part in (names, left_out)]
+        return base, texts[0], texts[1]
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise InputError(f"{INPUTS} is damaged: {error}") from None

@@ -48,6 +48,8 @@ class PublishOptions:
     """The share of the recordings to include, drawn by the ids of their runs."""
     inputs: Path = attrs.field(factory=Path.cwd, converter=_resolved)
     """Folder of the configuration."""
+    left_out: tuple[str, ...] = ()
+    """Patterns of the names of inputs that the bundle gives by SHA-256 only, such as `*.map`."""
 
 
 @attrs.frozen(kw_only=True)
@@ -77,7 +79,7 @@ def publish(folders: Sequence[Results], out: Path, options: PublishOptions, slot
     expected = _expected(read, names, options.inputs, slots)
     _require_finished(folders, expected)
     _require_one_version(folders, expected)
-    inputs = collect_inputs(expected, options.inputs)
+    inputs = collect_inputs(expected, options.inputs, options.left_out)
     recordings = _recordings(folders, options.recordings)
     newest = max(documents)
     title = options.title or expected[-1].study.name
@@ -97,9 +99,10 @@ def publish(folders: Sequence[Results], out: Path, options: PublishOptions, slot
         STUDY: dumps(documents[newest]["study"]).encode(),
         CITATION: description.citation(__version__),
     }
-    if inputs.files:
+    if inputs.names:
         absolute = {full: name for full, name in names.items() if name in inputs.names}
-        payload[INPUTS] = (json.dumps({"folder": inputs.folder, "absolute": absolute}, indent=1) + "\n").encode()
+        place = {"folder": inputs.folder, "absolute": absolute, "left_out": inputs.left_out}
+        payload[INPUTS] = (json.dumps(place, indent=1) + "\n").encode()
     payload[CRATE] = description.crate([*payload, CRATE], documents, __version__)
     info = {
         "Bag-Software-Agent": f"mrpbench {__version__}",
@@ -116,6 +119,7 @@ def publish(folders: Sequence[Results], out: Path, options: PublishOptions, slot
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror or error}", file=error.filename or out) from error
     notes = [f"{name} is a program; check that its licence lets you publish it" for name in sorted(inputs.programs)]
+    notes += [f"{name} is left out; `mrpbench verify --inputs DIR` takes it from DIR" for name in inputs.left_out]
     notes += [str(error) for results in folders for error in results.damaged]
     return Published(file=out, sha256=digest(out), runs=runs, recordings=len(recordings), notes=tuple(notes))
 

@@ -28,6 +28,7 @@ from mrpbench_core.engine.bundles.checks.study import (
     study_faults,
     uses_local_code,
 )
+from mrpbench_core.engine.bundles.inputs import take_inputs
 from mrpbench_core.engine.bundles.opened import Opened, Stored, open_bundle
 from mrpbench_core.engine.bundles.sample import drawn
 from mrpbench_core.engine.bundles.verdict import Check, Fault, Verdict, checked
@@ -54,6 +55,8 @@ class VerifyOptions:
     """Draws these runs; None = a new one. The publisher must not know it before."""
     trusted: bool = False
     """Execute local plugins and programs of the bundle."""
+    inputs: Path | None = None
+    """Folder with the inputs that the bundle leaves out, by their names relative to the folder of the configuration."""
     workers: int = 1
     progress: StudyProgress = attrs.field(factory=StudyProgress)
 
@@ -68,7 +71,7 @@ def verify(file: Path, options: VerifyOptions, slots: str, said: Callable[[Check
         said: called with each check when it is done, if given.
 
     Raises:
-        InputError: there is no such file.
+        InputError: there is no such file, or an input that is given is another one.
     """
     if not file.is_file():
         raise InputError("no such file" if not file.exists() else "is no file; a bundle is a zip file", file=file)
@@ -98,6 +101,12 @@ def _checks(file: Path, folder: Path, options: VerifyOptions, slots: str) -> Ite
     yield checked("description", description_faults(bundle), "RO-Crate, citation and study follow from the files")
     records = [stored for stored in bundle.records() if stored.counts]
     yield from _check_records(bundle, records)
+    if missing := take_inputs(bundle, options.inputs):
+        names = ", ".join(missing[:2]) + (", …" if len(missing) > 2 else "")
+        why = f"the bundle leaves out {counted(len(missing), 'input')} ({names}); --inputs DIR gives them"
+        for name in ("study", "versions", "inputs", "scenarios", "recordings", "repetition", "clock"):
+            yield checked(name, (), "", unchecked=why)
+        return
     asked = read_studies(bundle, slots, trusted=options.trusted)
     yield from _check_studies(bundle, asked, records, options)
     outside = list(outside_faults(bundle, asked))

@@ -55,8 +55,10 @@ class Entry:
         checks = [check for check in self.verdict.get("checks") or () if isinstance(check, dict)]
         if not self.passed:
             return counted(sum(len(check.get("findings") or ()) for check in checks), "finding")
-        repeated = [check for check in checks if check.get("name") == "repetition" and check.get("outcome") == "passed"]
-        return "verified, runs repeated" if repeated else "verified, no run repeated"
+        passed = {check.get("name") for check in checks if check.get("outcome") == "passed"}
+        if "study" not in passed:
+            return "no finding, study not checked"
+        return "verified, runs repeated" if "repetition" in passed else "verified, no run repeated"
 
 
 def write_site(entries: Sequence[Entry], boards: Sequence[Board], title: str, folder: Path) -> None:

@@ -6,7 +6,8 @@ data/ro-crate-metadata.json       description of the data (RO-Crate 1.2, Process
 data/CITATION.cff                 how to cite them (Citation File Format 1.2.0)
 data/study.yaml                   configuration of the latest invocation
 data/results/                     a results folder: invocations/, runs/, recordings/
-data/inputs.json                  the folder of the configuration in inputs/, and names of files that it gives in full
+data/inputs.json                  the folder of the configuration in inputs/, names of files that it gives in full,
+                                  and the SHA-256 of files that are left out
 data/inputs/                      files that the configuration names, and local plugins
 ```
 """

@@ -62,14 +62,27 @@ def bundle():
     return _bundle
 
 
+def _verdict(file, **options):
+    with slots_of_this_process() as slots:
+        return verify(file, VerifyOptions(**options), slots)
+
+
 @pytest.fixture
 def judged():
     """Return a function that verifies a bundle and gives the findings by check."""
 
     def judge(file, **options):
-        with slots_of_this_process() as slots:
-            verdict = verify(file, VerifyOptions(**options), slots)
-        return {check.name: check.findings for check in verdict.checks if check.outcome == "failed"}
+        return {it.name: it.findings for it in _verdict(file, **options).checks if it.outcome == "failed"}
+
+    return judge
+
+
+@pytest.fixture
+def outcomes():
+    """Return a function that verifies a bundle and gives the outcome of each check, and what it covered."""
+
+    def judge(file, **options):
+        return {it.name: (it.outcome, it.covered) for it in _verdict(file, **options).checks}
 
     return judge
 

@@ -106,3 +106,12 @@ def test_no_tag_file_breaks_a_check(honest, tmp_path, name, content):
         return
     assert list(file_faults(bundle))
     assert name == "data/inputs.json" or list(description_faults(bundle))
+
+
+def test_a_left_out_name_that_leads_elsewhere_is_not_copied(forger, tmp_path, outcomes):
+    file = forger.top / "data" / "inputs.json"
+    file.write_text(json.dumps({"folder": ".", "absolute": {}, "left_out": {"../../../../taken": "0" * 64}}))
+    (tmp_path / "a" / "b" / "c" / "d").mkdir(parents=True)
+    (tmp_path / "taken").write_text("x")
+    checks = outcomes(forger.pack(), inputs=tmp_path / "a" / "b" / "c" / "d")
+    assert checks["inputs"][0] == "not checked"

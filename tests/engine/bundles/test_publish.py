@@ -88,3 +88,22 @@ def test_a_share_is_drawn_by_ids_alone():
     assert set(drawn(ids, 0.1)) < set(drawn(ids, 0.3))
     assert drawn(ids, 0.1, "1") != drawn(ids, 0.1, "2")
     assert drawn(ids, 0.0) == []
+
+
+def test_an_input_that_is_left_out_is_given_by_the_verifier(copied, bundle, outcomes, judged):
+    written = bundle(copied / "results", copied / "out.zip", inputs=copied, left_out=("*.map",))
+    assert written.notes == ("maps/tiny.map is left out; `mrpbench verify --inputs DIR` takes it from DIR",)
+    checks = outcomes(copied / "out.zip")
+    assert checks["study"] == ("not checked", "the bundle leaves out 1 input (maps/tiny.map); --inputs DIR gives them")
+    assert checks["records"][0] == "passed"
+    assert judged(copied / "out.zip", inputs=copied, rerun=0.5) == {}
+    assert outcomes(copied / "out.zip", inputs=copied)["scenarios"][0] == "passed"
+    (copied / "maps" / "tiny.map").write_text("type octile\nheight 1\nwidth 3\nmap\n...\n")
+    with pytest.raises(InputError, match=r"tiny\.map: is not the file that the bundle leaves out"):
+        judged(copied / "out.zip", inputs=copied)
+
+
+def test_a_pattern_that_matches_no_input(copied, bundle):
+    assert "--leave-out *.scen matches no input (inputs: maps/tiny.map)" in refused(
+        bundle, copied, left_out=("*.scen",)
+    )
