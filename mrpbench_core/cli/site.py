@@ -122,7 +122,7 @@ def _with_replays(entry: "Entry", report: "Report", place: int, out: Path, most:
     """Write replays of some runs: failed ones first, and every configuration in turn."""
     import attrs
 
-    from mrpbench_core.cli.output.replays import is_replay_written
+    from mrpbench_core.cli.output.replays import try_write_replay
 
     results = report.folders[place]
     found: dict[str, str] = {}
@@ -133,6 +133,6 @@ def _with_replays(entry: "Entry", report: "Report", place: int, out: Path, most:
         run_id = report.runs.run_id[index]
         if int(report.runs.folder[index]) != place or not results.paths(run_id).recording.is_file():
             continue
-        if is_replay_written(results, run_id, out / "replays" / f"{run_id}.html"):
+        if try_write_replay(results, run_id, out / "replays" / f"{run_id}.html"):
             found[run_id] = f"replays/{run_id}.html"
     return attrs.evolve(entry, replays=found)

@@ -52,3 +52,26 @@ def test_mistakes_are_one_line(mrpbench, words, what):
     assert code == 2
     assert errors.startswith(what)
     assert errors.count("\n") == 1
+
+
+REFUSING = """\
+import attrs
+from mrpbench_core.api.dispatcher import Dispatcher, DispatchError
+
+@attrs.frozen
+class Refuse(Dispatcher):
+    def start(self, problem, plan):
+        raise DispatchError("no")
+"""
+
+
+def test_a_site_passes_over_recordings_of_runs_that_did_not_move(mrpbench, caplog):
+    Path("refuse.py").write_text(REFUSING)
+    settings = ["simulator=kinematic", "dispatcher=./refuse.py:Refuse", "recording.keep=all", "seed=0"]
+    mrpbench("run", "tiny.yaml", *settings)
+    assert mrpbench("publish", "results/tiny", "--out", "tiny.zip")[0] == 0
+    assert mrpbench("verify", "tiny.zip", "--trust-sources", "--out", "tiny.zip.verdict.json")[0] == 0
+    code, output, _ = mrpbench("site", "tiny.zip", "--out", "public")
+    assert code == 0
+    assert output.endswith(".zip: verified, no run repeated\n")
+    assert "the recording holds no poses" in caplog.text

@@ -107,12 +107,12 @@ def make_replays(report: Report, page: Path, most: int, first: Sequence[int] = (
             lacking.append((results, run_id, file))
     with slots_of_this_process():  # one worker for all replays
         for results, run_id, file in lacking:
-            if is_replay_written(results, run_id, file):
+            if try_write_replay(results, run_id, file):
                 found[run_id] = _address(file, page)
     return found
 
 
-def is_replay_written(results: Results, run_id: str, page: Path) -> bool:
+def try_write_replay(results: Results, run_id: str, page: Path) -> bool:
     """Write the replay of a recorded run; False, with a warning, if the recording is damaged or ends before motion."""
     try:
         recording = results.recording(run_id)

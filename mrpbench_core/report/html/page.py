@@ -13,13 +13,21 @@ from mrpbench_core.report.html.answer import answer_section, headline
 from mrpbench_core.report.html.figures import figures
 from mrpbench_core.report.html.listing import LISTED, packed_runs, tone
 from mrpbench_core.report.html.origin import origin
+from mrpbench_core.report.html.shell import page_shell
 from mrpbench_core.report.html.tables import table_markup
 from mrpbench_core.report.report import Report
 from mrpbench_core.report.rules import RULES
-from mrpbench_core.report.template import PageTemplate
 
-SCRIPTS = ("theme.js", "tables.js", "runs.js")
-STYLES = ("style.css", "answer.css", "tables.css", "narrow.css")
+SECTIONS = {
+    "answer": "Answer",
+    "examples": "Runs to look at",
+    "tables": "Tables",
+    "figures": "Figures",
+    "runs": "All runs",
+    "origin": "Reproduce",
+    "rules": "Rules",
+}
+"""What links in the head of the page call its sections."""
 
 
 def write_report(
@@ -42,16 +50,16 @@ def write_report(
         InputError: the file cannot be written.
     """
     folder = resources.files(__package__) / "template"
+    styles = [folder / name for name in ("style.css", "answer.css", "tables.css", "narrow.css")]
+    scripts = [folder / name for name in ("theme.js", "tables.js", "runs.js")]
     title = " and ".join(dict.fromkeys(results.folder.path.name for results in report.folders))
     counts = _counts(report)
     widths = (f".part:nth-child({place}) {{ flex-grow: {count}; }}\n" for place, (_, count) in enumerate(counts, 1))
-    code = {
-        "style": "".join((folder / name).read_text(encoding="utf-8") for name in STYLES) + "".join(widths),
-        **{name.replace(".js", "_script"): (folder / name).read_text(encoding="utf-8") for name in SCRIPTS},
-    }
+    shell = page_shell(styles, scripts, (folder / "body.html").read_text(encoding="utf-8"), "".join(widths))
     answer = answer or make_answer(report)
     parts = {
         "title": escape(title),
+        "links": "".join(f'<a href="#{section}">{words}</a>' for section, words in SECTIONS.items()),
         "headline": headline(answer),
         "answer": answer_section(answer),
         "examples": examples,
@@ -63,7 +71,7 @@ def write_report(
         "listed": _left_out(report),
         "data": packed_runs(report, replays or {}),
     }
-    PageTemplate(folder / "index.html", code).write(file, f"{title} · mrpbench report", parts)
+    shell.write(file, f"{title} · mrpbench report", parts)
 
 
 def _left_out(report: Report) -> str:

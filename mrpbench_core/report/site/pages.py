@@ -13,6 +13,7 @@ import attrs
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.output import write_page_file
 from mrpbench_core.files.text import counted
+from mrpbench_core.report.html.shell import page_shell
 from mrpbench_core.report.reading.columns import heading
 from mrpbench_core.report.rules import RULES
 from mrpbench_core.report.site.boards import Board, Row
@@ -69,22 +70,26 @@ def write_site(entries: Sequence[Entry], boards: Sequence[Board], title: str, fo
     """
     page = _template()
     for board in boards:
-        parts = {"body": _board(board, entries), "home": "../index.html"}
+        parts = {"body": _board(board, entries), "links": _home("../index.html")}
         page.write(_made(folder / board.address), f"{board.world}, {board.robots} robots · {title}", parts)
         text = json.dumps(board.document(), ensure_ascii=False, allow_nan=False, separators=(",", ":"))
         write_page_file(folder / f"boards/{board.number}.json", text + "\n")
     for entry in entries:
-        page.write(
-            _made(folder / entry.address), f"{entry.title} · {title}", {"body": _bundle(entry), "home": "../index.html"}
-        )
-    page.write(_made(folder / "index.html"), title, {"body": _index(entries, boards), "home": "index.html"})
+        parts = {"body": _bundle(entry), "links": _home("../index.html")}
+        page.write(_made(folder / entry.address), f"{entry.title} · {title}", parts)
+    page.write(_made(folder / "index.html"), title, {"body": _index(entries, boards), "links": _home("index.html")})
 
 
 def _template() -> PageTemplate:
     report = resources.files("mrpbench_core.report.html") / "template"
     own = resources.files(__package__) / "template"
-    style = "".join(part.read_text(encoding="utf-8") for part in (report / "style.css", own / "site.css"))
-    return PageTemplate(own / "page.html", {"style": style, "script": (own / "site.js").read_text(encoding="utf-8")})
+    return page_shell(
+        (report / "style.css", report / "narrow.css", own / "site.css"), (report / "theme.js", own / "site.js")
+    )
+
+
+def _home(address: str) -> str:
+    return f'<a href="{address}">All boards</a>'
 
 
 def _made(file: Path) -> Path:

@@ -1,14 +1,5 @@
 // Filters the rows of the first table of a page.
 "use strict";
-const root = document.documentElement;
-const theme = document.getElementById("theme");
-function setTheme(dark) {
-  root.dataset.theme = dark ? "dark" : "light";
-  theme.textContent = dark ? "Light" : "Dark";
-}
-setTheme(matchMedia("(prefers-color-scheme: dark)").matches);
-theme.addEventListener("click", () => setTheme(root.dataset.theme !== "dark"));
-
 const form = document.getElementById("filters");
 if (form) {
   const rows = [...form.parentElement.querySelector("#filters ~ .wide").querySelectorAll("tbody tr")];
