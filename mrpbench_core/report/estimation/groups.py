@@ -51,6 +51,8 @@ class Setting:
     """`scenarios` or `runs`."""
     cells: int = 1
     """Units of one sample: unit u belongs to sample u // cells. Pairs are formed of units, and averaged to samples."""
+    axes: Axes = attrs.field(factory=dict)
+    """The options of `name`, by dotted name."""
 
     def by_sample(self, numbers: Int, values: Float) -> Float:
         """Average values of units, so that there is one for each sample."""
@@ -79,10 +81,14 @@ def group_runs(runs: Runs, by: Sequence[str] | None = None) -> list[RunGroup]:
 
 
 def find_settings(runs: Runs, groups: Sequence[RunGroup]) -> list[Setting]:
-    """Collect groups that share scenarios, directly or through other groups."""
-    parts: list[tuple[set[int], list[RunGroup]]] = []
+    """Collect groups that share scenarios, directly or through other groups.
+
+    Groups that only plan are apart from those that execute their plans, since success is another thing there.
+    """
+    parts: list[tuple[set[tuple[int, bool]], list[RunGroup]]] = []
     for group in groups:
-        scenarios = set(np.unique(runs.scenario[group.members]).tolist()) - {-1}
+        plans = group.axes.get("simulator.plugin") == "none"
+        scenarios = {(number, plans) for number in np.unique(runs.scenario[group.members]).tolist() if number >= 0}
         touching = [part for part in parts if part[0] & scenarios]
         parts = [part for part in parts if part not in touching]
         merged = [member for _, members in touching for member in members]
@@ -149,6 +155,7 @@ def _setting(runs: Runs, members: Sequence[RunGroup], axes: Axes) -> Setting:
     own = [{key: value for key, value in group.axes.items() if key not in constant} for group in members]
     return Setting(
         name=name_axes(axes),
+        axes=axes,
         groups=tuple(members),
         names=tuple(name_axes(entry) or "all runs" for entry in own),
         units=units,

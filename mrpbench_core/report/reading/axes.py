@@ -90,8 +90,9 @@ def _label(block: Any) -> str:
 
 
 def _flat(config: dict[str, Any]) -> Axes:
-    """Options by dotted key; `plugin` is None for a missing stage, unless it is missing because another stage is."""
-    blocks = {key: {"plugin": None} for key, value in config.items() if value is None and key not in EXECUTION}
+    """Options by dotted key; `plugin` is "none" for a missing stage, unless it is missing because another stage is."""
+    missing = (key for key, value in config.items() if value in (None, "none") and key not in EXECUTION)
+    blocks = {key: {"plugin": "none"} for key in missing}
     return {key: value for key, value in flatten(config | blocks).items() if not _is_below(key, NO_AXES)}
 
 

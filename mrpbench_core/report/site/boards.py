@@ -1,5 +1,6 @@
 """Boards: the configurations that share scenarios, with their ranks, as data for pages and files."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from typing import Any
 
@@ -10,11 +11,14 @@ from mrpbench_core.api.metric import Column
 from mrpbench_core.report.estimation.estimates import Numbers
 from mrpbench_core.report.estimation.groups import Setting
 from mrpbench_core.report.estimation.ranks import Rank, rank_groups
-from mrpbench_core.report.reading.axes import word
+from mrpbench_core.report.reading.axes import name_axes, word
 from mrpbench_core.report.reading.columns import direction, heading
 from mrpbench_core.report.report import Report
 from mrpbench_core.report.statistics.estimate import IntervalEstimate
 from mrpbench_core.report.tables.table import Shown
+
+_PLANS = "planning only"
+_IN_TITLE = ("world.plugin", "scenario.robots", "simulator.plugin")
 
 
 @attrs.frozen(kw_only=True)
@@ -52,11 +56,12 @@ class Board:
     number: int
     world: str
     robots: str
-    options: str
-    """What else distinguishes it from other boards."""
+    simulator: str
     unit: str
     columns: tuple[Column, ...]
     rows: tuple[Row, ...]
+    options: str = ""
+    """What distinguishes it from other boards with the same title."""
 
     @property
     def address(self) -> str:
@@ -64,15 +69,21 @@ class Board:
         return f"boards/{self.number}.html"
 
     @property
-    def leaders(self) -> tuple[str, ...]:
-        """The configurations that may be the first in the first column."""
-        return tuple(row.name for row in self.rows if row.cells[0].rank is not None and row.cells[0].rank.best == 1)
+    def title(self) -> str:
+        """World, number of robots, and what else distinguishes it from other boards."""
+        return ", ".join(filter(None, (self.world, f"{self.robots} robots", self.simulator, self.options)))
+
+    def leaders(self, place: int) -> tuple[str, ...]:
+        """Return the configurations that may be the first in a column."""
+        ranks = ((row.name, row.cells[place].rank) for row in self.rows)
+        return tuple(name for name, rank in ranks if rank is not None and rank.best == 1)
 
     def document(self) -> dict[str, Any]:
         """The board as plain data."""
         return {
             "world": self.world,
             "robots": self.robots,
+            "simulator": self.simulator,
             "options": self.options,
             "unit": self.unit,
             "columns": [heading(column) for column in self.columns],
@@ -85,15 +96,29 @@ class Board:
 
 def make_boards(report: Report) -> list[Board]:
     """Return a board for each setting of a report, whose folders are the bundles."""
-    return [
+    boards = [
         _board(report, number, setting, entries)
         for number, (setting, entries) in enumerate(zip(report.settings, report.numbers, strict=True), 1)
+    ]
+    titles = Counter(board.title for board in boards)
+    options = (setting.axes.items() for setting in report.settings)
+    named = (name_axes({key: value for key, value in axes if key not in _IN_TITLE}) for axes in options)
+    return [
+        attrs.evolve(board, options=words) if titles[board.title] > 1 else board
+        for board, words in zip(boards, named, strict=True)
     ]
 
 
 def _board(report: Report, number: int, setting: Setting, entries: Sequence[Numbers]) -> Board:
     runs = report.runs
-    columns = tuple(column for column in report.compared if any(column.name in found.common for found in entries))
+    config = runs.configs[runs.config[setting.groups[0].members[0]]]
+    plans = _simulator(config) == _PLANS
+    columns = tuple(
+        column
+        for column in report.compared
+        if any(part.get(column.name) for found in entries for part in (found.common, found.overall))
+        and not (plans and column.name == "planned")
+    )
     ranks = {
         column.name: rank_groups(
             setting.names,
@@ -120,12 +145,11 @@ def _board(report: Report, number: int, setting: Setting, entries: Sequence[Numb
         )
         for name, group, found in zip(setting.names, setting.groups, entries, strict=True)
     ]
-    config = runs.configs[runs.config[setting.groups[0].members[0]]]
     return Board(
         number=number,
         world=word(config.get("world")),
         robots=_robots(config),
-        options=setting.name,
+        simulator=_simulator(config),
         unit=setting.unit,
         columns=columns,
         rows=tuple(sorted(rows, key=_order)),
@@ -140,6 +164,11 @@ def _order(row: Row) -> tuple[float, ...]:
 def _limits(rank: Rank | None) -> Iterator[int]:
     if rank is not None:
         yield from (rank.best, rank.worst)
+
+
+def _simulator(config: Any) -> str:
+    found = config.get("simulator")
+    return _PLANS if found == "none" else str(found["plugin"] if isinstance(found, dict) else found)
 
 
 def _robots(config: Any) -> str:

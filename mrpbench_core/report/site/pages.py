@@ -16,7 +16,8 @@ from mrpbench_core.files.text import counted
 from mrpbench_core.report.html.shell import page_shell
 from mrpbench_core.report.reading.columns import heading
 from mrpbench_core.report.rules import RULES
-from mrpbench_core.report.site.boards import Board, Row
+from mrpbench_core.report.site.boards import Board, Cell, Row
+from mrpbench_core.report.site.markup import Td, plain, table_markup
 from mrpbench_core.report.template import PageTemplate
 from mrpbench_core.store.bundle.description import Description
 
@@ -71,7 +72,7 @@ def write_site(entries: Sequence[Entry], boards: Sequence[Board], title: str, fo
     page = _template()
     for board in boards:
         parts = {"body": _board(board, entries), "links": _home("../index.html")}
-        page.write(_made(folder / board.address), f"{board.world}, {board.robots} robots · {title}", parts)
+        page.write(_made(folder / board.address), f"{board.title} · {title}", parts)
         text = json.dumps(board.document(), ensure_ascii=False, allow_nan=False, separators=(",", ":"))
         write_page_file(folder / f"boards/{board.number}.json", text + "\n")
     for entry in entries:
@@ -83,9 +84,8 @@ def write_site(entries: Sequence[Entry], boards: Sequence[Board], title: str, fo
 def _template() -> PageTemplate:
     report = resources.files("mrpbench_core.report.html") / "template"
     own = resources.files(__package__) / "template"
-    return page_shell(
-        (report / "style.css", report / "narrow.css", own / "site.css"), (report / "theme.js", own / "site.js")
-    )
+    styles = [*(report / name for name in ("style.css", "tables.css", "narrow.css")), own / "site.css"]
+    return page_shell(styles, [report / "theme.js", report / "tables.js"])
 
 
 def _home(address: str) -> str:
@@ -101,78 +101,85 @@ def _made(file: Path) -> Path:
 
 
 def _index(entries: Sequence[Entry], boards: Sequence[Board]) -> str:
-    rows = []
-    for board in boards:
-        link = f'<a href="{quote(board.address)}">{escape(board.world)}</a>'
-        leaders = " or ".join(board.leaders) if len(board.leaders) < len(board.rows) else "not told apart"
-        if len(board.rows) == 1:
-            leaders = board.rows[0].name
-        cells = (board.robots, board.options, len(board.rows), sum(row.runs for row in board.rows), leaders)
-        rows.append(
-            f'<tr data-world="{escape(board.world)}" data-robots="{escape(board.robots)}"><td>{link}</td>'
-            + "".join(f"<td>{escape(str(cell))}</td>" for cell in cells)
-            + f"<td hidden>{escape(' '.join(row.name for row in board.rows))}</td></tr>"
+    rows = [
+        (
+            Td(f'<a href="{quote(board.address)}">{escape(board.title)}</a>'),
+            plain(len(board.rows)),
+            plain(sum(row.runs for row in board.rows)),
+            Td(_leaders(board)),
         )
-    heads = ("world", "robots", "options", "configurations", "runs", "may be first in success")
-    worlds = dict.fromkeys(board.world for board in boards)
-    counts = dict.fromkeys(board.robots for board in boards)
-    filters = f'<form id="filters">{_choice("world", worlds)}{_choice("robots", counts)}{_search()}</form>'
+        for board in boards
+    ]
+    heads = ("board", "configurations", "runs", "result")
     return (
-        f"<h2>Boards</h2><p>A board has the configurations that ran on the same scenarios. A rank is a range: what the"
-        f" paired tests do not decide is not told apart.</p>{filters}{_table('boards', heads, rows)}"
+        f"<h2>Boards</h2><p>A board has the configurations that ran on the same scenarios. What paired tests"
+        f" do not decide is not told apart.</p>{table_markup('boards', heads, rows)}"
         f"<h2>Bundles</h2>{_bundles(entries)}{_rules()}"
     )
 
 
+def _leaders(board: Board) -> str:
+    """Which configurations may be the first in each column in which some are behind."""
+    found = [(column, board.leaders(place)) for place, column in enumerate(board.columns)]
+    decided = [(column, names) for column, names in found if 0 < len(names) < len(board.rows)]
+    if not decided:
+        return "Nothing is told apart." if len(board.rows) > 1 else ""
+    words = (f"First in <b>{escape(column.name)}</b>: {escape(_either(names))}" for column, names in decided)
+    return "<br>".join(words)
+
+
+def _either(names: Sequence[str]) -> str:
+    return f"{', '.join(names[:-1])} or {names[-1]}" if len(names) > 1 else names[0]
+
+
 def _board(board: Board, entries: Sequence[Entry]) -> str:
-    heads = ["configuration", "runs", *(heading(column) for column in board.columns), "bundle", "verdict", "replays"]
+    heads = ["configuration", "runs", *(heading(column) for column in board.columns), "bundle", "replays"]
     rows = [_row(row, entries) for row in board.rows]
     timing = any(column.name.startswith("timing.") for column in board.columns)
     note = (
         " Columns of timing are wall times of the machines of the bundles: they cannot be verified." if timing else ""
     )
-    options = f" {escape(board.options)}" if board.options else ""
     return (
-        f"<h2>{escape(board.world)}, {escape(board.robots)} robots{options}</h2><p>Over {escape(board.unit)} that all"
-        f" configurations have in common, with 95 % intervals; below each value, the range of its rank.{note}"
-        f' <a href="{board.number}.json">The numbers as JSON</a>.</p><form id="filters">{_search()}</form>'
-        f"{_table('rows', heads, rows)}{_rules()}"
+        f"<h2>{escape(board.title)}</h2><p>{_leaders(board)}</p>"
+        f"<p class='note'>Means over {escape(board.unit)} that all configurations have in common, with 95 % intervals,"
+        f" and the range of the rank where it is known.{note}"
+        f' <a href="{board.number}.json">The numbers as JSON</a>.</p>'
+        f"{table_markup('rows', heads, rows)}{_rules()}"
     )
 
 
-def _row(row: Row, entries: Sequence[Entry]) -> str:
-    cells = "".join(
-        f'<td class="number">{escape(cell.text)}<br><small>{escape(str(cell.rank or ""))}</small></td>'
-        for cell in row.cells
-    )
+def _row(row: Row, entries: Sequence[Entry]) -> list[Td]:
     mine = [entries[number] for number in row.bundles]
     links = ", ".join(f'<a href="../{entry.address}">{escape(entry.title)}</a>' for entry in mine)
     verdicts = "; ".join(dict.fromkeys(entry.judgement for entry in mine))
     pages = [(run, entry.replays[run]) for entry in mine for run in row.run_ids if run in entry.replays]
     replays = ", ".join(f'<a href="../{quote(page)}">{escape(run[:6])}</a>' for run, page in pages) or "–"
-    return (
-        f"<tr><td>{escape(row.name)}</td><td class='number'>{row.runs}</td>{cells}<td>{links}</td>"
-        f"<td>{escape(verdicts)}</td><td>{replays}</td></tr>"
-    )
+    bundles = Td(f"{links}<small>{escape(verdicts)}</small>", style="words")
+    first, _, options = row.name.partition(" ")
+    name = Td(f"{escape(first)}<small>{escape(options)}</small>", style="words")
+    return [name, plain(row.runs), *map(_estimate, row.cells), bundles, Td(replays)]
+
+
+def _estimate(cell: Cell) -> Td:
+    value, bracket, interval = cell.text.partition(" [")
+    parts = [f"{bracket}{interval}".strip(), "" if cell.rank is None else f"rank {cell.rank.best}–{cell.rank.worst}"]
+    if cell.rank is not None and (cell.rank.decides_nothing or cell.rank.best == cell.rank.worst):
+        parts[1] = "" if cell.rank.decides_nothing else f"rank {cell.rank.best}"
+    small = "".join(f"<small>{escape(part)}</small>" for part in parts if part)
+    return Td(escape(value) + small, None if cell.estimate is None else cell.estimate.value, "number")
 
 
 def _bundles(entries: Sequence[Entry]) -> str:
     rows = []
     for entry in entries:
         about = entry.description
-        authors = "–" if about is None else ", ".join(author.name for author in about.authors)
-        facts = (
-            authors,
-            "–" if about is None else about.license,
-            "–" if about is None else about.published,
-            entry.runs,
-        )
-        rows.append(
-            f'<tr><td><a href="{entry.address}">{escape(entry.title)}</a></td>'
-            + "".join(f"<td>{escape(str(fact))}</td>" for fact in facts)
-            + f'<td class="{"better" if entry.passed else "worse"}">{escape(entry.judgement)}</td></tr>'
-        )
-    return _table("bundles", ("title", "authors", "licence", "date", "runs", "verdict"), rows)
+        facts = ("–", "–", "–")
+        if about is not None:
+            facts = (", ".join(author.name for author in about.authors), about.license, about.published)
+        link = Td(f'<a href="{entry.address}">{escape(entry.title)}</a>')
+        verdict = Td(escape(entry.judgement), style="better" if entry.passed else "worse")
+        rows.append((link, *map(plain, facts), plain(entry.runs), verdict))
+    return table_markup("bundles", ("title", "authors", "licence", "date", "runs", "verdict"), rows)
 
 
 def _bundle(entry: Entry) -> str:
@@ -191,34 +198,17 @@ def _bundle(entry: Entry) -> str:
     for check in entry.verdict.get("checks") or ():
         found = "".join(f"<li>{escape(str(text))}</li>" for text in check.get("findings") or ())
         tone = {"passed": "better", "failed": "worse"}.get(str(check.get("outcome")), "")
-        rows.append(
-            f'<tr><td>{escape(str(check.get("name")))}</td><td class="{tone}">{escape(str(check.get("outcome")))}</td>'
-            f'<td class="words">{escape(str(check.get("covered")))}<ul>{found}</ul></td></tr>'
-        )
+        covered = Td(f"{escape(str(check.get('covered')))}<ul>{found}</ul>", style="words")
+        rows.append((plain(check.get("name")), Td(escape(str(check.get("outcome"))), style=tone), covered))
     pages = [f'<li><a href="../{quote(page)}">{escape(run)}</a></li>' for run, page in entry.replays.items()]
     replays = f"<h3>Replays</h3><ul>{''.join(pages)}</ul>" if pages else ""
     text = "" if about is None else f"<p>{escape(about.text)}</p>"
     return (
         f"<h2>{escape(entry.title)}</h2>{text}<p><a href='{quote(entry.file)}'>{escape(entry.file)}</a>;"
         f" <code>mrpbench verify {escape(entry.file)} --rerun 10%</code> checks it.</p><dl class='facts'>{items}</dl>"
-        f"<h3>Verdict: {escape(entry.judgement)}</h3>{_table('checks', ('check', 'outcome', 'covered'), rows)}{replays}"
+        f"<h3>Verdict: {escape(entry.judgement)}</h3>"
+        f"{table_markup('checks', ('check', 'outcome', 'covered'), rows)}{replays}"
     )
-
-
-def _table(name: str, heads: Sequence[str], rows: Sequence[str]) -> str:
-    head = "".join(f'<th scope="col">{escape(text)}</th>' for text in heads)
-    body = f"<thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody>"
-    return f'<div class="wide"><table id="{name}">{body}</table></div>'
-
-
-def _choice(name: str, values: Mapping[str, None]) -> str:
-    options = "".join(f"<option>{escape(value)}</option>" for value in values)
-    return f'<label>{name} <select data-key="{name}"><option value="">all</option>{options}</select></label> '
-
-
-def _search() -> str:
-    field = '<input id="search" type="search" placeholder="planner, option">'
-    return f'<label>Search {field}</label> <output id="found"></output>'
 
 
 def _rules() -> str:

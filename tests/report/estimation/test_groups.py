@@ -59,3 +59,13 @@ def test_a_planner_and_its_options_are_one_choice():
     one = {"planner.plugin": "ecbs", "planner.w": 1.2, "scenario.robots": 5}
     assert differing_factors(one, {"planner.plugin": "cbs", "scenario.robots": 5}) == ["planner"]
     assert differing_factors(one, {"planner.plugin": "cbs", "scenario.robots": 9}) == ["planner", "scenario"]
+
+
+def test_runs_that_only_plan_are_no_competitors_of_runs_that_drive(results, record):
+    simulators = ("none", {"plugin": "planar"})
+    both = [
+        record(planner, scenario="1", config={"simulator": simulator})
+        for planner, simulator in zip(("cbs", "astar"), simulators, strict=True)
+    ]
+    runs = read_runs([results(both)])
+    assert [len(setting.groups) for setting in find_settings(runs, group_runs(runs))] == [1, 1]

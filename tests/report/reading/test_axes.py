@@ -31,10 +31,10 @@ def test_differences_between_samples_of_one_configuration_are_not_an_axis():
 
 
 def test_a_missing_stage_is_an_axis_and_its_options_are_not():
-    without = config(CBS, simulator=None, dispatcher=None)
+    without = config(CBS, simulator="none", dispatcher="none")
     driven = config(CBS, simulator={"plugin": "kinematic"}, dispatcher={"plugin": "adg"})
-    assert find_axes([without, driven]) == [{"simulator.plugin": None}, {"simulator.plugin": "kinematic"}]
-    assert name_axes({"simulator.plugin": None}) == "none"
+    assert find_axes([without, driven]) == [{"simulator.plugin": "none"}, {"simulator.plugin": "kinematic"}]
+    assert name_axes({"simulator.plugin": "none"}) == "none"
 
 
 def test_rows_can_be_made_by_some_options_only():
