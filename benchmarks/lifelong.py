@@ -54,7 +54,8 @@ def config(options: argparse.Namespace) -> dict[str, Any]:
         "tasks": {"plugin": "closed_pool", "per_robot": 1, "errands": 1, "service": 0},
         "assigner": options.assigner,
         "planner": {"plugin": "rolling_horizon", "planner": "pibt"},
-        "replanning": {"period": 1},
+        "dispatcher": {"plugin": "adg", "lookahead": options.lookahead},
+        "replanning": {"period": 1, **({"window": options.window} if options.window else {})},
         "simulator": "planar",
         "control_rate": options.control_rate,
         "recording": {"rate": 1},
@@ -69,6 +70,8 @@ def main() -> None:
     parser.add_argument("map", type=Path, help="warehouse-10-20-10-2-1.map")
     parser.add_argument("--robots", type=int, default=1000)
     parser.add_argument("--seconds", type=float, default=600.0, help="simulated")
+    parser.add_argument("--window", type=float, default=10.0, help="simulated seconds; 0: plans lead to the goals")
+    parser.add_argument("--lookahead", type=int, default=2, help="segments released beyond the one under way")
     parser.add_argument("--assigner", default="identity")
     parser.add_argument("--control-rate", type=float, default=10.0)
     parser.add_argument("--profile", type=int, default=0, metavar="N", help="print the N most expensive functions")

@@ -52,9 +52,7 @@ class Occupation(NamedTuple):
 def find_conflicts(problem: Problem, plan: Plan, limit: int | None = None) -> list[Conflict]:
     """The first `limit` conflicts (None = all) of a plan whose paths have no faults, in order of time."""
     occupations = [Occupation(*row) for row in _candidates(problem, _occupations(problem, plan)).tolist()]
-    horizon = FOREVER if problem.horizon is None else problem.horizon
-    pairs = chain(_pairs(problem, occupations), _over_capacity(problem, occupations))
-    found = [conflict for conflict in pairs if conflict.tick <= horizon]
+    found = chain(_pairs(problem, occupations), _over_capacity(problem, occupations))
     return sorted(set(found), key=lambda conflict: (conflict.tick, conflict))[:limit]
 
 

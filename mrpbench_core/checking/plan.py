@@ -94,7 +94,7 @@ def _move_fault(problem: Problem, robot: int, path: Path) -> str | None:
 
 def _goal_fault(problem: Problem, robot: int, vertices: np.ndarray) -> str | None:
     sequence = problem.goals[robot]
-    if not sequence:
+    if not sequence or problem.horizon is not None:
         return None
     if vertices[-1] not in sequence[-1]:
         return f"ends at vertex {vertices[-1]} instead of its goal {' or '.join(map(str, sequence[-1]))}"

@@ -22,7 +22,7 @@ from mrpbench_core.plugins.provenance import origin
 IDLE = "has no effect: "
 BETWEEN_STEPS = (
     *("assigner", "plan_filter", "control_rate", "goal_tolerance", "grant_truth"),
-    *(f"replanning.{name}" for name in ("delay", "period", "latency", "interval", "parking")),
+    *(f"replanning.{name}" for name in ("delay", "period", "window", "latency", "interval", "parking")),
 )
 """Keys that do not change what a discrete simulator does."""
 NO_SIMULATOR = f"{IDLE}there is no simulator"

@@ -133,6 +133,13 @@ class Limits:
     wall: float = option(1800.0, help="wall time of a run", unit="s", validator=validators.gt(0))
 
 
+def _lasts_a_period(replanning: "Replanning", _: "attrs.Attribute[Any]", value: float) -> None:
+    if replanning.period is None:
+        raise ValueError("'window' needs a `period`: at the end of the window robots wait for the next plan")
+    if value < replanning.period:
+        raise ValueError(f"'window' must be at least the `period`, {replanning.period:g} s, got {value:g} s")
+
+
 @attrs.frozen(kw_only=True)
 class Replanning:
     """Settings for calls of the planner during execution."""
@@ -148,6 +155,13 @@ class Replanning:
         help="interval between new plans; none: no new plans by time",
         unit="s",
         validator=validators.optional(validators.gt(0)),
+    )
+    window: float | None = option(
+        None,
+        help="time beyond what is released for which new plans are made; then robots wait for the next plan, so it "
+        "needs a `period` that is not longer; none: new plans lead to the goals",
+        unit="s",
+        validator=validators.optional(_lasts_a_period),
     )
     latency: float = option(
         0.0,

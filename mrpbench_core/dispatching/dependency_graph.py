@@ -65,8 +65,6 @@ class DependencyGraph:
         self.segment: list[int] = moves.segment.tolist()
         self.robot: list[int] = moves.robot.tolist()
         self.first, self.last = moves.first[:-1].tolist(), moves.first[1:].tolist()
-        self.limit = _limit(problem, moves).tolist()
-        self.cut = self.limit != self.last
         self.lengths = [len(path) for path in plan.paths]
         self.rotating = [rotation for first, rotation in self.rotations.items() if not self.unmet[first]]
         """Rotations that are released and not completed."""
@@ -105,7 +103,7 @@ class DependencyGraph:
 
     def _advance(self, robot: int) -> None:
         move = self.frontier[robot]
-        while move < self.limit[robot] and not self.unmet[self.group[move]] and self._may_use(robot, move):
+        while move < self.last[robot] and not self.unmet[self.group[move]] and self._may_use(robot, move):
             move += 1
         self.frontier[robot] = move
         if move == self.last[robot]:
@@ -129,7 +127,7 @@ class DependencyGraph:
 
     def _needs_only_resources(self, robot: int, move: int) -> bool:
         """Tell whether a robot's next move waits for nothing but resources."""
-        return move < self.limit[robot] and not self.unmet[self.group[move]]
+        return move < self.last[robot] and not self.unmet[self.group[move]]
 
     def _may_use(self, robot: int, move: int) -> bool:
         """Tell whether the resources of a move are granted for it, not for the robot's previous occupation of them.
@@ -164,14 +162,6 @@ class DependencyGraph:
         waits = (row for row in rows if group in self.waiting[self.next[row] : self.end[row]])
         return next(waits) % len(self.frontier)
 
-    def replan_reason(self, reached: Int) -> str | None:
-        """Return why a new plan is needed: the robots have `reached` i8[n] the horizon of the plan; None if they have
-        not, or the plan ends before it.
-        """
-        if self.cut and (reached >= self.released).all():
-            return "the robots have reached the horizon of the plan"
-        return None
-
 
 def _dependencies(problem: Problem, moves: Moves, order: Type2Edges, group: Int) -> tuple[Int, Int, Int]:
     """Row, count and waiting group i8[k] of every dependency; the rows are those of REACHED, then those of CLEARED."""
@@ -189,12 +179,3 @@ def _dependencies(problem: Problem, moves: Moves, order: Type2Edges, group: Int)
         np.concatenate([moves.segment[before] + 1, moves.segment[follows - 1] + 1]),
         np.concatenate([group[after], group[follows]]),
     )
-
-
-def _limit(problem: Problem, moves: Moves) -> Int:
-    """The first move i8[n] of each robot that ends after the horizon, or the end of its moves."""
-    if problem.horizon is None:
-        return moves.first[1:]
-    within = np.concatenate([[0], np.cumsum(moves.leave <= problem.horizon)])
-    limit: Int = moves.first[:-1] + within[moves.first[1:]] - within[moves.first[:-1]]
-    return limit

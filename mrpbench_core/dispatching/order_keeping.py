@@ -101,9 +101,7 @@ class OrderKeepingSession(DispatcherSession):
             self._release()
         requests = self.graph.requests.pairs()
         in_step = self.graph.in_step(seen[REACHED])
-        return Orders(
-            released=self.released, requests=requests, in_step=in_step, replan=self.graph.replan_reason(seen[REACHED])
-        )
+        return Orders(released=self.released, requests=requests, in_step=in_step)
 
     def _release(self) -> None:
         ahead = (self.seen[REACHED] + 1 + self.options.lookahead).astype(np.int32)

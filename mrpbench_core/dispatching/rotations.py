@@ -34,7 +34,7 @@ def rotations(problem: Problem, moves: Moves, order: Type2Edges, margin: float) 
         DispatchError: moves wait for one another that do not form a rotation, or whose robots would come closer than
             the sum of their radii and `margin` metres even if they move in step.
     """
-    before, after = _suspects(problem, moves, order)
+    before, after = _suspects(moves, order)
     groups = strong_components(before.tolist(), after.tolist())
     for group in groups:
         robots = moves.robot[list(group)]
@@ -47,7 +47,7 @@ def rotations(problem: Problem, moves: Moves, order: Type2Edges, margin: float) 
     return groups
 
 
-def _suspects(problem: Problem, moves: Moves, order: Type2Edges) -> tuple[Int, Int]:
+def _suspects(moves: Moves, order: Type2Edges) -> tuple[Int, Int]:
     """The arcs, also those along paths, that can be part of a cycle.
 
     A cycle comes back to the time it left, so arcs that do not go forward in the plan's time cover all of it.
@@ -62,8 +62,6 @@ def _suspects(problem: Problem, moves: Moves, order: Type2Edges) -> tuple[Int, I
     low, high = low[opens], high[closes]
     span = np.searchsorted(low, moves.enter, side="right") - 1
     span = np.where((span >= 0) & (moves.enter <= np.append(high, -1)[span]), span, -1)
-    if problem.horizon is not None:
-        span = np.where(moves.leave <= problem.horizon, span, -1)
     kept = (span[before] >= 0) & (span[before] == span[after])
     return before[kept], after[kept]
 

@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -90,9 +91,12 @@ inline std::vector<mapf::Resource> resources_of(const nb::dict& given) {
 }
 
 inline void construct(mapf::Instance* self, const nb::dict& roadmap, const nb::dict& robots, const nb::dict& exclusions,
-                      const nb::dict& resources, bool following_forbidden, bool disappear_at_goal, std::int64_t k) {
-  new (self) mapf::Instance(roadmap_of(roadmap), robots_of(robots), {following_forbidden, disappear_at_goal, tick(k)},
-                            exclusions_of(exclusions), resources_of(resources));
+                      const nb::dict& resources, bool following_forbidden, bool disappear_at_goal, std::int64_t k,
+                      std::optional<std::int64_t> horizon) {
+  new (self)
+      mapf::Instance(roadmap_of(roadmap), robots_of(robots),
+                     {following_forbidden, disappear_at_goal, tick(k), horizon ? tick(*horizon) : mapf::kForever},
+                     exclusions_of(exclusions), resources_of(resources));
 }
 
 }  // namespace mrpbench::bindings

@@ -106,7 +106,7 @@ inline void bind_solvers(nb::module_& module, const std::vector<mapf::Algorithm>
   using namespace nb::literals;
   nb::class_<mapf::Instance>(module, "Instance", "Robots on a roadmap. Raises ValueError for data that make no sense.")
       .def("__init__", &construct, nb::kw_only(), "roadmap"_a, "robots"_a, "exclusions"_a, "resources"_a,
-           "following_forbidden"_a, "disappear_at_goal"_a, "k"_a = 0);
+           "following_forbidden"_a, "disappear_at_goal"_a, "k"_a = 0, "horizon"_a = nb::none());
 
   nb::class_<Answer>(module, "Answer", "How a solver ended. The segments of robot r are [first[r], first[r + 1]).")
       .def_prop_ro("status", &Answer::status, "solved, timeout, out_of_memory, unsolvable or gave_up.")

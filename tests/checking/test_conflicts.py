@@ -124,13 +124,6 @@ def test_a_robot_that_only_passes_a_vertex_is_there_at_that_tick(make, conflicts
     assert Conflict("footprint", (0, 1), (1, 1), 2) in found
 
 
-def test_beyond_the_horizon_conflicts_may_stay(make, conflicts):
-    lane = make.grid(1, 5)
-    meet_at_two = lane, (0, (0, 1, 1), (1, 2, 2)), (4, (4, 3, 1), (3, 2, 2))
-    assert kinds(conflicts(*meet_at_two, horizon=2)) == ["vertex"]
-    assert not conflicts(*meet_at_two, horizon=1)
-
-
 def in_half_ticks(problem, plan, end):
     """The element of each robot in each half tick: (vertex, vertex), (tail, head) of an edge, or None after its end."""
     table = []

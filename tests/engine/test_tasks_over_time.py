@@ -135,11 +135,23 @@ def test_it_changes_nothing_that_driven_segments_are_left_out_of_plans(tmp_path,
     assert lengths[-1] > 40
 
 
-def test_a_finite_stream_ends_the_run(tmp_path):
-    record, channels = run(
-        tmp_path, tasks={"plugin": "closed_pool", "per_robot": 1, "total": 4}, limits={"execution": 400}
-    )
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {},
+        {"replanning": {"period": 2, "window": 20}},
+        {
+            "planner": {"plugin": "rolling_horizon", "planner": "pibt"},
+            "roadmap": "grid",
+            "replanning": {"period": 2, "window": 5},
+        },
+    ],
+)
+def test_a_finite_stream_ends_the_run(tmp_path, changes):
+    finite = {"tasks": {"plugin": "closed_pool", "per_robot": 1, "total": 4}, "limits": {"execution": 400}}
+    record, channels = run(tmp_path, **finite, **changes)
     assert record["status"] == "succeeded"
+    assert not len(channels["contact"])
     assert Counter(channels["task_event"].tolist())["done"] == 4
     assert channels["time"][-1] < 300
 

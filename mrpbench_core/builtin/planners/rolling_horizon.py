@@ -1,8 +1,11 @@
 """A planner for one batch, used again and again while robots drive.
 
 Li, Tinka, Kiesel, Durham, Kumar and Koenig, "Lifelong Multi-Agent Path Finding in Large-Scale Warehouses", AAAI 2021,
-plan again in every period. There robots are at vertices when a plan begins; here they are on their way.
+plan again in every period, and resolve conflicts within a window of time. There robots are at vertices when a plan
+begins; here they are on their way.
 """
+
+from collections.abc import Callable
 
 import attrs
 import numpy as np
@@ -11,7 +14,8 @@ from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Planner, PlannerSession, Promise
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.planning.plan import Budget, Path, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.planning.problem import Feature, Problem
+from mrpbench_core.model.planning.problem import Feature, Problem, ends_of
+from mrpbench_core.model.planning.window import until
 
 
 @attrs.frozen(kw_only=True)
@@ -21,14 +25,17 @@ class RollingHorizon(Planner):
     So planners without commitments serve during execution, and the problem does not grow with what was driven. The new
     part of each path begins when all robots are at such vertices. Under a dispatcher that keeps the order of a plan
     (`adg`, `gses`) no robot waits for this; `timed` keeps the times, and there they do.
+
+    With `replanning.window`, the planner plans until the end of the window, if it can. The plan of any other planner is
+    cut there.
     """
 
     planner: Planner = option(help="the planner of each call")
 
     @property
     def supports(self) -> frozenset[Feature]:  # type: ignore[override]
-        """What the planner supports, and commitments, also such that begin later than others."""
-        return self.planner.supports | {Feature.COMMITMENTS, Feature.SINCE}
+        """What the planner supports, a horizon, and commitments, also such that begin later than others."""
+        return self.planner.supports | {Feature.COMMITMENTS, Feature.SINCE, Feature.HORIZON}
 
     @property
     def promises(self) -> frozenset[Promise]:  # type: ignore[override]
@@ -37,7 +44,7 @@ class RollingHorizon(Planner):
 
     def skip(self, problem: Problem) -> str | None:
         """Return why the planner cannot be given the new part, or None."""
-        return self.planner.skip(from_rest(problem))
+        return self.planner.skip(self._given(problem))
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """Plan the new part."""
@@ -45,20 +52,32 @@ class RollingHorizon(Planner):
 
     def start(self) -> PlannerSession:
         """Begin a session of the planner."""
-        return RollingHorizonSession(self.planner.start())
+        return RollingHorizonSession(self.planner.start(), self._given)
+
+    def _given(self, problem: Problem) -> Problem:
+        """What the planner is given."""
+        rest = from_rest(problem)
+        if Feature.HORIZON in self.planner.supports:
+            return rest
+        return attrs.evolve(rest, horizon=None, features=rest.features - {Feature.HORIZON})
 
 
 class RollingHorizonSession(PlannerSession):
-    """Plans new parts with a session of another planner."""
+    """Plans new parts with a session of another planner, which is `given` another problem."""
 
-    def __init__(self, session: PlannerSession) -> None:
-        self._session = session
+    def __init__(self, session: PlannerSession, given: Callable[[Problem], Problem]) -> None:
+        self._session, self._given = session, given
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """Plan from rest, after what is committed."""
-        result = self._session.plan(from_rest(problem), budget)
+        given = self._given(problem)
+        result = self._session.plan(given, budget)
+        plan = result.plan
+        if plan is not None and problem.horizon is not None and given.horizon is None:
+            plan = until(problem.horizon - _rest(problem), given, plan)
+        if plan is not None:
+            plan = after_commitments(problem, plan)
         status = PlanStatus.GAVE_UP if result.status == PlanStatus.UNSOLVABLE else result.status
-        plan = None if result.plan is None else after_commitments(problem, result.plan)
         return attrs.evolve(result, status=status, plan=plan, lower_bound=float("nan"))
 
 
@@ -67,18 +86,27 @@ def from_rest(problem: Problem) -> Problem:
     start: Int32 = problem.start.copy()
     for robot, path in enumerate(problem.commitments):
         start[robot] = path.end(problem.roadmap, int(start[robot]))
-    rest = attrs.evolve(
-        problem, start=start, ready=np.zeros_like(problem.ready), since=np.zeros(0, np.int64), commitments=()
+    return attrs.evolve(
+        problem,
+        start=start,
+        ready=np.zeros_like(problem.ready),
+        since=np.zeros(0, np.int64),
+        commitments=(),
+        horizon=None if problem.horizon is None else max(0, problem.horizon - _rest(problem)),
+        features=problem.features - {Feature.COMMITMENTS, Feature.SINCE},
     )
-    return attrs.evolve(rest, features=problem.features - {Feature.COMMITMENTS, Feature.SINCE})
+
+
+def _rest(problem: Problem) -> int:
+    """The tick at which all robots have come to rest."""
+    return max(ends_of(problem) + problem.ready.tolist(), default=0) if problem.commitments else 0
 
 
 def after_commitments(problem: Problem, plan: Plan) -> Plan:
     """Return the commitments of a problem, a wait until the last of them ends, and then `plan`."""
     if not problem.commitments:
         return plan
-    ends = [int(path.leave[-1]) if len(path) else problem.begin(i) for i, path in enumerate(problem.commitments)]
-    begin = max([*ends, *problem.ready.tolist()])
+    ends, begin = ends_of(problem), _rest(problem)
     return Plan(
         paths=tuple(
             _joined(path, end, begin, new) for path, end, new in zip(problem.commitments, ends, plan.paths, strict=True)

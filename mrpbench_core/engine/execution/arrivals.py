@@ -36,10 +36,17 @@ class Arrivals:
         """bool[n]: the robot is reported to have arrived, is at its goal, and rests."""
         self.mistaken: Bool = self.claimed
         """bool[n]: the robot is reported to have arrived, and stands elsewhere."""
-        self.adopt(routes, self._recorded)
+        self.adopt(routes, self._recorded, np.ones(len(routes), bool))
 
-    def adopt(self, routes: Sequence[Route], cut: Int32) -> None:
-        """Continue with the routes of a new plan, which leave out the first `cut` i4[n] segments."""
+    def adopt(self, routes: Sequence[Route], cut: Int32, leads: Bool) -> None:
+        """Continue with the routes of a new plan.
+
+        Args:
+            routes: one per robot.
+            cut: i4[n] segments that they leave out.
+            leads: bool[n]: the route ends where its robot arrives.
+        """
+        self._leads = leads
         self._recorded = np.maximum(self._recorded - cut, 0).astype(np.int32)
         self._last: Int = np.array([route.last_move for route in routes], np.int64)
         self._goal: Float = np.array([route.waypoint[-1, :2] for route in routes])
@@ -60,7 +67,7 @@ class Arrivals:
         self.away = np.where(state.level == self._level, np.hypot(offset[:, 0], offset[:, 1]), np.inf)
         near = self.away <= self._tolerance
         self.claimed = finished & (motion.mode == Mode.WAITING)
-        self.arrived = self.claimed & near & resting
+        self.arrived = self.claimed & near & resting & self._leads
         self.mistaken = self.claimed & ~near & (now - self._rests_since >= SETTLING_S)
         early = finished & ~near & (self._last > 0)
         if not np.count_nonzero(early):

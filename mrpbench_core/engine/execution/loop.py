@@ -174,7 +174,7 @@ class ExecutionLoop:
                 self._revision += 1
                 self._driven.cut(new.cut)
                 self._motion = shifted(self._motion, new.cut)
-                self._arrivals.adopt(new.routes, new.cut)
+                self._arrivals.adopt(new.routes, new.cut, new.leads)
                 self._given_routes = own(new.routes)
                 self._navigator.adopt(self._given_routes, new.cut.copy())
                 self._inputs.replanner.use(new.problem, new.plan)

@@ -11,12 +11,13 @@ from mrpbench_core.engine.execution.commitments import commitments
 from mrpbench_core.engine.execution.cutting import driven, without
 from mrpbench_core.engine.execution.destinations import Destinations
 from mrpbench_core.engine.execution.routes import Router
-from mrpbench_core.model.common.arrays import Float, Int, Int32
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Plan, PlanResult
-from mrpbench_core.model.planning.problem import Feature, Problem, features_of
+from mrpbench_core.model.planning.problem import Feature, Problem, ends_of, features_of
 from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.window import leads_to_goals
 
 RETRY_S = 1.0
 """Simulated seconds after which a planner that found no new plan is asked again, unless the settings say more."""
@@ -37,6 +38,8 @@ class Revision:
     routes: tuple[Route, ...] = ()
     fault: str = ""
     """The reason why there is no plan, or why it must not be used."""
+    leads: Bool
+    """bool[n]: the path ends at a goal of its robot, not at the end of the window."""
     cut: Int32
     """i4[n] leading segments of the plan before that are left out."""
     kept: Int32
@@ -131,17 +134,22 @@ class Replanner:
             cut = driven(self.plan, view.reached, view.cleared)
         problem = without(self.problem, prefix, cut)
         features = self.problem.features | {Feature.COMMITMENTS} | ({Feature.SINCE} if problem.since.any() else set())
+        if self._settings.window is not None:
+            horizon = max(ends_of(problem)) + math.ceil(self._settings.window / tick - 1e-9)
+            problem, features = attrs.evolve(problem, horizon=horizon), features | {Feature.HORIZON}
         problem = attrs.evolve(problem, features=features)
-        router = attrs.evolve(self._router, problem=problem)
+        yaw = self._router.final_yaw
         if to is not None:
             problem = attrs.evolve(problem, goals=to.goals)
             problem = attrs.evolve(problem, features=features_of(problem) | (features & {Feature.FOOTPRINTS}))
-            router = attrs.evolve(router, final_yaw=to.yaw)
+            yaw = to.yaw
         asked = problem if roadmap is None else attrs.evolve(problem, roadmap=roadmap)
         result, fault, late = self._ask(asked)
         due += late
         self._last, self._not_before = now, due
         plan = None if fault else result.plan
+        leads = np.ones(len(problem), bool) if plan is None else leads_to_goals(problem, plan)
+        router = attrs.evolve(self._router, problem=problem, final_yaw=np.where(leads, yaw, np.nan))
         routes = () if plan is None else router(plan)
         self.pending = Revision(
             due=due,
@@ -150,6 +158,7 @@ class Replanner:
             plan=plan,
             routes=routes,
             fault=fault or "",
+            leads=leads,
             cut=cut,
             kept=np.zeros_like(cut) if router.plan_filter is not None else view.reached - cut,
             destinations=to,
@@ -193,4 +202,6 @@ def replanning_fault(config: RunConfig) -> str | None:
     wanted |= bool(config.faults) and config.faults.reaction != "wait"
     if config.executes and wanted and Feature.COMMITMENTS not in config.planner.supports:
         return "does not support commitments, which replanning needs; `rolling_horizon` plans with it"
+    if config.executes and replanning.window is not None and Feature.HORIZON not in config.planner.supports:
+        return "does not support a horizon, which `replanning.window` needs; `rolling_horizon` plans with it"
     return None

@@ -87,7 +87,7 @@ def resource_edges(problem: Problem, occupations: list[ResourceOccupation]) -> T
             key=lambda occupation: occupation.begin,
         )
         for index, later in enumerate(own):
-            if later.first < 0 or (problem.horizon is not None and later.begin > 2 * problem.horizon):
+            if later.first < 0:
                 continue
             # If the capacity is 1, the previous robot has waited for those before it.
             for earlier in own[max(0, index - 1) if resource.capacity == 1 else 0 : index]:

@@ -67,7 +67,7 @@ class Problem:
     """Released prefixes, one per robot (possibly empty), with which a new plan must begin; () = none."""
     rules: Rules = Rules()
     horizon: int | None = None
-    """Ticks after which conflicts need not be resolved; None = all."""
+    """Tick from which on paths may end anywhere, where their robots then stay; None = paths lead to the goals."""
     features: frozenset[Feature] = frozenset()
 
     def __len__(self) -> int:
@@ -81,6 +81,11 @@ class Problem:
         """Return the duration i4[E] of each edge for `robot`, in ticks, -1 = forbidden."""
         row: Int32 = self.roadmap.duration[self.profile[robot]]
         return row
+
+
+def ends_of(problem: Problem) -> list[int]:
+    """Return the tick at which the commitments of each robot end; where its path begins if it has none."""
+    return [int(path.leave[-1]) if len(path) else problem.begin(i) for i, path in enumerate(problem.commitments)]
 
 
 def features_of(problem: Problem) -> frozenset[Feature]:

@@ -84,8 +84,6 @@ def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
     arrival = np.concatenate([np.full(len(robots), -1), index])
     departure = np.concatenate([np.where(count > 0, starts, -1), np.where(is_last, -1, index + 1)])
     order = np.lexsort((begin, vertex))
-    if problem.horizon is not None:  # beyond it nothing is released, and robots may overlap
-        order = order[begin[order] <= problem.horizon]
     earlier, later = order[:-1], order[1:]
     pairs = (vertex[earlier] == vertex[later]) & (robot[earlier] != robot[later])
     earlier, later = earlier[pairs], later[pairs]

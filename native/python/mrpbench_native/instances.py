@@ -78,12 +78,14 @@ def build_instance(
     following_forbidden: bool = False,
     disappear_at_goal: bool = False,
     k: int = 0,
+    horizon: int | None = None,
     module: ModuleType = mapf,
 ) -> mapf.Instance:
     """Join the lists of all robots and resources into the arrays that C++ takes.
 
     The instance is one of `module`: `mrpbench_native.mapf`, or a module of solvers that is built against its headers.
-    With `k` the paths are free of conflicts although each robot is up to `k` ticks late (k-robust plans).
+    With `k` the paths are free of conflicts although each robot is up to `k` ticks late (k-robust plans). With a
+    `horizon`, a tick, conflicts that begin later may stay, and paths may end there.
 
     Raises:
         ValueError: the data make no sense; the message names the robot or the array.
@@ -114,7 +116,8 @@ def build_instance(
         },
         following_forbidden=following_forbidden,
         disappear_at_goal=disappear_at_goal,
-        **({"k": k} if k else {}),  # modules built against the headers of earlier versions do not know it
+        **({"k": k} if k else {}),  # modules built against the headers of earlier versions do not know these
+        **({} if horizon is None else {"horizon": horizon}),
     )
     return instance
 

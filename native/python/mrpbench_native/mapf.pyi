@@ -24,6 +24,7 @@ class Instance:
         following_forbidden: bool,
         disappear_at_goal: bool,
         k: int = 0,
+        horizon: int | None = None,
     ) -> None: ...
 
 class Answer:

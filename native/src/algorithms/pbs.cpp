@@ -193,6 +193,8 @@ class Pbs {
       if (found.count > 0) node.conflicts.push_back(found);
     }
     node.capacity_conflicts = find_capacity_conflicts(instance_, node.paths);
+    const Half last = 2 * instance_.rules().horizon;
+    std::erase_if(node.capacity_conflicts, [&](const CapacityConflict& it) { return it.time > last; });
     return true;
   }
 

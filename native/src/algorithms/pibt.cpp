@@ -22,7 +22,8 @@ void solve(const Instance& instance, const PibtOptions& options, Limits& limits,
   std::vector<Configuration> sequence;
   sequence.push_back(arena.copy(*start).data());
   const int last = options.steps > 0 ? options.steps : 2 * space.moves().vertex_count() + 1000;
-  while (!is_goal(goals, sequence.back())) {
+  const auto within = static_cast<std::size_t>(space.steps_within(instance.rules().horizon));
+  while (!is_goal(goals, sequence.back()) && sequence.size() <= within) {
     limits.check_clock();
     if (static_cast<int>(sequence.size()) > last) return;  // it gives up: perhaps it runs in a circle
     std::ranges::fill(next, -1);

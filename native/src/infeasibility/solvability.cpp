@@ -79,8 +79,9 @@ std::optional<int> find_crowded(const Instance& instance) {
   return std::nullopt;
 }
 
-/// Of robots with distinct starts.
+/// Of robots with distinct starts. Within a horizon they need not come to their goals.
 std::optional<int> find_disagreement(const Instance& instance, Limits& limits) {
+  if (instance.rules().horizon != kForever) return std::nullopt;
   if (const auto robot = find_missing_goal(instance, limits)) return robot;
   return find_misplaced_robot(instance, limits);
 }
@@ -96,7 +97,7 @@ std::optional<int> find_cut_off_robot(const Instance& instance, DistanceTables& 
 }
 
 std::optional<int> find_clash(const Instance& instance, const Relations& relations, Limits& limits) {
-  const bool stay = !instance.rules().disappear_at_goal;
+  const bool stay = !instance.rules().disappear_at_goal && instance.rules().horizon == kForever;
   for (int one = 0; one < instance.size(); ++one) {
     for (int other = 0; other < one; ++other) {
       limits.check();

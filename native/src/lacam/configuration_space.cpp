@@ -1,5 +1,6 @@
 #include "lacam/configuration_space.hpp"
 
+#include <set>
 #include <stdexcept>
 #include <string>
 
@@ -63,6 +64,18 @@ std::unique_ptr<ConfigurationGenerator> ConfigurationSpace::generator(DistanceTa
                                                                       bool swap, std::uint64_t seed, Limits& limits) {
   if (joint_) return std::make_unique<TimedStep>(instance_, moves_, *joint_, tables, swap, seed);
   return std::make_unique<ConfigurationStep>(instance_, moves_, tables, guides, swap, seed, limits);
+}
+
+int ConfigurationSpace::steps_within(Tick horizon) const {
+  Tick shortest = horizon + 1;
+  std::set<int> profiles;
+  for (const Robot& robot : instance_.robots()) profiles.insert(robot.profile);
+  for (const int profile : profiles) {
+    for (const Tick ticks : instance_.roadmap().duration(profile)) {
+      if (ticks > 0) shortest = std::min(shortest, ticks);
+    }
+  }
+  return horizon / shortest + (horizon % shortest != 0);
 }
 
 std::vector<Path> ConfigurationSpace::paths_of(const std::vector<Configuration>& sequence) {

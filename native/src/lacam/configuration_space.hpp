@@ -27,6 +27,8 @@ class ConfigurationSpace {
   std::optional<std::vector<std::int32_t>> start();
   std::unique_ptr<ConfigurationGenerator> generator(DistanceTables& tables, const GuidePaths* guides, bool swap,
                                                     std::uint64_t seed, Limits& limits);
+  /// Steps after which no robot moves before `horizon`.
+  int steps_within(Tick horizon) const;
   std::vector<Path> paths_of(const std::vector<Configuration>& sequence);
   /// Set `result` to unsolvable if that is soon proved; else set the lower bound.
   bool prove_unsolvable(DistanceTables& tables, Limits& limits, Result& result) const;

@@ -11,6 +11,13 @@ Reservations::Reservations(const Instance& instance, const Relations& relations,
 }
 
 void Reservations::add(int robot, std::span<const Occupation> occupations) {
+  if (instance_.rules().horizon == kForever) return add_whole(robot, occupations);
+  within_.assign(occupations.begin(), occupations.end());
+  limit(instance_, within_);
+  add_whole(robot, within_);
+}
+
+void Reservations::add_whole(int robot, std::span<const Occupation> occupations) {
   std::int32_t step = 0;
   for (const Occupation& occupation : occupations) {
     std::int32_t& head = head_[occupation.element];

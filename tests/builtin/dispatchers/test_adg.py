@@ -260,18 +260,6 @@ def test_robots_that_disappear_make_room_when_their_path_ends(make):
     assert session.update(0.0, make.view([1, 0], [1, 0])).released.tolist() == [1, 2]
 
 
-def test_only_what_the_horizon_covers_is_released_and_then_a_plan_is_asked_for(make):
-    routes = [[0, 1, 2, 3], [4, 4, 4, 3]]  # they meet at tick 3
-    problem, plan = make.solved(make.grid(1, 5), routes, horizon=2)
-    session = Adg().start(problem, plan)
-    orders = session.update(0.0, make.view([1, 0]))
-    assert orders.released.tolist() == [2, 0]
-    assert orders.replan is None
-    assert session.update(0.0, make.view([2, 0])).replan == "the robots have reached the horizon of the plan"
-    plan_without = make.solved(make.grid(1, 5), [[0, 1, 2, 3]])
-    assert Adg().start(*plan_without).update(0.0, make.view([3])).replan is None
-
-
 def test_no_more_is_released_than_the_lookahead(make):
     problem, plan = make.solved(make.grid(1, 6), [[0, 1, 2, 3, 4, 5]])
     session = Adg(lookahead=2).start(problem, plan)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "mrpbench_mapf/model/relations.hpp"
 
@@ -13,6 +14,9 @@ namespace mrpbench::mapf {
 inline bool overtakes(const Occupation& one, const Occupation& other) {
   return (one.begin < other.begin) != (one.end < other.end) || one.begin == other.begin || one.end == other.end;
 }
+
+/// Leave out what begins after the horizon. A stay ends with it, so that it is in nobody's way later.
+void limit(const Instance& instance, std::vector<Occupation>& path);
 
 /// Two robots in one another's way. `count` conflicts in all, described is the earliest.
 struct PairConflict {

@@ -30,6 +30,9 @@ struct Rules {
   /// No conflict although each robot may be up to `k` ticks late anywhere: k-robust plans of Atzmon et al., "Robust
   /// Multi-Agent Path Finding and Executing", JAIR 2020.
   Tick k = 0;
+  /// Conflicts that begin later need not be resolved, and paths need not lead to goals beyond: the window of Li et al.,
+  /// "Lifelong Multi-Agent Path Finding in Large-Scale Warehouses", AAAI 2021.
+  Tick horizon = kForever;
 };
 
 /// Pairs of elements closer than some distance, as sparse rows (`mrpbench_core.model.planning.conflicts.Exclusions`).

@@ -15,6 +15,7 @@ class Reservations {
  public:
   Reservations(const Instance& instance, const Relations& relations, Limits& limits);
 
+  /// Reserve what the horizon of the instance leaves of it.
   void add(int robot, std::span<const Occupation> occupations);
   void clear();
   bool empty() const { return entries_.empty(); }
@@ -58,9 +59,12 @@ class Reservations {
     std::int32_t next;
   };
 
+  void add_whole(int robot, std::span<const Occupation> occupations);
+
   const Instance& instance_;
   const Relations& relations_;
   Limits& limits_;
+  std::vector<Occupation> within_;
   std::vector<std::int32_t> head_;  // by element, -1 = none
   std::vector<Entry> entries_;
   std::vector<std::int32_t> touched_;

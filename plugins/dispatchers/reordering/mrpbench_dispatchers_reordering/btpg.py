@@ -50,7 +50,7 @@ class BtpgSession(SwitchingSession):
             DispatchError: as `OrderKeepingSession.adopt`.
         """
         super().adopt(problem, plan, cut)
-        limit = self.options.group_limit if problem.horizon is None else 0
+        limit = self.options.group_limit
         self.group = open_groups(self.graph, self.visits, self.pairs, self.resources, limit)
 
     def update(self, now: float, view: FleetView) -> Orders:
@@ -65,7 +65,7 @@ class BtpgSession(SwitchingSession):
         return [
             robot
             for robot, move in enumerate(graph.frontier)
-            if move < graph.limit[robot]
+            if move < graph.last[robot]
             and graph.unmet[graph.group[move]]
             and (move == graph.first[robot] or graph.segment[move - 1] < reached[robot])
         ]

@@ -96,7 +96,7 @@ class GsesSession(SwitchingSession):
         return orders
 
     def _is_due(self, now: float) -> bool:
-        if self.problem.horizon is not None or now - self.searched < self.options.period - 1e-9:
+        if now - self.searched < self.options.period - 1e-9:
             return False
         changes = np.abs(self.progress.lateness - self.lateness)
         return bool((changes >= self.options.lateness).any())

@@ -46,7 +46,7 @@ class Pairs(NamedTuple):
 
 
 def visits_of(problem: Problem, moves: Moves) -> Visits:
-    """All visits that a plan completes until its horizon."""
+    """All visits of a plan."""
     robots, count, index = np.arange(len(problem)), np.diff(moves.first), np.arange(len(moves.robot))
     is_last = np.append(moves.robot[1:] != moves.robot[:-1], True)[: len(index)]
     robot = np.concatenate([robots, moves.robot])
@@ -71,8 +71,6 @@ def visits_of(problem: Problem, moves: Moves) -> Visits:
         on = np.ones(len(index), bool)
         ways = Visits(moves.robot, len(problem.roadmap.position) + moves.edge, index, index, ~on, on, moves.leave)
         there = Visits(*(np.concatenate(columns) for columns in zip(there, ways, strict=True)))
-    if problem.horizon is not None:
-        there = _chosen(there, there.arrival <= problem.horizon)
     return there
 
 

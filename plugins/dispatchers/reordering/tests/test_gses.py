@@ -114,12 +114,3 @@ def test_a_resource_is_used_in_the_order_of_the_plan(dispatcher):
     assert executor.fault is None
     assert manager.fault is None
     assert not executor.reordered
-
-
-@pytest.mark.parametrize("dispatcher", [Btpg, Gses])
-def test_a_plan_with_a_horizon_keeps_its_order(dispatcher):
-    problem, plan = crossing()
-    session = dispatcher(lookahead=1).start(attrs.evolve(problem, horizon=100), plan)
-    executor = FirstIsLate(problem, plan)
-    drain(session, executor)
-    assert not executor.reordered

@@ -20,6 +20,7 @@ from mrpbench_native.instances import (
 from mrpbench_core.model.planning.conflicts import exclusions
 from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
+from mrpbench_core.model.planning.window import until
 
 
 def solve(
@@ -37,10 +38,13 @@ def solve(
         memory_bytes=budget.memory_bytes,
     )
     status = PlanStatus(answer.status)
+    plan = _plan(answer) if status is PlanStatus.SOLVED else None
+    if plan is not None and problem.horizon is not None:
+        plan = until(problem.horizon, problem, plan)
     return PlanResult(
         status=status,
-        plan=_plan(answer) if status is PlanStatus.SOLVED else None,
-        lower_bound=answer.lower_bound,
+        plan=plan,
+        lower_bound=answer.lower_bound if problem.horizon is None else float("nan"),  # on the costs of whole paths
         clock_bound=answer.clock_bound,
         statistics={name: value for name, value in answer.statistics.items() if name != "failed_robot" or value >= 0},
         history=tuple(
@@ -77,6 +81,7 @@ def _instance(problem: Problem, module: ModuleType) -> mapf.Instance:
         following_forbidden=problem.rules.following == "forbidden",
         disappear_at_goal=problem.rules.at_goal == "disappear",
         k=problem.rules.k,
+        horizon=problem.horizon,
         module=module,
     )
 

@@ -3,6 +3,7 @@
 from typing import ClassVar
 
 from mrpbench_core.api.planner import Promise
+from mrpbench_core.model.planning.problem import Feature
 from mrpbench_planners_mapf.configurations import ConfigurationPlanner
 from mrpbench_planners_mapf.recipe import native_planner
 
@@ -16,4 +17,5 @@ class Pibt(ConfigurationPlanner):
     moves do. Elsewhere it is one move of each robot, and each move starts as soon as those before it allow.
     """
 
+    supports: ClassVar[frozenset[Feature]] = ConfigurationPlanner.supports | {Feature.HORIZON}
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})

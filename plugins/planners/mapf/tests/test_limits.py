@@ -144,8 +144,8 @@ def test_a_robot_at_its_goal_needs_no_path(planner):
 
 @pytest.mark.parametrize("planner", PLANNERS)
 def test_what_is_not_supported_is_named(planner):
-    asked = problem_on(grid_of([".."]), [0], [1], horizon=5)
-    assert planner.skip(asked) == "does not support horizon"
+    asked = problem_on(grid_of([".."]), [0], [1], since=[1])
+    assert planner.skip(asked) == "does not support since"
     assert planner.skip(problem_on(grid_of([".."]), [0], [1], radius=0.1, following="forbidden")) is None
 
 
