@@ -180,5 +180,6 @@ def _context(
         routes=routes,
         goal=tuple((float(x), float(y), float(yaw)) for x, y, yaw in (route.waypoint[-1] for route in routes)),
         period=1 / inputs.config.control_rate,
+        latency=inputs.config.replanning.latency,
         assigned=assigned,
     )

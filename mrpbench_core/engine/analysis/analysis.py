@@ -77,7 +77,14 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
     known = {name: rows for name, rows in found.channels.items() if not (found.gaps and name == "truth")}
     channels = {name: _loader(rows) for name, rows in known.items()}
     context = with_latest_routes(first, channels)
-    run = FinishedRun(context=context, executed=True, channels=channels, alike=found.alike, ended=not found.open_ends)
+    run = FinishedRun(
+        context=context,
+        executed=True,
+        channels=channels,
+        alike=found.alike,
+        first_routes=first.routes,
+        ended=not found.open_ends,
+    )
     values, reasons = measure(analysis.metrics, run)
     for lacking, why in (("no truth", found.gaps), ("no end", found.open_ends)):
         if why:

@@ -80,7 +80,13 @@ def measure_recording(metrics: Mapping[str, Metric], file: Path) -> tuple[dict[s
     """Measure a stored recording; returns the same as `measure`."""
     recording = Recording(file)
     try:
-        return measure(metrics, FinishedRun(context=recording.context(), executed=True, channels=recording.channels))
+        run = FinishedRun(
+            context=recording.context(),
+            executed=True,
+            channels=recording.channels,
+            first_routes=recording.first_context().routes,
+        )
+        return measure(metrics, run)
     finally:
         recording.close()
 

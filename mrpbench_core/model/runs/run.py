@@ -35,6 +35,8 @@ class RunContext:
     """Final goal x, y (metres), yaw (NaN = any) of each robot: where its path ends."""
     period: float = 0.05
     """control period, simulated seconds."""
+    latency: float = 0.0
+    """simulated seconds from the request for a new plan until it is in force."""
     assigned: tuple[int, ...] = ()
     """Task of each robot, -1 = none."""
     movers: tuple[Mover, ...] = ()
@@ -62,6 +64,8 @@ class FinishedRun:
     alike: tuple[frozenset[str], ...] = ()
     """Channels that one source gave, so that comparing them would say nothing; only where others recorded the run."""
 
+    first_routes: tuple[Route, ...] | None = None
+    """The routes of the first plan; None = those of the context, because no plan came after it."""
     ended: bool = True
     """False where others recorded the run and the recording does not show how it ended."""
 
@@ -73,6 +77,10 @@ class FinishedRun:
     def planned(self) -> bool:
         """See `RunContext.planned`."""
         return self.context.planned
+
+    def first_context(self) -> RunContext:
+        """The context as it was before the execution."""
+        return self.context if self.first_routes is None else attrs.evolve(self.context, routes=self.first_routes)
 
     def has(self, name: str) -> bool:
         """Tell whether the recording holds a channel; for `plan`, `path` and `end`, whether these are known."""

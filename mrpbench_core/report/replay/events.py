@@ -1,11 +1,14 @@
 """Reads events, contacts and arrivals of a recording."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.runs.plans import RecordedPlan
 from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.model.runs.switches import switches
 from mrpbench_core.report.replay.facility_events import read_facility_events
 from mrpbench_core.store.recording import Recording
 
@@ -13,8 +16,8 @@ PAUSE = 0.5
 """Seconds without touching after which another contact of the same two robots begins."""
 
 
-def read_events(recording: Recording, context: RunContext) -> list[list[Any]]:
-    """Return events, motions of doors and lifts, and arrivals as [seconds, kind, robot, detail], by time."""
+def read_events(recording: Recording, context: RunContext, plans: Sequence[RecordedPlan]) -> list[list[Any]]:
+    """Return events, motions of doors and lifts, switches and arrivals as [seconds, kind, robot, detail], by time."""
     found: list[list[Any]] = []
     names = ("event_time", "event_kind", "event_robot", "event_detail")
     if set(names) <= recording.channels.keys():
@@ -24,7 +27,19 @@ def read_events(recording: Recording, context: RunContext) -> list[list[Any]]:
     found += read_facility_events(recording, context.world)
     if "reached" in recording.channels:
         found += _arrivals(recording.channel("time"), recording.channel("reached"), context)
+        found += _switches(recording, context, plans)
     return sorted(found, key=lambda event: (event[0], event[2]))
+
+
+def _switches(recording: Recording, context: RunContext, plans: Sequence[RecordedPlan]) -> list[list[Any]]:
+    time, reached, names = recording.channel("time"), recording.channel("reached"), context.fleet.names
+    if any(len(plan.routes) != reached.shape[1] for plan in plans):
+        return []
+    found = switches(context.problem, plans, time, reached)
+    return [
+        [round(when, 3), "switch", robot, f"passed {names[other]}, which is first in the plan"]
+        for when, robot, other in found
+    ]
 
 
 def _arrivals(times: Float, reached: Int, context: RunContext) -> list[list[Any]]:

@@ -9,6 +9,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from mrpbench_core.model.runs.plans import read_plans
 from mrpbench_core.report.reading.columns import Columns
 from mrpbench_core.report.replay.doors import pack_facilities
 from mrpbench_core.report.replay.events import read_contacts, read_events
@@ -16,7 +17,6 @@ from mrpbench_core.report.replay.facts import facts_of
 from mrpbench_core.report.replay.motion import pack_motion
 from mrpbench_core.report.replay.movers import pack_movers
 from mrpbench_core.report.replay.packing import Packing
-from mrpbench_core.report.replay.plans import read_plans
 from mrpbench_core.report.replay.scans import pack_scans
 from mrpbench_core.report.replay.scene import pack_resources, pack_robots, pack_world
 from mrpbench_core.report.replay.schedule import pack_schedule
@@ -50,9 +50,9 @@ def write_page(
     context = recording.context()
     motion, scans = Packing(), Packing()
     pack_motion(recording, motion)
-    plans = read_plans(recording)
+    plans = read_plans(recording.first_context(), recording.channels)
     pack_schedule(plans, context.problem.roadmap.tick, motion)
-    pack_waits(recording, plans, record.get("config") or {}, motion)
+    pack_waits(recording, plans, motion)
     thinned = pack_scans(recording, scans)
     data = {
         "facts": facts_of(record, columns or {}, planner),
@@ -60,7 +60,7 @@ def write_page(
         | pack_facilities(recording, context.world, motion)
         | {"resources": pack_resources(context.problem.roadmap)},
         "robots": pack_robots(context, motion, plans),
-        "events": read_events(recording, context),
+        "events": read_events(recording, context, plans),
         "contacts": read_contacts(recording),
         "movers": pack_movers(recording, motion),
         "scans": thinned,

@@ -8,11 +8,11 @@ import numpy as np
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.planning.roadmap import Resource, Roadmap
+from mrpbench_core.model.runs.plans import RecordedPlan
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.worlds.solids import wall_boxes
 from mrpbench_core.model.worlds.world import Level, World
 from mrpbench_core.report.replay.packing import Packing
-from mrpbench_core.report.replay.plans import RecordedPlan
 
 
 def pack_world(world: World, packing: Packing) -> dict[str, Any]:

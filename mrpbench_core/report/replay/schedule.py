@@ -5,8 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.runs.plans import RecordedPlan
 from mrpbench_core.report.replay.packing import Packing
-from mrpbench_core.report.replay.plans import RecordedPlan
 
 QUANTUM = 0.01
 """Resolution in seconds."""

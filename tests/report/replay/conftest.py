@@ -48,25 +48,6 @@ def chunk():
 
 
 @pytest.fixture
-def new_plan():
-    """Return a function that gives the rows of a new plan that takes effect at `time`, with the paths of the first."""
-
-    def rows(time):
-        return {
-            "route_time": np.full(5, float(time)),
-            "route_revision": np.ones(5, "i4"),
-            "route_robot": np.array([0, 0, 0, 1, 1], "i4"),
-            "route_waypoint": np.array([[0.5, 0.5, 0], [0.5, 0.5, 0], [1.5, 0.5, 0], [1.5, 0.5, 0], [2.5, 0.5, 0]]),
-            "route_level": np.zeros(5, "i2"),
-            "route_speed": np.ones(5),
-            "route_edge": np.array([-1, -1, 0, -1, 2], "i4"),
-            "route_leave": np.array([0, 1, 2, 0, 1]),
-        }
-
-    return rows
-
-
-@pytest.fixture
 def record():
     return {
         "run_id": "0123456789abcdef",

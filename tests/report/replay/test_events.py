@@ -14,16 +14,16 @@ def test_the_same_pair_may_touch_twice(store):
 
 
 def test_arrivals_are_events_too(store, chunk, run_context):
-    events = read_events(store(chunk), run_context)
+    events = read_events(store(chunk), run_context, [])
     assert events == [[1.5, "spin", 0, "</script><b>"], [2.0, "arrived", 1, ""], [4.0, "arrived", 0, ""]]
 
 
 def test_recordings_without_events_and_contacts_have_none(store, chunk, run_context):
     recording = store({"time": chunk["time"], "truth": chunk["truth"]})
-    assert read_events(recording, run_context) == []
+    assert read_events(recording, run_context, []) == []
     assert read_contacts(recording) == []
 
 
 def test_contacts_are_not_listed_twice(store, chunk, run_context):
     events = {"event_kind": np.array(["contact"])}
-    assert [kind for _, kind, *_ in read_events(store(chunk | events), run_context)] == ["arrived", "arrived"]
+    assert [kind for _, kind, *_ in read_events(store(chunk | events), run_context, [])] == ["arrived", "arrived"]

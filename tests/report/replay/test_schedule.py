@@ -2,8 +2,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.runs.plans import RecordedPlan, read_plans
 from mrpbench_core.report.replay.packing import Packing
-from mrpbench_core.report.replay.plans import RecordedPlan, read_plans
 from mrpbench_core.report.replay.schedule import pack_schedule
 
 
@@ -25,7 +25,8 @@ def test_segments_of_one_kind_become_one(run_context, unpack):
 def test_every_plan_has_its_times(store, chunk, unpack, new_plan):
     new = new_plan(1)
     new["route_leave"] = np.array([0, 2, 4, 0, 1])
-    found = packed(unpack, read_plans(store(chunk | new)), 1.0)
+    recording = store(chunk | new)
+    found = packed(unpack, read_plans(recording.first_context(), recording.channels), 1.0)
     assert found["plan_first"].tolist() == [0, 2, 3, 5, 6]
     assert found["plan_end"].tolist() == [1, 2, 1, 2, 4, 1]
 

@@ -8,6 +8,7 @@ export const MARKS = [
   { name: "other", row: 2, kinds: [""], text: "other event" },
   { name: "recovery", row: 2, kinds: ["recovery", "recovery_failed"], text: "recovery, failed" },
   { name: "plan", row: 2, kinds: ["replan", "replan_failed"], text: "new plan, none found" },
+  { name: "switch", row: 2, kinds: ["switch"], text: "switched order" },
   { name: "fault", row: 2, kinds: ["fault", "fault_over"], text: "fault, its end" },
   { name: "contact", row: 2, kinds: ["contact"], text: "contact" },
 ];
@@ -17,6 +18,7 @@ const POLYGONS = {
   lift: [[0, 2], [4, 9.5], [-4, 9.5]],
   recovery: [[0, 1], [4, 6], [0, 11], [-4, 6]],
   fault: [[-4, 2], [4, 2], [0, 10]],
+  switch: [[-4, 2], [4, 10], [4, 2], [-4, 10]],
   plan: [[-3, 1], [4, 6], [-3, 11]],
 };
 

@@ -3,7 +3,7 @@
 import { ABORTED } from "replay/run.js";
 
 /** `Reason` of `waits.py`. */
-export const REASONS = ["", "robot", "resource", "rotation", "replan", "recovery", "schedule", "start", "unknown", "blocked", "fault"];
+export const REASONS = ["", "robot", "resource", "rotation", "replan", "recovery", "schedule", "start", "unknown", "blocked", "fault", "delay"];
 const CROWD = 100; // robots above which lines are thin and without arrow heads, which would make pages slow
 const HEAD = 9; // pixels of an arrow head
 const WORDS = {
@@ -11,6 +11,7 @@ const WORDS = {
   schedule: "waits for its time in the plan",
   start: "starts late",
   unknown: "waits, reason not recorded",
+  delay: "is stopped by a delay",
 };
 
 export class Why {

@@ -1,4 +1,4 @@
-"""Waiting times for doors, lifts and mutexes, and movements of doors and lifts."""
+"""Waiting times by cause, and movements of doors and lifts."""
 
 import math
 from collections.abc import Mapping
@@ -9,19 +9,43 @@ import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
 from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.runs.plans import read_plans
 from mrpbench_core.model.runs.run import FinishedRun
+from mrpbench_core.model.runs.waits import NEEDED, Reason, explain_waits
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_metrics_standard.motion import steps
+from mrpbench_metrics_standard.progress import arrival_times, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 DOING = frozenset({"facility"})
+EXPLAINED = NEEDED | {"path"}
+CAUSES: Mapping[str, tuple[str, tuple[Reason, ...]]] = {
+    "robots_s": ("another robot passes first or is missing for a rotation", (Reason.ROBOT, Reason.ROTATION)),
+    "resources_s": ("a door, lift or mutex is not granted", (Reason.RESOURCE,)),
+    "schedule_s": ("the dispatcher releases by the plan's times", (Reason.SCHEDULE,)),
+    "replanning_s": ("a new plan is being computed", (Reason.REPLAN,)),
+    "starts_s": ("the robot does not follow its released segments yet", (Reason.START,)),
+    "blocked_s": ("it stands although its way is released", (Reason.BLOCKED,)),
+    "recoveries_s": ("the navigator runs a recovery", (Reason.RECOVERY,)),
+    "delays_s": ("it is stopped by `delays` although its way is released", (Reason.DELAY,)),
+    "faults_s": ("it is out of order (`faults`)", (Reason.FAULT,)),
+    "unknown_s": (
+        "the dispatcher has not released the next segment, and the recording does not show why",
+        (Reason.UNKNOWN,),
+    ),
+}
+"""Columns of the time lost: the causes that replays show (`mrpbench_core.model.runs.waits`)."""
 
 
 @attrs.frozen(kw_only=True)
 class Waiting(Metric):
-    """Measures waiting: a robot waits if it stands between two samples and has requested a resource without getting it.
+    """Measures waiting for resources, and the time that robots lose before they complete their path, by cause.
 
-    A robot that requests a resource while it still drives does not wait, and neither does a robot that rides in a lift.
+    A robot waits for a resource if it stands between two samples and has requested the resource without getting it. A
+    robot that requests a resource while it still drives does not wait, and neither does a robot that rides in a lift.
+
+    Causes are those that the replay of a run shows for the sample before. A robot has one cause at a time, so that
+    their sum is the time lost. A robot that waits for another one that is late itself waits for that robot.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
@@ -42,6 +66,10 @@ class Waiting(Metric):
             "lower",
             "number of times that a closed door, also of a lift, begins to open",
             requires=DOING,
+        ),
+        *(
+            Column(name, "s", "lower", f"sum over robots of the time lost because {cause}", requires=EXPLAINED)
+            for name, (cause, _) in CAUSES.items()
         ),
     )
     requires: ClassVar[frozenset[str]] = frozenset({"time", "truth", "level", "waits_for"})
@@ -67,11 +95,26 @@ class Waiting(Metric):
         values["longest_s"] = max((math.fsum(own) for own in waited.T), default=0.0)
         values["rides"] = int((np.diff(run.channel("level"), axis=0) != 0).sum())
         values["riding_s"] = math.fsum(np.where(riding, spent, 0.0).ravel())
+        values |= _by_cause(run, spent)
         values["openings"] = None
         if run.has("facility"):
             doors = len(Facilities(run.context.world).doors)
             values["openings"] = _openings(run.channel("facility")[:, :doors])
         return values
+
+
+def _by_cause(run: FinishedRun, spent: Float) -> dict[str, Value]:
+    """The time lost by cause; `spent` f8[T-1,1] seconds between samples."""
+    if not all(run.has(channel) for channel in EXPLAINED):
+        return dict.fromkeys(CAUSES)
+    first = run.first_context()
+    waits = explain_waits(first, run.channels, read_plans(first, run.channels))
+    if waits is None:
+        return dict.fromkeys(CAUSES)
+    arrival = arrival_times(run.channel("time"), run.channel("reached"), run.context.routes)
+    lost = np.where(under_way(run.channel("time"), arrival)[:-1], spent, 0.0)
+    reason = waits.reason[:-1]
+    return {name: math.fsum(lost[np.isin(reason, reasons)]) for name, (_, reasons) in CAUSES.items()}
 
 
 def _riding(run: FinishedRun) -> Bool:

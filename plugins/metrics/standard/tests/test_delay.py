@@ -44,11 +44,15 @@ def test_delay_is_the_arrival_after_the_planned_one(late):
     assert values["mean_s"] == pytest.approx(2 / 3)
     assert values["p95_s"] == pytest.approx(0.5 + 0.9 * 1.0)
     assert values["max_s"] == 1.5
+    assert values["time_ratio"] == pytest.approx((4 + 2) / (2.5 + 1.5))
+    assert values["makespan_s"] == 1.5
+    assert values["switches"] == 0
 
 
 def test_a_robot_that_never_arrives_has_no_delay(late):
     values = Delay().measure(unfinished(late))
     assert (values["robots"], values["mean_s"], values["max_s"]) == (2, 0.25, 0.5)
+    assert (values["time_ratio"], values["makespan_s"]) == (pytest.approx(2 / 1.5), None)
 
 
 def test_fairness_of_delays(late):

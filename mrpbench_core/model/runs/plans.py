@@ -1,14 +1,14 @@
-"""Reads the plans of a recording, which the page shows one after another."""
+"""The plans of an execution, one after another."""
 
 import attrs
 
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.runs.routes import RouteHistory
-from mrpbench_core.store.recording import Recording
+from mrpbench_core.model.runs.run import Loaders, RunContext
 
 MOST_WAYPOINTS = 1_000_000
-"""Number of waypoints above which only the last plan is shown."""
+"""Number of waypoints of all plans above which only the last plan is read."""
 
 
 @attrs.frozen(kw_only=True)
@@ -22,12 +22,16 @@ class RecordedPlan:
     """None where nothing is known but the routes."""
 
 
-def read_plans(recording: Recording) -> list[RecordedPlan]:
-    """Return the plans that a page can hold, in their order, the first of them in force from second 0.
+def read_plans(context: RunContext, channels: Loaders) -> list[RecordedPlan]:
+    """Return the plans of an execution in their order, the first of them in force from second 0.
 
     They are all, or the last one, which begins with all that was driven before.
+
+    Args:
+        context: as it was before the execution.
+        channels: those of its recording.
     """
-    history = RouteHistory(recording.first_context(), recording.channels)
+    history = RouteHistory(context, channels)
     if history.count() > MOST_WAYPOINTS:
         routes, plan = history.latest()
         return [RecordedPlan(time=0.0, routes=routes, plan=plan)]
