@@ -84,8 +84,6 @@ def _faults(context: RunContext) -> Iterator[str]:
         yield from _indices("assigned", context.assigned, len(context.scenario.tasks), least=-1)
     if not context.period > 0:
         yield "period is not positive"
-    if not context.latency >= 0:
-        yield "latency is negative"
 
 
 def _numbers(value: Any, name: str) -> Iterator[str]:

@@ -32,7 +32,6 @@ LIFT = Lift(name="l", x=0, y=0, yaw=0, width=1, depth=1, levels=(0,), initial_le
     ("steps", "value", "fault"),
     [
         ("period", 0.0, "period is not positive"),
-        ("latency", -1.0, "latency is negative"),
         ("period", float("nan"), "period is nan"),
         ("goal", ((0.0, 0.0, 0.0),), "goal has the shape (1,) instead of 2 entries"),
         ("assigned", (0, 9), "assigned does not exist"),
