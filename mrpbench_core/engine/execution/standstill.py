@@ -74,11 +74,12 @@ class Ending:
         if fault := self.faults.of_robot(robot):
             for_good = " for good" if math.isinf(fault.end) else ""
             what = "stopped" if fault.kind == "stop" else "became silent"
-            return f"{what}{for_good} at {fault.begin:.1f} s"
+            text = f"{what}{for_good} at {fault.begin:.1f} s"
+            return f"{text} and {self._failure(robot)}" if robot in self.gave_up and not for_good else text
         if robot in self.given_up:
             return "stopped, and its task was given up"
         if robot in self.gave_up:
-            return f"gave up: {self.gave_up[robot]}".removesuffix(": ")
+            return self._failure(robot)
         if robot in self.cut_off:
             obstacles = [
                 f"{self.names[event.robot]} " * (event.robot >= 0) + event.what for event in self.faults.obstacles
@@ -96,6 +97,9 @@ class Ending:
             if approaches(here, tail, ends[1:], reach)[0]:
                 return f"stands before {blockage.what.removeprefix('the ')}"
         return ""
+
+    def _failure(self, robot: int) -> str:
+        return f"gave up: {self.gave_up[robot]}".removesuffix(": ")
 
     def _chain(self, robot: int, waits: Mapping[int, list[int]], own: Mapping[int, str]) -> str:
         """The robot for which one waits, and the one at the end of the chain; a breadth-first search."""

@@ -272,3 +272,9 @@ def test_robots_stand_before_a_blocked_place_until_it_is_free(tmp_path):
     time, x = recording.channel("time"), recording.channel("truth")[:, 0, 0]
     assert (x[time < 60] > 2.95).all()
     assert x[-1] < 1
+
+
+def test_a_robot_that_gives_up_while_it_is_stopped_says_both(tmp_path):
+    stop = {"events": [{"kind": "stop", "robot": 0, "at": 2, "lasts": 300}]}
+    record, _ = aisle(tmp_path, faults=stop, navigator={"max_recoveries": 0}, limits={"execution": 20})
+    assert record.unarrived["robot_0"] == "stopped at 2.0 s and gave up: no_progress"
