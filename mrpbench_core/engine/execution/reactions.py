@@ -100,13 +100,14 @@ class Reactions:
     def destinations(self, problem: Problem, plan: Plan, released: Int32) -> Destinations | None:
         """Return goals for the robots of one batch in a `restricted` problem; None where nobody is told of faults.
 
-        A robot that stands, is silent, or whose task is given up stays where it comes to rest. So does one that cannot
-        reach its goal, but it may make room if the planner takes sets of goals.
+        A robot that stands or is silent away from its goal, or whose task is given up, stays where it comes to rest. So
+        does one that cannot reach its goal, but it may make room if the planner takes sets of goals.
         """
         if not self._replans:
             return None
         head = heads(problem, plan, released)
-        stays = self.held | self.given_up
+        at_goal = [all(here in goal for goal in goals) for here, goals in zip(head.tolist(), self._goals, strict=True)]
+        stays = (self.held & ~np.array(at_goal)) | self.given_up
         cut_off = np.zeros(len(problem), bool)
         goals: list[tuple[GoalSet, ...]] = []
         for robot, sequence in enumerate(self._goals):

@@ -278,3 +278,11 @@ def test_a_robot_that_gives_up_while_it_is_stopped_says_both(tmp_path):
     stop = {"events": [{"kind": "stop", "robot": 0, "at": 2, "lasts": 300}]}
     record, _ = aisle(tmp_path, faults=stop, navigator={"max_recoveries": 0}, limits={"execution": 20})
     assert record.unarrived["robot_0"] == "stopped at 2.0 s and gave up: no_progress"
+
+
+def test_a_robot_that_stops_at_its_goal_has_arrived(tmp_path):
+    stop = {"events": [{"kind": "stop", "robot": 3, "at": 20, "lasts": 300}]}
+    record, recording = aisle(tmp_path, faults=stop, reaction="replan")
+    assert record.status == "succeeded", record.unarrived
+    assert "replan" in recording.channel("event_kind")
+    assert recording.channel("time")[-1] < 100
