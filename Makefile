@@ -137,5 +137,5 @@ ros: ## test live ROS 2, with rclpy from PyPI in its own environment (Python 3.1
 
 SEEDS ?= 3000..3053
 RESULTS_SITE := build/results-site
-results-site: install ## run the studies of the paper, verify their bundles and make a site of them (days; SEEDS=3000..3002 for less)
+results-site: install ## run the studies of the paper, verify their bundles and make a site of them (an hour; SEEDS=3000..3002 for less)
 	$(BIN)/python scripts/results_site.py --seeds $(SEEDS) --out $(RESULTS_SITE) $(ARGS)

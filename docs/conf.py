@@ -22,7 +22,8 @@ extensions = [
     "sphinx.ext.intersphinx",
     "sphinx_copybutton",
 ]
-exclude_patterns = ["README.md"]
+exclude_patterns = ["README.md", "published"]
+html_extra_path = ["published"]  # releases of results: sites that `mrpbench site` wrote
 nitpicky = True
 
 myst_enable_extensions = ["deflist"]
