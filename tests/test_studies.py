@@ -22,7 +22,7 @@ RUNS_PER_PLANNER = {
     "late_robots": 180,
     "league": 120,
     "orders": 10,
-    "faults": 160,
+    "faults": 80,
     "controllers": 240,
 }
 """Runs of each planner that is installed."""
