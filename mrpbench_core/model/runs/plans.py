@@ -1,7 +1,11 @@
 """The plans of an execution, one after another."""
 
-import attrs
+from collections.abc import Sequence
 
+import attrs
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.runs.routes import RouteHistory
@@ -20,6 +24,12 @@ class RecordedPlan:
     routes: tuple[Route, ...]
     plan: Plan | None
     """None where nothing is known but the routes."""
+
+
+def spans(plans: Sequence[RecordedPlan], time: Float) -> list[tuple[RecordedPlan, slice]]:
+    """Return each plan with the samples, of `time` f8[T], at which it is in force."""
+    limits = [*np.searchsorted(time, [plan.time for plan in plans]).tolist(), len(time)]
+    return [(plan, slice(begin, end)) for plan, begin, end in zip(plans, limits, limits[1:], strict=False)]
 
 
 def read_plans(context: RunContext, channels: Loaders) -> list[RecordedPlan]:

@@ -9,7 +9,7 @@ from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import Type2Edges, moves_of, type2_edges
-from mrpbench_core.model.runs.plans import RecordedPlan
+from mrpbench_core.model.runs.plans import RecordedPlan, spans
 
 NO_EDGES = Type2Edges(*(np.empty(0, kind) for kind in (np.int64, np.int64, bool)))
 
@@ -38,10 +38,9 @@ def switches(problem: Problem, plans: Sequence[RecordedPlan], time: Float, reach
         reached: i4[T,n] segments that robots have completed.
     """
     found: list[Switch] = []
-    limits = [*np.searchsorted(time, [plan.time for plan in plans]).tolist(), len(time)]
-    for plan, begin, end in zip(plans, limits, limits[1:], strict=False):
+    for plan, span in spans(plans, time):
         if plan.plan is not None:
-            found += _of_plan(problem, plan.plan, time[begin:end], reached[begin:end])
+            found += _of_plan(problem, plan.plan, time[span], reached[span])
     return sorted(found)
 
 

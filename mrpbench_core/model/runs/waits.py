@@ -14,7 +14,7 @@ from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.dependencies import Dependencies, first_samples
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.model.runs.plans import RecordedPlan
+from mrpbench_core.model.runs.plans import RecordedPlan, spans
 from mrpbench_core.model.runs.run import Loaders, RunContext
 from mrpbench_core.model.runs.standing import nearest, standing
 
@@ -138,8 +138,7 @@ class _Explanation:
     def __init__(self, problem: Problem, channels: Mapping[str, Any], plans: Sequence[RecordedPlan]) -> None:
         self.problem, self.channels = problem, channels
         self.time: Float = channels["time"]
-        limits = [*np.searchsorted(self.time, [plan.time for plan in plans]).tolist(), len(self.time)]
-        self.windows = [(plan, slice(begin, end)) for plan, begin, end in zip(plans, limits, limits[1:], strict=False)]
+        self.windows = spans(plans, self.time)
         self.reason = np.zeros(channels["mode"].shape, np.uint8)
         self.culprit: Int32 = np.full(self.reason.shape, -1, np.int32)
 

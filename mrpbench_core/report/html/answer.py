@@ -5,8 +5,8 @@ from html import escape
 
 from mrpbench_core.report.answer.amounts import reading
 from mrpbench_core.report.answer.answer import Answer, SettingAnswer, TopicAnswer
+from mrpbench_core.report.html.cells import breakable
 from mrpbench_core.report.html.ranking import draw_ranking
-from mrpbench_core.report.html.tables import breakable
 
 OPEN = 12
 """Settings whose questions are drawn; of more, only their first sentences are listed."""

@@ -13,10 +13,9 @@ from mrpbench_core.report.html.answer import answer_section, headline
 from mrpbench_core.report.html.figures import figures
 from mrpbench_core.report.html.listing import LISTED, packed_runs, tone
 from mrpbench_core.report.html.origin import origin
-from mrpbench_core.report.html.shell import page_shell
+from mrpbench_core.report.html.shell import page_shell, rules_markup
 from mrpbench_core.report.html.tables import table_markup
 from mrpbench_core.report.report import Report
-from mrpbench_core.report.rules import RULES
 
 SECTIONS = {
     "answer": "Answer",
@@ -67,7 +66,7 @@ def write_report(
         "tables": "".join(map(table_markup, report.tables())),
         "figures": figures(report),
         "origin": origin(report),
-        "rules": "".join(f"<dt>{escape(name)}</dt><dd>{escape(words)}</dd>" for name, words in RULES),
+        "rules": rules_markup(),
         "listed": _left_out(report),
         "data": packed_runs(report, replays or {}),
     }

@@ -1,9 +1,11 @@
 """The frame that reports and sites share: head with title, links and a button for light and dark, then the body."""
 
 from collections.abc import Sequence
+from html import escape
 from importlib import resources
 from importlib.resources.abc import Traversable
 
+from mrpbench_core.report.rules import RULES
 from mrpbench_core.report.template import PageTemplate
 
 
@@ -24,6 +26,11 @@ def page_shell(
         "body": body,
     }
     return PageTemplate(resources.files(__package__) / "template" / "shell.html", code)
+
+
+def rules_markup() -> str:
+    """Return the rules behind the numbers as items of a description list."""
+    return "".join(f"<dt>{escape(name)}</dt><dd>{escape(words)}</dd>" for name, words in RULES)
 
 
 def _text(file: Traversable) -> str:

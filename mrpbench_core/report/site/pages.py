@@ -13,11 +13,10 @@ import attrs
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.output import write_page_file
 from mrpbench_core.files.text import counted
-from mrpbench_core.report.html.shell import page_shell
+from mrpbench_core.report.html.cells import Td, data_table, plain
+from mrpbench_core.report.html.shell import page_shell, rules_markup
 from mrpbench_core.report.reading.columns import heading
-from mrpbench_core.report.rules import RULES
 from mrpbench_core.report.site.boards import Board, Cell, Row
-from mrpbench_core.report.site.markup import Td, plain, table_markup
 from mrpbench_core.report.template import PageTemplate
 from mrpbench_core.store.bundle.description import Description
 
@@ -113,7 +112,7 @@ def _index(entries: Sequence[Entry], boards: Sequence[Board]) -> str:
     heads = ("board", "configurations", "runs", "result")
     return (
         f"<h2>Boards</h2><p>A board has the configurations that ran on the same scenarios. What paired tests"
-        f" do not decide is not told apart.</p>{table_markup('boards', heads, rows)}"
+        f" do not decide is not told apart.</p>{_table('boards', heads, rows)}"
         f"<h2>Bundles</h2>{_bundles(entries)}{_rules()}"
     )
 
@@ -144,7 +143,7 @@ def _board(board: Board, entries: Sequence[Entry]) -> str:
         f"<p class='note'>Means over {escape(board.unit)} that all configurations have in common, with 95 % intervals,"
         f" and the range of the rank where it is known.{note}"
         f' <a href="{board.number}.json">The numbers as JSON</a>.</p>'
-        f"{table_markup('rows', heads, rows)}{_rules()}"
+        f"{_table('rows', heads, rows)}{_rules()}"
     )
 
 
@@ -162,10 +161,8 @@ def _row(row: Row, entries: Sequence[Entry]) -> list[Td]:
 
 def _estimate(cell: Cell) -> Td:
     value, bracket, interval = cell.text.partition(" [")
-    parts = [f"{bracket}{interval}".strip(), "" if cell.rank is None else f"rank {cell.rank.best}–{cell.rank.worst}"]
-    if cell.rank is not None and (cell.rank.decides_nothing or cell.rank.best == cell.rank.worst):
-        parts[1] = "" if cell.rank.decides_nothing else f"rank {cell.rank.best}"
-    small = "".join(f"<small>{escape(part)}</small>" for part in parts if part)
+    rank = "" if cell.rank is None or cell.rank.decides_nothing else f"rank {cell.rank}"
+    small = "".join(f"<small>{escape(part)}</small>" for part in (f"{bracket}{interval}".strip(), rank) if part)
     return Td(escape(value) + small, None if cell.estimate is None else cell.estimate.value, "number")
 
 
@@ -179,7 +176,7 @@ def _bundles(entries: Sequence[Entry]) -> str:
         link = Td(f'<a href="{entry.address}">{escape(entry.title)}</a>')
         verdict = Td(escape(entry.judgement), style="better" if entry.passed else "worse")
         rows.append((link, *map(plain, facts), plain(entry.runs), verdict))
-    return table_markup("bundles", ("title", "authors", "licence", "date", "runs", "verdict"), rows)
+    return _table("bundles", ("title", "authors", "licence", "date", "runs", "verdict"), rows)
 
 
 def _bundle(entry: Entry) -> str:
@@ -207,10 +204,13 @@ def _bundle(entry: Entry) -> str:
         f"<h2>{escape(entry.title)}</h2>{text}<p><a href='{quote(entry.file)}'>{escape(entry.file)}</a>;"
         f" <code>mrpbench verify {escape(entry.file)} --rerun 10%</code> checks it.</p><dl class='facts'>{items}</dl>"
         f"<h3>Verdict: {escape(entry.judgement)}</h3>"
-        f"{table_markup('checks', ('check', 'outcome', 'covered'), rows)}{replays}"
+        f"{_table('checks', ('check', 'outcome', 'covered'), rows)}{replays}"
     )
 
 
+def _table(name: str, heads: Sequence[str], rows: Sequence[Sequence[Td]]) -> str:
+    return data_table(name, heads, rows, identity=name)
+
+
 def _rules() -> str:
-    rules = "".join(f"<dt>{escape(name)}</dt><dd>{escape(words)}</dd>" for name, words in RULES)
-    return f'<details><summary>Rules behind the numbers</summary><dl class="rules">{rules}</dl></details>'
+    return f'<details><summary>Rules behind the numbers</summary><dl class="rules">{rules_markup()}</dl></details>'
