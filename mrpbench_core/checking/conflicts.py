@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mrpbench_core.checking.paths import segments_of
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.common.geometry import segment_distance
 from mrpbench_core.model.planning.conflicts import TOLERANCE
@@ -58,22 +59,23 @@ def find_conflicts(problem: Problem, plan: Plan, limit: int | None = None) -> li
 
 def _occupations(problem: Problem, plan: Plan) -> Int:
     """All occupations i8[k,5] of all robots, columns as in `Occupation`."""
-    tables, late = [np.empty((0, 5), np.int64)], problem.rules.k
-    for robot, path in enumerate(plan.paths):
-        moves = np.flatnonzero(path.edge >= 0)
-        enter, leave = path.enter[moves], path.leave[moves]
-        tail, head = problem.roadmap.edges[path.edge[moves]].reshape(-1, 2).T
-        last = int(path.leave[-1]) if len(path) else problem.begin(robot)
-        begin = np.append(problem.begin(robot), leave)
-        stays = problem.rules.at_goal == "stay"
-        end = np.append(enter + late, FOREVER if stays else max(int(begin[-1]), last) + late)
-        at = np.append(problem.start[robot], head)
-        table = np.empty((len(at) + len(moves), 5), np.int64)
-        table[:, 0] = robot
-        table[0::2, 1:] = np.column_stack([at, at, begin, end])
-        table[1::2, 1:] = np.column_stack([tail, head, enter, leave + late])
-        tables.append(table)
-    return np.concatenate(tables)
+    late, robots = problem.rules.k, np.arange(len(problem))
+    segments = segments_of(plan.paths)
+    moves = segments.where(segments.edge >= 0)
+    count = np.bincount(moves.robot, minlength=len(robots))
+    since = problem.since if len(problem.since) else np.zeros(len(robots), np.int64)
+    last = since.copy()
+    last[segments.robot] = segments.leave  # of equal robots the last one counts
+    final = np.full(len(robots), FOREVER) if problem.rules.at_goal == "stay" else last + late
+    tail, head = problem.roadmap.edges[moves.edge].reshape(-1, 2).T
+    first = np.cumsum(count) - count
+    who, at = np.insert(moves.robot, first, robots), np.insert(head, first, problem.start)
+    begin, end = np.insert(moves.leave, first, since), np.insert(moves.enter + late, first + count, final)
+    table = np.empty((len(who) + len(tail), 5), np.int64)  # a robot stands before its first move and after each move
+    table[2 * np.arange(len(who)) - who] = np.column_stack([who, at, at, begin, end])
+    between = 2 * np.arange(len(tail)) + moves.robot + 1
+    table[between] = np.column_stack([moves.robot, tail, head, moves.enter, moves.leave + late])
+    return table
 
 
 def _candidates(problem: Problem, occupations: Int) -> Int:

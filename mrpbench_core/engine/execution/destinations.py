@@ -13,6 +13,7 @@ from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.planning.conflicts import TOLERANCE
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import GoalSet, Problem
+from mrpbench_core.model.planning.type2_edges import moves_of
 
 STRIDE = 7919
 """A prime, by which places are taken one after another."""
@@ -45,11 +46,10 @@ class Destinations:
 
 def heads(problem: Problem, plan: Plan, released: Int32) -> Int:
     """Return the vertex i8[n] at the end of what is `released` i4[n] of each path."""
+    moves = moves_of(problem, plan)
+    kept = moves.segment < released[moves.robot]
     found = problem.start.astype(np.int64)
-    for robot, (path, count) in enumerate(zip(plan.paths, released.tolist(), strict=True)):
-        moves = np.flatnonzero(path.edge[:count] >= 0)
-        if len(moves):
-            found[robot] = problem.roadmap.edges[path.edge[moves[-1]], 1]
+    found[moves.robot[kept]] = moves.head[kept]  # of equal robots the last one counts
     return found
 
 

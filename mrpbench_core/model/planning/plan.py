@@ -29,12 +29,9 @@ class Path:
 
     def vertices(self, roadmap: Roadmap, start: int) -> Int32:
         """Vertices i4[k+1]: `start`, then the vertex at the end of each segment."""
-        visited = np.empty(len(self.edge) + 1, np.int32)
-        visited[0] = start
         moves = self.edge >= 0
-        visited[1:] = np.where(moves, roadmap.edges[self.edge, 1] if len(roadmap.edges) else -1, -1)
-        for segment in np.flatnonzero(~moves):
-            visited[segment + 1] = visited[segment]
+        heads = roadmap.edges[self.edge[moves], 1]
+        visited: Int32 = np.concatenate([[start], heads])[np.concatenate([[0], moves.cumsum()])].astype(np.int32)
         return visited
 
     def end(self, roadmap: Roadmap, start: int) -> int:

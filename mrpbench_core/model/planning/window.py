@@ -37,8 +37,7 @@ def leads_to_goals(problem: Problem, plan: Plan) -> Bool:
         return np.ones(len(problem), bool)
     moves = moves_of(problem, plan)
     at = problem.start.copy()
-    some = np.flatnonzero(np.diff(moves.first))
-    at[some] = moves.head[moves.first[1:][some] - 1]
+    at[moves.robot] = moves.head  # of equal robots the last one counts
     goals = zip(problem.goals, at.tolist(), strict=True)
     return np.array([not sequence or vertex in sequence[-1] for sequence, vertex in goals], bool)
 

@@ -5,7 +5,7 @@ import pytest
 from mrpbench_planners_mapf.astar import Astar
 
 from mrpbench_core.api.planner import Promise
-from mrpbench_core.checking.plan import path_fault
+from mrpbench_core.checking.paths import path_faults
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
 from mrpbench_core.testing.instances.problems import problem_on
 from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_rules
@@ -25,7 +25,7 @@ def test_every_robot_takes_a_shortest_path(heuristic):
         if np.inf in wanted:
             assert result.status is PlanStatus.UNSOLVABLE
             continue
-        assert [path_fault(asked, robot, path) for robot, path in enumerate(result.plan.paths)] == [None] * 4
+        assert not path_faults(asked, result.plan.paths)
         assert [path.arrival for path in result.plan.paths] == wanted
         assert result.lower_bound == sum(wanted)
 

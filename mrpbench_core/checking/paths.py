@@ -1,0 +1,147 @@
+"""Validates each path of a plan against its problem; all paths together, because fleets plan every second."""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Bool, Int
+from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.problem import Problem
+
+Faults = Iterator[tuple[int, str]]
+"""Robots and what is wrong with their paths; of a robot the first counts."""
+
+
+class Segments(NamedTuple):
+    """The segments of paths, one path after another; all i8[k]."""
+
+    robot: Int
+    segment: Int
+    """Index in the robot's path."""
+    edge: Int
+    enter: Int
+    leave: Int
+
+    def where(self, chosen: Bool) -> "Segments":
+        """Some of them."""
+        return Segments(*(column[chosen] for column in self))
+
+    @property
+    def follows(self) -> Bool:
+        """bool[k-1]: the one after it is of the same robot."""
+        same: Bool = self.robot[1:] == self.robot[:-1]
+        return same
+
+    @property
+    def first(self) -> Bool:
+        """bool[k]: the first one of its robot."""
+        return np.append(True, ~self.follows)[: len(self.robot)]
+
+
+def segments_of(paths: Sequence[Path]) -> Segments:
+    """List the segments of paths that have as many edges as times."""
+    size = np.array([len(path) for path in paths], np.int64)
+    nothing = np.empty(0, np.int64)
+    columns = [
+        np.concatenate([nothing, *(getattr(path, name) for path in paths)]) for name in ("edge", "enter", "leave")
+    ]
+    segment = np.arange(len(columns[0])) - np.repeat(np.cumsum(size) - size, size)
+    return Segments(np.repeat(np.arange(len(paths)), size), segment, *columns)
+
+
+def path_faults(problem: Problem, paths: Sequence[Path]) -> dict[int, str]:
+    """Return the first fault of each path that has one, by robot."""
+    ragged = [robot for robot, it in enumerate(paths) if not len(it.edge) == len(it.enter) == len(it.leave)]
+    found = dict.fromkeys(ragged, "edge, enter and leave differ in length")
+    nothing = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
+    segments = segments_of([nothing if robot in found else path for robot, path in enumerate(paths)])
+    rules: tuple[Callable[[Problem, Segments], Faults], ...] = (
+        _of_edges,
+        _of_times,
+        _of_moves,
+        _of_commitments,
+        _of_goals,
+    )
+    for rule in rules:
+        for robot, fault in rule(problem, segments):
+            found.setdefault(robot, fault)
+        if found:  # what a rule relies on holds for the other robots
+            segments = segments.where(~np.isin(segments.robot, list(found)))
+    return dict(sorted(found.items()))
+
+
+def _of_edges(problem: Problem, segments: Segments) -> Faults:
+    unknown = (segments.edge < -1) | (segments.edge >= len(problem.roadmap.edges))
+    for robot in segments.robot[unknown].tolist():
+        yield robot, "uses an edge that does not exist"
+
+
+def _of_times(problem: Problem, segments: Segments) -> Faults:
+    robots, index, _, enter, leave = segments
+    begin = problem.since[robots] if len(problem.since) else np.zeros_like(enter)
+    for row in np.flatnonzero(segments.first & (enter != begin)).tolist():
+        yield int(robots[row]), f"begins at tick {enter[row]} instead of {begin[row]}"
+    for row in np.flatnonzero(segments.follows & (enter[1:] != leave[:-1])).tolist():
+        yield int(robots[row]), f"segment {index[row] + 1} does not begin when segment {index[row]} ends"
+    for row in np.flatnonzero(leave < enter).tolist():
+        yield int(robots[row]), f"segment {index[row]} ends before it begins"
+
+
+def _of_moves(problem: Problem, segments: Segments) -> Faults:
+    moves = segments.where(segments.edge >= 0)
+    robots, index, edge, enter, leave = moves
+    tail, head = problem.roadmap.edges[edge].reshape(-1, 2).T
+    duration = problem.roadmap.duration[problem.profile[robots], edge]
+    committed = _committed(problem)[robots]  # to what may be forbidden since then
+    for row in np.flatnonzero((duration < 0) & (index >= committed)).tolist():
+        yield int(robots[row]), f"uses edge {edge[row]}, which its motion profile forbids"
+    for row in np.flatnonzero(moves.first & (tail != problem.start[robots])).tolist():
+        yield int(robots[row]), f"starts at vertex {tail[row]} instead of {problem.start[robots[row]]}"
+    for row in np.flatnonzero(moves.follows & (tail[1:] != head[:-1])).tolist():
+        yield int(robots[row]), f"jumps to another vertex at segment {index[row + 1]}"
+    for row in np.flatnonzero(leave - enter < duration).tolist():
+        yield int(robots[row]), f"segment {index[row]} is shorter than the duration of its edge"
+    ready = problem.ready[robots]
+    for row in np.flatnonzero(moves.first & (enter < ready)).tolist():
+        yield int(robots[row]), f"moves at tick {enter[row]}, before it is ready at {ready[row]}"
+
+
+def _of_commitments(problem: Problem, segments: Segments) -> Faults:
+    wanted = segments_of(problem.commitments)
+    first = np.searchsorted(segments.robot, np.arange(len(problem) + 1))
+    place = first[wanted.robot] + wanted.segment
+    kept = place < first[wanted.robot + 1]
+    for column in ("edge", "enter", "leave"):
+        given = np.append(getattr(segments, column), -2)[np.where(kept, place, -1)]
+        kept &= given == getattr(wanted, column)
+    size = _committed(problem)
+    for robot in np.unique(wanted.robot[~kept]).tolist():
+        yield robot, f"does not begin with its committed {size[robot]} segments"
+
+
+def _of_goals(problem: Problem, segments: Segments) -> Faults:
+    if problem.horizon is not None:
+        return
+    moves = segments.where(segments.edge >= 0)
+    end = problem.start.astype(np.int64)
+    head = problem.roadmap.edges[moves.edge].reshape(-1, 2)[:, 1]
+    end[moves.robot] = head  # of equal robots the last one counts
+    for robot, (sequence, vertex) in enumerate(zip(problem.goals, end.tolist(), strict=True)):
+        if sequence and vertex not in sequence[-1]:
+            yield robot, f"ends at vertex {vertex} instead of its goal {' or '.join(map(str, sequence[-1]))}"
+        elif len(sequence) > 1:
+            visited = [int(problem.start[robot]), *head[moves.robot == robot].tolist()]
+            position = 0
+            for visit in visited:
+                while (
+                    position < len(sequence) and visit in sequence[position]
+                ):  # one visit counts for equal goals in a row
+                    position += 1
+            if position < len(sequence):
+                yield robot, f"does not visit goal {position} of its sequence in order"
+
+
+def _committed(problem: Problem) -> Int:
+    """Number i8[n] of segments that each robot is committed to."""
+    return np.array([len(path) for path in problem.commitments] or [0] * len(problem), np.int64)
