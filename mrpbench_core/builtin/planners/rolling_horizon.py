@@ -15,6 +15,7 @@ from mrpbench_core.api.planner import Planner, PlannerSession, Promise
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.planning.plan import Budget, Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem, ends_of
+from mrpbench_core.model.planning.type2_edges import moves_of
 from mrpbench_core.model.planning.window import until
 
 
@@ -84,8 +85,9 @@ class RollingHorizonSession(PlannerSession):
 def from_rest(problem: Problem) -> Problem:
     """Return the problem of robots that start where their commitments end, all at the same time."""
     start: Int32 = problem.start.copy()
-    for robot, path in enumerate(problem.commitments):
-        start[robot] = path.end(problem.roadmap, int(start[robot]))
+    if problem.commitments:
+        moves = moves_of(problem, Plan(paths=problem.commitments))
+        start[moves.robot] = moves.head  # of equal robots the last one counts
     return attrs.evolve(
         problem,
         start=start,

@@ -11,9 +11,8 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.planning.conflicts import TOLERANCE
-from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import GoalSet, Problem
-from mrpbench_core.model.planning.type2_edges import moves_of
+from mrpbench_core.model.planning.type2_edges import Moves
 
 STRIDE = 7919
 """A prime, by which places are taken one after another."""
@@ -44,9 +43,8 @@ class Destinations:
     """For each robot the task and the number of the errand that its path leads to; None: it makes room."""
 
 
-def heads(problem: Problem, plan: Plan, released: Int32) -> Int:
-    """Return the vertex i8[n] at the end of what is `released` i4[n] of each path."""
-    moves = moves_of(problem, plan)
+def heads(problem: Problem, moves: Moves, released: Int32) -> Int:
+    """Return the vertex i8[n] at the end of what is `released` i4[n] of each path, given the `moves` of the plan."""
     kept = moves.segment < released[moves.robot]
     found = problem.start.astype(np.int64)
     found[moves.robot[kept]] = moves.head[kept]  # of equal robots the last one counts

@@ -142,7 +142,7 @@ class ExecutionLoop:
         wish, released = self._orders.replan or reactions.reason(now), self._orders.released
         given_up = reactions.update()
         if tasks is not None:
-            head = heads(replanner.problem, replanner.plan, released)
+            head = heads(replanner.problem, replanner.moves, released)
             tasks.begin(now, head, (self._motion.mode == ABORTED) | reactions.held, given_up)
             wish = wish or tasks.reason(now)
         if reason := replanner.reason(now, view, wish):

@@ -13,6 +13,7 @@ from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import GoalSet, Problem
 from mrpbench_core.model.planning.roadmap import Resource, Roadmap
+from mrpbench_core.model.planning.type2_edges import moves_of
 
 SPACING = 0.1
 """Metres between the points that stand for the way of a robot that may be anywhere on it."""
@@ -105,7 +106,7 @@ class Reactions:
         """
         if not self._replans:
             return None
-        head = heads(problem, plan, released)
+        head = heads(problem, moves_of(problem, plan), released)
         at_goal = [all(here in goal for goal in goals) for here, goals in zip(head.tolist(), self._goals, strict=True)]
         stays = (self.held & ~np.array(at_goal)) | self.given_up
         cut_off = np.zeros(len(problem), bool)

@@ -17,6 +17,7 @@ from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Plan, PlanResult
 from mrpbench_core.model.planning.problem import Feature, Problem, ends_of, features_of
 from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.planning.type2_edges import moves_of
 from mrpbench_core.model.planning.window import leads_to_goals
 
 RETRY_S = 1.0
@@ -88,10 +89,10 @@ class Replanner:
     def use(self, problem: Problem, plan: Plan) -> None:
         """Note that a plan is in force."""
         self.failing = False
-        self.problem, self.plan = problem, plan
+        self.problem, self.plan, self.moves = problem, plan, moves_of(problem, plan)
         self._first: Int = np.cumsum([0, *(len(path) for path in plan.paths)])
-        moves = [np.flatnonzero(path.edge >= 0) for path in plan.paths]
-        self._arrival: Int = self._first[:-1] + [own[-1] + 1 if len(own) else 0 for own in moves]
+        self._arrival: Int = self._first[:-1].copy()
+        self._arrival[self.moves.robot] = self._first[self.moves.robot] + self.moves.segment + 1  # the last move counts
         self._leave: Int = np.concatenate([*(path.leave for path in plan.paths), [0]])  # one more to index at the end
 
     def reason(self, now: float, view: FleetView, wish: str | None) -> str | None:

@@ -58,7 +58,7 @@ def _instance(problem: Problem, module: ModuleType) -> mapf.Instance:
     roadmap = problem.roadmap
     robots = Robots(
         start=problem.start,
-        goals=[np.unique(sequence[-1]) for sequence in problem.goals],
+        goals=[np.array(sorted(set(sequence[-1])), "i4") for sequence in problem.goals],
         ready=problem.ready,
         profile=problem.profile,
         radius=problem.radius,
