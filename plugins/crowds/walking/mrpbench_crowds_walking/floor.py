@@ -64,16 +64,19 @@ class Floor:
 
     def reaches(self, start: Float, goal: Float) -> bool:
         """Tell whether there is a way from a place to another one, f8[2] each."""
-        return bool(self._route(goal)[self.cell(start[None])[0]] >= 0)
+        begin, end = self.cell(np.stack([start, goal])).tolist()
+        return bool(self._route(end)[begin] >= 0)
 
     def towards(self, place: Float, goal: Float) -> Float:
-        """The point f8[2] to which to walk straight on the way from a place to a goal, f8[2] each."""
-        route, end = self._route(goal), int(self.cell(goal[None])[0])
-        following = int(route[self.cell(place[None])[0]])
-        return goal if following in (end, -1) else self._centre[following]
+        """The points f8[k,2] to which to walk straight on the ways from places to goals, f8[k,2] each."""
+        end = self.cell(goal)
+        ways = zip(end.tolist(), self.cell(place).tolist(), strict=True)
+        following = np.array([self._route(last)[cell] for last, cell in ways], dtype=int)
+        straight = (following == end) | (following == -1)
+        point: Float = np.where(straight[:, None], goal, self._centre[following])
+        return point
 
-    def _route(self, goal: Float) -> Int32:
-        end = int(self.cell(goal[None])[0])
+    def _route(self, end: int) -> Int32:
         if end not in self._routes:
             self._routes[end] = walking_routes(self._free.astype(np.uint8), end)
         return self._routes[end]

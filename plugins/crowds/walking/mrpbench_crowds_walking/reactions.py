@@ -4,7 +4,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
-from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.arrays import Float, Int
 
 Reaction = Literal["regular", "impassive", "surprised", "curious", "scared", "threatening"]
 AS_PEOPLE, AS_OBSTACLES, NOT_AT_ALL = 0, 1, 2
@@ -17,49 +17,64 @@ VIEW = np.pi / 2 + 0.17
 """Radians to both sides."""
 
 
-class Act(NamedTuple):
-    """What a person does about a robot, instead of walking to its goal."""
+class Acts(NamedTuple):
+    """What k people do about robots, instead of walking to their goals."""
 
     velocity: Float
-    """f8[2] wanted, m/s."""
+    """f8[k,2] wanted, m/s."""
     push: Float
-    """f8[2] further acceleration, m/s²."""
-    looks: float
-    """Direction in which it looks, radians."""
+    """f8[k,2] further accelerations, m/s²."""
+    looks: Float
+    """f8[k] directions in which they look, radians."""
 
 
-def nearest_seen(place: Float, yaw: float, robots: Float, reach: float) -> int:
-    """The index of the nearest robot of f8[n,2] in view and within `reach` metres, -1 = none."""
-    if not len(robots):
-        return -1
-    offset = robots - place
-    distance = np.hypot(*offset.T)
-    bearing = np.arctan2(offset[:, 1], offset[:, 0]) - yaw
-    bearing = (bearing + np.pi) % (2 * np.pi) - np.pi
-    distance[(np.abs(bearing) > VIEW) | (distance > reach)] = np.inf
-    nearest = int(distance.argmin())
-    return nearest if np.isfinite(distance[nearest]) else -1
+def nearest_seen(place: Float, yaw: Float, robots: Float, reach: float) -> Int:
+    """The indices i8[k] of the nearest robots of f8[n,2] in view and within `reach` metres, -1 = none.
 
-
-def react(reaction: Reaction, place: Float, robot: Float, robot_yaw: float, gap: float, to_goal: Float) -> Act:
-    """What a person at `place` f8[2] does about the robot at `robot` f8[2], whose body is `gap` metres away.
-
-    `to_goal` f8[2] is the velocity with which the person would walk to its goal.
+    Args:
+        place: f8[k,2] metres, where the people are.
+        yaw: f8[k] radians, where they look.
+        robots: f8[n,2] metres.
+        reach: Metres between centres.
     """
-    offset = robot - place
-    distance = float(np.hypot(*offset))
-    ahead = offset / distance if distance > 0 else np.array([1.0, 0.0])
-    looks, still = float(np.arctan2(ahead[1], ahead[0])), np.zeros(2)
+    if not len(robots):
+        return np.full(len(place), -1)
+    offset = robots - place[:, None]
+    distance = np.hypot(offset[..., 0], offset[..., 1])
+    distance[distance > reach] = np.inf
+    person, robot = np.nonzero(distance < np.inf)
+    bearing = np.arctan2(offset[person, robot, 1], offset[person, robot, 0]) - yaw[person]
+    hidden = np.abs((bearing + np.pi) % (2 * np.pi) - np.pi) > VIEW
+    distance[person[hidden], robot[hidden]] = np.inf
+    return np.where(np.isfinite(distance.min(axis=1)), distance.argmin(axis=1), -1)
+
+
+def react(reaction: Reaction, place: Float, robot: Float, gap: Float, to_goal: Float) -> Acts:
+    """What people at `place` f8[k,2] do about robots at `robot` f8[k,3], whose bodies are `gap` f8[k] metres away.
+
+    `to_goal` f8[k,2] are the velocities with which they would walk to their goals.
+    """
+    offset = robot[:, :2] - place
+    distance = _length(offset)
+    ahead = np.divide(offset, distance, out=np.tile([1.0, 0.0], (len(place), 1)), where=distance > 0)
+    looks, still = np.arctan2(ahead[:, 1], ahead[:, 0]), np.zeros_like(place)
     if reaction == "surprised":
-        return Act(still, still, looks)
+        return Acts(still, still, looks)
     if reaction == "curious":
-        return Act(still if distance <= 1.5 else ahead * 1.8 * distance / 10, still, looks)
+        return Acts(np.where(distance <= 1.5, 0.0, ahead * 1.8 * distance / 10), still, looks)
     if reaction == "scared":
-        speed = float(np.hypot(*to_goal))
-        slow = to_goal * min(1.0, 0.6 / speed) if speed > 0 else still
-        away = -ahead * 20 * 0.2 / max(gap, 0.2)
-        return Act(slow, away, float(np.arctan2(slow[1], slow[0])) if speed > 0 else looks)
-    front = robot + 1.1 * np.array([np.cos(robot_yaw), np.sin(robot_yaw)])  # threatening: it blocks the way
+        speed = _length(to_goal)
+        slow = to_goal * np.minimum(1.0, 0.6 / np.maximum(speed, 0.6))
+        away = -ahead * 20 * 0.2 / np.maximum(gap, 0.2)[:, None]
+        return Acts(slow, away, np.where(speed[:, 0] > 0, np.arctan2(slow[:, 1], slow[:, 0]), looks))
+    front = robot[:, :2] + 1.1 * np.column_stack([np.cos(robot[:, 2]), np.sin(robot[:, 2])])  # it blocks the way
     way = front - place
-    left = float(np.hypot(*way))
-    return Act(still if left <= 0.05 or (distance <= 1.2 and left <= 0.3) else way / left * 2.0, still, looks)
+    left = _length(way)
+    there = (left <= 0.05) | ((distance <= 1.2) & (left <= 0.3))
+    return Acts(np.where(there, 0.0, way / np.maximum(left, 0.05) * 2.0), still, looks)
+
+
+def _length(vector: Float) -> Float:
+    """Lengths f8[k,1] of vectors f8[k,2]."""
+    length: Float = np.hypot(vector[:, :1], vector[:, 1:])
+    return length

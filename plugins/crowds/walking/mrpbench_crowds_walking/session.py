@@ -21,7 +21,6 @@ from mrpbench_crowds_walking.reactions import (
     NOT_AT_ALL,
     PATIENCE,
     SIGHT,
-    Act,
     nearest_seen,
     react,
 )
@@ -127,34 +126,34 @@ class WalkingSession(CrowdSession):
         for person in np.flatnonzero(away < self._recipe.radius + REACHED).tolist():
             if self._goals_of(person) and self._waits[person] == 0:
                 self._arrive(person)
-        for person in range(count):
-            to_goal = np.zeros(2)
-            if self._waits[person] == 0 and away[person] > self._recipe.radius:
-                way = self._floor.towards(place[person], self._goal[person]) - place[person]
-                distance = float(np.hypot(*way))
-                if distance > 0:
-                    to_goal = self._aside[person] @ way / distance * self._speed[person]
-            velocity[person] = to_goal
-            if reaction in SIGHT:
-                act = self._act(person, dt, place[person], robots, radius, to_goal)
-                if act is not None:
-                    velocity[person], push[person], looks[person] = act.velocity, act.push, act.looks
-                    regard[person] = NOT_AT_ALL
+        walking = np.flatnonzero((self._waits == 0) & (away > self._recipe.radius))
+        velocity[walking] = self._to_goals(place, walking)
+        if reaction in SIGHT:
+            alert = np.flatnonzero(~self._done)
+            nearest = nearest_seen(place[alert], self._yaw[alert], robots[:, :2], SIGHT[reaction])
+            who, robot = alert[nearest >= 0], nearest[nearest >= 0]
+            self._tire(dt, who)
+            gap = np.hypot(*(robots[robot, :2] - place[who]).T) - self._recipe.radius - radius[robot]
+            acts = react(reaction, place[who], robots[robot], gap, velocity[who])
+            velocity[who], push[who], looks[who] = acts
+            regard[who] = NOT_AT_ALL
         return velocity, push, regard, looks
 
-    def _act(self, person: int, dt: float, place: Float, robots: Float, radius: Float, to_goal: Float) -> Act | None:
-        """What a person does about the nearest robot that it sees; it grows tired of it."""
+    def _to_goals(self, place: Float, walking: Int) -> Float:
+        """Velocities f8[k,2] with which the people `walking` i8[k] walk on their ways."""
+        way = self._floor.towards(place[walking], self._goal[walking]) - place[walking]
+        distance = np.hypot(*way.T)[:, None]
+        turned = (self._aside[walking] @ way[:, :, None])[:, :, 0]
+        speed = self._speed[walking, None]
+        velocity: Float = np.divide(turned, distance, out=np.zeros_like(way), where=distance > 0) * speed
+        return velocity
+
+    def _tire(self, dt: float, who: Int) -> None:
+        """Count the time for which people see robots; they grow tired of it."""
         reaction = self._recipe.reaction
-        if self._done[person]:
-            return None
-        nearest = nearest_seen(place, self._yaw[person], robots[:, :2], SIGHT[reaction])
-        if nearest < 0:
-            return None
-        self._seen_for[person] += dt
-        if self._seen_for[person] >= PATIENCE[reaction]:
-            self._seen_for[person], self._done[person] = 0.0, reaction != "scared"
-        gap = float(np.hypot(*(robots[nearest, :2] - place))) - self._recipe.radius - radius[nearest]
-        return react(reaction, place, robots[nearest, :2], robots[nearest, 2], gap, to_goal)
+        self._seen_for[who] += dt
+        tired = who[self._seen_for[who] >= PATIENCE[reaction]]
+        self._seen_for[tired], self._done[tired] = 0.0, reaction != "scared"
 
     def _arrive(self, person: int) -> None:
         """Stay for a while, then go to the next goal; a group goes together."""

@@ -110,19 +110,24 @@ def test_surprised_people_stand_and_look():
     assert abs(found[-1, 0, 2]) < 0.05
 
 
+def reacting(reaction, gap, yaw=0.0):
+    """What two people do: one 3 m before a robot, one in the robot's place and about to stand."""
+    robot, goal = np.array([[3.0, 0.0, yaw]] * 2), np.array([[0.0, 1.3], [0.0, 0.0]])
+    return react(reaction, np.array([[0.0, 0.0], [3.0, 0.0]]), robot, np.array([gap, -0.3]), goal)
+
+
 def test_reactions_have_the_speeds_of_hunavsim():
-    place, robot, goal = np.zeros(2), np.array([3.0, 0.0]), np.array([0.0, 1.3])
-    assert react("curious", place, robot, 0.0, 2.5, goal).velocity.tolist() == [pytest.approx(0.54), 0]
-    assert np.hypot(*react("scared", place, robot, 0.0, 2.0, goal).velocity) == pytest.approx(0.6)
-    assert react("scared", place, robot, 0.0, 2.0, goal).push.tolist() == [pytest.approx(-2.0), 0]
-    assert react("threatening", place, robot, np.pi, 2.5, goal).velocity.tolist() == pytest.approx([2.0, 0])
+    assert reacting("curious", 2.5).velocity == pytest.approx(np.array([[0.54, 0], [0, 0]]))
+    assert reacting("scared", 2.0).velocity == pytest.approx(np.array([[0, 0.6], [0, 0]]))
+    assert reacting("scared", 2.0).push == pytest.approx(np.array([[-2.0, 0], [-20, 0]]))
+    assert reacting("threatening", 2.5, np.pi).velocity == pytest.approx(np.array([[2.0, 0], [-2.0, 0]]))
 
 
 def test_robots_behind_or_far_away_are_not_seen():
-    robots = np.array([[-1.0, 0.0], [0.0, 2.0], [9.0, 0.0]])
-    assert nearest_seen(np.zeros(2), 0.0, robots, 4.0) == 1
-    assert nearest_seen(np.zeros(2), np.pi, robots, 4.0) == 0
-    assert nearest_seen(np.zeros(2), -np.pi / 2, robots[2:], 4.0) == -1
+    robots, yaw = np.array([[-1.0, 0.0], [0.0, 2.0], [9.0, 0.0]]), np.array([0.0, np.pi, 0.5 - np.pi / 2])
+    assert nearest_seen(np.zeros((3, 2)), yaw, robots, 4.0).tolist() == [1, 0, -1]
+    assert nearest_seen(np.zeros((3, 2)), yaw, robots[2:], 4.0).tolist() == [-1, -1, -1]
+    assert nearest_seen(np.zeros((3, 2)), yaw, robots[:0], 4.0).tolist() == [-1, -1, -1]
 
 
 @pytest.mark.parametrize(
