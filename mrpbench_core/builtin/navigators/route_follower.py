@@ -21,7 +21,8 @@ class RouteFollower:
         routes: one per robot.
         rules: when a waypoint counts as reached.
         clearances: f8[n] metres at which each robot leaves room for any other.
-        beyond_bends: what lies ahead of a robot ends where its released part ends, not at the next bend.
+        beyond_bends: what lies ahead of a robot ends where its released part ends, not at the next bend. Robots then
+            cut corners and pass waypoints from some distance.
     """
 
     def __init__(
@@ -31,6 +32,7 @@ class RouteFollower:
         self._yaw_goal_tolerance = rules.yaw_goal_tolerance
         self._progress = RouteProgress(routes, rules, clearances)
         self._ahead = RouteAhead(self._progress, beyond_bends)
+        self._beyond_bends = beyond_bends
         self._released: Int32 = np.zeros(count, np.int32)
         self.reached: Int32 = self._released
         """i4[n], as in `FleetView`."""
@@ -70,6 +72,11 @@ class RouteFollower:
             due[:] = False
             due[changed] = True
             if len(changed):
+                self.reached = frozen_array(self._progress.reached, "i4")
+        if self._beyond_bends:
+            passed = self._progress.count_passed(pose)
+            due[passed] = True
+            if len(passed):
                 self.reached = frozen_array(self._progress.reached, "i4")
         rounding = (due | rounded).nonzero()[0]
         if len(rounding):

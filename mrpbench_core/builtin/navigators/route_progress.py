@@ -12,6 +12,12 @@ from mrpbench_core.model.execution.route import Route
 
 _STANDING = 0.01
 """m/s below which a robot stands still."""
+_LEGS_AHEAD = np.arange(6)
+"""Legs of a route among which the nearest to a robot is looked for, its own first."""
+_SEARCH = 1.5
+"""metres along the route up to which it is looked for (Nav2: half the width of the costmap)."""
+_NEARER = 0.01
+"""metres by which a leg ahead has to be nearer than the robot's own."""
 
 
 class RouteProgress:
@@ -91,6 +97,39 @@ class RouteProgress:
             some = some[self._have_rounded(some, pose)]
             self.leg[some] += 1
             some = some[self.leg[some] + 1 < self.end[some]]
+
+    def count_passed(self, pose: Float) -> Int:
+        """Let robots go on to the nearest leg of those ahead, if they are within the tolerance of it.
+
+        Waypoints before that leg are passed, as Nav2 prunes a path up to its nearest pose. So a robot that has cut
+        corners misses nothing. The end of the released part is never passed, nor is a lift.
+
+        Args:
+            pose: f8[n,3] estimated, of the fleet.
+
+        Returns:
+            The robots for which anything has changed.
+        """
+        tables = self.tables
+        last = np.minimum(self.end, tables.lift[tables.first_corner + self.leg]) - 1
+        robots = (self.leg < last).nonzero()[0]
+        legs = self.leg[robots, None] + _LEGS_AHEAD
+        known = np.minimum(legs, last[robots, None])
+        row = (tables.first_corner[robots, None] + known).ravel()
+        place, begin = np.repeat(pose[robots, :2], len(_LEGS_AHEAD), axis=0), tables.legs.take(row)
+        nearest = begin.nearest_points(*place.T)
+        along = (tables.distance[row] + np.hypot(*(nearest.T - (begin.x, begin.y)))).reshape(legs.shape)
+        gap = np.hypot(*(place - nearest).T).reshape(legs.shape)
+        gap[:, 1:] += _NEARER
+        gap[(legs > known) | (along - along[:, :1] > _SEARCH)] = np.inf
+        choice = gap.argmin(axis=1)
+        passed = (choice > 0) & (gap.min(axis=1, initial=np.inf) <= self._rules.passing_tolerance)
+        for robot, leg in zip(robots[passed].tolist(), (self.leg[robots] + choice)[passed].tolist(), strict=True):
+            self._count_up_to(robot, leg)
+            self.leg[robot] = leg
+            self.at_goal[robot] = False
+        changed: Int = robots[passed]
+        return changed
 
     def count_cleared(self, robots: Int, pose: Float, released: Int32) -> None:
         """Count the vertices that some robots have cleared, up to the segment that each is on."""

@@ -20,6 +20,8 @@ class ArrivalRules:
     stops: bool
     """Robots stop at every waypoint and turn to the next one."""
     waypoint_tolerance: float
+    passing_tolerance: float
+    """metres from a waypoint at which a robot passes it."""
     xy_goal_tolerance: float
     yaw_goal_tolerance: float
     stateful: bool
@@ -72,7 +74,9 @@ class RouteTables:
         self.is_wait: Bool = ~is_corner
         """bool[W]: the waypoint is at the place of the one before, and is not the goal of its route."""
         self.is_wait[self.first + self.goal] = False
-        heading = self._add_legs(np.repeat(clearances, self.last_corner + 1))
+        enters_lift = np.zeros(len(self.corners), bool)
+        enters_lift[row[:-1][~same_level[1:] & ~begins[1:]]] = True
+        heading = self._add_legs(np.repeat(clearances, self.last_corner + 1), enters_lift)
         self.arrival = self._arrival(waypoint, row, heading, rules)
         """W entries: when each waypoint is reached. The goal, and a wait before the first corner, are
         not reached by passing them."""
@@ -82,9 +86,9 @@ class RouteTables:
             free = np.isnan(self.yaw)
             self.yaw[free] = np.arctan2(heading[row[free], 1], heading[row[free], 0])  # NaN at the last
 
-    def _add_legs(self, clearance: Float) -> Float:
-        """Fill the tables of the corners, given the clearance f8[C] there; returns the direction f8[C,2] of each leg,
-        NaN after the last corner of a robot.
+    def _add_legs(self, clearance: Float, enters_lift: Bool) -> Float:
+        """Fill the tables of the corners, given the clearance f8[C] there, and whether bool[C] a robot enters a lift;
+        returns the direction f8[C,2] of each leg, NaN after the last corner of a robot.
         """
         corners, count = self.corners, len(self.corners)
         is_last = np.zeros(count, bool)
@@ -101,15 +105,24 @@ class RouteTables:
         """C entries: when the corner at the end of each leg is rounded."""
         self.clearing = ClearanceCheck.of(*corners.T, clearance - SLACK)
         """C entries: when each corner is cleared."""
+        self.distance: Float = np.cumsum(length) - length
+        """f8[C] metres along the legs of all robots up to each corner."""
         self.is_short: Bool = length <= clearance + SLACK
         """bool[C]: the leg is no longer than the clearance."""
         yaw = np.arctan2(heading[:, 1], heading[:, 0])
         turn = np.abs(np.remainder(yaw - np.roll(yaw, 1) + np.pi, 2 * np.pi) - np.pi)
-        bends = np.where((turn > STRAIGHT) | is_last, np.arange(count), count)  # no turn is NaN at either end
-        following = np.minimum.accumulate(bends[::-1])[::-1]
-        self.bend: Int = following - np.repeat(self.first_corner, self.last_corner + 1)
+        self.bend: Int = self._first_from_each((turn > STRAIGHT) | is_last)  # no turn is NaN at either end
         """i8[C]: the first corner of its robot, from each on, at which the direction changes, or the last."""
+        self.lift: Int = self._first_from_each(enters_lift | is_last)
+        """i8[C]: the first corner of its robot, from each on, at which it enters a lift, or the last."""
         return heading
+
+    def _first_from_each(self, is_one: Bool) -> Int:
+        """The first corner i8[C] of its robot, from each on, where `is_one` bool[C]."""
+        count = len(is_one)
+        following = np.minimum.accumulate(np.where(is_one, np.arange(count), count)[::-1])[::-1]
+        found: Int = following - np.repeat(self.first_corner, self.last_corner + 1)
+        return found
 
     def _arrival(self, waypoint: Float, row: Int, heading: Float, rules: ArrivalRules) -> WaypointCheck:
         goal = self.first + self.goal
@@ -117,6 +130,6 @@ class RouteTables:
         tolerance[goal] = rules.xy_goal_tolerance
         into = np.concatenate([np.full((1, 2), np.nan), heading[:-1]])[: len(heading)]  # NaN at each first corner
         along = into[row]
-        lateral = along[:, 0] * 0 + rules.waypoint_tolerance
+        lateral = along[:, 0] * 0 + rules.passing_tolerance
         along[goal], lateral[goal] = np.nan, np.nan
         return WaypointCheck.of(waypoint[:, 0], waypoint[:, 1], tolerance, along[:, 0], along[:, 1], lateral)

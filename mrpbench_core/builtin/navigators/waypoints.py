@@ -47,7 +47,7 @@ class Waypoints(Navigator):
     waypoint_tolerance: float | None = option(
         None,
         help="a waypoint on the way is reached within this distance, or when the robot passes it that close; default: "
-        "0.10, and 0.50 with `path_end: release`",
+        "0.10. With `path_end: release` it is the distance from the route at which robots pass; default: 0.50",
         unit="m",
         validator=optional(gt(0)),
     )
@@ -189,7 +189,8 @@ class Waypoints(Navigator):
             tolerance = _CUTTING if self.path_end == "release" else _KEEPING
         return ArrivalRules(
             stops=self.waypoints == "stop",
-            waypoint_tolerance=tolerance,
+            waypoint_tolerance=min(tolerance, _KEEPING) if self.path_end == "release" else tolerance,
+            passing_tolerance=tolerance,
             xy_goal_tolerance=nav2["xy_goal_tolerance"],
             yaw_goal_tolerance=np.inf if nav2["goal_checker"] == "PositionGoalChecker" else nav2["yaw_goal_tolerance"],
             stateful=nav2["stateful"],

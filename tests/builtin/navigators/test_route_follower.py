@@ -11,6 +11,7 @@ from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.model.execution.route import Route
 
 RULES = Waypoints().arrival_rules
+CUTTING = Waypoints(path_end="release").arrival_rules
 CLEARANCE = 0.25
 
 
@@ -287,15 +288,49 @@ def test_the_last_waypoint_can_be_skipped_too():
     assert not follower.under_way
 
 
-def test_beyond_bends_the_path_ends_with_the_released_part_and_the_robot_need_not_come_to_each_corner():
+def test_beyond_bends_the_path_ends_with_the_released_part_and_corners_may_be_cut():
     points = [(0, 0), (1, 0), (1, 1), (2, 1), (2, 2)]
-    wide = attrs.evolve(RULES, waypoint_tolerance=0.3)
-    follower = Follower(route(points), wide, CLEARANCE, beyond_bends=True)
+    follower = Follower(route(points), CUTTING, CLEARANCE, beyond_bends=True)
     follower.update(0.2, 0, 0, 0.2, 3)
     assert follower.path.tolist() == [[0.2, 0], [1, 0], [1, 1], [2, 1]]
-    follower.update(0.85, 0.2, 0, 0.2, 3)  # within the tolerance, and beyond the bisector of the bend
+    follower.update(0.85, 0.2, 0, 0.2, 3)  # beyond the bisector of the bend
     assert follower.reached == 1
     assert follower.path.tolist() == [[1, 0.2], [1, 1], [2, 1]]
-    near = Follower(route(points), wide, CLEARANCE)
+    near = Follower(route(points), RULES, CLEARANCE)
     near.update(0.2, 0, 0, 0.2, 3)
     assert near.path.tolist() == [[0.2, 0], [1, 0]]
+
+
+def test_a_robot_that_cut_corners_has_passed_them_when_it_is_back_near_its_route():
+    points = [(0, 0), (2, 0), (2, 0.4), (0, 0.4)]
+    follower = Follower(route(points), CUTTING, CLEARANCE, beyond_bends=True)
+    follower.update(1.6, 0.1, 0, 0.2, 3)
+    assert follower.reached == 0
+    follower.update(1.5, 0.35, math.pi, 0.2, 3)  # 0.5 m before both corners
+    assert (follower.reached, follower.cleared) == (2, 3)
+    assert follower.path.tolist() == [[1.5, 0.4], [0, 0.4]]
+
+
+def test_a_robot_beside_a_part_of_its_route_far_ahead_has_not_passed_all_before():
+    follower = Follower(route([(0, 0), (2, 0), (2, 0.4), (0, 0.4)]), CUTTING, CLEARANCE, beyond_bends=True)
+    follower.update(1.0, 0.4, 0, 0.2, 3)
+    assert follower.reached == 0
+
+
+def test_a_robot_far_from_its_route_has_passed_nothing():
+    follower = Follower(route([(0, 0), (2, 0), (2, 2)]), CUTTING, CLEARANCE, beyond_bends=True)
+    follower.update(1.2, 1.4, 0, 0.2, 2)
+    assert follower.reached == 0
+
+
+def test_a_lift_and_the_end_of_the_released_part_are_not_passed():
+    there_and_back = [(0, 0), (0.4, 0), (0.4, 0), (0, 0), (0, 2)]
+    upstairs = attrs.evolve(route(there_and_back), level=np.array([0, 0, 1, 1, 1], np.int16))
+    follower = Follower(upstairs, CUTTING, CLEARANCE, beyond_bends=True)
+    follower.update(-0.1, 0.5, 0, 0.2, 4)
+    assert follower.reached == 0
+    follower = Follower(route(there_and_back), CUTTING, CLEARANCE, beyond_bends=True)
+    follower.update(-0.1, 0.5, 0, 0.2, 3)
+    assert follower.reached == 0
+    follower.update(-0.1, 0.5, 0, 0.2, 4)
+    assert (follower.reached, follower.cleared) == (3, 4)

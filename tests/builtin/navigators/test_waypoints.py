@@ -213,6 +213,7 @@ def test_without_a_tolerance_an_occupied_waypoint_is_waited_for():
 
 
 def test_robots_that_cut_corners_pass_waypoints_farther_away():
-    assert Waypoints().arrival_rules.waypoint_tolerance == 0.1
-    assert Waypoints(path_end="release").arrival_rules.waypoint_tolerance == 0.5
-    assert Waypoints(path_end="release", waypoint_tolerance=0.2).arrival_rules.waypoint_tolerance == 0.2
+    for options, near, passing in (({}, 0.1, 0.1), ({"path_end": "release"}, 0.1, 0.5)):
+        for tolerance in (None, 0.05):
+            rules = Waypoints(waypoint_tolerance=tolerance, **options).arrival_rules
+            assert (rules.waypoint_tolerance, rules.passing_tolerance) == (tolerance or near, tolerance or passing)

@@ -1,7 +1,7 @@
 import attrs
 import numpy as np
 import pytest
-from mrpbench_controllers_mppi import CostCritic, LocalCostmap, Mppi, PathAlignCritic
+from mrpbench_controllers_mppi import CostCritic, GoalCritic, LocalCostmap, Mppi, PathAlignCritic, PathFollowCritic
 from mrpbench_controllers_mppi.nav2_critics import DEFAULT
 from mrpbench_controllers_rotation_shim import RotationShim
 
@@ -83,6 +83,26 @@ def test_commands_keep_speeds_and_accelerations():
     assert (change <= np.array([3.0, 3.5]) * PERIOD + 1e-5).all()
 
 
+@pytest.mark.parametrize(("limit", "ahead", "back"), [(0.25, 0.25, -0.175), (0.75, 0.5, -0.35)])
+def test_a_speed_limit_scales_all_limits_but_never_raises_them(limit, ahead, back):
+    for end, speed in ((4.0, ahead), (-4.0, back)):
+        session = Mppi(critics=(PathFollowCritic(), GoalCritic())).start_fleet((SPRINTER,), NOWHERE, PERIOD)
+        twist = np.zeros(2)
+        for _ in range(30):
+            twist = session.command(seen([(0.0, 0.0), (end, 0.0)], twist=tuple(twist), speed=limit))[0]
+        assert twist[0] == pytest.approx(speed, abs=1e-6)
+        plan = session.explain(0)["plan"][:, 0]
+        assert back - 1e-6 <= plan.min() <= plan.max() <= ahead + 1e-6
+
+
+def test_the_plan_moves_on_with_each_command_if_its_steps_are_control_periods():
+    for step, moves in ((PERIOD, True), (2 * PERIOD, False)):
+        said, session = drive({"model_dt": step}, cycles=3)
+        plan = session.explain(0)["plan"]
+        assert plan[0].tolist() == said[-1].tolist()
+        assert (plan[-1].tolist() == plan[-2].tolist()) == moves
+
+
 def test_samples_are_velocities_within_accelerations_and_their_poses():
     _, session = drive({}, cycles=5)
     why = session.explain(0)
@@ -118,3 +138,5 @@ def test_a_nav2_file_is_read():
         Mppi(FollowPath={"motion_model": "Omni"})
     with pytest.raises(InputError, match="there is no critic 'CostCrtic'"):
         Mppi(FollowPath={"critics": ["CostCrtic"]})
+    with pytest.raises(InputError, match="must be 0, delays are not modelled"):
+        Mppi(FollowPath={"model_delay_vx": 0.1})
