@@ -20,6 +20,7 @@ from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.report.replay.scans import pack_scans
 from mrpbench_core.report.replay.scene import pack_resources, pack_robots, pack_world
 from mrpbench_core.report.replay.schedule import pack_schedule
+from mrpbench_core.report.replay.tasks import pack_tasks
 from mrpbench_core.report.replay.waits import pack_waits
 from mrpbench_core.report.template import PageTemplate
 from mrpbench_core.store.recording import Recording
@@ -53,6 +54,7 @@ def write_page(
     plans = read_plans(recording.first_context(), recording.channels)
     pack_schedule(plans, context.problem.roadmap.tick, motion)
     pack_waits(recording, plans, motion)
+    pack_tasks(recording, motion)
     thinned = pack_scans(recording, scans)
     data = {
         "facts": facts_of(record, columns or {}, planner),

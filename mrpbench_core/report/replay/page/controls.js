@@ -57,7 +57,7 @@ export function levelControls(run, shown) {
 }
 
 export function tabs(changed) {
-  const all = [...document.querySelectorAll("[role=tab]")];
+  const all = [...document.querySelectorAll("[role=tab]:not([hidden])")];
   const choose = (chosen) => {
     for (const tab of all) {
       const open = tab === chosen;

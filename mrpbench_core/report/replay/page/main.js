@@ -20,6 +20,7 @@ import { Robots } from "replay/robots.js";
 import { Run, STATES } from "replay/run.js";
 import { Shown } from "replay/shown.js";
 import { fitCanvas, isNarrow } from "replay/surface.js";
+import { TaskPanel } from "replay/task_panel.js";
 import { applyTheme, readTheme } from "replay/theme.js";
 import { Timeline } from "replay/timeline.js";
 import { View } from "replay/view.js";
@@ -57,7 +58,9 @@ const events = new EventPanel(run, ([time, , robot]) => {
   clock.seek(time);
   if (robot >= 0) shown.select(robot);
 });
+const tasks = new TaskPanel(run, (robot) => shown.select(robot));
 const gantt = new Gantt(run, { seek: (time) => clock.seek(time), choose: (robot) => shown.select(robot) });
+get("tab-tasks").hidden = !run.tasks;
 const openTab = tabs(() => (stale.panel = true));
 const help = helpDialog();
 
@@ -129,6 +132,7 @@ function draw() {
   if (shown.layers.waits) run.why.draw(context, view, theme, shown);
   people.draw(context, view, theme, shown);
   robots.draw(context, view, theme, shown, painted, calm.matches || !clock.playing);
+  if (run.tasks && shown.layers.tasks) run.tasks.draw(context, view, theme, shown);
   timeline.draw(theme);
   gantt.draw(theme, shown.selected);
   get("now").textContent = clockText(run.now);
@@ -146,6 +150,7 @@ function follow() {
 function refreshPanel() {
   fleet.refresh();
   events.list.refresh();
+  tasks.refresh(theme);
   refreshLevels();
   get("scrub").value = run.now;
   get("scrub").setAttribute("aria-valuetext", `${clockText(run.now)} of ${clockText(run.end)}`);
@@ -304,5 +309,5 @@ resize();
 requestAnimationFrame(frame);
 
 /** For the console and for tests. */
-window.replay = { run, clock, shown, view, robots, lidar, facilities, heat, gantt };
+window.replay = { run, clock, shown, view, robots, lidar, facilities, heat, gantt, tasks };
 document.body.classList.add("ready");

@@ -69,9 +69,8 @@ export class Paths {
         const onward = i > first && run.routeLevel[i] === shown.level && run.routeLevel[i - 1] === shown.level;
         lines[colour][onward ? "lineTo" : "moveTo"](...view.toScreen(run.routeX[i], run.routeY[i]));
       }
-      if (run.routeLevel[end - 1] === shown.level) {
-        addGoal(goals[colour], ...view.toScreen(run.routeX[end - 1], run.routeY[end - 1]), crowd ? 3 : 7);
-      }
+      const [x, y, level] = this.#goal(robot, end - 1);
+      if (level === shown.level) addGoal(goals[colour], ...view.toScreen(x, y), crowd ? 3 : 7);
     });
     colours.palette.forEach((colour, index) => {
       context.strokeStyle = colour;
@@ -84,6 +83,14 @@ export class Paths {
       context.stroke(goals[index]);
     });
     context.globalAlpha = 1;
+  }
+
+  /** x, y and level of a robot's goal: the errand of its task, else where its route ends; nothing without a task. */
+  #goal(robot, last) {
+    const { tasks, routeX, routeY, routeLevel } = this.run;
+    if (!tasks) return [routeX[last], routeY[last], routeLevel[last]];
+    const errand = tasks.goal(robot);
+    return errand < 0 ? [] : [tasks.x[errand], tasks.y[errand], tasks.level[errand]];
   }
 
   #drawDriven(context, view, shown, colours) {

@@ -1,6 +1,7 @@
 // A recorded run: where every robot is at any time, interpolated between samples, and what it is doing.
 
 import { decoded, lastAtMost } from "replay/data.js";
+import { Tasks } from "replay/tasks.js";
 import { Why } from "replay/why.js";
 
 /** What a robot may be doing: `Mode` of the recording, then what follows from its progress. */
@@ -42,6 +43,7 @@ export class Run {
     this.pose = this.#poses();
     this.ghost = arrays.estimate_x ? this.#poses() : null;
     this.why = new Why(this);
+    this.tasks = arrays.task_time ? new Tasks(this) : null;
     this.seek(this.begin);
   }
 
@@ -64,6 +66,7 @@ export class Run {
       this.#interpolate(this.arrays[axis], this.pose[axis]);
       if (this.ghost) this.#interpolate(this.arrays[`estimate_${axis}`], this.ghost[axis]);
     }
+    this.tasks?.refresh();
   }
 
   /** Yaw was unwrapped when it was packed: halfway from 179° to -179° is 180°, not 0°. */
@@ -154,8 +157,12 @@ export class Run {
     return this.contacts.filter(([first, last]) => first <= this.now && this.now <= last + after);
   }
 
-  /** Where a robot's route ends: the name of its task, or metres. */
+  /** Where a robot goes: the errand of its task, the name of its only goal, or metres. */
   goal(robot) {
+    if (this.tasks) {
+      const errand = this.tasks.goal(robot);
+      return errand < 0 ? "–" : `${this.tasks.placeName(errand)} (task ${this.tasks.target[robot]})`;
+    }
     const last = this.routeFirst[robot + 1] - 1;
     if (last < this.routeFirst[robot]) return "–";
     const place = `${this.routeX[last].toFixed(2)}, ${this.routeY[last].toFixed(2)} m`;

@@ -6,6 +6,7 @@ export const LAYERS = [
   { key: "plan", label: "Plan", letter: "p" },
   { key: "driven", label: "Driven", letter: "d" },
   { key: "reserved", label: "Reserved", letter: "r" },
+  { key: "tasks", label: "Tasks", letter: "o" },
   { key: "waits", label: "Waits", letter: "w" },
   { key: "estimate", label: "Estimate", letter: "m" },
   { key: "lidar", label: "Lidar", letter: "l" },
@@ -23,6 +24,7 @@ export class Shown extends EventTarget {
       names: !run.world.vertices.some(([, , , name]) => name),
       lanes: !run.world.lanes.length,
       reserved: !run.arrays.released,
+      tasks: !run.tasks,
       waits: !run.arrays.reason,
       estimate: !run.ghost,
       lidar: !hasScans,
@@ -30,7 +32,7 @@ export class Shown extends EventTarget {
     };
     this.offered = LAYERS.filter(({ key }) => !missing[key]);
     if (!run.planned) this.offered = this.offered.map((it) => (it.key === "plan" ? { ...it, label: "Goals" } : it));
-    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, waits: true, estimate: false, lidar: false, heat: false, gantt: false };
+    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, tasks: true, waits: true, estimate: false, lidar: false, heat: false, gantt: false };
     this.colour = few ? "robot" : "state";
     this.selected = -1;
     this.follow = false;

@@ -1,0 +1,91 @@
+// The tab of tasks: how many wait, are carried and are done, a curve of the throughput, and the list.
+
+import { clockText } from "replay/clock.js";
+import { lastAtMost } from "replay/data.js";
+import { List, make } from "replay/list.js";
+import { fitCanvas } from "replay/surface.js";
+
+const WINDOWS = [10, 60, 300, 600, 3600]; // seconds over which the throughput is taken
+const PARTS = 8; // such windows in a run at least
+const LABEL = 14; // pixels above the curve
+
+export class TaskPanel {
+  /** `choose(robot)` is called when a task that has a robot is pressed. */
+  constructor(run, choose) {
+    this.run = run;
+    this.tasks = run.tasks;
+    if (!run.tasks) return;
+    this.window = WINDOWS.findLast((window) => window * PARTS <= run.end - run.begin) ?? WINDOWS[0];
+    this.canvas = document.querySelector("#throughput canvas");
+    this.note = document.querySelector("#throughput p");
+    this.list = new List(
+      document.getElementById("task-list"),
+      34,
+      (button, task) => this.#fill(button, task),
+      ({ robot }) => robot >= 0 && choose(robot),
+      "No task was released yet.",
+    );
+  }
+
+  /** Tasks done per hour, over the window that ends at a time (over a shorter one at the beginning). */
+  rate(time) {
+    const { doneTimes } = this.tasks;
+    const from = Math.max(time - this.window, this.run.begin);
+    if (time <= from) return 0;
+    return ((lastAtMost(doneTimes, time + 5e-4) - lastAtMost(doneTimes, from + 5e-4)) * 3600) / (time - from);
+  }
+
+  refresh(theme) {
+    if (!this.tasks || !this.canvas.clientWidth) return;
+    const { open, over, carried, done } = this.tasks;
+    this.note.textContent = `${open.size - carried} waiting, ${carried} carried, ${done} done`;
+    this.list.show([...open.values(), ...over.toReversed()]);
+    this.#draw(theme);
+  }
+
+  #draw(theme) {
+    const { run } = this;
+    const context = fitCanvas(this.canvas);
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const first = Math.min(run.begin + this.window, run.end); // before that, too little is known
+    const span = Math.max(run.end - run.begin, 1e-9);
+    const x = (time) => ((time - run.begin) / span) * (width - 1);
+    const rates = Array.from({ length: width }, (_, column) => this.rate(run.begin + (column / Math.max(width - 1, 1)) * span));
+    const from = Math.ceil(x(first));
+    const most = Math.max(...rates.slice(from), 1);
+    const y = (rate) => height - 1 - (rate / most) * (height - LABEL - 3);
+    context.clearRect(0, 0, width, height);
+    context.fillStyle = theme.muted;
+    context.font = "11px system-ui, sans-serif";
+    [context.textBaseline, context.textAlign] = ["top", "left"];
+    const last = this.window < 120 ? `${this.window} s` : `${this.window / 60} min`;
+    context.fillText(`done per hour, over ${last}; now ${Math.round(this.rate(run.now))}, most ${Math.round(most)}`, 0, 0);
+    context.strokeStyle = theme.rule;
+    context.lineWidth = 1;
+    context.strokeRect(0.5, LABEL + 0.5, width - 1, height - LABEL - 1);
+    context.strokeStyle = theme.accent;
+    context.lineWidth = 1.75;
+    context.beginPath();
+    for (let column = from; column < width; column++) context.lineTo(column, y(rates[column]));
+    context.stroke();
+    context.fillStyle = theme.ink;
+    context.fillRect(x(run.now) - 0.5, LABEL, 1.5, height - LABEL);
+  }
+
+  #fill(button, task) {
+    const { run, tasks } = this;
+    const of = tasks.first[task.index + 1] - tasks.first[task.index];
+    const name = task.robot >= 0 ? run.names[task.robot] : "";
+    const where = tasks.placeName(tasks.place(task));
+    const errand = of > 1 ? `errand ${task.errand + 1} of ${of}: ` : "";
+    const what = task.fate
+      ? `${task.fate} after ${Math.round(task.at - task.since)} s`
+      : task.begun
+        ? `carried, ${errand}${where}`
+        : `waiting at ${where} since ${clockText(task.since)}`;
+    button.className = "event";
+    button.title = `task ${task.index}: ${what}`;
+    button.replaceChildren(make("time", "", String(task.index)), make("span", "what", what), make("span", "actor", name));
+    button.classList.toggle("past", !task.fate);
+  }
+}
