@@ -73,6 +73,7 @@ def _draw(recording: Recording, file: Path) -> None:
             truth=truth,
             level=level,
             planned=context.planned,
+            goals="task_time" not in recording.channels,
         )
         print(f"wrote {drawn}")
 

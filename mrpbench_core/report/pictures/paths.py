@@ -18,11 +18,17 @@ def on_level(route: Route, level: int) -> Float:
 
 
 def draw_paths(
-    axes: Any, fleet: Fleet | None, routes: Sequence[Float], truth: Float | None, planned: bool = True
+    axes: Any,
+    fleet: Fleet | None,
+    routes: Sequence[Float],
+    truth: Float | None,
+    planned: bool = True,
+    goals: bool = True,
 ) -> None:
     """Draw for each robot the planned path dashed, the driven path solid, its start as a circle and its goal as a star.
 
     Positions on other levels are NaN. Where no plan is known (`planned` is false), routes give start and goal only.
+    Without `goals`, as where tasks keep coming, no stars are drawn.
     """
     from matplotlib.patches import Circle
 
@@ -39,10 +45,10 @@ def draw_paths(
         start, goal = (route if len(route) else driven)[[0, -1]]
         if fleet is not None and np.isfinite(start).all():
             axes.add_patch(Circle(start, fleet.robots[robot].radius, facecolor=colour, alpha=0.25, zorder=7))
-        for point, marker, size in ((start, "o", 9), (goal, "*", 15)):
+        for point, marker, size in ((start, "o", 9), (goal, "*", 15))[: 2 if goals else 1]:
             if np.isfinite(point).all():
                 _mark(axes, point, marker, size, colour, str(robot))
-    _legend(axes, bool(routes) and planned, truth is not None)
+    _legend(axes, bool(routes) and planned, truth is not None, goals)
 
 
 def _mark(axes: Any, point: Float, marker: str, size: int, colour: str, text: str) -> None:
@@ -51,7 +57,7 @@ def _mark(axes: Any, point: Float, marker: str, size: int, colour: str, text: st
     axes.text(*point, text, color="white", zorder=9, **style)
 
 
-def _legend(axes: Any, planned: bool, driven: bool) -> None:
+def _legend(axes: Any, planned: bool, driven: bool, goals: bool) -> None:
     from matplotlib.lines import Line2D
 
     grey: dict[str, Any] = {"color": "#555555"}
@@ -59,6 +65,6 @@ def _legend(axes: Any, planned: bool, driven: bool) -> None:
         *([Line2D([], [], linestyle="--", linewidth=1.1, label="planned", **grey)] if planned else []),
         *([Line2D([], [], linewidth=1.6, label="driven", **grey)] if driven else []),
         Line2D([], [], linestyle="", marker="o", markersize=6, label="start", **grey),
-        Line2D([], [], linestyle="", marker="*", markersize=9, label="goal", **grey),
+        *([Line2D([], [], linestyle="", marker="*", markersize=9, label="goal", **grey)] if goals else []),
     ]
     axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=4, frameon=False, borderpad=0)

@@ -28,9 +28,13 @@ def world_thumbnail(recording: Recording) -> str:
 
 
 def run_thumbnail(recording: Recording) -> str:
-    """Draw the paths of robots on that level: a dot at the start, a cross at the end, and a ring around the goal."""
+    """Draw the paths of robots on that level: a dot at the start, a cross at the end, and a ring around the goal.
+
+    Where tasks keep coming, robots have no goals of their own, and there are no rings.
+    """
     world, level, truth = _read(recording)
-    goals = [(goal[0], goal[1]) for goal in recording.context().goal]
+    coming = "task_time" in recording.channels
+    goals = [] if coming else [(goal[0], goal[1]) for goal in recording.context().goal]
     return _svg(world, level, truth, goals)
 
 

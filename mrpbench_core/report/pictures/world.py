@@ -36,6 +36,7 @@ def draw_world(
     truth: Float | None = None,
     level: int = 0,
     planned: bool = True,
+    goals: bool = True,
 ) -> None:
     """Draw a level of `world` into a PNG of 1280 pixels width (or height, for a tall world).
 
@@ -48,6 +49,7 @@ def draw_world(
         truth: driven paths f8[T,n,3] in metres and radians, solid; NaN where unknown.
         level: index of the level; only the parts of routes on it are drawn.
         planned: whether the routes are plans; otherwise only their starts and goals are drawn.
+        goals: whether routes end at goals; they do not where tasks keep coming.
 
     Raises:
         InputError: matplotlib is missing, or the file cannot be written.
@@ -56,7 +58,7 @@ def draw_world(
     with own_style():
         figure, axes = world_figure(world, roadmap=roadmap, truth=truth, level=level, faint=moving)
         if moving:
-            draw_paths(axes, fleet, [on_level(route, level) for route in routes or ()], truth, planned)
+            draw_paths(axes, fleet, [on_level(route, level) for route in routes or ()], truth, planned, goals)
         try:
             figure.savefig(file, format="png")
         except OSError as error:
