@@ -6,7 +6,7 @@ import { List, make } from "replay/list.js";
 import { fitCanvas } from "replay/surface.js";
 
 const WINDOWS = [10, 60, 300, 600, 3600]; // seconds over which the throughput is taken
-const PARTS = 8; // such windows in a run at least
+const PARTS = 5; // such windows in a run at least
 const LABEL = 14; // pixels above the curve
 
 export class TaskPanel {
@@ -77,14 +77,12 @@ export class TaskPanel {
     const of = tasks.first[task.index + 1] - tasks.first[task.index];
     const name = task.robot >= 0 ? run.names[task.robot] : "";
     const where = tasks.placeName(tasks.place(task));
-    const errand = of > 1 ? `errand ${task.errand + 1} of ${of}: ` : "";
     const what = task.fate
       ? `${task.fate} after ${Math.round(task.at - task.since)} s`
-      : task.begun
-        ? `carried, ${errand}${where}`
-        : `waiting at ${where} since ${clockText(task.since)}`;
+      : `${task.begun ? "carried to" : "waits at"} ${where}`;
+    const errand = task.begun && !task.fate && of > 1 ? `, errand ${task.errand + 1} of ${of}` : "";
     button.className = "event";
-    button.title = `task ${task.index}: ${what}`;
+    button.title = `task ${task.index}, released at ${clockText(task.since)}: ${what}${errand}`;
     button.replaceChildren(make("time", "", String(task.index)), make("span", "what", what), make("span", "actor", name));
     button.classList.toggle("past", !task.fate);
   }
