@@ -20,6 +20,7 @@ class RoadmapBuilder(Component):
     def build(self, world: World, fleet: Fleet) -> Roadmap:
         """Return a roadmap on which each robot of `fleet` keeps clear of walls, unless `clears_walls` is false.
 
+        It follows from the options, `world` and `fleet` alone: runs that agree in these share it.
         `Roadmap.duration` has one row per profile of `fleet.profiles`. `Roadmap.notes` lists what was left out.
 
         Raises:

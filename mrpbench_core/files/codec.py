@@ -1,7 +1,9 @@
 """Encode model objects as JSON and decode them; arrays are stored separately as `.npy`."""
 
 from collections.abc import Callable
+from contextvars import ContextVar
 from enum import Enum
+from functools import cache
 from typing import Any, TypeVar, cast, get_origin
 
 import attrs
@@ -10,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Kept = TypeVar("Kept")
+_FETCH: ContextVar[Callable[[str], NDArray[Any]]] = ContextVar("fetch")
 
 
 def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
@@ -41,18 +44,27 @@ def decode(data: Any, kind: type[Kept], fetch: Callable[[str], NDArray[Any]]) ->
     Raises:
         ValueError: something in `data` is missing, or has another type or range; whatever `fetch` raises passes.
     """
+    token = _FETCH.set(fetch)
+    try:
+        return _converter().structure(data, kind)
+    except (cattrs.BaseValidationError, cattrs.StructureHandlerNotFoundError) as error:
+        raise ValueError("; ".join(cattrs.transform_error(error)[:3])) from None
+    finally:
+        _FETCH.reset(token)
+
+
+@cache
+def _converter() -> cattrs.Converter:
+    """The only converter, because it takes longer to prepare than to use."""
     converter = cattrs.Converter()
     converter.register_structure_hook_func(
         lambda wanted: cast(Any, get_origin(wanted)) is np.ndarray,
-        lambda entry, _: fetch(entry["array"]),
+        lambda entry, _: _FETCH.get()(entry["array"]),
     )
     converter.register_structure_hook(float, lambda number, _: float(_plain(number, int | float)))
     # The hooks of cattrs for these would convert whatever is there.
     converter.register_structure_hook_func(lambda wanted: wanted in (bool, int, str), _plain)
-    try:
-        return converter.structure(data, kind)
-    except (cattrs.BaseValidationError, cattrs.StructureHandlerNotFoundError) as error:
-        raise ValueError("; ".join(cattrs.transform_error(error)[:3])) from None
+    return converter
 
 
 def _plain(value: Any, kind: Any) -> Any:

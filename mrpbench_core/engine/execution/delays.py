@@ -32,6 +32,8 @@ class DelayStream:
         self._stops = _stops(settings, robots, seed, repeat)
         self._stop: list[Stop] = [next(own) for own in self._stops]
         """The stop of each robot that is under way or comes next."""
+        self._next = min((begin for begin, _ in self._stop), default=_NEVER[0])
+        """The tick in which the next of them begins."""
         self._until = np.full(robots, -1)
         self._tick = -1
 
@@ -51,13 +53,15 @@ class DelayStream:
         events: list[Event] = []
         if not self.settings.p_delay or tick == self._tick:
             return ()
-        for at in range(self._tick + 1, tick + 1):
+        while self._next <= tick:
+            at = self._next
             for robot, (begin, end) in enumerate(self._stop):
                 if begin == at:
                     self._until[robot] = end
                     self._stop[robot] = next(self._stops[robot])
                     detail = f"{(end - begin) * self.settings.tick:g} s"
                     events.append(Event(stamp=at * self.settings.tick, kind="delay", robot=robot, detail=detail))
+            self._next = min(begin for begin, _ in self._stop)
         self._tick = tick
         return tuple(events)
 

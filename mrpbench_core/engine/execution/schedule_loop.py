@@ -25,7 +25,7 @@ from mrpbench_core.engine.execution.faults import FaultEvent, FaultState, approa
 from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.standstill import Ending, Standstill
 from mrpbench_core.engine.own import own
-from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32, frozen_array
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.execution.state import State
@@ -65,9 +65,9 @@ class ScheduleLoop:
         self._done: Float = np.zeros(robots)
         """Seconds f8[n] of the planned duration that each robot has made of its present move."""
         self._cleared: Int = np.zeros(robots, np.int64)
-        self._orders = Orders(released=np.zeros(robots, "i4"))
+        self._returned = self._orders = Orders(released=np.zeros(robots, "i4"))
         self._radius = context.problem.radius
-        self._twist: Float = np.zeros((robots, 2))
+        self._commands = frozen_array(np.zeros((robots, 2)), "f8", 2)
         self._look(moved=np.zeros(robots, bool))
 
     def run(self, limit_s: float) -> tuple[bool, float]:
@@ -77,33 +77,41 @@ class ScheduleLoop:
             Whether all have arrived, and the simulated seconds.
         """
         step, pose = 0, self._pose()
+        state = self._state(pose, pose)
         while True:
-            now = step * self._period
+            now, pose = step * self._period, state.pose
             self._recorder.events((*self._delays.begun(now), *self._faults.update(now)))
             view = FleetView(
                 revision=0,
                 reached=self._motion.reached,
                 cleared=self._motion.cleared,
                 pose=pose,
-                level=self._paths.level(self._reached),
+                level=state.level,
                 mode=self._motion.mode,
                 granted=self._resources.granted,
             )
-            self._orders = self._checks.orders(self._session.update(now, self._faults.heard(view)))
+            returned = self._session.update(now, self._faults.heard(view))
+            if returned is not self._returned:  # orders cannot be changed, so these are checked once
+                self._returned, self._orders = returned, self._checks.orders(returned)
             self._resources.assign(now, self._orders.requests, self._faults.broken)
             arrived = self._reached >= self._paths.last_move
             last = bool((arrived | self._faults.lost).all()) or now >= limit_s or self._stands_still(now)
-            self._record(step, now, pose, last)
+            sample = Sample(
+                now=now,
+                state=state,
+                orders=self._orders,
+                motion=self._motion,
+                waits_for=self._resources.waits_for(),
+            )
+            self._recorder.sample(step, sample, last)
             if last:
                 self._recorder.flush()
                 self.ending = self._ending(arrived, pose)
                 return bool(arrived.all()), now
-            before = pose
             self._look(moved=self._advance())
-            pose = self._pose()
-            self._twist[:, 0] = np.hypot(*(pose - before)[:, :2].T) / self._period
+            state = self._state(self._pose(), pose)
             step += 1
-            self._recorder.contacts(step * self._period, self._state(pose))
+            self._recorder.contacts(step * self._period, state)
 
     def _stands_still(self, now: float) -> bool:
         """Tell whether nothing goes on any more because of faults that do not end."""
@@ -140,8 +148,10 @@ class ScheduleLoop:
         released = self._faults.received(self._orders.released).astype(np.int64)
         for blockage in self._faults.blockages:
             released = np.minimum(released, self._paths.before(blockage, self._reached, self._done > 0, self._radius))
-        while (waits := (self._reached < released) & (self._paths.duration(self._reached) == 0)).any():
+        duration = self._paths.duration(self._reached)
+        while (waits := (self._reached < released) & (duration == 0)).any():
             self._reached[waits] += 1
+            duration = self._paths.duration(self._reached)
         left = np.where(self._delays.stopped | self._faults.stopped, 0.0, self._period)
         speed = self._speed()
         moved = np.zeros(len(left), bool)
@@ -152,20 +162,19 @@ class ScheduleLoop:
             going = robots[self._reached[robots] == segments]
             left[going] = left[going].min(initial=self._period)
             speed[going] = speed[going].min(initial=np.inf)
-        while True:
-            going = self._reached < released
-            going &= (left > 0) | (self._paths.duration(self._reached) == 0)
-            if not going.any():
-                return moved
-            needed = (self._paths.duration(self._reached) - self._done) / speed
+        while (going := (self._reached < released) & ((left > 0) | (duration == 0))).any():
+            needed = (duration - self._done) / speed
             ends = going & (needed <= left + 1e-9)
-            drives = going & ~ends
             moved |= going & (needed > 0)
-            self._done[drives] += (left * speed)[drives]
+            self._done += np.where(going & ~ends, left * speed, 0.0)
+            if not ends.any():
+                break
             left = np.where(ends, np.maximum(left - needed, 0.0), np.where(going, 0.0, left))
-            self._reached[ends] += 1
+            self._reached += ends
             self._done[ends] = 0.0
+            duration = self._paths.duration(self._reached)
             speed = np.where(ends, self._speed(), speed)
+        return moved
 
     def _look(self, moved: Bool) -> None:
         """What the dispatcher and the recording are told of the robots' progress."""
@@ -173,7 +182,7 @@ class ScheduleLoop:
         cleared = np.where(on_way & (self._done > 0), self._reached + 1, self._paths.settled(self._reached))
         self._cleared = np.maximum(self._cleared, cleared)
         self._motion = Motion(
-            twist=np.zeros((len(moved), 2)),
+            twist=self._commands,
             reached=self._reached.astype(np.int32),
             cleared=self._cleared.astype(np.int32),
             mode=np.where(moved, Mode.FOLLOWING, Mode.WAITING).astype("u1"),
@@ -182,30 +191,26 @@ class ScheduleLoop:
     def _pose(self) -> Float:
         return self._paths.pose(self._reached, self._done)
 
-    def _record(self, step: int, now: float, pose: Float, last: bool) -> None:
-        state, waits_for = self._state(pose), self._resources.waits_for()
-        sample = Sample(now=now, state=state, orders=self._orders, motion=self._motion, waits_for=waits_for)
-        self._recorder.sample(step, sample, last)
-
-    def _state(self, pose: Float) -> State:
+    def _state(self, pose: Float, before: Float) -> State:
+        """The state at a `pose` f8[n,3], one control period after the one `before`."""
         level = self._paths.level(self._reached)
-        return State(pose=pose, twist=self._twist, level=level, contacts=_overlaps(pose, level, self._radius))
+        moved = pose[:, :2] - before[:, :2]
+        twist = np.column_stack([np.hypot(moved[:, 0], moved[:, 1]) / self._period, np.zeros(len(pose))])
+        return State(pose=pose, twist=twist, level=level, contacts=_overlaps(pose, level, self._radius))
 
 
 def _overlaps(pose: Float, level: Int16, radius: Float) -> Int32:
     """The pairs i4[k,2] of robots whose footprints overlap: a sweep along x."""
     order = np.argsort(pose[:, 0], kind="stable")
-    reach, found = 2 * radius.max(initial=0.0), [np.empty((0, 2), np.int64)]
-    for apart in range(1, len(order)):
-        one, other = order[:-apart], order[apart:]
-        near = pose[other, 0] - pose[one, 0] < reach
-        if not near.any():
-            break
-        one, other = one[near], other[near]
-        gap = np.hypot(*(pose[one] - pose[other])[:, :2].T) - radius[one] - radius[other]
-        touch = (gap < -1e-6) & (level[one] == level[other])
-        found.append(np.sort(np.column_stack([one, other])[touch], axis=1))
-    return np.concatenate(found).astype(np.int32)
+    along = pose[order, 0]
+    count = np.searchsorted(along, along + 2 * radius.max(initial=0.0)) - np.arange(1, len(order) + 1)
+    count = np.maximum(count, 0)
+    one = np.repeat(np.arange(len(order)), count)
+    other = order[np.arange(len(one)) - np.repeat(np.cumsum(count) - count, count) + one + 1]
+    one = order[one]
+    x, y = pose[one, 0] - pose[other, 0], pose[one, 1] - pose[other, 1]
+    touch = (np.hypot(x, y) - radius[one] - radius[other] < -1e-6) & (level[one] == level[other])
+    return np.sort(np.column_stack([one[touch], other[touch]]), axis=1).astype(np.int32)
 
 
 class _Paths:

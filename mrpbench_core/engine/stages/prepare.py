@@ -3,11 +3,12 @@
 import attrs
 import numpy as np
 
+from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.checking.doorways import check_doorways
 from mrpbench_core.config.identity import options_text
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import check_drawn, check_returned
-from mrpbench_core.engine.own import Handed, own
+from mrpbench_core.engine.own import Handed, difference, own
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.fleet import build_fleet
 from mrpbench_core.files.errors import InputError
@@ -17,6 +18,9 @@ from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.model.worlds.world import World
+
+_LAST: list[tuple[RoadmapBuilder, World, Fleet, Roadmap]] = []
+"""The roadmap that this process built last and what it was built from, or nothing."""
 
 
 @attrs.frozen(kw_only=True)
@@ -49,9 +53,7 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
     world = own(check_returned(config.world, config.world.load(), World))
     fleet = build_fleet(config, config.scenario.size())
     announce(Stage.ROADMAP, {})
-    given = Handed((world, fleet), "world or fleet")
-    roadmap = own(check_returned(config.roadmap, config.roadmap.build(*given.given), Roadmap))
-    given.check(config.roadmap)
+    roadmap = _roadmap(config.roadmap, world, fleet)
     announce(Stage.SCENARIO, {})
     handed = Handed((world, roadmap, fleet), "world, roadmap or fleet")
     drawn = check_returned(config.scenario, config.scenario.draw(*handed.given, config.seed), Scenario)
@@ -69,6 +71,17 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
         start=start_vertices(roadmap, scenario),
         goals=goal_vertices(roadmap, scenario),
     )
+
+
+def _roadmap(builder: RoadmapBuilder, world: World, fleet: Fleet) -> Roadmap:
+    """Build the roadmap, or take that of the last run in this process if it was built from the same."""
+    if _LAST and _LAST[0][0] == builder and difference((world, fleet), _LAST[0][1:3], "") is None:
+        return _LAST[0][3]
+    given = Handed((world, fleet), "world or fleet")
+    roadmap = own(check_returned(builder, builder.build(*given.given), Roadmap))
+    given.check(builder)
+    _LAST[:] = [(builder, world, fleet, roadmap)]
+    return roadmap
 
 
 def require_free_doorways(instance: RunInstance) -> None:
