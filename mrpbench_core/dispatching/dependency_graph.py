@@ -7,8 +7,8 @@ import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.dispatching.resource_requests import ResourceRequests
-from mrpbench_core.dispatching.rotations import rotations
-from mrpbench_core.model.common.arrays import Int, Int32
+from mrpbench_core.dispatching.rotations import cycles, rotations
+from mrpbench_core.model.common.arrays import Bool, Int, Int32
 from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -22,46 +22,45 @@ class DependencyGraph:
     """Tells which moves may be released. The moves of a rotation form a group; every other move is a group of its own.
 
     A dependency of a group is that a robot has reached, or has cleared, a number of segments. A group is released when
-    all of its dependencies are met. Dependencies are sorted by robot and number, so that each is looked at once: when
-    it is met. A wait is released with the move after it.
+    all of its dependencies are met. A wait is released with the move after it.
     """
 
-    def __init__(
-        self, problem: Problem, plan: Plan, group_margin: float, ahead: int, order: Type2Edges | None = None
-    ) -> None:
-        """Prepare the release of a plan in an `order` of its moves, None = its own.
+    def __init__(self, problem: Problem, plan: Plan, group_margin: float, ahead: int) -> None:
+        """Prepare the release of a plan in its own order.
 
         Raises:
             DispatchError: the order has a cycle that is not a rotation, or a rotation without enough room.
         """
         moves = moves_of(problem, plan)
-        occupations = occupations_of(problem, moves)
-        if order is None:
-            order = type2_edges(problem, moves, resource_edges(problem, occupations))
-        self.requests = ResourceRequests(len(problem), moves, occupations, ahead)
+        self._problem, self._ahead = problem, ahead
+        self.moves, self.occupations = moves, occupations_of(problem, moves)
+        self.resources = resource_edges(problem, self.occupations)
+        self.order = type2_edges(problem, moves, self.resources)
+        self.requests = ResourceRequests(len(problem), moves, self.occupations, ahead)
         self.granted: frozenset[tuple[int, str]] = frozenset()
         self.granted_at = np.zeros((2, len(problem)), np.int64)
         """Counts i8[2,n] of the view in which the resources were granted."""
-        self.rotations = {rotation[0]: rotation for rotation in rotations(problem, moves, order, group_margin)}
+        self.rotations = {rotation[0]: rotation for rotation in rotations(problem, moves, self.order, group_margin)}
         for rotation in self.rotations.values():
             if needed := {name for move in rotation for name in self.requests.needs.get(move, ())}:
                 raise DispatchError(
                     f"robots rotate through {', '.join(sorted(needed))}, which admits one robot at a time"
                 )
-        group = np.arange(len(moves.robot))
+        self._group = np.arange(len(moves.robot))
         for first, rotation in self.rotations.items():
-            group[list(rotation)] = first
-        row, count, waiting = _dependencies(problem, moves, order, group)
-        sorting = np.lexsort((count, row))
-        row, count, waiting = row[sorting], count[sorting], waiting[sorting]
-        limits = np.searchsorted(row, np.arange(2 * len(problem) + 1))
-        self.moves, self.occupations = moves, occupations
+            self._group[list(rotation)] = first
+        self._stride = max(map(len, plan.paths), default=0) + 1
+        dependencies = np.concatenate([self._dependencies(self.order), self._follows()])
         # Lists from here on, because they are read one number at a time.
-        self.group: list[int] = group.tolist()
-        self.unmet: list[int] = np.bincount(waiting, minlength=len(group)).tolist()
-        self.count: list[int] = count.tolist()
-        self.waiting: list[int] = waiting.tolist()
-        self.next, self.end = limits[:-1].tolist(), limits[1:].tolist()
+        self.group: list[int] = self._group.tolist()
+        keys, waiting = np.divmod(dependencies, max(1, len(moves.robot)))
+        self.unmet: list[int] = np.bincount(waiting, minlength=len(self.group)).tolist()
+        self._waiting: dict[int, list[int]] = {}
+        """The groups that wait for a robot to reach or clear a number of segments, by row and number."""
+        for key, group in zip(keys.tolist(), waiting.tolist(), strict=True):
+            self._waiting.setdefault(key, []).append(group)
+        self._met = [0] * (2 * len(problem))
+        """The number of segments up to which dependencies are met: rows of REACHED, then those of CLEARED."""
         self.segment: list[int] = moves.segment.tolist()
         self.robot: list[int] = moves.robot.tolist()
         self.first, self.last = moves.first[:-1].tolist(), moves.first[1:].tolist()
@@ -75,20 +74,86 @@ class DependencyGraph:
         for robot in range(len(problem)):
             self._advance(robot)
 
+    def _dependencies(self, order: Type2Edges) -> Int:
+        """The key of the row and count, and the waiting group, of every dependency of an order, as one number i8[k]."""
+        apart = self._group[order.before] != self._group[order.after]
+        before, after = order.before[apart], order.after[apart]
+        row = np.where(order.completed[apart], REACHED, CLEARED) * len(self._problem) + self.moves.robot[before]
+        return np.unique(self._coded(row, self.moves.segment[before] + 1, self._group[after]))
+
+    def _follows(self) -> Int:
+        """All robots of a rotation must have reached its start, and a robot in a lift its exit."""
+        moves, group, level = self.moves, self._group, self._problem.roadmap.level
+        in_rotation = np.isin(group, group[group != np.arange(len(group))])
+        after_ride = np.append(False, level[moves.tail[:-1]] != level[moves.head[:-1]])[: len(group)]
+        follows = np.flatnonzero((in_rotation | after_ride) & (np.arange(len(group)) > moves.first[moves.robot]))
+        row = REACHED * len(self._problem) + moves.robot[follows]
+        return self._coded(row, moves.segment[follows - 1] + 1, group[follows])
+
+    def _coded(self, row: Int, count: Int, waiting: Int) -> Int:
+        coded: Int = ((row * self._stride + count) * len(self.moves.robot) + waiting).astype(np.int64)
+        return coded
+
+    def retime(self, moves: Moves, chosen: Bool, committed: Int32) -> None:
+        """Release in another order from now on: that of the same moves at other times.
+
+        Resources are used, and robots rotate, as before.
+
+        Args:
+            moves: at the new times.
+            chosen: bool[m] moves whose order changes, and those before them that are not over; the others come later.
+            committed: i4[n] leading segments of each robot that remain released.
+
+        Raises:
+            DispatchError: robots would wait for one another, or for a robot that is on its way already. The order then
+                remains as it was.
+        """
+        new = type2_edges(self._problem, moves, self.resources, chosen)
+        old, kept = (self.order.kept(which[self.order.before]) for which in (chosen, ~chosen))
+        order = Type2Edges(*(np.concatenate(columns) for columns in zip(kept, new, strict=True)))
+        if cycles(moves, order) != list(self.rotations.values()):
+            raise DispatchError("robots would wait for one another in the new order")
+        before, after = self._dependencies(old), self._dependencies(new)
+        removed = self._unmet_among(np.setdiff1d(before, after, assume_unique=True))
+        added = self._unmet_among(np.setdiff1d(after, before, assume_unique=True))
+        for move in (move for _, group in added for move in self.rotations.get(group, (group,))):
+            if self.segment[move] < committed[self.robot[move]]:
+                raise DispatchError(f"robot {self.robot[move]} is already on its way where another is to pass first")
+        self.order = order
+        for key, group in removed:
+            self._waiting[key].remove(group)
+            self.unmet[group] -= 1
+        for key, group in added:
+            self._waiting.setdefault(key, []).append(group)
+            self.unmet[group] += 1
+        self.rotating = [rotation for first, rotation in self.rotations.items() if not self.unmet[first]]
+        if self.requests:
+            self.requests = ResourceRequests(len(self.frontier), self.moves, self.occupations, self._ahead)
+            self.granted = frozenset()
+        places = self.moves.robot * self._stride + self.moves.segment
+        self.frontier = np.searchsorted(places, np.arange(len(committed)) * self._stride + committed).tolist()
+        for robot in range(len(committed)):
+            self._advance(robot)
+
+    def _unmet_among(self, dependencies: Int) -> list[tuple[int, int]]:
+        """The key of `_waiting` and the group of each dependency that is not met."""
+        keys, groups = np.divmod(dependencies, max(1, len(self.moves.robot)))
+        rows, counts = np.divmod(keys, self._stride)
+        unmet = counts > np.array(self._met)[rows]
+        return list(zip(keys[unmet].tolist(), groups[unmet].tolist(), strict=True))
+
     def update(self, counts: Int, robots: Int) -> None:
         """Meet the dependencies on `robots` i8[k], given the counts i8[2,n] of leading segments, and release moves."""
         ready = []
         for robot in robots.tolist():
             for kind in (REACHED, CLEARED):
                 row, value = kind * len(self.frontier) + robot, int(counts[kind, robot])
-                at = self.next[row]
-                while at < self.end[row] and self.count[at] <= value:
-                    group = self.waiting[at]
-                    self.unmet[group] -= 1
-                    if not self.unmet[group]:
-                        ready.append(group)
-                    at += 1
-                self.next[row] = at
+                for count in range(self._met[row] + 1, value + 1):
+                    for group in self._waiting.pop(row * self._stride + count, ()):
+                        self.unmet[group] -= 1
+                        if not self.unmet[group]:
+                            ready.append(group)
+                self._met[row] = max(self._met[row], value)
         self.rotating += [self.rotations[group] for group in ready if group in self.rotations]
         for group in ready:
             for move in self.rotations.get(group, (group,)):
@@ -110,6 +175,8 @@ class DependencyGraph:
             self.released[robot] = self.lengths[robot]
         elif move > self.first[robot]:
             self.released[robot] = self.segment[move - 1] + 1
+        else:
+            self.released[robot] = 0
 
     def request(self, counts: Int, granted: tuple[tuple[int, str], ...]) -> bool:
         """Release moves whose resources are `granted`, and request those needed next, given the counts i8[2,n].
@@ -134,9 +201,10 @@ class DependencyGraph:
 
         A door that is open for a robot that passes it must close before the robot returns to where the leaf is.
         """
-        return all(
+        needs = self.requests.needs.get(move)
+        return not needs or all(
             (robot, name) in self.granted and (before is None or self.requests.has_left(before, *self.granted_at))
-            for name, before in self.requests.needs.get(move, {}).items()
+            for name, before in needs.items()
         )
 
     def commit(self, committed: Int32) -> None:
@@ -158,24 +226,5 @@ class DependencyGraph:
             self._advance(robot)
 
     def _blocker(self, group: int) -> int:
-        rows = range(len(self.next))
-        waits = (row for row in rows if group in self.waiting[self.next[row] : self.end[row]])
+        waits = (key // self._stride for key, groups in self._waiting.items() if group in groups)
         return next(waits) % len(self.frontier)
-
-
-def _dependencies(problem: Problem, moves: Moves, order: Type2Edges, group: Int) -> tuple[Int, Int, Int]:
-    """Row, count and waiting group i8[k] of every dependency; the rows are those of REACHED, then those of CLEARED."""
-    robots = len(problem)
-    apart = group[order.before] != group[order.after]
-    before, after = order.before[apart], order.after[apart]
-    row = np.where(order.completed[apart], REACHED, CLEARED) * robots + moves.robot[before]
-    # All robots of a rotation must have reached its start, and a robot in a lift its exit.
-    in_rotation = np.isin(group, group[group != np.arange(len(group))])
-    level = problem.roadmap.level
-    after_ride = np.append(False, level[moves.tail[:-1]] != level[moves.head[:-1]])[: len(group)]
-    follows = np.flatnonzero((in_rotation | after_ride) & (np.arange(len(group)) > moves.first[moves.robot]))
-    return (
-        np.concatenate([row, REACHED * robots + moves.robot[follows]]),
-        np.concatenate([moves.segment[before] + 1, moves.segment[follows - 1] + 1]),
-        np.concatenate([group[after], group[follows]]),
-    )

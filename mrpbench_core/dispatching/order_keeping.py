@@ -6,11 +6,11 @@ import numpy as np
 from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.dispatching.dependency_graph import REACHED, DependencyGraph
-from mrpbench_core.model.common.arrays import Int, Int32, frozen_array
+from mrpbench_core.model.common.arrays import Bool, Int, Int32, frozen_array
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.model.planning.type2_edges import Type2Edges
+from mrpbench_core.model.planning.type2_edges import Moves
 
 
 @attrs.frozen(kw_only=True)
@@ -37,7 +37,7 @@ class OrderKeepingDispatcher(Dispatcher):
 
 
 class OrderKeepingSession(DispatcherSession):
-    """Releases one plan after another, each in its own order unless `keep` is told another one."""
+    """Releases one plan after another, each in its own order unless `retime` is told another one."""
 
     def __init__(self, options: OrderKeepingDispatcher, problem: Problem, plan: Plan) -> None:
         self.options = options
@@ -61,25 +61,28 @@ class OrderKeepingSession(DispatcherSession):
         for robot, (first, count) in enumerate(zip(gone.tolist(), self.released.tolist(), strict=True)):
             if not np.array_equal(plan.paths[robot].edge[: count - first], self.plan.paths[robot].edge[first:count]):
                 raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
-        before = self.seen, self.released
-        self.seen, self.released = np.maximum(self.seen - gone, 0), self.released - gone
-        try:
-            self.keep(problem, plan)
-        except DispatchError:
-            self.seen, self.released = before
-            raise
+        seen, released = np.maximum(self.seen - gone, 0), self.released - gone
+        committed: Int32 = np.maximum(released, [len(path) for path in problem.commitments] or 0)
+        graph = DependencyGraph(problem, plan, self.options.group_margin, self.options.request_ahead)
+        graph.update(seen, np.arange(len(problem)))
+        graph.commit(committed)
+        self.problem, self.plan, self.graph, self.seen = problem, plan, graph, seen
+        self._begin_to_release(committed)
 
-    def keep(self, problem: Problem, plan: Plan, order: Type2Edges | None = None) -> None:
-        """Release a plan in an `order` of its moves from now on, None = its own.
+    def retime(self, moves: Moves, chosen: Bool) -> None:
+        """Release the plan from now on in the order that its moves have at other times.
+
+        Args:
+            moves: at the new times.
+            chosen: bool[m] as in `DependencyGraph.retime`.
 
         Raises:
-            DispatchError: the order has a cycle, or a robot is on its way already where another one is to pass first.
+            DispatchError: as `DependencyGraph.retime`; the order then remains as it was.
         """
-        committed: Int32 = np.maximum(self.released, [len(path) for path in problem.commitments] or 0)
-        graph = DependencyGraph(problem, plan, self.options.group_margin, self.options.request_ahead, order)
-        graph.update(self.seen, np.arange(len(problem)))
-        graph.commit(committed)
-        self.problem, self.plan, self.graph = problem, plan, graph
+        self.graph.retime(moves, chosen, self.released)
+        self._begin_to_release(self.released)
+
+    def _begin_to_release(self, committed: Int32) -> None:
         self.orders: Orders | None = None
         self.released = committed
         self._release()

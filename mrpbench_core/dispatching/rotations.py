@@ -34,8 +34,7 @@ def rotations(problem: Problem, moves: Moves, order: Type2Edges, margin: float) 
         DispatchError: moves wait for one another that do not form a rotation, or whose robots would come closer than
             the sum of their radii and `margin` metres even if they move in step.
     """
-    before, after = _suspects(moves, order)
-    groups = strong_components(before.tolist(), after.tolist())
+    groups = cycles(moves, order)
     for group in groups:
         robots = moves.robot[list(group)]
         inside = np.isin(order.before, group) & np.isin(order.after, group)
@@ -45,6 +44,12 @@ def rotations(problem: Problem, moves: Moves, order: Type2Edges, margin: float) 
             )
         _check_distances(problem, moves, group, margin)
     return groups
+
+
+def cycles(moves: Moves, order: Type2Edges) -> list[tuple[int, ...]]:
+    """Groups of moves that wait for one another, sorted."""
+    before, after = _suspects(moves, order)
+    return strong_components(before.tolist(), after.tolist())
 
 
 def _suspects(moves: Moves, order: Type2Edges) -> tuple[Int, Int]:
@@ -63,7 +68,15 @@ def _suspects(moves: Moves, order: Type2Edges) -> tuple[Int, Int]:
     span = np.searchsorted(low, moves.enter, side="right") - 1
     span = np.where((span >= 0) & (moves.enter <= np.append(high, -1)[span]), span, -1)
     kept = (span[before] >= 0) & (span[before] == span[after])
-    return before[kept], after[kept]
+    before, after = before[kept], after[kept]
+    while len(before):  # leave out arcs that begin where none ends, or end where none begins
+        entered, left = np.zeros(len(moves.robot), bool), np.zeros(len(moves.robot), bool)
+        entered[after], left[before] = True, True
+        kept = entered[before] & left[after]
+        if kept.all():
+            break
+        before, after = before[kept], after[kept]
+    return before, after
 
 
 def _check_distances(problem: Problem, moves: Moves, group: tuple[int, ...], margin: float) -> None:

@@ -18,6 +18,19 @@ namespace mrpbench::bindings {
 
 using Arcs = nb::ndarray<const std::int32_t, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
 
+/// The earliest times of events under arcs that hold.
+inline auto earliest(const Vector<std::int32_t>& first, const Vector<std::int32_t>& duration, const Arcs& arcs) {
+  mapf::AlternativeGraph graph;
+  graph.first.assign(first.data(), first.data() + first.size());
+  graph.duration.assign(duration.data(), duration.data() + duration.size());
+  graph.fixed = copy<mapf::Arc>(arcs);
+  graph.check();
+  auto times = earliest_times(graph.first, graph.duration, graph.fixed);
+  require(times.size() == graph.duration.size(), "the arcs form a cycle");
+  const std::size_t count = times.size();
+  return own(std::move(times), {count});
+}
+
 inline mapf::Reordering reorder(const Vector<std::int32_t>& first, const Vector<std::int32_t>& duration,
                                 const Arcs& fixed, const Arcs& planned, const Arcs& switched, double wall_s,
                                 std::int64_t memory_bytes, std::optional<std::int64_t> probe_limit) {
@@ -52,6 +65,7 @@ inline void define_reordering(nb::module_& module) {
       .def_ro("expansions", &Reordering::expansions)
       .def_ro("probes", &Reordering::probes)
       .def_ro("decisions", &Reordering::decisions);
+  module.def("earliest", &earliest, "first"_a, "duration"_a, "arcs"_a);
   module.def("reorder", &reorder, nb::kw_only(), "first"_a, "duration"_a, "fixed"_a, "planned"_a, "switched"_a,
              "wall_s"_a, "memory_bytes"_a, "probe_limit"_a = nb::none());
 }

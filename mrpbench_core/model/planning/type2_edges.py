@@ -46,6 +46,10 @@ class Type2Edges(NamedTuple):
     completed: Bool
     """True: until `before` has ended. False: until its robot has cleared the vertex that `before` starts at."""
 
+    def kept(self, which: Bool) -> "Type2Edges":
+        """Those of `which` bool[k]."""
+        return Type2Edges(self.before[which], self.after[which], self.completed[which])
+
 
 def moves_of(problem: Problem, plan: Plan) -> Moves:
     """List the moves of a plan whose paths have no faults."""
@@ -63,12 +67,16 @@ def moves_of(problem: Problem, plan: Plan) -> Moves:
     return Moves(first, robot, segment, edge, ends[:, 0], ends[:, 1], enter[is_move], leave[is_move])
 
 
-def type2_edges(problem: Problem, moves: Moves, resources: Type2Edges) -> Type2Edges:
-    """The edges that a conflict-free plan with these `moves` implies, including `resources`, those of rule 6."""
+def type2_edges(problem: Problem, moves: Moves, resources: Type2Edges, chosen: Bool | None = None) -> Type2Edges:
+    """The edges that a conflict-free plan with these `moves` implies, including `resources`, those of rule 6.
+
+    With `chosen` bool[m], only the edges from chosen moves.
+    """
     found = [_at_vertices(problem, moves), resources]
     if Feature.FOOTPRINTS in problem.features:
         found += _between_footprints(problem, moves)
-    return without_implied(moves, Type2Edges(*(np.concatenate(parts) for parts in zip(*found, strict=True))))
+    edges = Type2Edges(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
+    return without_implied(moves, edges if chosen is None else edges.kept(chosen[edges.before]))
 
 
 def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
@@ -83,7 +91,7 @@ def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
     begin = np.concatenate([since, moves.leave])
     arrival = np.concatenate([np.full(len(robots), -1), index])
     departure = np.concatenate([np.where(count > 0, starts, -1), np.where(is_last, -1, index + 1)])
-    order = np.lexsort((begin, vertex))
+    order = np.argsort(vertex * (int(begin.max(initial=0)) + 1) + begin, kind="stable")
     earlier, later = order[:-1], order[1:]
     pairs = (vertex[earlier] == vertex[later]) & (robot[earlier] != robot[later])
     earlier, later = earlier[pairs], later[pairs]

@@ -128,6 +128,18 @@ class Reordering:
     def decisions(self) -> int:
         """Number of groups of pairs that can only be decided alike."""
 
+def earliest(first: NDArray[np.int32], duration: NDArray[np.int32], arcs: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Compute the earliest time i4[events] of each event in ticks.
+
+    Args:
+        first: as for `reorder`.
+        duration: as for `reorder`.
+        arcs: i4[k,3] of (event before, event after, least ticks between them), all of which hold.
+
+    Raises:
+        ValueError: the arcs form a cycle, or make no sense.
+    """
+
 def reorder(
     *,
     first: NDArray[np.int32],

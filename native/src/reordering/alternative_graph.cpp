@@ -62,45 +62,49 @@ void AlternativeGraph::check() const {
   for (std::size_t k = 0; k < alternatives.size(); ++k) checker.pair(alternatives[k], k);
 }
 
+std::vector<Tick> earliest_times(std::span<const std::int32_t> first, std::span<const Tick> duration,
+                                 std::span<const Arc> arcs) {
+  const std::int32_t events = first.back();
+  std::vector<std::int32_t> begin(events + 1), waiting(events, 1), ready;
+  std::vector<char> is_last(events);
+  for (const Arc& arc : arcs) {
+    ++begin[arc.before + 1];
+    ++waiting[arc.after];
+  }
+  for (std::int32_t event = 0; event < events; ++event) begin[event + 1] += begin[event];
+  std::vector<Arc> by_tail(arcs.size());
+  for (std::vector<std::int32_t> next = begin; const Arc& arc : arcs) by_tail[next[arc.before]++] = arc;
+  for (std::size_t robot = 0; robot + 1 < first.size(); ++robot) {
+    is_last[first[robot + 1] - 1] = true;
+    if (--waiting[first[robot]] == 0) ready.push_back(first[robot]);
+  }
+  std::vector<Tick> time(events);
+  std::int32_t seen = 0;
+  const auto reach = [&](std::int32_t event, Tick at) {
+    time[event] = std::max(time[event], at);
+    if (--waiting[event] == 0) ready.push_back(event);
+  };
+  for (; !ready.empty(); ++seen) {
+    const std::int32_t event = ready.back();
+    ready.pop_back();
+    for (std::int32_t k = begin[event]; k < begin[event + 1]; ++k)
+      reach(by_tail[k].after, time[event] + by_tail[k].lag);
+    if (!is_last[event]) reach(event + 1, time[event] + duration[event]);
+  }
+  if (seen < events) time.clear();
+  return time;
+}
+
 Cost cost_of_order(const AlternativeGraph& graph, std::span<const char> switched) {
   std::vector<Arc> arcs = graph.fixed;
   for (std::size_t k = 0; k < graph.alternatives.size(); ++k) {
     arcs.push_back(switched[k] ? graph.alternatives[k].switched : graph.alternatives[k].planned);
   }
-  const int events = graph.events();
-  std::vector<std::int32_t> begin(events + 1), waiting(events, 1), ready;
-  for (const Arc& arc : arcs) {
-    ++begin[arc.before + 1];
-    ++waiting[arc.after];
-  }
-  for (int event = 0; event < events; ++event) begin[event + 1] += begin[event];
-  std::vector<Arc> by_tail(arcs.size());
-  for (std::vector<std::int32_t> next = begin; const Arc& arc : arcs) by_tail[next[arc.before]++] = arc;
-  std::vector<char> is_last(events);
-  for (int robot = 0; robot < graph.robots(); ++robot) {
-    is_last[graph.first[robot + 1] - 1] = true;
-    if (--waiting[graph.first[robot]] == 0) ready.push_back(graph.first[robot]);
-  }
-  std::vector<Tick> time(events);
+  const std::vector<Tick> time = earliest_times(graph.first, graph.duration, arcs);
+  if (time.empty() && graph.events() > 0) return -1;
   Cost cost = 0;
-  int seen = 0;
-  const auto reach = [&](std::int32_t event, Tick at) {
-    time[event] = std::max(time[event], at);
-    if (--waiting[event] == 0) ready.push_back(event);
-  };
-  while (!ready.empty()) {
-    const std::int32_t event = ready.back();
-    ready.pop_back();
-    ++seen;
-    for (std::int32_t k = begin[event]; k < begin[event + 1]; ++k)
-      reach(by_tail[k].after, time[event] + by_tail[k].lag);
-    if (is_last[event]) {
-      cost += time[event];
-    } else {
-      reach(event + 1, time[event] + graph.duration[event]);
-    }
-  }
-  return seen == events ? cost : -1;
+  for (int robot = 0; robot < graph.robots(); ++robot) cost += time[graph.first[robot + 1] - 1];
+  return cost;
 }
 
 }  // namespace mrpbench::mapf

@@ -42,6 +42,10 @@ struct AlternativeGraph {
   void check() const;
 };
 
+/// The earliest time of each event, given arcs that hold; nothing if they form a cycle.
+std::vector<Tick> earliest_times(std::span<const std::int32_t> first, std::span<const Tick> duration,
+                                 std::span<const Arc> arcs);
+
 /// Sum over the robots of the earliest time of their last event, given one arc of each pair: `switched[k]` tells which
 /// one of the k-th. -1 where the arcs form a cycle: some robots would wait for one another for ever.
 Cost cost_of_order(const AlternativeGraph& graph, std::span<const char> switched);

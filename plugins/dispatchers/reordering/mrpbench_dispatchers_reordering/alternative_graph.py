@@ -1,4 +1,4 @@
-"""The alternative graph of what may still be decided, as `mrpbench_native.mapf.reorder` takes it.
+"""The alternative graph of what may be decided next, as `mrpbench_native.mapf.reorder` takes it.
 
 The events of a robot are its present state at time 0, and three for each move left: the robot begins it, clears the
 vertex behind it, and completes it. A pair of visits gives an arc from the end of the visit that comes first to the
@@ -8,12 +8,13 @@ beginning of the other one. Times are in milliseconds.
 from typing import NamedTuple
 
 import numpy as np
+from mrpbench_native.mapf import earliest
 
 from mrpbench_core.dispatching.dependency_graph import CLEARED, REACHED, DependencyGraph
-from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
-from mrpbench_core.model.planning.type2_edges import Moves, Type2Edges
+from mrpbench_core.model.common.arrays import Bool, Int, Int32
+from mrpbench_core.model.planning.type2_edges import Moves
 from mrpbench_dispatchers_reordering.progress import Progress
-from mrpbench_dispatchers_reordering.visits import NONE, Pairs, Visits
+from mrpbench_dispatchers_reordering.visits import NONE, Conflicts, Pairs, Visits
 
 MILLISECONDS = 1000.0
 BEGIN, CLEAR, COMPLETE = range(3)
@@ -30,58 +31,114 @@ class State(NamedTuple):
 
 
 class AlternativeGraph(NamedTuple):
-    """The arguments of `reorder`, and the pairs that its alternatives belong to."""
+    """The arguments of `reorder`, the pairs of its alternatives, and the moves whose order its answer changes."""
 
     arrays: dict[str, Int32]
-    open: Int
-    """The pair of each alternative."""
+    pairs: Pairs
+    moves: Int
+    """i8[c]."""
+    begin: Int
+    """The event i8[c] that begins each of them."""
+
+    def order(self, switched: Bool) -> Int:
+        """The moves i8[c] in an order that `switched` bool[k] implies for the alternatives.
+
+        Raises:
+            ValueError: the order has a cycle.
+        """
+        arrays = self.arrays
+        chosen = np.where(switched[:, None], arrays["switched"], arrays["planned"])
+        time = earliest(arrays["first"], arrays["duration"], np.concatenate([arrays["fixed"], chosen]))
+        found: Int = self.moves[np.argsort(time[self.begin], kind="stable")]
+        return found
 
 
 def alternative_graph(
-    graph: DependencyGraph, visits: Visits, pairs: Pairs, resources: Type2Edges, state: State, window: float
+    graph: DependencyGraph, conflicts: Conflicts, visits: Visits, state: State, horizon: float, limit: int
 ) -> AlternativeGraph:
-    """Build the graph.
+    """Build the graph of the moves that robots can begin within the horizon if they do not wait.
+
+    The order of those moves may change that begin before any robot could complete its moves in the graph, in the order
+    in force: then no move beyond the graph precedes one of them. So an order of them without cycles has none with the
+    rest of the plan either.
 
     Args:
         graph: has the order in force.
-        visits: of the plan.
-        pairs: in the order in force.
-        resources: edges of rule 6, which hold in every order.
+        conflicts: of the problem.
+        visits: of the plan, at times of the order in force.
         state: how far robots are.
-        window: planned seconds from now in which visits begin whose order may change.
+        horizon: seconds from now.
+        limit: number of moves; the horizon is shortened where they are more.
     """
-    moves, events = graph.moves, _Events(graph.moves, state)
+    moves = graph.moves
+    events = _Events(moves, state, _last(moves, state.progress, horizon, limit))
     begun = (visits.begin == NONE) | _is_released(moves, visits.begin, state)
     ended = visits.end != NONE
     for row, needed in ((CLEARED, visits.cleared), (REACHED, visits.completed)):
         ended &= ~needed | (state.seen[row, visits.robot] > moves.segment[visits.end])
-    group = _rotations(graph)
-    begin_group, end_group = (np.where(move == NONE, NONE, group[move]) for move in (visits.begin, visits.end))
-    due = _planned_wait(moves, visits, state.progress) <= window
-    free = ~begun & (visits.end != NONE) & (begin_group == NONE) & (end_group == NONE) & due
-    first, second = pairs
-    counts = ~ended[first] & ~begun[second]
-    counts &= (end_group[first] == NONE) | (end_group[first] != begin_group[second])
-    is_open = counts & free[first] & free[second]
-    found = np.flatnonzero(is_open)
-    fixed = np.flatnonzero(counts & ~is_open & (visits.end[first] != NONE))
-    arcs = [events.arcs(visits.end[first[fixed]], visits.completed[first[fixed]], visits.begin[second[fixed]])]
-    left = ~_is_released(moves, resources.after, state)
-    done = np.where(resources.completed, REACHED, CLEARED)
-    left &= state.seen[done, moves.robot[resources.before]] <= moves.segment[resources.before]
-    arcs.append(events.arcs(resources.before[left], resources.completed[left], resources.after[left]))
-    arcs.append(events.arcs_into_rotations(graph, np.concatenate(arcs)))
-    first, second = first[found], second[found]
+    first, second = conflicts.pairs(visits, np.flatnonzero(~ended & (begun | events.has(visits.begin))))
+    rotation = np.append(_rotations(graph), NONE)
+    counts = ~begun[second] & (visits.end[first] != NONE)
+    counts &= (rotation[visits.end[first]] == NONE) | (rotation[visits.end[first]] != rotation[visits.begin[second]])
+    first, second = first[counts], second[counts]
+    planned = events.arcs(visits.end[first], visits.completed[first], visits.begin[second])
+    fixed = np.concatenate([_resource_arcs(graph, events, state), _arcs_from_beyond(graph, events)])
+    arcs = np.concatenate([fixed, planned])
+    fixed = np.concatenate([fixed, events.arcs_into_rotations(graph, arcs)])
+    time = earliest(events.first.astype(np.int32), events.duration.astype(np.int32), np.concatenate([arcs, fixed]))
+    inside = np.flatnonzero(
+        events.has(np.arange(len(moves.robot))) & ~_is_released(moves, np.arange(len(moves.robot)), state)
+    )
+    begin = events.of(inside, np.full(len(inside), BEGIN))
+    next_one = time[begin] < events.least_beyond(time)
+    inside, begin = inside[next_one], begin[next_one]
+    free = np.zeros(len(moves.robot) + 1, bool)
+    free[inside] = True
+    free &= rotation == NONE
+    is_open = (
+        free[visits.begin[first]] & free[visits.end[first]] & free[visits.begin[second]] & free[visits.end[second]]
+    )
+    one, other = first[is_open], second[is_open]
     return AlternativeGraph(
         arrays={
             "first": events.first.astype(np.int32),
             "duration": events.duration.astype(np.int32),
-            "fixed": np.concatenate(arcs),
-            "planned": events.arcs(visits.end[first], visits.completed[first], visits.begin[second]),
-            "switched": events.arcs(visits.end[second], visits.completed[second], visits.begin[first]),
+            "fixed": np.concatenate([fixed, planned[~is_open]]),
+            "planned": planned[is_open],
+            "switched": events.arcs(visits.end[other], visits.completed[other], visits.begin[one]),
         },
-        open=found,
+        pairs=Pairs(one, other),
+        moves=inside,
+        begin=begin,
     )
+
+
+def _last(moves: Moves, progress: Progress, horizon: float, limit: int) -> Int:
+    """The end i8[n] of the moves of each robot that it can begin within the horizon.
+
+    The horizon is shortened while these are more than `limit`, but to no less than one move of each robot.
+    """
+    while True:
+        last = np.clip(progress.moves_until(horizon), progress.present, moves.first[1:])
+        if (last - progress.present).sum() <= max(limit, len(last)):
+            return last
+        horizon *= 0.9
+
+
+def _resource_arcs(graph: DependencyGraph, events: "_Events", state: State) -> Int32:
+    """Rule 6, which holds in every order."""
+    moves, resources = graph.moves, graph.resources
+    done = np.where(resources.completed, REACHED, CLEARED)
+    left = ~_is_released(moves, resources.after, state) & events.has(resources.after)
+    left &= state.seen[done, moves.robot[resources.before]] <= moves.segment[resources.before]
+    return events.arcs(resources.before[left], resources.completed[left], resources.after[left])
+
+
+def _arcs_from_beyond(graph: DependencyGraph, events: "_Events") -> Int32:
+    """From moves beyond the graph that precede moves in it: from the last events of their robots."""
+    order = graph.order
+    into = (order.before >= events.last[graph.moves.robot[order.before]]) & events.has(order.after)
+    return events.arcs(order.before[into], order.completed[into], order.after[into])
 
 
 def _is_released(moves: Moves, move: Int, state: State) -> Bool:
@@ -97,28 +154,23 @@ def _rotations(graph: DependencyGraph) -> Int:
     return group
 
 
-def _planned_wait(moves: Moves, visits: Visits, progress: Progress) -> Float:
-    """Planned seconds f8[v] from each robot's present move to the beginning of a visit."""
-    present = np.minimum(progress.present, len(moves.robot) - 1)[visits.robot]
-    ticks = np.where(visits.begin == NONE, 0, moves.enter[visits.begin] - moves.enter[present])
-    wait: Float = ticks * progress.tick
-    return wait
-
-
 class _Events:
     """Numbers the events of all robots, and gives the times between them."""
 
-    def __init__(self, moves: Moves, state: State) -> None:
+    def __init__(self, moves: Moves, state: State, last: Int) -> None:
         self._moves = moves
+        self.last = last
+        """The end i8[n] of the moves of each robot in the graph."""
         robots = np.arange(len(moves.first) - 1)
         present = state.progress.present
-        count = moves.first[1:] - present
+        count = last - present
         under_way = (count > 0) & _is_released(moves, np.minimum(present, len(moves.robot) - 1), state)
         self.first: Int = np.concatenate([[0], np.cumsum(1 + 3 * count - under_way)])
         self._origin = self.first[:-1] + 1 - under_way - 3 * present
         """Event `BEGIN` of move m is number `_origin[robot] + 3 m`; that of a move under way is the present state."""
+        self._present = present
         self.duration: Int = np.ones(self.first[-1], np.int64)
-        left = np.arange(len(moves.robot)) >= present[moves.robot]
+        left = self.has(np.arange(len(moves.robot)))
         whole = np.maximum(2, np.rint(state.progress.duration * MILLISECONDS).astype(np.int64))
         # A robot is assumed to lose as much time again as it has lost on its move already.
         mine = robots[under_way]
@@ -131,11 +183,22 @@ class _Events:
         at = begin[present[gone]]
         self.duration[at], self.duration[at + CLEAR] = 1, whole[present[gone]]
 
-    def of(self, move: Int, kind: Int) -> Int:
-        """The event of each move; the present state if the robot has made the move."""
+    def has(self, move: Int) -> Bool:
+        """Tell which moves, `NONE` = no move, are in the graph."""
         robot = self._moves.robot[move]
-        event: Int = np.maximum(self._origin[robot] + 3 * move + kind, self.first[robot])
+        found: Bool = (move >= self._present[robot]) & (move < self.last[robot])
+        return found
+
+    def of(self, move: Int, kind: Int) -> Int:
+        """The event of each move; the present state if the robot has made the move, its last event if it is beyond."""
+        robot = self._moves.robot[move]
+        event: Int = np.clip(self._origin[robot] + 3 * move + kind, self.first[robot], self.first[robot + 1] - 1)
         return event
+
+    def least_beyond(self, time: Int32) -> int:
+        """The least `time` i4[events] at which a move beyond the graph can begin."""
+        goes_on = self.last < self._moves.first[1:]
+        return int(time[self.first[1:][goes_on] - 1].min(initial=np.iinfo(np.int32).max))
 
     def arcs(self, before: Int, completed: Bool, after: Int) -> Int32:
         """Arcs i4[k,3] from the end of moves, which are cleared or `completed`, to the beginning of others."""
@@ -149,10 +212,11 @@ class _Events:
         robot_of = np.repeat(np.arange(len(self.first) - 1), np.diff(self.first))
         for rotation in graph.rotations.values():
             members = np.array(rotation)
-            begins = self.of(members, np.full(len(members), BEGIN))
-            if (begins == self.first[self._moves.robot[members]]).any():
-                continue  # under way or over
-            sources = np.concatenate([begins - 1, arcs[np.isin(arcs[:, 1], begins), 0]])
+            begins, inside = self.of(members, np.full(len(members), BEGIN)), self.has(members)
+            if not inside.any() or (begins == self.first[self._moves.robot[members]]).any():
+                continue  # beyond, under way or over
+            sources = np.concatenate([begins - inside, arcs[np.isin(arcs[:, 1], begins), 0]])
+            begins = begins[inside]
             before, after = np.repeat(sources, len(begins)), np.tile(begins, len(sources))
             apart = robot_of[before] != robot_of[after]
             ones = np.ones(int(apart.sum()), np.int64)

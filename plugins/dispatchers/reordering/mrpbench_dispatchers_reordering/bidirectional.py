@@ -14,18 +14,16 @@ import numpy as np
 from mrpbench_core.checking.strong_components import strong_components
 from mrpbench_core.dispatching.dependency_graph import DependencyGraph
 from mrpbench_core.model.common.arrays import Bool, Int
-from mrpbench_core.model.planning.type2_edges import Type2Edges
 from mrpbench_dispatchers_reordering.visits import NONE, Pairs, Visits
 
 
-def open_groups(graph: DependencyGraph, visits: Visits, pairs: Pairs, resources: Type2Edges, limit: int) -> Int:
+def open_groups(graph: DependencyGraph, visits: Visits, pairs: Pairs, limit: int) -> Int:
     """The group i8[k] of each pair whose order stays open, `NONE` for the others.
 
     Args:
         graph: of the plan's order.
         visits: of the plan.
         pairs: in the plan's order.
-        resources: edges of rule 6, which hold in every order.
         limit: number of groups that are tried, those of the earliest visits first.
     """
     first, second = pairs
@@ -35,7 +33,7 @@ def open_groups(graph: DependencyGraph, visits: Visits, pairs: Pairs, resources:
     for visit in (first, second):
         for move in (visits.begin[visit], visits.end[visit]):
             steady &= (move != NONE) & ~rotates[move]
-    arcs = _Arcs(graph, visits, pairs, resources)
+    arcs = _Arcs(graph, visits, pairs)
     groups = [group for group in _together(visits, pairs) if steady[group].all()]
     groups.sort(key=lambda group: int(visits.arrival[first[group]].min()))
     found = np.full(len(first), NONE)
@@ -72,8 +70,8 @@ def _together(visits: Visits, pairs: Pairs) -> list[Int]:
 class _Arcs:
     """Arcs from the end of one move to the beginning of another, and those that open pairs add."""
 
-    def __init__(self, graph: DependencyGraph, visits: Visits, pairs: Pairs, resources: Type2Edges) -> None:
-        moves, (first, second) = graph.moves, pairs
+    def __init__(self, graph: DependencyGraph, visits: Visits, pairs: Pairs) -> None:
+        moves, resources, (first, second) = graph.moves, graph.resources, pairs
         self._robot, self._first = moves.robot, moves.first
         ahead = visits.end[first], visits.begin[second]
         self._switched = visits.end[second], visits.begin[first]

@@ -16,7 +16,7 @@ from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_dispatchers_reordering.bidirectional import open_groups
 from mrpbench_dispatchers_reordering.switching import SwitchingDispatcher, SwitchingSession
-from mrpbench_dispatchers_reordering.visits import NONE
+from mrpbench_dispatchers_reordering.visits import NONE, Pairs
 
 
 @attrs.frozen(kw_only=True)
@@ -51,13 +51,16 @@ class BtpgSession(SwitchingSession):
         """
         super().adopt(problem, plan, cut)
         limit = self.options.group_limit
-        self.group = open_groups(self.graph, self.visits, self.pairs, self.resources, limit)
+        self.pairs = self.conflicts.pairs(self.visits, np.arange(len(self.visits.robot) if limit else 0))
+        self.group = open_groups(self.graph, self.visits, self.pairs, limit)
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Release the moves that wait for nothing, or only for robots that come later to places with an open order."""
         orders = super().update(now, view)
-        switched = [self._goes_first(robot) for robot in self._waiting()]
-        return super().update(now, view) if any(switched) else orders
+        chosen = [groups for robot in self._waiting() if len(groups := self._groups_ahead(robot))]
+        if not chosen or not self._switch(np.concatenate(chosen), view):
+            return orders
+        return super().update(now, view)
 
     def _waiting(self) -> list[int]:
         """Robots that have made all their released moves and wait for others before the next one."""
@@ -70,18 +73,28 @@ class BtpgSession(SwitchingSession):
             and (move == graph.first[robot] or graph.segment[move - 1] < reached[robot])
         ]
 
-    def _goes_first(self, robot: int) -> bool:
-        """Let a robot go before all those that it waits for, if their order is open and they are still to come."""
+    def _groups_ahead(self, robot: int) -> Int:
+        """The groups with which a robot could go before all those that it waits for, if these are still to come."""
         first, second = self.pairs
         blocks = np.flatnonzero(self.visits.begin[second] == self.graph.frontier[robot])
         blocks = blocks[~self._ended(first[blocks])]
         groups = np.unique(self.group[blocks])
-        if not len(groups) or groups[0] == NONE:
-            return False
         switched = np.isin(self.group, groups)
-        if (self._is_released(first[switched]) | self._is_released(second[switched])).any():
+        if NONE in groups or (self._is_released(first[switched]) | self._is_released(second[switched])).any():
+            return np.empty(0, np.int64)
+        return groups
+
+    def _switch(self, groups: Int, view: FleetView) -> bool:
+        """Reverse the order of groups i8[g] that are within the horizon; tell whether there are any."""
+        graph, (first, second) = self.next_decisions(view), self.pairs
+        count = len(self.visits.robot)
+        decided = graph.pairs.first * count + graph.pairs.second
+        near = np.setdiff1d(groups, self.group[~np.isin(first * count + second, decided)])
+        switched = np.isin(self.group, near)
+        if not switched.any() or not self.put_next(graph.order(np.isin(decided, (first * count + second)[switched]))):
             return False
-        return self.switch(switched)
+        self.pairs = Pairs(np.where(switched, second, first), np.where(switched, first, second))
+        return True
 
     def _is_released(self, visit: Int) -> Bool:
         """Tell whether the robots of visits may begin them already."""

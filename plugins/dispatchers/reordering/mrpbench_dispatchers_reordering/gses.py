@@ -13,12 +13,10 @@ import numpy as np
 from mrpbench_native.mapf import reorder
 
 from mrpbench_core.api import option
-from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_dispatchers_reordering.alternative_graph import MILLISECONDS, State, alternative_graph
-from mrpbench_dispatchers_reordering.progress import Progress
+from mrpbench_dispatchers_reordering.alternative_graph import MILLISECONDS
 from mrpbench_dispatchers_reordering.switching import SwitchingDispatcher, SwitchingSession
 
 MEMORY_BYTES = 1 << 30
@@ -32,12 +30,6 @@ class Gses(SwitchingDispatcher):
     lateness: float = option(
         1.0,
         help="search again when a robot has lost or made up at least so much time since the last search",
-        unit="s",
-        validator=attrs.validators.ge(0),
-    )
-    horizon: float = option(
-        60.0,
-        help="planned time from now within which both robots begin to use a place if their order may change",
         unit="s",
         validator=attrs.validators.ge(0),
     )
@@ -68,49 +60,31 @@ class GsesSession(SwitchingSession):
     options: Gses
 
     def __init__(self, options: Gses, problem: Problem, plan: Plan) -> None:
-        self.progress = Progress(len(problem))
+        super().__init__(options, problem, plan)
         self.searched = -math.inf
         """Simulated seconds of the last search."""
         self.lateness = self.progress.driven
         """Seconds f8[n] by which robots were late then."""
-        super().__init__(options, problem, plan)
-
-    def adopt(self, problem: Problem, plan: Plan, cut: Int32 | None = None) -> None:
-        """Continue with `plan`, in its order; released segments remain released.
-
-        Raises:
-            DispatchError: as `OrderKeepingSession.adopt`.
-        """
-        super().adopt(problem, plan, cut)
-        self.progress.use(problem, self.graph.moves, cut)
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Change the order if robots are late and that helps; release the moves that no longer wait for anything."""
-        seen = np.maximum(self.seen, (view.reached, view.cleared))
-        self.progress.update(now, seen[0], self.released)
+        self.observe(now, view)
         if self._is_due(now):
             self.searched, self.lateness = now, self.progress.lateness
-            self._reorder(State(seen, self.released, self.progress))
-        orders = super().update(now, view)
-        self.progress.update(now, seen[0], self.released)
-        return orders
+            self._reorder(view)
+        return super().update(now, view)
 
     def _is_due(self, now: float) -> bool:
-        if now - self.searched < self.options.period - 1e-9:
+        if not len(self.moves.robot) or now - self.searched < self.options.period - 1e-9:
             return False
         changes = np.abs(self.progress.lateness - self.lateness)
         return bool((changes >= self.options.lateness).any())
 
-    def _reorder(self, state: State) -> None:
-        if not len(self.graph.moves.robot):
-            return
-        graph = alternative_graph(self.graph, self.visits, self.pairs, self.resources, state, self.options.horizon)
-        if not len(graph.open):
+    def _reorder(self, view: FleetView) -> None:
+        graph = self.next_decisions(view)
+        if not len(graph.pairs.first):
             return
         limit = self.options.probe_limit
         found = reorder(**graph.arrays, wall_s=math.inf, memory_bytes=MEMORY_BYTES, probe_limit=limit)
-        if found.planned_cost - found.cost < self.options.gain * MILLISECONDS:
-            return
-        switched = np.zeros(len(self.pairs.first), bool)
-        switched[graph.open] = found.switched.astype(bool)
-        self.switch(switched)
+        if found.planned_cost - found.cost >= self.options.gain * MILLISECONDS:
+            self.put_next(graph.order(found.switched.astype(bool)))

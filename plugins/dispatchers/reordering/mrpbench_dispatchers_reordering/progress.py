@@ -27,9 +27,9 @@ class Progress:
             gone = self._sum[self._first_left(cut.astype(np.int64))] - self._sum[self._moves.first[:-1]]
             self.driven, self._begin = self.driven - gone, self._begin - gone
             self._reached = np.maximum(self._reached - cut, 0)
-        self._moves, self.tick = moves, problem.roadmap.tick
+        self._moves = moves
         ticks = problem.roadmap.duration[problem.profile[moves.robot], moves.edge]
-        self.duration: Float = ticks.astype(np.float64) * self.tick
+        self.duration: Float = ticks.astype(np.float64) * problem.roadmap.tick
         """Planned seconds f8[m] of each move."""
         self._sum = np.concatenate([[0.0], np.cumsum(self.duration)])
         self.present = self._first_left(self._reached)
@@ -55,6 +55,13 @@ class Progress:
         planned = self._sum[self.present] - self._sum[self._moves.first[:-1]]
         late: Float = self.driven - planned - np.minimum(self.elapsed, np.append(self.duration, 0.0)[self.present])
         return late
+
+    def moves_until(self, horizon: float) -> Int:
+        """The first move i8[n] that each robot begins more than `horizon` seconds after its present one if it does not
+        wait; that of another robot if it has none.
+        """
+        found: Int = np.searchsorted(self._sum, self._sum[self.present] + horizon, side="right")
+        return found
 
     def _first_left(self, reached: Int) -> Int:
         keys = self._moves.robot * (1 << 32) + self._moves.segment

@@ -4,13 +4,15 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import DispatchError, option
+from mrpbench_core.dispatching.dependency_graph import REACHED
 from mrpbench_core.dispatching.order_keeping import OrderKeepingDispatcher, OrderKeepingSession
-from mrpbench_core.model.common.arrays import Bool, Int32
-from mrpbench_core.model.planning.occupations import resource_edges
+from mrpbench_core.model.common.arrays import Int, Int32
+from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.model.planning.type2_edges import without_implied
-from mrpbench_dispatchers_reordering.visits import Pairs, conflicting, order_of, visits_of
+from mrpbench_dispatchers_reordering.alternative_graph import AlternativeGraph, State, alternative_graph
+from mrpbench_dispatchers_reordering.progress import Progress
+from mrpbench_dispatchers_reordering.visits import Conflicts, visits_of
 
 
 @attrs.frozen(kw_only=True)
@@ -22,10 +24,27 @@ class SwitchingDispatcher(OrderKeepingDispatcher):
         help="segments released at most beyond the one under way; their order cannot change any more",
         validator=attrs.validators.ge(1),
     )
+    horizon: float = option(
+        60.0,
+        help="time from now in which robots begin the moves whose order may change, if they do not wait",
+        unit="s",
+        validator=attrs.validators.ge(0),
+    )
+    move_limit: int = option(
+        10_000,
+        help="moves among which orders may change at once; large fleets have a shorter horizon",
+        validator=attrs.validators.ge(0),
+    )
 
 
 class SwitchingSession(OrderKeepingSession):
     """Releases one plan after another, each at first in its own order."""
+
+    options: SwitchingDispatcher
+
+    def __init__(self, options: SwitchingDispatcher, problem: Problem, plan: Plan) -> None:
+        self.progress = Progress(len(problem))
+        super().__init__(options, problem, plan)
 
     def adopt(self, problem: Problem, plan: Plan, cut: Int32 | None = None) -> None:
         """Continue with `plan`, in its order; released segments remain released.
@@ -34,18 +53,48 @@ class SwitchingSession(OrderKeepingSession):
             DispatchError: as `OrderKeepingSession.adopt`.
         """
         super().adopt(problem, plan, cut)
-        moves = self.graph.moves
-        self.visits = visits_of(problem, moves)
-        self.pairs = conflicting(problem, self.visits)
-        self.resources = resource_edges(problem, self.graph.occupations)
+        self.moves = self.graph.moves
+        """The moves at times that imply the order in force."""
+        self.visits = visits_of(problem, self.moves)
+        self.conflicts = Conflicts(problem)
+        self.progress.use(problem, self.moves, cut)
 
-    def switch(self, switched: Bool) -> bool:
-        """Reverse the pairs `switched` bool[p]; return False, with the order as it was, if that is not safe."""
-        order = order_of(self.visits, self.pairs, switched, self.resources)
+    def observe(self, now: float, view: FleetView) -> None:
+        """Take note of the progress of the robots."""
+        self.progress.update(now, np.maximum(self.seen, (view.reached, view.cleared))[REACHED], self.released)
+
+    def update(self, now: float, view: FleetView) -> Orders:
+        """Release the moves that no longer wait for anything."""
+        orders = super().update(now, view)
+        self.observe(now, view)
+        return orders
+
+    def next_decisions(self, view: FleetView) -> AlternativeGraph:
+        """What may be decided next about the order."""
+        seen = np.maximum(self.seen, (view.reached, view.cleared))
+        state = State(seen, self.released, self.progress)
+        horizon, limit = self.options.horizon, self.options.move_limit
+        return alternative_graph(self.graph, self.conflicts, self.visits, state, horizon, limit)
+
+    def put_next(self, moves: Int) -> bool:
+        """Let `moves` i8[c], of which none is released, use places in this order after released ones and before all
+        others, whose order remains; return False, with the order as it was, if that is not safe.
+        """
+        timed = self.moves
+        released = timed.segment < self.released[timed.robot]
+        others = ~released
+        others[moves] = False
+        others_in_order = np.flatnonzero(others)[np.argsort(timed.leave[others], kind="stable")]
+        enter, leave = timed.enter.copy(), timed.leave.copy()
+        latest = max(leave[released].max(initial=0), self.problem.since.max(initial=0))
+        sequence = np.concatenate([moves, others_in_order])
+        enter[sequence] = latest + 2 * np.arange(len(sequence))
+        leave[sequence] = enter[sequence] + 1
+        over = timed.segment < self.seen.min(axis=0)[timed.robot]
         try:
-            self.keep(self.problem, self.plan, without_implied(self.graph.moves, order))
+            self.retime(timed._replace(enter=enter, leave=leave), ~others & ~over)
         except DispatchError:
             return False
-        first, second = self.pairs
-        self.pairs = Pairs(np.where(switched, second, first), np.where(switched, first, second))
+        self.moves = timed._replace(enter=enter, leave=leave)
+        self.visits = visits_of(self.problem, self.moves)
         return True

@@ -15,7 +15,7 @@ import numpy as np
 from mrpbench_core.model.common.arrays import Bool, Int
 from mrpbench_core.model.planning.conflicts import Exclusions, exclusions
 from mrpbench_core.model.planning.problem import Feature, Problem
-from mrpbench_core.model.planning.type2_edges import Moves, Type2Edges
+from mrpbench_core.model.planning.type2_edges import Moves
 
 NONE = -1
 
@@ -63,7 +63,7 @@ def visits_of(problem: Problem, moves: Moves) -> Visits:
         end=end,
         cleared=~disappears & (not footprints),
         completed=completed,
-        arrival=np.concatenate([np.zeros(len(robots), np.int64), moves.leave]),
+        arrival=np.concatenate([problem.since if len(problem.since) else np.zeros(len(robots), np.int64), moves.leave]),
     )
     kept = ~(disappears & (begin == NONE))
     there = _chosen(there, kept)
@@ -78,31 +78,35 @@ def _chosen(visits: Visits, kept: Bool) -> Visits:
     return Visits._make(column[kept] for column in visits)
 
 
-def conflicting(problem: Problem, visits: Visits) -> Pairs:
-    """Every pair of conflicting visits of different robots."""
-    one, other = _near(problem, visits) if Feature.FOOTPRINTS in problem.features else _of_one_element(visits)
-    differ = visits.robot[one] != visits.robot[other]
-    one, other = one[differ], other[differ]
-    ahead = visits.arrival[one] < visits.arrival[other]
-    return Pairs(np.where(ahead, one, other), np.where(ahead, other, one))
+class Conflicts:
+    """The pairs of elements of a roadmap that two robots must not use at the same time."""
 
+    def __init__(self, problem: Problem) -> None:
+        self._problem = problem
+        self._near: list[tuple[float, float, Exclusions, Int]] = []
+        """Radii of two robots, what is near each element, and the sorted keys of pairs of near elements."""
+        if Feature.FOOTPRINTS in problem.features:
+            sizes = np.unique(problem.radius).tolist()
+            for mine in sizes:
+                for theirs in (size for size in sizes if size >= mine):
+                    near = exclusions(problem.roadmap, mine + theirs)
+                    rows = np.repeat(np.arange(len(near.first) - 1), np.diff(near.first))
+                    self._near.append((mine, theirs, near, rows * len(near.first) + near.element))
 
-def _of_one_element(visits: Visits) -> tuple[Int, Int]:
-    order = np.argsort(visits.element, kind="stable")
-    there = visits.element[order]
-    at = np.arange(len(order))
-    return _expanded(order, order, at + 1, np.searchsorted(there, there, side="right"))
+    def pairs(self, visits: Visits, chosen: Int) -> Pairs:
+        """Every pair of conflicting visits of different robots among the visits `chosen` i8[c]."""
+        one, other = self._pairs_near(visits, chosen) if self._near else _of_one_element(visits, chosen)
+        differ = visits.robot[one] != visits.robot[other]
+        one, other = one[differ], other[differ]
+        ahead = visits.arrival[one] < visits.arrival[other]
+        return Pairs(np.where(ahead, one, other), np.where(ahead, other, one))
 
-
-def _near(problem: Problem, visits: Visits) -> tuple[Int, Int]:
-    """Pairs of visits of near elements, one pair of sizes of robots at a time."""
-    radius = problem.radius[visits.robot]
-    sizes = np.unique(radius).tolist()
-    ones, others = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
-    for mine in sizes:
-        for theirs in (size for size in sizes if size >= mine):
-            near = exclusions(problem.roadmap, mine + theirs)
-            left, right = np.flatnonzero(radius == mine), np.flatnonzero(radius == theirs)
+    def _pairs_near(self, visits: Visits, chosen: Int) -> tuple[Int, Int]:
+        """Pairs of visits of near elements, one pair of sizes of robots at a time."""
+        radius = self._problem.radius[visits.robot[chosen]]
+        ones, others = [np.empty(0, np.int64)], [np.empty(0, np.int64)]
+        for mine, theirs, near, keys in self._near:
+            left, right = chosen[radius == mine], chosen[radius == theirs]
             right = right[np.argsort(visits.element[right], kind="stable")]
             there = visits.element[right]
             rows = visits.element[left]
@@ -111,25 +115,30 @@ def _near(problem: Problem, visits: Visits) -> tuple[Int, Int]:
             begin, end = np.searchsorted(there, element), np.searchsorted(there, element, side="right")
             one, other = _expanded(one, right, begin, end)
             once = (one < other) if mine == theirs else np.ones(len(one), bool)
-            once &= ~_implied(problem, near, visits.element[one], visits.element[other])
-            ones.append(one[once])
-            others.append(other[once])
-    return np.concatenate(ones), np.concatenate(others)
+            one, other = one[once], other[once]
+            needed = ~self._are_implied(len(near.first), keys, visits.element[one], visits.element[other])
+            ones.append(one[needed])
+            others.append(other[needed])
+        return np.concatenate(ones), np.concatenate(others)
+
+    def _are_implied(self, stride: int, keys: Int, one: Int, other: Int) -> Bool:
+        """Tell which pairs of elements need no decision, because an end of an edge is near the other element too."""
+        vertices = len(self._problem.roadmap.position)
+        found = np.zeros(len(one), bool)
+        for edge, element in ((one, other), (other, one)):
+            on_edge = np.flatnonzero(edge >= vertices)
+            for end in self._problem.roadmap.edges[edge[on_edge] - vertices].astype(np.int64).T:
+                key = end * stride + element[on_edge]
+                at = np.minimum(np.searchsorted(keys, key), len(keys) - 1)
+                found[on_edge] |= keys[at] == key
+        return found
 
 
-def _implied(problem: Problem, near: Exclusions, one: Int, other: Int) -> Bool:
-    """Tell which pairs of elements need no decision, because an end of an edge is near the other element too."""
-    vertices = len(problem.roadmap.position)
-    rows = np.repeat(np.arange(len(near.first) - 1), np.diff(near.first))
-    keys = rows * len(near.first) + near.element
-    found = np.zeros(len(one), bool)
-    for edge, element in ((one, other), (other, one)):
-        on_edge = np.flatnonzero(edge >= vertices)
-        for end in problem.roadmap.edges[edge[on_edge] - vertices].astype(np.int64).T:
-            key = end * len(near.first) + element[on_edge]
-            at = np.minimum(np.searchsorted(keys, key), len(keys) - 1)
-            found[on_edge] |= keys[at] == key
-    return found
+def _of_one_element(visits: Visits, chosen: Int) -> tuple[Int, Int]:
+    order = chosen[np.argsort(visits.element[chosen], kind="stable")]
+    there = visits.element[order]
+    at = np.arange(len(order))
+    return _expanded(order, order, at + 1, np.searchsorted(there, there, side="right"))
 
 
 def _expanded(values: Int, lists: Int, begin: Int, end: Int) -> tuple[Int, Int]:
@@ -137,16 +146,3 @@ def _expanded(values: Int, lists: Int, begin: Int, end: Int) -> tuple[Int, Int]:
     size = end - begin
     at = np.arange(int(size.sum())) + np.repeat(begin - np.cumsum(size) + size, size)
     return np.repeat(values, size), lists[at]
-
-
-def order_of(visits: Visits, pairs: Pairs, switched: Bool, resources: Type2Edges) -> Type2Edges:
-    """The type-2 edges of an order: for each pair that is `switched` bool[k], the second visit comes first."""
-    first = np.where(switched, pairs.second, pairs.first)
-    second = np.where(switched, pairs.first, pairs.second)
-    before, after = visits.end[first], visits.begin[second]
-    some = (before != NONE) & (after != NONE)
-    before, after, first = before[some], after[some], first[some]
-    parts = [resources]
-    for kind, needed in ((False, visits.cleared[first]), (True, visits.completed[first])):
-        parts.append(Type2Edges(before[needed], after[needed], np.full(int(needed.sum()), kind)))
-    return Type2Edges(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))

@@ -5,11 +5,10 @@ import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from mrpbench_dispatchers_reordering import Btpg, btpg
-from mrpbench_dispatchers_reordering.visits import NONE, order_of
+from mrpbench_dispatchers_reordering.visits import NONE
 
 from mrpbench_core.api import DispatchError
-from mrpbench_core.dispatching.dependency_graph import DependencyGraph
-from mrpbench_core.model.planning.type2_edges import without_implied
+from mrpbench_core.checking.strong_components import strong_components
 from mrpbench_core.testing.execution.drawn_executions import drained
 from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources
 from mrpbench_core.testing.suites.dispatcher import DispatcherConformance
@@ -27,17 +26,13 @@ class TestBtpg(DispatcherConformance):
 @pytest.fixture(autouse=True)
 def no_order_is_refused(monkeypatch):
     """Fail where an open order has a cycle: the session would go on in the old order."""
-    keep = btpg.BtpgSession.keep
+    put_next = btpg.BtpgSession.put_next
 
-    def checked(self, problem, plan, order=None):
-        try:
-            keep(self, problem, plan, order)
-        except DispatchError as refusal:
-            if order is not None:
-                raise AssertionError(f"an open order is refused: {refusal}") from refusal
-            raise
+    def checked(self, moves):
+        assert put_next(self, moves), "an open order is refused"
+        return True
 
-    monkeypatch.setattr(btpg.BtpgSession, "keep", checked)
+    monkeypatch.setattr(btpg.BtpgSession, "put_next", checked)
 
 
 @settings(deadline=None, max_examples=25)
@@ -51,10 +46,16 @@ def test_every_choice_of_open_orders_is_without_cycles(seed, resources):
         return
     groups = np.unique(session.group[session.group != NONE])
     event(f"open: {min(len(groups), 5)}")
+    graph, visits, (first, second) = session.graph, session.visits, session.pairs
+    along = np.flatnonzero(np.diff(graph.moves.robot) == 0)
     for _ in range(6):
-        chosen = groups[random.random(len(groups)) < 0.5]
-        order = order_of(session.visits, session.pairs, np.isin(session.group, chosen), session.resources)
-        DependencyGraph(problem, plan, 0.03, 2, without_implied(session.graph.moves, order))  # or a DispatchError
+        switched = np.isin(session.group, groups[random.random(len(groups)) < 0.5])
+        one, other = np.where(switched, second, first), np.where(switched, first, second)
+        before, after = visits.end[one], visits.begin[other]
+        some = (before != NONE) & (after != NONE)
+        before = np.concatenate([before[some], graph.resources.before, along])
+        after = np.concatenate([after[some], graph.resources.after, along + 1])
+        assert strong_components(before.tolist(), after.tolist()) == list(graph.rotations.values())
 
 
 @settings(deadline=None, max_examples=12)
