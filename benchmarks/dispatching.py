@@ -2,7 +2,7 @@
 
     python benchmarks/dispatching.py --robots 100 300 1000 --dispatchers adg gses btpg
 
-Each fleet has a grid in which one cell of ten holds a robot and one of five is blocked, goals that are drawn, and a plan
+Each fleet has a grid in which one cell of ten holds a robot and one of five is blocked, drawn goals, and a plan
 of `lacam`. Robots make one move in each second, unless they are stopped: in every second, one robot of a hundred stops
 for 10 to 20 seconds. Prints for each dispatcher the CPU seconds of its start, its updates (mean, 99th percentile,
 longest, in milliseconds), the number of updates above 100 ms, and the mean arrival of the robots in seconds.
