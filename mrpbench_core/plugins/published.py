@@ -27,7 +27,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.controllers": ("dwb", "global_planner", "graceful", "mppi", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
         "mrpbench.crowds": ("carts", "orca", "social_force"),
-        "mrpbench.dispatchers": ("btpg", "gses"),
+        "mrpbench.dispatchers": ("btpg", "gses", "sadg"),
         "mrpbench.localizers": ("amcl",),
         "mrpbench.metrics": _METRICS,
         "mrpbench.mppi_critics": _MPPI_CRITICS,

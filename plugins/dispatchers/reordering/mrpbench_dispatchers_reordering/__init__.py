@@ -2,5 +2,6 @@
 
 from mrpbench_dispatchers_reordering.btpg import Btpg
 from mrpbench_dispatchers_reordering.gses import Gses
+from mrpbench_dispatchers_reordering.sadg import Sadg
 
-__all__ = ["Btpg", "Gses"]
+__all__ = ["Btpg", "Gses", "Sadg"]

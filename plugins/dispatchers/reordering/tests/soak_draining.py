@@ -1,4 +1,4 @@
-"""Drains drawn plans with `gses` and `btpg` under drawn delays: `soak_draining.py EXECUTIONS SEED`.
+"""Drains drawn plans with `gses`, `sadg` and `btpg` under drawn delays: `soak_draining.py EXECUTIONS SEED`.
 
 Prints every execution in which robots wait forever or meet, and compares the sums of arrivals with those of `adg`. The
 exit code is 1 if there are faults.
@@ -8,7 +8,7 @@ import argparse
 import sys
 from collections import Counter
 
-from mrpbench_dispatchers_reordering import Btpg, Gses
+from mrpbench_dispatchers_reordering import Btpg, Gses, Sadg
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.testing.execution.drawn_executions import drained
@@ -23,6 +23,7 @@ KINDS = {
 DISPATCHERS = {
     "gses": Gses(),
     "gses, eager": Gses(period=0, lateness=0, gain=0.001, lookahead=1),
+    "sadg": Sadg(period=3, gain=0.001, lookahead=1, max_deterministic_time=0.05),
     "btpg": Btpg(),
     "btpg, eager": Btpg(lookahead=1),
 }

@@ -1,6 +1,6 @@
-"""`gses` passes the checks of every dispatcher."""
+"""`gses` and `sadg` pass the checks of every dispatcher."""
 
-from mrpbench_dispatchers_reordering import Gses
+from mrpbench_dispatchers_reordering import Gses, Sadg
 
 from mrpbench_core.testing.suites.dispatcher import DispatcherConformance
 
@@ -10,3 +10,10 @@ class TestGses(DispatcherConformance):
 
     def make(self):
         return Gses()
+
+
+class TestSadg(DispatcherConformance):
+    keeps_apart = True
+
+    def make(self):
+        return Sadg()

@@ -3,7 +3,7 @@
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
-from mrpbench_dispatchers_reordering import Gses, gses
+from mrpbench_dispatchers_reordering import Gses, Sadg, searching
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.testing.execution.drawn_executions import drained
@@ -16,13 +16,13 @@ EAGER = Gses(period=0, lateness=0, gain=0.001, lookahead=1)
 @pytest.fixture(autouse=True)
 def no_order_is_refused(monkeypatch):
     """Fail where the search has found an order with a cycle: the session would go on in the old order."""
-    put_next = gses.GsesSession.put_next
+    put_next = searching.SearchingSession.put_next
 
     def checked(self, moves):
         assert put_next(self, moves), "the order found is refused"
         return True
 
-    monkeypatch.setattr(gses.GsesSession, "put_next", checked)
+    monkeypatch.setattr(searching.SearchingSession, "put_next", checked)
 
 
 @settings(deadline=None, max_examples=12)
@@ -45,6 +45,15 @@ def test_plans_through_resources_drain(seed):
 @pytest.mark.parametrize("resources", [False, True])
 def test_plans_that_change_on_the_way_drain(resources, seed):
     ended = drained(EAGER, seed, resources, replans=3)
+    event(f"reordered: {ended and ended.reordered}")
+
+
+@settings(deadline=None, max_examples=5)
+@given(SEEDS)
+@pytest.mark.parametrize("resources", [False, True])
+def test_plans_drain_in_orders_of_another_solver(resources, seed):
+    sadg = Sadg(period=5, gain=0.001, lookahead=1, max_deterministic_time=0.05)
+    ended = drained(sadg, seed, resources, replans=1)
     event(f"reordered: {ended and ended.reordered}")
 
 

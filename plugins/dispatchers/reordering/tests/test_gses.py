@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 import pytest
-from mrpbench_dispatchers_reordering import Btpg, Gses
+from mrpbench_dispatchers_reordering import Btpg, Gses, Sadg
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.checking.plan import check_plan
@@ -60,7 +60,7 @@ def arrivals(dispatcher, problem, plan):
     return executor.arrival, executor.reordered
 
 
-@pytest.mark.parametrize("dispatcher", [Btpg, Gses])
+@pytest.mark.parametrize("dispatcher", [Btpg, Gses, Sadg])
 @pytest.mark.parametrize("following", ["allowed", "forbidden"])
 @pytest.mark.parametrize("at_goal", ["stay", "disappear"])
 @pytest.mark.parametrize("features", [frozenset(), frozenset({Feature.FOOTPRINTS})])
@@ -74,7 +74,7 @@ def test_a_robot_does_not_wait_for_one_that_does_not_come(following, at_goal, fe
     assert changed[0] <= kept[0]
 
 
-@pytest.mark.parametrize("dispatcher", [Btpg, Gses])
+@pytest.mark.parametrize("dispatcher", [Btpg, Gses, Sadg])
 def test_lanes_that_cross_between_their_ends_are_used_in_a_new_order(dispatcher):
     points = [(-5, 0), (-3, 0), (-1, 0), (1, 0), (3, 0), (0, -3), (0, -1), (0, 1), (0, 3)]
     lanes = [(0, 1), (1, 2), (2, 3), (3, 4), (5, 6), (6, 7), (7, 8)]
@@ -85,7 +85,7 @@ def test_lanes_that_cross_between_their_ends_are_used_in_a_new_order(dispatcher)
     assert kept[1] > LATE > changed[1]
 
 
-@pytest.mark.parametrize("dispatcher", [Btpg, Gses])
+@pytest.mark.parametrize("dispatcher", [Btpg, Gses, Sadg])
 def test_robots_that_are_released_into_a_place_keep_their_turn(dispatcher):
     changed, reordered = arrivals(dispatcher(lookahead=8), *crossing())
     assert changed[1] > LATE
@@ -101,7 +101,7 @@ def test_options_limit_what_is_searched_and_changed(options):
     assert not arrivals(Gses(lookahead=1, **options), *crossing())[1]
 
 
-@pytest.mark.parametrize("dispatcher", [Btpg, Gses])
+@pytest.mark.parametrize("dispatcher", [Btpg, Gses, Sadg])
 def test_a_resource_is_used_in_the_order_of_the_plan(dispatcher):
     problem, plan = crossing()
     edges = tuple(np.flatnonzero((problem.roadmap.edges == 24).any(axis=1)).tolist())
