@@ -13,7 +13,7 @@ import time
 from collections.abc import Sequence
 
 import numpy as np
-from mrpbench_dispatchers_reordering import Btpg, Gses
+from mrpbench_dispatchers_reordering import Btpg, Gses, Sadg
 from mrpbench_planners_mapf.lacam import Lacam
 
 from mrpbench_core.api import Dispatcher
@@ -25,7 +25,7 @@ from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.drawing import build
 from mrpbench_core.testing.instances.roadmaps import grid_of
 
-DISPATCHERS = {"adg": Adg, "gses": Gses, "btpg": Btpg}
+DISPATCHERS = {"adg": Adg, "gses": Gses, "sadg": Sadg, "btpg": Btpg}
 SLOW = 0.1
 """seconds."""
 

@@ -1,7 +1,7 @@
 """The dispatcher `sadg`: the order of the next moves as a mixed-integer program, solved again in every period.
 
-Berndt, van Duijkeren, Palmieri, Kleiner and Keviczky, "Receding horizon re-ordering of multi-agent execution
-schedules", IEEE T-RO 2024 (SADG). There the orders within a horizon are binary variables of a mixed-integer linear
+Berndt, van Duijkeren, Palmieri, Kleiner and Keviczky, "Receding Horizon Re-ordering of Multi-Agent Execution
+Schedules", arXiv 2312.04190 (SADG). There the orders within a horizon are binary variables of a mixed-integer linear
 program, and all later ones are fixed. CP-SAT solves the same program here, on the alternatives that `gses` searches.
 """
 
