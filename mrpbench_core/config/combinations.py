@@ -52,6 +52,9 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
             )
             if given
         ]
+    if config.tasks is not None and config.delays.worst_case:
+        reason = "an adversary needs the plan, and tasks that come over time have none at the start"
+        return [_place(root, "delays.worst_case").location.error("delays.worst_case", reason, "leave it out")]
     if config.tasks is not None and config.planner.assigns:
         reason = "a planner that assigns cannot be called when tasks come over time"
         return [_place(root, "planner").location.error("planner", reason, "switch `assign` off, or choose another one")]

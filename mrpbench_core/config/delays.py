@@ -19,8 +19,9 @@ def _not_below_min(delays: "Delays", _: "attrs.Attribute[int]", value: int) -> N
 class Delays:
     """Delays of robots during execution; none by default. Stops and their names are those of LoRR 2026.
 
-    Robots also stop while they wait or after they have arrived. Streams are keyed by seed, repeat and robot, so all
-    planners and dispatchers meet the same delays.
+    Robots that draw a stop also stop while they wait or after they have arrived. Streams are keyed by seed, repeat and
+    robot, so all planners and dispatchers meet the same delays. An adversary draws nothing: its attack follows from the
+    plan, so that all dispatchers of a plan meet the same one.
     """
 
     p_delay: float = option(
@@ -40,6 +41,12 @@ class Delays:
     gauss_std_ratio: float = option(
         0.2, help="their standard deviation, as a share of max_delay - min_delay", validator=validators.ge(0)
     )
+    worst_case: int = option(
+        0,
+        help="ticks for which an adversary stops one robot, once, before the move where that makes all robots together "
+        "arrive latest by the plan's order and durations",
+        validator=validators.ge(0),
+    )
     tick: float = option(1.0, help="duration of a tick of these settings", unit="s", validator=validators.gt(0))
     speed: float = option(
         0.0,
@@ -50,14 +57,15 @@ class Delays:
 
     def __bool__(self) -> bool:
         """Tell whether there are any delays."""
-        return self.p_delay > 0 or self.speed > 0
+        return self.p_delay > 0 or self.speed > 0 or self.worst_case > 0
 
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""
         idle: dict[str, str] = {}
         if not self.p_delay:
             stops = ("event_model", "duration_model", "min_delay", "max_delay", "gauss_mean_ratio", "gauss_std_ratio")
-            return dict.fromkeys((*stops, "tick"), "p_delay is 0")
+            ticks = () if self.worst_case else ("tick",)
+            return dict.fromkeys((*stops, *ticks), "p_delay is 0")
         if self.duration_model == "uniform":
             idle |= dict.fromkeys(("gauss_mean_ratio", "gauss_std_ratio"), "duration_model is uniform")
         return idle

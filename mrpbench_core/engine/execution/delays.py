@@ -1,4 +1,4 @@
-"""Delays of robots: stops as in the League of Robot Runners 2026, and a speed for each segment of a path.
+"""Delays of robots: stops as in the League of Robot Runners 2026 or of an adversary, and speeds of segments of a path.
 
 Every draw comes from the stream of its own cause and robot. The stops of one robot depend neither on what it does nor,
 with `bernoulli`, on other robots; with `poisson` one stream draws for the whole fleet, tick by tick.
@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from mrpbench_core.config.delays import Delays
+from mrpbench_core.engine.execution.worst_case import Adversary
 from mrpbench_core.engine.seeds import stream
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution.motion import Event
@@ -23,8 +24,10 @@ _NEVER = (2**62, 2**62)
 class DelayStream:
     """The delays of one run."""
 
-    def __init__(self, settings: Delays, robots: int, seed: int, repeat: int) -> None:
-        self.settings = settings
+    def __init__(
+        self, settings: Delays, robots: int, seed: int, repeat: int, adversary: Adversary | None = None
+    ) -> None:
+        self.settings, self._adversary = settings, adversary
         self._speeds = (
             [stream(seed, repeat, "delays.speed", robot) for robot in range(robots)] if settings.speed else []
         )
@@ -65,10 +68,15 @@ class DelayStream:
         self._tick = tick
         return tuple(events)
 
+    def attacked(self, now: float, reached: Int | Int32, released: Int | Int32) -> tuple[Event, ...]:
+        """The stop that the adversary begins now, if any; see `Adversary.update`."""
+        return self._adversary.update(now, reached, released) if self._adversary else ()
+
     @property
     def stopped(self) -> Bool:
-        """The robots bool[n] that stop in the tick of the last call of `begun`."""
-        return self._until > self._tick
+        """The robots bool[n] that stop at the time of the last calls of `begun` and `attacked`."""
+        stopped: Bool = self._until > self._tick
+        return stopped | self._adversary.stopped if self._adversary else stopped
 
     def speed(self, segment: Int | Int32) -> Float:
         """Relative speed f8[n] of each robot on the `segment` i[n] of its path."""

@@ -280,7 +280,9 @@ class ExecutionLoop:
         """Record this control period, and show it to hooks."""
         inputs, now, state, recorder = self._inputs, self._now, self._state, self._inputs.recorder
         recorder.scans(observation.scans)
-        recorder.events((*inputs.delays.begun(now), *self._motion.events))
+        count = self._driven.count
+        attacked = inputs.delays.attacked(now, self._motion.reached + count, self._orders.released + count)
+        recorder.events((*inputs.delays.begun(now), *attacked, *self._motion.events))
         sample = Sample(
             now=now,
             state=state,

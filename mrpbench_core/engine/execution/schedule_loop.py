@@ -93,6 +93,7 @@ class ScheduleLoop:
             returned = self._session.update(now, self._faults.heard(view))
             if returned is not self._returned:  # orders cannot be changed, so these are checked once
                 self._returned, self._orders = returned, self._checks.orders(returned)
+            self._recorder.events(self._delays.attacked(now, self._reached, self._orders.released))
             self._resources.assign(now, self._orders.requests, self._faults.broken)
             arrived = self._reached >= self._paths.last_move
             last = bool((arrived | self._faults.lost).all()) or now >= limit_s or self._stands_still(now)

@@ -26,6 +26,7 @@ from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.execution.routes import Router, start_poses
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.task_manager import TaskManager
+from mrpbench_core.engine.execution.worst_case import Adversary
 from mrpbench_core.engine.own import Handed, name_of, own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.engine.stage import RunEnded, RunInputs
@@ -126,6 +127,15 @@ def _faults(config: RunConfig, context: RunContext) -> FaultState:
     seeds = (config.seed, config.repeat)
     events = draw_faults(config.faults, robots, roadmap, names, config.limits.execution, *seeds)
     return FaultState(config.faults, events, robots)
+
+
+def _delays(config: RunConfig, context: RunContext) -> DelayStream:
+    """The delays of the run."""
+    settings, plan = config.delays, context.result.plan
+    assert plan is not None
+    attack = settings.worst_case * settings.tick
+    adversary = Adversary(context.problem, plan, attack) if attack else None
+    return DelayStream(settings, len(context.fleet), config.seed, config.repeat, adversary)
 
 
 def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replanner:
@@ -232,7 +242,7 @@ def _simulate(
                 simulation=simulation,
                 placed=poses,
                 noise=noise,
-                delays=DelayStream(config.delays, len(context.fleet), *seeds),
+                delays=_delays(config, context),
                 faults=faults,
                 recorder=recorder,
                 replanner=replanner,
@@ -253,8 +263,7 @@ def _simulate(
 def _follow_schedule(config: RunConfig, context: RunContext, recorder: Recorder, faults: FaultState) -> ExecutionResult:
     """Execute without physics."""
     assert config.dispatcher is not None
-    delays = DelayStream(config.delays, len(context.fleet), config.seed, config.repeat)
-    loop = ScheduleLoop(context, config.dispatcher, delays, recorder, faults)
+    loop = ScheduleLoop(context, config.dispatcher, _delays(config, context), recorder, faults)
     arrived, simulated_s = loop.run(config.limits.execution)
     unarrived = {} if loop.ending is None else loop.ending.reasons()
     return ExecutionResult(succeeded=arrived, gave_up=(), simulated_s=simulated_s, unarrived=unarrived)
