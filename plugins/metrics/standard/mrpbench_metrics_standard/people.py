@@ -1,7 +1,7 @@
 """Contacts with people and other movers, and the distances that robots keep from them."""
 
 from collections.abc import Mapping
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import attrs
 import numpy as np
@@ -10,7 +10,8 @@ from mrpbench_core.api import Column, Metric, Value, option
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.contacts import episodes
-from mrpbench_metrics_standard.distribution import percentile
+from mrpbench_metrics_standard.distribution import mean, percentile
+from mrpbench_metrics_standard.hunav import COLUMNS, Encounters, hunav
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 MOVING = 0.05
@@ -56,6 +57,7 @@ class People(Metric):
         Column(
             "time_to_collision_min_s", "s", "higher", "least time to a collision at constant velocities; null: none"
         ),
+        *COLUMNS,
     )
     requires: ClassVar[frozenset[str]] = frozenset(
         {"time", "truth", "truth_twist", "level", "mover", "mover_level", "contact_time", "contact"}
@@ -77,7 +79,9 @@ class People(Metric):
             return nulls(self)
         touches = run.channel("contact_time"), run.channel("contact")
         contacts = episodes(*touches, self.contact_pause, len(run.context.fleet))[2]
-        nearest, soonest = _nearest(run, there)
+        met = [_meet(run, robot, there) for robot in range(len(run.context.fleet))]  # all pairs at once are too many
+        nearest = np.column_stack([one.nearest for one in met])
+        soonest = np.column_stack([one.soonest for one in met])
         moving = np.abs(run.channel("truth_twist")[..., 0]) > MOVING
         near = nearest[np.isfinite(nearest)]
         within = {
@@ -92,24 +96,40 @@ class People(Metric):
             **within,
             "collision_soon_share": float((soonest < SOON).mean()),
             "time_to_collision_min_s": float(soonest.min()) if np.isfinite(soonest).any() else None,
+            **{
+                column.name: mean(
+                    np.array([one.hunav[column.name] for one in met if one.hunav[column.name] is not None])
+                )
+                for column in COLUMNS
+            },
         }
 
 
-def _nearest(run: FinishedRun, there: Bool) -> tuple[Float, Float]:
-    """For each sample and robot the distance of the nearest mover, and the least time to a collision; inf = none."""
-    truth, speed, level = run.channel("truth"), run.channel("truth_twist")[..., 0], run.channel("level")
-    mover, mover_level = run.channel("mover"), run.channel("mover_level")
-    velocity = speed[..., None] * np.stack([np.cos(truth[..., 2]), np.sin(truth[..., 2])], axis=-1)
-    nearest, soonest = np.full(level.shape, np.inf), np.full(level.shape, np.inf)
-    for index, body in enumerate(run.context.movers):
-        reach = run.context.fleet.radii + body.radius
-        offset = mover[:, index, None, :2] - truth[..., :2]
-        here = there[:, index, None] & (mover_level[:, index, None] == level)
-        gap = np.hypot(offset[..., 0], offset[..., 1]) - reach
-        left = time_to_collision(offset, mover[:, index, None, 3:] - velocity, reach)
-        nearest = np.where(here, np.minimum(nearest, gap), nearest)
-        soonest = np.where(here, np.minimum(soonest, left), soonest)
-    return nearest, soonest
+class _Met(NamedTuple):
+    """One robot among movers."""
+
+    nearest: Float
+    """f8[T] metres to the nearest mover; inf = none."""
+    soonest: Float
+    """f8[T] s to a collision; inf = never."""
+    hunav: dict[str, float | None]
+
+
+def _meet(run: FinishedRun, robot: int, there: Bool) -> _Met:
+    pose, twist, level = (run.channel(name)[:, robot] for name in ("truth", "truth_twist", "level"))
+    mover = run.channel("mover")
+    velocity = twist[:, :1] * np.column_stack([np.cos(pose[:, 2]), np.sin(pose[:, 2])])
+    reach = run.context.fleet.radii[robot] + np.array([body.radius for body in run.context.movers])
+    offset = mover[..., :2] - pose[:, None, :2]
+    here = there & (run.channel("mover_level") == level[:, None])
+    gap = np.where(here, np.hypot(offset[..., 0], offset[..., 1]) - reach, np.inf)
+    left = time_to_collision(offset, mover[..., 3:] - velocity[:, None], reach)
+    seen = Encounters(gap=gap, offset=offset, robot=velocity, person=mover[..., 3:])
+    return _Met(
+        nearest=gap.min(axis=1),
+        soonest=np.where(here, left, np.inf).min(axis=1),
+        hunav=hunav(run.channel("time"), pose, twist, seen),
+    )
 
 
 def time_to_collision(offset: Float, velocity: Float, reach: Float) -> Float:

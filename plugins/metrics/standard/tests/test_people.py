@@ -4,6 +4,7 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_metrics_standard import People
+from mrpbench_metrics_standard.hunav import FACTOR, social_force
 from mrpbench_metrics_standard.people import time_to_collision
 
 from mrpbench_core.model.execution.movers import Mover
@@ -58,6 +59,42 @@ def test_one_who_is_absent_is_nowhere_near(met):
 def test_the_time_to_a_collision_is_that_of_two_discs(offset, expected):
     found = time_to_collision(np.array(offset, float), np.array([-2.0, 0.0]), np.array(0.6))
     assert found == pytest.approx(expected, abs=1e-6)
+
+
+def test_hunavsim_s_measures_are_those_of_a_hand_count(met):
+    found = People().measure(met())
+    expected = {
+        "intimate_space_intrusions": 0.0,
+        "personal_space_intrusions": 26.733,
+        "social_space_intrusions": 51.485,
+        "minimum_distance_to_people": 0.5,
+        "avg_distance_to_closest_person": 2.303869,
+        "avg_pedestrian_velocity": 0.1,
+        "avg_closest_pedestrian_velocity": 0.1,
+        "time_not_moving": 100.0,
+        "path_length": 0.0,
+        "cumulative_heading_changes": 0.0,
+    }
+    assert {name: found[f"hunav.{name}"] for name in expected} == pytest.approx(expected, abs=1e-3)
+    assert found["hunav.social_force_on_agents"] > 0
+    away = People().measure(met(absent=range(101)))
+    assert away["hunav.avg_distance_to_closest_person"] is away["distance_min_m"] is None
+
+
+@pytest.mark.parametrize(
+    ("place", "velocity", "expected"),
+    [
+        ((2, 0), (-1, 0), (-0.669704, 0)),
+        ((2, 0.2), (-1, 0), (-0.546099, -0.626500)),
+        ((2, -0.2), (-1, 0), (-0.546099, 0.626500)),
+        ((1, -1), (0, 1), (-0.516821, 0.516821)),
+        ((1, 0), (0.5, 0), (-0.503267, 0)),
+        ((0, 0.7), (1, 0), (0, -0.284204)),
+    ],
+)
+def test_the_social_force_is_that_of_lightsfm(place, velocity, expected):
+    force = social_force(np.array(place, float), np.array([1.0, 0.0]) - velocity) * 2.1 / FACTOR
+    np.testing.assert_allclose(force, expected, atol=1e-6)
 
 
 def test_runs_without_movers_have_null(executed):
