@@ -1,5 +1,6 @@
 """Planners whose search is in C++. Their options follow from what the module of solvers says about the algorithm."""
 
+import math
 from collections.abc import Callable
 from types import ModuleType
 from typing import Any, ClassVar, TypeVar
@@ -11,9 +12,10 @@ from mrpbench_native.options import Option
 from mrpbench_core.api.component import option
 from mrpbench_core.api.described import as_option, described, validator_of
 from mrpbench_core.api.planner import Planner
-from mrpbench_core.model.planning.plan import Budget, PlanResult
+from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_planners_mapf.native import solve
+from mrpbench_planners_mapf.stretching import Stops, stretch
 
 P = TypeVar("P", bound="NativePlanner")
 SUPPORTED = frozenset(
@@ -53,6 +55,11 @@ class NativePlanner(Planner):
         return options
 
 
+def _not_below_min(planner: "RobustPlanner", _: "attrs.Attribute[int]", value: int) -> None:
+    if value < planner.min_delay:
+        raise ValueError(f"'max_delay' must not be less than min_delay = {planner.min_delay}, got {value}")
+
+
 @attrs.frozen(kw_only=True)
 class RobustPlanner(NativePlanner):
     """A planner that keeps robots as far apart in time as they may be late."""
@@ -66,14 +73,43 @@ class RobustPlanner(NativePlanner):
         "ticks late anywhere. Costs, bounds and proofs that there is no plan are those of such plans",
         validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(1 << 20)),
     )
+    p: float = option(
+        0.0,
+        help="The plan is p-robust (Atzmon et al., ICAPS 2020): waits are added until robots that follow it without a "
+        "dispatcher, and stop at random, have no conflict with at least this probability. Its costs have no bound then",
+        validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.lt(1)),
+    )
+    p_delay: float = option(
+        0.01,
+        help="for `p`: probability that a robot begins to stop in a tick in which it does not stop",
+        validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.lt(1)),
+    )
+    min_delay: int = option(1, help="for `p`: shortest stop, in ticks of the roadmap", validator=attrs.validators.ge(1))
+    max_delay: int = option(
+        1,
+        help="for `p`: longest stop, in ticks of the roadmap; lengths are uniform",
+        validator=attrs.validators.and_(attrs.validators.ge(1), _not_below_min),
+    )
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return super().plan(attrs.evolve(problem, rules=attrs.evolve(problem.rules, k=self.k)), budget)
+        result = super().plan(attrs.evolve(problem, rules=attrs.evolve(problem.rules, k=self.k)), budget)
+        if result.plan is None or not self.p:
+            return result
+        plan, bound = stretch(problem, result.plan, Stops(self.p_delay, self.min_delay, self.max_delay), self.p)
+        return attrs.evolve(
+            result,
+            status=result.status if plan is not None else PlanStatus.GAVE_UP,
+            plan=plan,
+            lower_bound=math.nan,
+            history=(),
+            statistics={**result.statistics, "p_robust": bound},
+        )
 
     def idle_options(self) -> dict[str, str]:
-        """Return options that `k` makes idle."""
-        return dict.fromkeys(self.without_k, f"k is {self.k}") if self.k else {}
+        """Return options that `k` and `p` make idle."""
+        idle = dict.fromkeys(self.without_k, f"k is {self.k}") if self.k else {}
+        return idle if self.p else idle | dict.fromkeys(("p_delay", "min_delay", "max_delay"), "p is 0")
 
 
 def native_planner(algorithm: str, solvers: ModuleType = mapf) -> Callable[[type[P]], type[P]]:

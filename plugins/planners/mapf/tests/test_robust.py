@@ -111,9 +111,9 @@ def test_cbs_finds_the_optimum_of_brute_force(asked, k):
 
 
 def test_options_without_effect_are_named():
-    assert Lns(k=2, initial="lacam").idle_options() == {"initial": "k is 2"}
-    assert Cbs(k=1).idle_options() == {"rectangle": "k is 1"}
-    assert not Cbs().idle_options()
+    assert Lns(k=2, p=0.5, initial="lacam").idle_options() == {"initial": "k is 2"}
+    assert Cbs(k=1, p=0.5).idle_options() == {"rectangle": "k is 1"}
+    assert Cbs().idle_options() == dict.fromkeys(("p_delay", "min_delay", "max_delay"), "p is 0")
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
