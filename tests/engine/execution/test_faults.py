@@ -257,12 +257,25 @@ def test_a_robot_that_dies_in_the_only_aisle_leaves_all_others_in_a_definite_exp
     assert kinds.count("not_arrived") == 3
 
 
+ROWS = AISLE.splitlines()
+LONGER = "\n".join([ROWS[0], "height 12", *ROWS[2:], *["...@@@@@..."] * 6, "...........", ""])
+"""With another way around."""
+
+
 def test_robots_go_another_way_around_one_that_stopped(tmp_path):
-    rows = AISLE.splitlines()
-    longer = "\n".join([rows[0], "height 12", *rows[2:], *["...@@@@@..."] * 6, "...........", ""])
-    record, recording = aisle(tmp_path, longer, reaction="replan")
+    record, recording = aisle(tmp_path, LONGER, reaction="replan")
     assert record.unarrived == {"robot_0": "stopped for good at 9.0 s"}
     assert "replan" in recording.channel("event_kind")
+
+
+def test_robots_go_another_way_around_a_blocked_place(tmp_path):
+    blocked = {"kind": "blocked", "at": 2, "place": [2.75, 4.75], "radius": 0.2}
+    near = {"plugin": "adg", "lookahead": 1}  # what was released beyond the place is not taken back
+    record, recording = aisle(tmp_path, LONGER, faults={"events": [blocked]}, dispatcher=near, reaction="replan")
+    assert record.status == "succeeded", record.unarrived
+    assert "replan" in recording.channel("event_kind")
+    gap = np.hypot(*np.moveaxis(recording.channel("truth")[:, :, :2] - blocked["place"], 2, 0))
+    assert gap.min() > 0.2
 
 
 def test_robots_stand_before_a_blocked_place_until_it_is_free(tmp_path):

@@ -6,6 +6,7 @@ from pathlib import Path
 import attrs
 import pytest
 
+from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
 from mrpbench_core.builtin.dispatchers.timed import Timed, TimedSession
 
 pytest.importorskip("mrpbench_planners_mapf")
@@ -29,10 +30,10 @@ def test_robots_that_never_go_and_robots_that_meet_are_noticed(monkeypatch, caps
             return Holding(problem, plan)
 
     only, names = {"prioritized": SOAK["planners"]()["prioritized"]}, SOAK["run"].__globals__
-    monkeypatch.setitem(names, "components", lambda kind: {"held": Held, "careless": Timed})
+    monkeypatch.setitem(names, "components", lambda kind: {"held": Held, "careless": AllAtOnce})
     monkeypatch.setitem(names, "planners", lambda: only)
-    monkeypatch.setitem(names, "LIMIT", 30.0)
-    assert SOAK["run"](16, 3) > 0
+    monkeypatch.setitem(names, "LIMIT", 20.0)
+    assert SOAK["run"](40, 3) > 0
     printed = capsys.readouterr().out
     assert "held" in printed
     assert "robots do not arrive" in printed
