@@ -114,7 +114,7 @@ def run(executions, seed, first=0):
                 print(f"{where}: {'robots meet' if arrived else 'robots do not arrive'}", flush=True)
             ended[f"{name}: drained"] += 1
             number += 1
-            if number % 10000 == 0:
+            if number % 1000 == 0:
                 print(f"# {number} executions, {faults} faults", flush=True)
     for what, count in sorted(ended.items()):
         print(f"{what:70} {count:10}")
