@@ -8,7 +8,7 @@ from mrpbench_native import describe, options_of
 from mrpbench_planners_mapf.bounded import Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.lacam import Lacam
-from mrpbench_planners_mapf.recipe import NativePlanner
+from mrpbench_planners_mapf.recipe import NativePlanner, RobustPlanner
 
 PLANNERS = {
     point.name: point.load()
@@ -31,7 +31,7 @@ def test_a_planner_has_the_name_and_defaults_of_its_algorithm(name):
 def test_what_the_name_decides_is_no_option():
     assert "goal_choice" not in attrs.fields_dict(Cbs)
     assert "iterations" not in attrs.fields_dict(Lacam)
-    assert [field.name for field in attrs.fields(PLANNERS["ecbs"])] == ["k", "w"]
+    assert [field.name for field in attrs.fields(PLANNERS["ecbs"])] == [*attrs.fields_dict(RobustPlanner), "w"]
     assert {option.name for option in describe("ecbs").options} == {option.name for option in describe("eecbs").options}
 
 
