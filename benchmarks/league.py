@@ -2,7 +2,7 @@
 
 `python benchmarks/league.py speed`: PIBT with 10,000 robots on 140 x 500 cells, steps per second on one core.
 `python benchmarks/league.py examples --shared ../shared/data`: the examples of 2026 against the Start-Kit's planner.
-`python benchmarks/league.py dense`: random-32-32-20 with 100 to 800 robots, best totals of 2024.
+`python benchmarks/league.py dense --season 2023`: random-32-32-20 with 100 to 800 robots against the best totals.
 """
 
 import argparse
@@ -10,6 +10,7 @@ import os
 import time
 from pathlib import Path
 
+import attrs
 import numpy as np
 from mrpbench_native import discrete
 from mrpbench_simulators_league import Options, execute
@@ -21,8 +22,13 @@ from mrpbench_core.model.common.arrays import Bool
 
 START_KIT = {"maze.domain/maze-example_40.json": 97, "random.domain/random-example_400.json": 651}
 """Tasks of its default planner in 1,000 ticks, called every 1,000 ms."""
-BEST = {100: (600, 696), 200: (600, 1260), 400: (800, 2368), 700: (1000, 2585), 800: (2000, 3050)}
-"""Season 2024, random-32-32-20: steps and tasks by robots. The problems here are drawn in the same style."""
+BEST = {
+    2023: {100: (500, 1741), 200: (500, 3042), 400: (1000, 7432), 600: (1000, 5914), 800: (2000, 6059)},
+    2024: {100: (600, 696), 200: (600, 1260), 400: (800, 2368), 700: (1000, 2585), 800: (2000, 3050)},
+}
+"""By season: steps and tasks on random-32-32-20 by robots. The problems here are drawn in the same style."""
+ERRANDS = {2023: 1, 2024: 3}
+"""Of a task; how many the tasks of 2024 have is not published here."""
 
 
 def drawn(season: int, blocked: Bool, robots: int, goals: int, errands: int) -> LorrProblem:
@@ -59,14 +65,14 @@ def connected(blocked: Bool) -> np.ndarray:
     return np.flatnonzero(label.ravel() == values[counts.argmax()])
 
 
-def speed(steps: int) -> None:
+def speed(steps: int, guidance: bool) -> None:
     """Print steps per second after the first steps, in which distance tables are computed."""
     blocked = np.zeros((140, 500), bool)
     blocked[2:138:3, 4:496] = True
     blocked[:, ::12] = False
     problem = drawn(2023, blocked, 10_000, 1000, 1)
-    options = {"planner": "pibt", "depth": 4, "improve": False, "limit": 1.0, "iterations": 0, "seed": 0, "period": 10}
-    execution = discrete.open(problem=problem, table_bytes=2**32, **options)
+    options = Options(planner="pibt", iterations=0, guidance=guidance, table_bytes=2**32)
+    execution = discrete.open(problem=problem, **attrs.asdict(options))
     began = time.perf_counter()
     execution.run_until(50)
     warm = time.perf_counter()
@@ -79,26 +85,30 @@ def speed(steps: int) -> None:
     print(f"{execution.errands} errands")
 
 
-def examples(shared: Path, iterations: int | None) -> None:
+def examples(shared: Path, options: Options) -> None:
     """Print our tasks and those of the Start-Kit."""
     for name, theirs in START_KIT.items():
         problem = read_problem(shared / "lorr" / name)
-        done = execute(problem, 1000, Options(iterations=iterations))
+        done = execute(problem, 1000, options)
         faults = rescore(problem, done.output).faults.count
         ours = done.output.finished or 0
         print(f"{name}: {ours} tasks, Start-Kit {theirs}: {ours / theirs:.2f}; {faults} faults, {done.late_calls} late")
 
 
-def dense(shared: Path, iterations: int | None, robots: list[int]) -> None:
+def dense(shared: Path, options: Options, season: int, robots: list[int] | None) -> None:
     """Print our tasks and the best known ones."""
     blocked = read_movingai_map(shared / "movingai/maps/random-32-32-20.map")
-    for count in robots:
-        steps, best = BEST[count]
-        done = execute(drawn(2024, blocked, count, 10**6, 3), steps, Options(iterations=iterations))
-        ours = done.output.finished or 0
-        median = np.median(done.call_seconds)
+    for count in robots or BEST[season]:
+        steps, best = BEST[season][count]
+        problem = drawn(season, blocked, count, 10**6, ERRANDS[season])
+        cpu = time.process_time()
+        done = execute(problem, steps, options)
+        cpu = (time.process_time() - cpu) / steps
+        ours, faults = done.output.finished or 0, rescore(problem, done.output).faults.count
         print(
-            f"{count} robots, {steps} steps: {ours} tasks, best known {best}: {ours / best:.2f}; {median:.3f} s a step"
+            f"{count} robots, {steps} steps: {ours} tasks, best known {best}: {ours / best:.2f}; {faults} faults, "
+            f"{done.late_calls} late, {np.median(done.call_seconds):.3f} s and {cpu:.3f} s of CPU a step",
+            flush=True,
         )
 
 
@@ -109,15 +119,19 @@ def main() -> None:
     parser.add_argument("--shared", type=Path, default=Path("../shared/data"))
     parser.add_argument("--iterations", type=int, help="rounds of improvement; none: as the clock allows")
     parser.add_argument("--steps", type=int, default=500)
-    parser.add_argument("--robots", type=int, nargs="*", default=list(BEST))
+    parser.add_argument("--season", type=int, choices=tuple(BEST), default=2024)
+    parser.add_argument("--robots", type=int, nargs="*")
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--no-guidance", action="store_false", dest="guidance")
     given = parser.parse_args()
+    options = Options(iterations=given.iterations, threads=given.threads, guidance=given.guidance)
     print(f"load {os.getloadavg()[0]:.1f}")
     if given.what == "speed":
-        speed(given.steps)
+        speed(given.steps, given.guidance)
     elif given.what == "examples":
-        examples(given.shared, given.iterations)
+        examples(given.shared, options)
     else:
-        dense(given.shared, given.iterations, given.robots)
+        dense(given.shared, options, given.season, given.robots)
 
 
 if __name__ == "__main__":

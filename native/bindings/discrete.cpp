@@ -73,16 +73,20 @@ Problem problem_of(nb::handle given) {
   return found;
 }
 
-std::unique_ptr<League> open(nb::handle problem, const std::string& planner, int depth, bool improve, double limit,
+std::unique_ptr<League> open(nb::handle problem, const std::string& planner, int depth, bool improve, int threads,
+                             bool guidance, std::optional<int> active, double limit,
                              std::optional<std::int64_t> iterations, std::uint64_t seed, std::size_t table_bytes,
                              int period) {
   LeagueOptions options;
-  options.planner = {planner, depth, improve};
+  options.planner = {planner, depth, improve, threads};
+  options.guidance = guidance;
+  options.active = active;
   options.limit_s = limit;
   options.iterations = iterations;
   options.seed = seed;
   options.table_bytes = table_bytes;
   options.period = period;
+  require(threads > 0 && (!active || *active > 0), "threads or active are out of range");
   require(limit > 0 && period > 0 && (!iterations || *iterations >= 0), "limit, period or iterations are out of range");
   Problem found = problem_of(problem);
   const nb::gil_scoped_release release;
@@ -194,6 +198,6 @@ NB_MODULE(discrete, module) {
         return ticks ? ticks->refused() : 0;
       });
 
-  module.def("open", &open, nb::kw_only(), "problem"_a, "planner"_a, "depth"_a, "improve"_a, "limit"_a,
-             "iterations"_a.none(), "seed"_a, "table_bytes"_a, "period"_a);
+  module.def("open", &open, nb::kw_only(), "problem"_a, "planner"_a, "depth"_a, "improve"_a, "threads"_a, "guidance"_a,
+             "active"_a.none(), "limit"_a, "iterations"_a.none(), "seed"_a, "table_bytes"_a, "period"_a);
 }

@@ -1,6 +1,7 @@
 // Discrete executions by the rules of the League of Robot Runners: steps (2023, 2024) and ticks (2026).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -21,6 +22,10 @@ struct LeagueOptions {
   std::uint64_t seed = 0;
   /// Of distance tables.
   std::size_t table_bytes = std::size_t{2} << 30;
+  /// Whether moves cost more where there is traffic.
+  bool guidance = true;
+  /// Robots that have a goal at the same time, at most; none: half as many as there are free cells.
+  std::optional<int> active;
   /// 2026: ticks between two calls of the planner.
   int period = 10;
 };
@@ -31,11 +36,13 @@ struct ActionError {
   std::string text;
 };
 
+class Guidance;
+
 /// What both kinds of execution share.
 class League {
  public:
   League(Problem problem, LeagueOptions options);
-  virtual ~League() = default;
+  virtual ~League();
   League(const League&) = delete;
   League& operator=(const League&) = delete;
 
@@ -54,9 +61,15 @@ class League {
   int late_calls() const { return late_calls_; }
 
  protected:
+  /// How many robots may get tasks, if `holding` others have some.
+  std::size_t may_get(std::size_t holding) const { return std::max(active_, holding) - holding; }
+
   Problem problem_;
   LeagueOptions options_;
+  std::size_t active_ = 0;
   DistanceTables tables_;
+  std::unique_ptr<Guidance> guidance_;
+  ///< Null: none.
   Tasks tasks_;
   std::unique_ptr<Planner> planner_;
   std::vector<Pose> pose_;

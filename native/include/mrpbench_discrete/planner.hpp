@@ -46,6 +46,8 @@ struct PlannerOptions {
   ///< Actions of an operation (EPIBT).
   bool improve = true;
   ///< Large neighbourhood search after the first answer (EPIBT).
+  int threads = 1;
+  ///< Of the large neighbourhood search; results do not depend on their number, if the clock is not read.
 };
 
 /// Throws std::invalid_argument for an unknown name or depth.

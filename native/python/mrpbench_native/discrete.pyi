@@ -65,6 +65,9 @@ def open(  # noqa: A001 - as `io.open`
     planner: str,
     depth: int,
     improve: bool,
+    threads: int,
+    guidance: bool,
+    active: int | None,
     limit: float,
     iterations: int | None,
     seed: int,
@@ -78,6 +81,9 @@ def open(  # noqa: A001 - as `io.open`
         planner: `pibt` or `epibt`.
         depth: actions of an operation of `epibt`: 3, 4 or 5.
         improve: large neighbourhood search of `epibt`.
+        threads: of this search; results do not depend on their number if `iterations` is given.
+        guidance: whether moves cost more where there is traffic.
+        active: robots that have a goal at the same time, at most; None: half as many as there are free cells.
         limit: seconds of one answer.
         iterations: rounds of improvement in each step that is planned; the clock is then not read.
         seed: of the planner.

@@ -2,6 +2,7 @@
 #include "mrpbench_discrete/distance_tables.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace mrpbench::discrete {
 
@@ -22,10 +23,25 @@ const DistanceTable& DistanceTables::to(int goal) {
 }
 
 void DistanceTables::set_costs(Costs costs) {
+  if (costs.turn > Costs::most_turn) throw std::invalid_argument("a turn should cost at most 3");
   costs_ = std::move(costs);
-  tables_.clear();
-  order_.clear();
-  std::fill(of_goal_.begin(), of_goal_.end(), nullptr);
+  ++version_;
+  outdated_.assign(order_.begin(), order_.end());
+}
+
+bool DistanceTables::refresh(std::size_t cells) {
+  const std::size_t size = grid_.size();
+  credit_ += cells;
+  while (!outdated_.empty() && credit_ >= size) {
+    Kept* const kept = of_goal_[outdated_.back()];
+    if (kept && kept->table.version_ != version_) {
+      kept->table = computed(outdated_.back());
+      credit_ -= size;
+    }
+    outdated_.pop_back();
+  }
+  if (outdated_.empty()) credit_ = 0;
+  return outdated_.empty();
 }
 
 void DistanceTables::forget() {
@@ -70,13 +86,13 @@ DistanceTable DistanceTables::computed(int goal) {
     bucket.clear();
   }
   DistanceTable table;
-  table.turn_ = costs_.turn;
+  table.version_ = version_;
   table.packed_.resize(cells);
   for (int cell = 0; cell < cells; ++cell) {
     const std::uint32_t* const cost = &cost_[4 * static_cast<std::size_t>(cell)];
-    const std::uint32_t best = *std::min_element(cost, cost + 4);
-    std::uint32_t word = best << 8;
-    for (int heading = 0; heading < 4; ++heading) word |= ((cost[heading] - best) / costs_.turn) << (2 * heading);
+    const std::uint32_t best = std::min(*std::min_element(cost, cost + 4), DistanceTable::unreachable);
+    std::uint32_t word = best << 12;
+    for (int heading = 0; heading < 4; ++heading) word |= std::min(cost[heading] - best, 7u) << (3 * heading);
     table.packed_[cell] = word;
   }
   return table;

@@ -1,9 +1,10 @@
 // EPIBT: PIBT over operations of several actions, improved by large neighbourhood search.
 #pragma once
 
-#include <array>
+#include <optional>
+#include <span>
 
-#include "mrpbench_discrete/planner.hpp"
+#include "operation_lns.hpp"
 #include "operations.hpp"
 
 namespace mrpbench::discrete {
@@ -14,59 +15,30 @@ namespace mrpbench::discrete {
 /// next.
 class Epibt final : public Planner {
  public:
-  Epibt(int depth, bool improve, std::uint64_t seed);
+  Epibt(int depth, bool improve, int threads, std::uint64_t seed);
   void plan(const View& view, const Budget& budget, std::vector<Action>& action) override;
 
  private:
-  static constexpr int kDeepest = 5;
-  using Path = std::array<std::int32_t, kDeepest + 1>;
-
-  struct Choice {
-    std::int32_t value;
-    std::int16_t operation;
-  };
-
-  /// Of a robot in the search that has this stamp. `pushing`: it has, or is about to get, an operation that others make
-  /// room for.
-  struct Visit {
-    std::uint64_t stamp = 0;
-    int tries = 0;
-    bool pushing = false;
-  };
-
-  void inherit(const View& view);
+  OperationSearch inherit(const View& view);
   void rank(const View& view);
-  const std::vector<Choice>& choices(const View& view, int robot);
-  std::int32_t value(const View& view, int robot, const Path& path, int operation) const;
-  bool path_of(const View& view, int robot, const Operation& operation, Path& path) const;
-  void place(int robot, const Path& path);
-  void remove(int robot);
-  int hit(const View& view, int robot, const Path& path) const;
-  bool build(const View& view, int robot, double spent);
-  void construct(const View& view);
-  void improve(const View& view, const Budget& budget, double began);
+  void choose(const View& view);
+  void construct(OperationSearch& search);
+  std::optional<OperationPlan> plan_of(const View& view, int robot, std::span<const Action> actions, int worth) const;
+  std::int32_t value(const View& view, int robot, const OperationPlan& plan, int worth) const;
 
   const int depth_;
   const bool improves_;
   const std::uint64_t seed_;
   const std::vector<Operation> operations_;
-  std::vector<Operation> held_;
-  std::vector<Path> path_;
-  std::vector<std::int32_t> value_;
+  OperationLns lns_;
+  Wishes wishes_;
+  std::vector<OperationPlan> held_;
   std::vector<Pose> expected_;
-  std::vector<std::vector<std::int32_t>> at_;
-  std::vector<std::vector<Choice>> choices_;
-  std::vector<std::uint8_t> known_, fixed_;
-  std::vector<Visit> visit_;
-  std::uint64_t stamp_ = 0, draws_ = 0, steps_ = 0;
-  std::vector<double> weight_;
+  std::uint64_t steps_ = 0;
   std::vector<std::int32_t> order_;
   std::vector<std::int32_t> last_goal_;
   std::vector<std::uint32_t> nearest_;
   std::vector<std::uint64_t> waited_;
-  double threshold_ = 0;
-  bool any_ = true;
-  int calls_ = 0;
 };
 
 }  // namespace mrpbench::discrete

@@ -47,12 +47,13 @@ bool Pibt::push(const View& view, int robot, int pusher) {
     const int cell = view.grid.ahead(pose.cell, heading);
     if (cell < 0) continue;
     const int turns = heading == pose.heading ? 0 : ((heading ^ pose.heading) & 1) ? 1 : 2;
-    std::uint32_t cost = table ? table->from({cell, heading}) + turns * turn : 2u + turns;
+    std::uint32_t cost =
+        table ? view.tables.forward({pose.cell, heading}) + table->from({cell, heading}) + turns * turn : 2u + turns;
     // Ties: an empty cell first, then one of this robot's own order, which no other robot shares.
     cost = 16 * cost + (holder_[cell] >= 0 ? 8 : 0) + static_cast<std::uint32_t>((robot + heading) & 3);
     choices[count++] = {intent_[robot] == cell ? 0 : cost + 1, cell};
   }
-  choices[count++] = {table ? 16 * table->from(pose) + 16 : 1u, pose.cell};
+  choices[count++] = {table ? 16 * (table->from(pose) + 2 * turn) : 1u, pose.cell};
   for (int i = 1; i < count; ++i) {
     for (int k = i; k > 0 && choices[k] < choices[k - 1]; --k) std::swap(choices[k], choices[k - 1]);
   }

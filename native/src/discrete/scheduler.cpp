@@ -30,7 +30,7 @@ std::uint32_t Scheduler::rest(const Tasks& all, int task, int errand) {
 
 std::vector<std::int32_t> Scheduler::choose(const Tasks& all, const std::vector<Pose>& pose,
                                             const std::vector<std::int32_t>& robots,
-                                            const std::vector<std::int32_t>& tasks,
+                                            const std::vector<std::int32_t>& tasks, std::size_t most,
                                             const std::vector<std::uint32_t>& later) {
   using Option = std::pair<std::uint32_t, std::int32_t>;
   std::vector<std::vector<Option>> options(robots.size());
@@ -59,7 +59,7 @@ std::vector<std::int32_t> Scheduler::choose(const Tasks& all, const std::vector<
   }
   std::vector<std::int32_t> found(robots.size(), -1);
   std::vector<std::uint8_t> taken(tasks.size(), 0);
-  while (!heap.empty()) {
+  while (!heap.empty() && most > 0) {
     const auto [best, i] = heap.top();
     heap.pop();
     if (taken[best.second]) {
@@ -67,6 +67,7 @@ std::vector<std::int32_t> Scheduler::choose(const Tasks& all, const std::vector<
       if (!options[i].empty()) heap.push({options[i].back(), i});
       continue;
     }
+    --most;
     taken[best.second] = 1;
     found[i] = tasks[best.second];
   }

@@ -17,10 +17,10 @@ class Scheduler {
   /// Choose among unopened tasks for robots that are or will be free.
   ///
   /// `pose`: where robots are once they are free. `later`: cost until then, none if empty. `robots`: who may get a
-  /// task. `tasks`: which may be given. Returns a task for each of `robots`, -1 = none.
+  /// task. `tasks`: which may be given. `most`: how many are given. Returns a task for each of `robots`, -1 = none.
   std::vector<std::int32_t> choose(const Tasks& all, const std::vector<Pose>& pose,
                                    const std::vector<std::int32_t>& robots, const std::vector<std::int32_t>& tasks,
-                                   const std::vector<std::uint32_t>& later = {});
+                                   std::size_t most, const std::vector<std::uint32_t>& later = {});
   /// The cost from an errand of a task to the end of that task.
   std::uint32_t rest(const Tasks& all, int task, int errand);
   /// Way from a pose to the first errand of a task.

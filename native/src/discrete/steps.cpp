@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "guidance.hpp"
 #include "mrpbench_discrete/league.hpp"
 #include "scheduler.hpp"
 
@@ -28,9 +29,11 @@ class Steps final : public League {
   void run_until(int time) override {
     while (time_ < time) {
       const auto began = Clock::now();
+      if (guidance_) guidance_->update();
       std::vector<std::int32_t> proposal;
       if (problem_.season == 2024) proposal = schedule();
       look(proposal);
+      if (problem_.season == 2023) limit();
       const double spent = since(began);
       planner_->plan(view_, {0.9 * std::max(0.0, options_.limit_s - spent), options_.iterations}, action_);
       const double seconds = since(began);
@@ -65,7 +68,7 @@ class Steps final : public League {
     std::vector<std::int32_t> given = tasks;
     if (!all) std::erase_if(given, [&](int task) { return tasks_.all()[task].robot >= 0; });
     const auto& robots_given = all ? unbound : free;
-    const auto chosen = scheduler_.choose(tasks_, pose_, robots_given, given);
+    const auto chosen = scheduler_.choose(tasks_, pose_, robots_given, given, may_get(robots - robots_given.size()));
     for (std::size_t i = 0; i < chosen.size(); ++i) proposal[robots_given[i]] = chosen[i];
     return proposal;
   }
@@ -92,11 +95,24 @@ class Steps final : public League {
     }
   }
 
+  /// Leave goals to the robots that are nearest to theirs.
+  void limit() {
+    if (active_ >= pose_.size()) return;
+    std::vector<std::pair<std::uint32_t, std::size_t>> ways;
+    for (std::size_t i = 0; i < pose_.size(); ++i) {
+      if (view_.goal[i] >= 0) ways.push_back({tables_.to(view_.goal[i]).from(pose_[i]), i});
+    }
+    std::sort(ways.begin(), ways.end());
+    for (std::size_t k = active_; k < ways.size(); ++k)
+      view_.goal[ways[k].second] = view_.next_goal[ways[k].second] = -1;
+  }
+
   /// One step, and the proposal that takes effect with it.
   void advance(const std::vector<Action>& action, const std::vector<std::int32_t>& proposal = {}) {
     ++time_;
     auto faults = faults_of_step(problem_.grid, pose_, action, time_);
     const bool moves = faults.empty();
+    if (guidance_ && moves) guidance_->observe(pose_, action);
     errors_.insert(errors_.end(), std::make_move_iterator(faults.begin()), std::make_move_iterator(faults.end()));
     for (std::size_t i = 0; i < pose_.size(); ++i) {
       letters_.push_back(static_cast<std::uint8_t>(moves ? action[i] : Action::wait));
@@ -143,7 +159,11 @@ League::League(Problem problem, LeagueOptions options)
       tasks_(problem_),
       planner_(make_planner(options_.planner, options_.seed)) {
   for (const int cell : problem_.start) pose_.push_back({cell, 0});
+  if (options_.guidance) guidance_ = std::make_unique<Guidance>(problem_.grid, tables_);
+  active_ = options_.active ? *options_.active : std::max(1, problem_.grid.size() / 2);
 }
+
+League::~League() = default;
 
 std::unique_ptr<League> make_steps(Problem problem, LeagueOptions options) {
   return std::make_unique<Steps>(std::move(problem), std::move(options));

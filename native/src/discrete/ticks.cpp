@@ -5,6 +5,7 @@
 
 #include "delays.hpp"
 #include "executor.hpp"
+#include "guidance.hpp"
 #include "mrpbench_discrete/league.hpp"
 #include "scheduler.hpp"
 #include "squares.hpp"
@@ -106,6 +107,7 @@ class TickLeague final : public Ticks {
   void call(int time) {
     const auto began = Clock::now();
     tables_.forget();
+    if (guidance_) guidance_->update();
     look_ahead();
     schedule();
     const int steps = wanted_steps();
@@ -115,6 +117,7 @@ class TickLeague final : public Ticks {
       const double spent = std::chrono::duration<double>(Clock::now() - began).count();
       const double share = std::max(0.0, (0.9 * limit - spent) / (steps - step));
       planner_->plan(view_, {share, options_.iterations}, action_);
+      if (guidance_) guidance_->observe(view_.pose, action_);
       for (std::size_t i = 0; i < pose_.size(); ++i) {
         view_.pose[i] = problem_.grid.after(view_.pose[i], action_[i]);
         reach(i);
@@ -178,7 +181,7 @@ class TickLeague final : public Ticks {
       } else if (it.errand + 1 == tasks_.errands(it.task)) {
         const int last = tasks_.cell(it.task, it.errand);
         later[i] = tables_.to(last).from(view_.pose[i]);
-        if (later[i] > soon) continue;
+        if (later[i] > soon * tables_.turn()) continue;
         from[i] = {last, view_.pose[i].heading};
         chosen_for.push_back(robot);
       }
@@ -186,7 +189,8 @@ class TickLeague final : public Ticks {
     for (const int task : tasks_.unopened()) {
       if (!bound[task]) given.push_back(task);
     }
-    const auto found = scheduler_.choose(tasks_, from, chosen_for, given, later);
+    const auto holding = std::ranges::count_if(outlook_, &Outlook::opened);
+    const auto found = scheduler_.choose(tasks_, from, chosen_for, given, may_get(holding), later);
     for (std::size_t k = 0; k < found.size(); ++k) {
       const int robot = chosen_for[k];
       const Outlook& it = outlook_[robot];

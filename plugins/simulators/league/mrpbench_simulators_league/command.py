@@ -4,6 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
+import attrs
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
@@ -19,6 +20,9 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=Path("output.json"), metavar="FILE", help="(default: %(default)s)")
     parser.add_argument("--planner", choices=("pibt", "epibt"), default="epibt", help="(default: %(default)s)")
     parser.add_argument("--depth", type=int, choices=(3, 4, 5), default=4, help="actions of an operation of epibt")
+    parser.add_argument("--threads", type=_positive, default=1, metavar="N", help="threads of improvement of epibt")
+    parser.add_argument("--no-guidance", action="store_false", dest="guidance", help="moves cost the same everywhere")
+    parser.add_argument("--active", type=_positive, metavar="N", help="robots with goals (default: half the cells)")
     parser.add_argument("--limit", type=_seconds, default=1.0, metavar="S", help="seconds of one answer")
     parser.add_argument("--iterations", type=int, metavar="N", help="rounds of improvement instead of seconds")
     parser.add_argument("--period", type=_positive, default=10, metavar="N", help="ticks between two calls (2026)")
@@ -26,7 +30,7 @@ def main(words: list[str] | None = None) -> int:
     given = parser.parse_args(words)
     try:
         problem = read_problem(given.problem)
-        options = {key: getattr(given, key) for key in ("planner", "depth", "limit", "iterations", "period", "seed")}
+        options = {field.name: getattr(given, field.name) for field in attrs.fields(Options) if field.name in given}
         done = execute(problem, given.duration, Options(**options))
         done.write(given.out)
     except InputError as error:

@@ -38,9 +38,23 @@ class StepPlanner(Planner):
     depth: int = option(4, help="actions of an operation of epibt", validator=attrs.validators.in_((3, 4, 5)))
     improve: bool = option(True, help="improve the operations of epibt by large neighbourhood search")
 
+    threads: int = option(
+        1,
+        help="threads of this improvement; results do not depend on their number if `limits.iterations` is given",
+        validator=attrs.validators.ge(1),
+    )
+    guidance: bool = option(True, help="let moves cost more where robots come the other way or stay")
+    active: int | None = option(
+        None,
+        help="robots that have a goal at the same time, at most; none: half as many as there are free cells",
+        validator=attrs.validators.optional(attrs.validators.ge(1)),
+    )
+
     def idle_options(self) -> dict[str, str]:
-        """Return options that `method` makes idle."""
-        return {} if self.method == "epibt" else dict.fromkeys(("depth", "improve"), "`method` is not epibt")
+        """Return options that others make idle."""
+        if self.method != "epibt":
+            return dict.fromkeys(("depth", "improve", "threads"), "`method` is not epibt")
+        return {} if self.improve else {"threads": "`improve` is off"}
 
     def skip(self, problem: Problem) -> str | None:  # noqa: ARG002
         """Return that a plan of the whole run is not asked of it."""
@@ -119,6 +133,9 @@ class League(DiscreteSimulator):
             planner=run.planner.method,
             depth=run.planner.depth,
             improve=run.planner.improve,
+            threads=run.planner.threads,
+            guidance=run.planner.guidance,
+            active=run.planner.active,
             limit=run.limit,
             iterations=run.iterations,
             period=self.period,

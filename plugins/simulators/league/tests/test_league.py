@@ -42,10 +42,12 @@ def drawn(season, seed, *, side=8, robots=12, walls=8, **others):
     st.integers(3, 5),
     st.integers(0, 10**6),
     st.sampled_from((2, 12, 30)),
+    st.sampled_from((None, 1, 8)),
 )
-def test_no_execution_breaks_a_rule_and_its_account_is_true(season, planner, depth, seed, robots):
+def test_no_execution_breaks_a_rule_and_its_account_is_true(season, planner, depth, seed, robots, active):
     problem = drawn(season, seed, robots=robots)
-    done = execute(problem, 120, Options(planner=planner, depth=depth, iterations=5, seed=seed))
+    options = Options(planner=planner, depth=depth, iterations=5, seed=seed, guidance=seed % 2 == 0, active=active)
+    done = execute(problem, 120, options)
     score = rescore(problem, done.output)
     assert score.faults.kept == []
     assert (score.tasks, score.errands) == (done.output.finished, done.errands)
@@ -73,10 +75,21 @@ def test_work_goes_on_and_every_task_is_done_in_its_turn(season):
     assert thirds.min() > 0.6 * thirds.max() > 20
 
 
-def test_with_iterations_equal_runs_have_equal_outputs(tmp_path):
+@pytest.mark.parametrize("season", [2024, 2026])
+def test_no_more_robots_than_asked_for_hold_tasks(season):
+    done = execute(drawn(season, 4, robots=30), 200, Options(iterations=5, active=7))
+    changes = sorted((time, robot, task) for robot, own in enumerate(done.output.schedule) for time, task in own)
+    held, most = {}, 0
+    for time in sorted({time for time, _, _ in changes}):
+        held |= {robot: task for at, robot, task in changes if at == time}
+        most = max(most, sum(task >= 0 for task in held.values()))
+    assert most == 7
+
+
+def test_with_iterations_outputs_are_equal_on_any_number_of_threads(tmp_path):
     texts = []
-    for name in "ab":
-        done = execute(drawn(2026, 7), 150, Options(iterations=10))
+    for name, threads in (("a", 1), ("b", 2)):
+        done = execute(drawn(2026, 7), 150, Options(iterations=150, threads=threads))
         attrs.evolve(done, others={}).write(tmp_path / name)
         texts.append((tmp_path / name).read_bytes())
     assert texts[0] == texts[1]
