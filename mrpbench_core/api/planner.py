@@ -19,7 +19,8 @@ class Promise(StrEnum):
     """The sum of costs is at most the planner's option `w` times `PlanResult.lower_bound`."""
     ROBUST = "robust"
     """There is no conflict although each robot is up to as many ticks late as the planner's option `k` says, and the
-    other promises are about such plans."""
+    other promises are about such plans. With its option `p`, if that is not 0, a planner promises neither costs nor to
+    find a plan, because waits are added afterwards."""
     COMPLETE = "complete"
     """Finds a plan, given enough time, if one exists."""
     DETERMINISTIC = "deterministic"

@@ -28,8 +28,8 @@ class Promises:
     def of(cls, planner: Planner) -> Self:
         """The promises of a planner as it is configured."""
         promised = frozenset(planner.promises)
-        if getattr(planner, "p", 0.0):  # waits for p-robustness are no part of the search that promises costs
-            promised -= {Promise.OPTIMAL, Promise.BOUNDED}
+        if Promise.ROBUST in promised and getattr(planner, "p", 0.0):
+            promised -= {Promise.OPTIMAL, Promise.BOUNDED, Promise.COMPLETE}  # the waits for `p` are added afterwards
         factor = float(getattr(planner, "w", 1.0)) if Promise.BOUNDED in promised else 1.0
         k = int(getattr(planner, "k", 0)) if Promise.ROBUST in promised else 0
         return cls(kept=promised, factor=factor, assigns=bool(planner.assigns), k=k)
