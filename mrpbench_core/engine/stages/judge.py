@@ -28,7 +28,7 @@ class Promises:
     def of(cls, planner: Planner) -> Self:
         """The promises of a planner as it is configured."""
         promised = frozenset(planner.promises)
-        if Promise.ROBUST in promised and getattr(planner, "p", 0.0):
+        if Promise.ROBUST in promised and getattr(planner, "p", False):
             promised -= {Promise.OPTIMAL, Promise.BOUNDED, Promise.COMPLETE}  # the waits for `p` are added afterwards
         factor = float(getattr(planner, "w", 1.0)) if Promise.BOUNDED in promised else 1.0
         k = int(getattr(planner, "k", 0)) if Promise.ROBUST in promised else 0
