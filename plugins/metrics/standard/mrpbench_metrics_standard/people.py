@@ -1,6 +1,6 @@
 """Contacts with people and other movers, and the distances that robots keep from them."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import ClassVar, NamedTuple
 
 import attrs
@@ -11,7 +11,9 @@ from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.contacts import episodes
 from mrpbench_metrics_standard.distribution import mean, percentile
+from mrpbench_metrics_standard.freezing import LEAST, NEAR, freezings
 from mrpbench_metrics_standard.hunav import COLUMNS, Encounters, hunav
+from mrpbench_metrics_standard.progress import moves_among
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 MOVING = 0.05
@@ -22,6 +24,7 @@ SPACES = {"intimate": 0.45, "personal": 1.2}
 """Metres of Hall's distances: Hall, "The Hidden Dimension", 1966."""
 DISTANCES = {"min": (0.0, "least"), "p5": (5.0, "5th percentile"), "p50": (50.0, "median")}
 HOUR = 3600.0
+FREEZING = "Trautman and Krause, Unfreezing the Robot, IROS 2010"
 
 
 @attrs.frozen(kw_only=True)
@@ -56,6 +59,23 @@ class People(Metric):
         ),
         Column(
             "time_to_collision_min_s", "s", "higher", "least time to a collision at constant velocities; null: none"
+        ),
+        Column(
+            "freezings_per_robot_h",
+            "1/h",
+            "lower",
+            f"periods of at least {LEAST:g} s in which a robot freezes, per hour of a robot: it may drive on and "
+            f"stands, and a mover is within {NEAR:g} m and no other robot nearer",
+            FREEZING,
+            requires=frozenset({"released", "reached", "path"}),
+        ),
+        Column(
+            "freezing_share",
+            "",
+            "lower",
+            "share of the time of robots in these periods",
+            FREEZING,
+            requires=frozenset({"released", "reached", "path"}),
         ),
         *COLUMNS,
     )
@@ -96,6 +116,7 @@ class People(Metric):
             **within,
             "collision_soon_share": float((soonest < SOON).mean()),
             "time_to_collision_min_s": float(soonest.min()) if np.isfinite(soonest).any() else None,
+            **_freezing(run, met, robot_hours),
             **{
                 column.name: mean(
                     np.array([one.hunav[column.name] for one in met if one.hunav[column.name] is not None])
@@ -110,6 +131,8 @@ class _Met(NamedTuple):
 
     nearest: Float
     """f8[T] metres to the nearest mover; inf = none."""
+    robot: Float
+    """f8[T] metres to the nearest other robot; inf = none."""
     soonest: Float
     """f8[T] s to a collision; inf = never."""
     hunav: dict[str, float | None]
@@ -127,9 +150,30 @@ def _meet(run: FinishedRun, robot: int, there: Bool) -> _Met:
     seen = Encounters(gap=gap, offset=offset, robot=velocity, person=mover[..., 3:])
     return _Met(
         nearest=gap.min(axis=1),
+        robot=_to_robots(run, robot),
         soonest=np.where(here, left, np.inf).min(axis=1),
         hunav=hunav(run.channel("time"), pose, twist, seen),
     )
+
+
+def _to_robots(run: FinishedRun, robot: int) -> Float:
+    """Metres f8[T] from one robot to the nearest other on its level; inf = none."""
+    truth, level, radii = run.channel("truth"), run.channel("level"), run.context.fleet.radii
+    offset = truth[..., :2] - truth[:, robot, None, :2]
+    gap = np.hypot(offset[..., 0], offset[..., 1]) - radii - radii[robot]
+    gap[level != level[:, [robot]]] = np.inf
+    gap[:, robot] = np.inf
+    nearest: Float = gap.min(axis=1)
+    return nearest
+
+
+def _freezing(run: FinishedRun, met: Sequence[_Met], robot_hours: float) -> dict[str, Value]:
+    if not all(run.has(name) for name in ("released", "reached", "path")):
+        return {"freezings_per_robot_h": None, "freezing_share": None}
+    moves = [moves_among(run.channel(name), run.context.routes) for name in ("released", "reached")]
+    nearest, robot = (np.column_stack(rows) for rows in ([it.nearest for it in met], [it.robot for it in met]))
+    count, lasted = freezings(run.channel("time"), run.channel("truth_twist"), moves[0] > moves[1], nearest, robot)
+    return {"freezings_per_robot_h": count / robot_hours, "freezing_share": lasted / HOUR / robot_hours}
 
 
 def time_to_collision(offset: Float, velocity: Float, reach: Float) -> Float:

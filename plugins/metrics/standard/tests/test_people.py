@@ -4,6 +4,7 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_metrics_standard import People
+from mrpbench_metrics_standard.freezing import freezings
 from mrpbench_metrics_standard.hunav import FACTOR, social_force
 from mrpbench_metrics_standard.people import time_to_collision
 
@@ -14,16 +15,17 @@ from mrpbench_core.model.execution.movers import Mover
 def met(executed):
     """A robot (radius 0.2 m) in the origin for 100 s, at `speed`, and a person (0.3 m) along y = 1 from x = -5 to 5."""
 
-    def make(speed=0.0, contacts=(), absent=()):
+    def make(speed=0.0, contacts=(), absent=(), released=1):
         time = np.arange(101.0)
-        run = executed(time, [[(0, 0)] * 101], [[0] * 101], [[(0, 0)]], radii=[0.2], contacts=contacts)
+        run = executed(time, [[(0, 0)] * 101], [[0] * 101], [[(0, 0), (3, 0)]], radii=[0.2], contacts=contacts)
         person = np.zeros((101, 1, 5))
         person[:, 0, 0], person[:, 0, 1], person[:, 0, 3] = np.linspace(-5, 5, 101), 1.0, 0.1
         level = np.zeros((101, 1), "i2")
         level[list(absent)] = -1
         twist = np.zeros((101, 1, 2))
         twist[..., 0] = speed
-        channels = {"truth_twist": twist, "mover": person, "mover_level": level}
+        orders = np.full((101, 1), released, "i4")
+        channels = {"truth_twist": twist, "mover": person, "mover_level": level, "released": orders}
         loaders = {name: (lambda rows=rows: rows) for name, rows in channels.items()}
         context = attrs.evolve(run.context, movers=(Mover(radius=0.3),))
         return attrs.evolve(run, context=context, channels={**run.channels, **loaders})
@@ -46,6 +48,24 @@ def test_contacts_count_by_hours_of_robots_and_of_people(met):
     half = People().measure(met(contacts=contacts, absent=range(50, 101)))
     assert half["contacts_per_robot_h"] == pytest.approx(2 * 36)
     assert half["contacts_per_person_h"] == pytest.approx(2 * 72)
+
+
+def test_a_robot_freezes_where_a_person_is_near_and_it_may_drive_on(met):
+    found = People().measure(met())
+    assert found["freezings_per_robot_h"] == pytest.approx(36)
+    assert found["freezing_share"] == pytest.approx(0.45)  # the person is less than 2 m away from 28 s to 73 s
+    twice = People().measure(met(absent=[*range(30, 41), 44]))  # 28 s to 30 s is too short
+    assert twice["freezings_per_robot_h"] == pytest.approx(2 * 36)
+    assert twice["freezing_share"] == pytest.approx(0.31)
+    for other in (met(released=0), met(speed=0.03)):
+        assert People().measure(other)["freezings_per_robot_h"] == 0
+
+
+def test_a_robot_that_another_one_stops_does_not_freeze():
+    time, near, far = np.arange(5.0), np.full((5, 1), 0.5), np.full((5, 1), 0.6)
+    waits, stands = np.zeros((5, 1, 2)), np.full((5, 1), True)
+    assert freezings(time, waits, stands, person=far, robot=near) == (0, 0.0)
+    assert freezings(time, waits, stands, person=near, robot=far) == (1, 4.0)
 
 
 def test_one_who_is_absent_is_nowhere_near(met):
