@@ -33,8 +33,8 @@ from mrpbench_core.store.paths import RunPaths
 
 ALLOWED = 0.01
 """Metres of overlap."""
-WARM_UP = 300.0
-"""Simulated seconds after which the memory has its size."""
+WARM_UP = 600.0
+"""Simulated seconds after which the memory has its size: recordings are written every 256 s."""
 GROWTH = 1.05
 """Largest memory at the end relative to that after the warm-up."""
 
@@ -56,10 +56,10 @@ class Verdict:
             print(f"first at {now:.2f} s: {kind}, person {int(depth.argmax())}, {depth.max():.3f} m", flush=True)
         self.faults[kind] += found
 
-    def grew(self) -> bool:
-        """Tell whether the memory kept growing after the warm-up."""
+    def grew(self) -> bool | None:
+        """Tell whether the memory kept growing after the warm-up; None = the run is too short to tell."""
         later = [size for when, size in self.memory if when >= WARM_UP]
-        return bool(later) and later[-1] > GROWTH * later[0]
+        return later[-1] > GROWTH * later[0] if len(later) > 1 else None
 
 
 @attrs.frozen
@@ -171,8 +171,9 @@ def main() -> int:
         record = execute(judged, "soak", paths, lambda *_: None)
     faults = ", ".join(f"{count} x {kind}" for kind, count in verdict.faults.items() if count) or "no faults"
     grew = verdict.grew()
-    print(f"{record.status} {record.error or ''}: {faults}, memory {'grew' if grew else 'flat'}")
-    return int(verdict.faults.total() > 0 or grew or record.status not in PLANNED)
+    memory = {True: "grew", False: "flat", None: "not judged"}[grew]
+    print(f"{record.status} {record.error or ''}: {faults}, memory {memory}")
+    return int(verdict.faults.total() > 0 or bool(grew) or record.status not in PLANNED)
 
 
 if __name__ == "__main__":
