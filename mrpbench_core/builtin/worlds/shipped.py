@@ -12,6 +12,7 @@ from mrpbench_core.model.worlds.world import World
 
 FOLDER = Path(__file__).parent / "data"
 CASES = ("corridor", "swap", "roundabout", "alcove", "door")
+ENCOUNTERS = ("crossing", "head_on", "narrow", "overtaking", "blind_corner", "doorway", "group")
 
 
 @attrs.frozen(kw_only=True)
@@ -78,6 +79,38 @@ class Bottlenecks(WorldSource):
 
     def load(self) -> World:
         """Read the packaged file."""
-        world = Rmf(file=FOLDER / "bottlenecks.building.yaml", level=self.case).load()
-        notes = tuple(note for note in world.notes if not note.startswith("only level"))
-        return attrs.evolve(world, name=f"bottlenecks_{self.case}", notes=notes)
+        return _case("bottlenecks", self.case)
+
+
+@attrs.frozen(kw_only=True)
+class Station(WorldSource):
+    """A station hall of 36 × 16 m: entrances, stairs to four platforms, kiosks, pillars, docks, 21 places."""
+
+    def load(self) -> World:
+        """Read the packaged file."""
+        return Rmf(file=FOLDER / "station.building.yaml").load()
+
+
+@attrs.frozen(kw_only=True)
+class Encounters(WorldSource):
+    """Minimal cases in which a robot, from `robot` to `robot_goal`, meets one who goes from `person` to `person_goal`.
+
+    `crossing`: two corridors of 2 m. `head_on`, `narrow`: in a corridor of 2 or 1.2 m. `overtaking`: the person begins
+    behind the robot. `blind_corner`: corridors of 1.5 m. `doorway`: 0.9 m, at the same time. `group`: three people
+    stand in the way, also at `person_2` and `person_3`.
+    """
+
+    case: Literal["crossing", "head_on", "narrow", "overtaking", "blind_corner", "doorway", "group"] = option(
+        "crossing", help="Which case: one level of the file.", validator=attrs.validators.in_(ENCOUNTERS)
+    )
+
+    def load(self) -> World:
+        """Read the packaged file."""
+        return _case("encounters", self.case)
+
+
+def _case(name: str, case: str) -> World:
+    """One level of a packaged file."""
+    world = Rmf(file=FOLDER / f"{name}.building.yaml", level=case).load()
+    notes = tuple(note for note in world.notes if not note.startswith("only level"))
+    return attrs.evolve(world, name=f"{name}_{case}", notes=notes)

@@ -4,7 +4,17 @@ import pytest
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
-from mrpbench_core.builtin.worlds.shipped import CASES, Airport, Bottlenecks, Household, Office, Warehouse
+from mrpbench_core.builtin.worlds.shipped import (
+    CASES,
+    ENCOUNTERS,
+    Airport,
+    Bottlenecks,
+    Encounters,
+    Household,
+    Office,
+    Station,
+    Warehouse,
+)
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.world import check_world, size
@@ -16,9 +26,10 @@ BURGERS = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
 
 NARROW = [Household(), *(Bottlenecks(case=case) for case in CASES)]
 ROOMY = [Office(), Warehouse(), Airport()]
+PEOPLED = [Station(), *(Encounters(case=case) for case in ENCOUNTERS)]
 
 
-@pytest.fixture(params=[*ROOMY, *NARROW], ids=repr, scope="module")
+@pytest.fixture(params=[*ROOMY, *NARROW, *PEOPLED], ids=repr, scope="module")
 def world(request):
     return request.param.load()
 

@@ -17,12 +17,16 @@ _FORCES = [option for option in walker_options() if "horizon" not in option.name
 _OBSTACLES = [option for option in walker_options() if "horizon" in option.name or option.name == "sight"]
 
 
+Place = tuple[float, float] | str
+"""x, y in metres, or the name of a place of the world."""
+
+
 @attrs.frozen(kw_only=True)
 class Person:
     """A person with a place and goals of its own."""
 
-    start: tuple[float, float] = option(help="x, y in metres")
-    goals: tuple[tuple[float, float], ...] = option((), help="places to which it walks in turn, again and again")
+    start: Place = option(help="x, y in metres, or the name of a place")
+    goals: tuple[Place, ...] = option((), help="places to which it walks in turn, again and again")
     speed: float | None = option(None, help="walking speed; by default drawn", unit="m/s")
     group: int | None = option(None, help="number of its group; people of one number walk together")
 

@@ -3,11 +3,13 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import attrs
 import numpy as np
 from mrpbench_native.sim import Walkers
 
 from mrpbench_core.api import CrowdSession, CrowdView, Mover, Movers
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.model.common.arrays import Float, Int, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.common.geometry import point_segment_distance
@@ -45,6 +47,7 @@ class WalkingSession(CrowdSession):
     ) -> None:
         if recipe.level >= len(world.levels):
             raise InputError(f"crowds: world {world.name} has no level {recipe.level}")
+        recipe = attrs.evolve(recipe, given=tuple(_with_places(person, world, recipe.level) for person in recipe.given))
         self._recipe, self._seed, self._robot_radius = recipe, seed, fleet.radii
         self._floor = Floor(world, recipe.level, recipe.radius)
         self._facilities, self._level = Facilities(world), recipe.level
@@ -266,3 +269,18 @@ _NO_LEAVES = np.empty((0, 4))
 
 def _apart(place: Float, others: Sequence[Float] | Float, distance: float | Float) -> bool:
     return not len(others) or bool((np.hypot(*(np.array(others) - place).T) >= distance).all())
+
+
+def _with_places(person: Any, world: World, level: int) -> Any:
+    """A person whose places are all x, y in metres."""
+    named = {vertex.name: (vertex.x, vertex.y) for vertex in world.vertices if vertex.name and vertex.level == level}
+
+    def place(of: tuple[float, float] | str) -> tuple[float, float]:
+        if not isinstance(of, str):
+            return of
+        if of not in named:
+            hint = did_you_mean(of, named, f"names are {', '.join(list(named)[:10])}")
+            raise InputError(f"crowds: level {level} of world {world.name} has no place {of!r}", hint=hint)
+        return named[of]
+
+    return attrs.evolve(person, start=place(person.start), goals=tuple(map(place, person.goals)))

@@ -5,6 +5,7 @@ from mrpbench_crowds_walking.crowds import Person
 from mrpbench_crowds_walking.reactions import nearest_seen, react
 
 from mrpbench_core.api import CrowdView, Movers
+from mrpbench_core.builtin.worlds.shipped import Encounters
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.worlds.facilities import Facilities
@@ -32,6 +33,18 @@ class TestOrca(CrowdConformance):
 class TestCarts(CrowdConformance):
     def make(self):
         return Carts(people=2)
+
+
+def test_places_of_people_may_be_names_of_the_world():
+    world = Encounters(case="crossing").load()
+    named, stated = (
+        Orca(given=(Person(start=start, goals=goals),)).start(world, fleet(), 1, view())
+        for start, goals in (("person", ("person_goal",)), ((4.0, 0.8), ((4.0, 7.2),)))
+    )
+    for _ in range(10):
+        np.testing.assert_array_equal(named.step(0.1, view()).pose, stated.step(0.1, view()).pose)
+    with pytest.raises(InputError, match="level 0 of world encounters_crossing has no place 'persn'"):
+        Orca(given=(Person(start="persn"),)).start(world, fleet(), 1, view())
 
 
 def view(*robots, facilities=()):
