@@ -24,6 +24,8 @@ RUNS_PER_PLANNER = {
     "orders": 10,
     "faults": 80,
     "controllers": 240,
+    "encounters": 120,
+    "people": 180,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {
@@ -38,6 +40,8 @@ PLANNERS = {
     "orders": 1,
     "faults": 1,
     "controllers": 1,
+    "encounters": 1,
+    "people": 1,
 }
 VARIANTS = {"league": 2}
 """Options of one planner that a study compares."""

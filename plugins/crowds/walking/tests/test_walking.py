@@ -35,18 +35,6 @@ class TestCarts(CrowdConformance):
         return Carts(people=2)
 
 
-def test_places_of_people_may_be_names_of_the_world():
-    world = Encounters(case="crossing").load()
-    named, stated = (
-        Orca(given=(Person(start=start, goals=goals),)).start(world, fleet(), 1, view())
-        for start, goals in (("person", ("person_goal",)), ((4.0, 0.8), ((4.0, 7.2),)))
-    )
-    for _ in range(10):
-        np.testing.assert_array_equal(named.step(0.1, view()).pose, stated.step(0.1, view()).pose)
-    with pytest.raises(InputError, match="level 0 of world encounters_crossing has no place 'persn'"):
-        Orca(given=(Person(start="persn"),)).start(world, fleet(), 1, view())
-
-
 def view(*robots, facilities=()):
     pose = np.array(robots, float).reshape(-1, 3)
     state = State(
@@ -59,6 +47,18 @@ def walk(crowd, seconds, *robots, world=None, seed=0):
     seen = view(*robots)
     session = crowd.start(world or room(), fleet(len(robots)), seed, seen)
     return session, np.array([session.step(PERIOD, seen).pose for _ in range(round(seconds / PERIOD))])
+
+
+def test_places_of_people_may_be_names_of_the_world():
+    world = Encounters(case="crossing").load()
+    named, stated = (
+        Orca(given=(Person(start=start, goals=goals),)).start(world, fleet(0), 1, view())
+        for start, goals in (("person", ("person_goal",)), ((4.0, 0.8), ((4.0, 7.2),)))
+    )
+    for _ in range(10):
+        np.testing.assert_array_equal(named.step(0.1, view()).pose, stated.step(0.1, view()).pose)
+    with pytest.raises(InputError, match="level 0 of world encounters_crossing has no place 'persn'"):
+        Orca(given=(Person(start="persn"),)).start(world, fleet(0), 1, view())
 
 
 @pytest.mark.parametrize("kind", [SocialForce, Orca])
