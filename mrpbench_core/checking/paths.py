@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Int
-from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.plan import Path, Paths
 from mrpbench_core.model.planning.problem import Problem
 
 Faults = Iterator[tuple[int, str]]
@@ -41,21 +41,19 @@ class Segments(NamedTuple):
 
 def segments_of(paths: Sequence[Path]) -> Segments:
     """List the segments of paths that have as many edges as times."""
-    size = np.array([len(path) for path in paths], np.int64)
-    nothing = np.empty(0, np.int64)
-    columns = [
-        np.concatenate([nothing, *(getattr(path, name) for path in paths)]) for name in ("edge", "enter", "leave")
-    ]
-    segment = np.arange(len(columns[0])) - np.repeat(np.cumsum(size) - size, size)
-    return Segments(np.repeat(np.arange(len(paths)), size), segment, *columns)
+    joined = Paths.of(paths)
+    return Segments(joined.robot, joined.segment, joined.edge.astype(np.int64), joined.enter, joined.leave)
 
 
 def path_faults(problem: Problem, paths: Sequence[Path]) -> dict[int, str]:
     """Return the first fault of each path that has one, by robot."""
-    ragged = [robot for robot, it in enumerate(paths) if not len(it.edge) == len(it.enter) == len(it.leave)]
-    found = dict.fromkeys(ragged, "edge, enter and leave differ in length")
-    nothing = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
-    segments = segments_of([nothing if robot in found else path for robot, path in enumerate(paths)])
+    found: dict[int, str] = {}
+    if not isinstance(paths, Paths):
+        ragged = [robot for robot, it in enumerate(paths) if not len(it.edge) == len(it.enter) == len(it.leave)]
+        found = dict.fromkeys(ragged, "edge, enter and leave differ in length")
+        nothing = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
+        paths = [nothing if robot in found else path for robot, path in enumerate(paths)]
+    segments = segments_of(paths)
     rules: tuple[Callable[[Problem, Segments], Faults], ...] = (
         _of_edges,
         _of_times,
@@ -93,7 +91,7 @@ def _of_moves(problem: Problem, segments: Segments) -> Faults:
     robots, index, edge, enter, leave = moves
     tail, head = problem.roadmap.edges[edge].reshape(-1, 2).T
     duration = problem.roadmap.duration[problem.profile[robots], edge]
-    committed = _committed(problem)[robots]  # to what may be forbidden since then
+    committed = problem.committed[robots]  # to what may be forbidden since then
     for row in np.flatnonzero((duration < 0) & (index >= committed)).tolist():
         yield int(robots[row]), f"uses edge {edge[row]}, which its motion profile forbids"
     for row in np.flatnonzero(moves.first & (tail != problem.start[robots])).tolist():
@@ -115,7 +113,7 @@ def _of_commitments(problem: Problem, segments: Segments) -> Faults:
     for column in ("edge", "enter", "leave"):
         given = np.append(getattr(segments, column), -2)[np.where(kept, place, -1)]
         kept &= given == getattr(wanted, column)
-    size = _committed(problem)
+    size = problem.committed
     for robot in np.unique(wanted.robot[~kept]).tolist():
         yield robot, f"does not begin with its committed {size[robot]} segments"
 
@@ -140,8 +138,3 @@ def _of_goals(problem: Problem, segments: Segments) -> Faults:
                     position += 1
             if position < len(sequence):
                 yield robot, f"does not visit goal {position} of its sequence in order"
-
-
-def _committed(problem: Problem) -> Int:
-    """Number i8[n] of segments that each robot is committed to."""
-    return np.array([len(path) for path in problem.commitments] or [0] * len(problem), np.int64)

@@ -4,7 +4,9 @@ import numbers
 from collections.abc import Mapping
 from typing import Any
 
-from mrpbench_core.model.planning.plan import AnytimePoint, Path, Plan, PlanResult, PlanStatus
+import numpy as np
+
+from mrpbench_core.model.planning.plan import AnytimePoint, Path, Paths, Plan, PlanResult, PlanStatus
 
 RETURNED = tuple(status for status in PlanStatus if status != PlanStatus.UNKNOWN)
 """The statuses that a planner may return."""
@@ -34,6 +36,8 @@ def result_fault(result: Any) -> str | None:
 def _plan_fault(plan: Any) -> str | None:
     if not isinstance(plan, Plan):
         return f"returned {_kind(plan)} instead of a Plan"
+    if isinstance(plan.paths, Paths):
+        return None if _joins(plan.paths) else "returned a plan whose flat arrays do not fit together"
     if not isinstance(plan.paths, tuple | list):
         return f"returned a plan with {_kind(plan.paths)} instead of a tuple of paths"
     for robot, path in enumerate(plan.paths):
@@ -42,6 +46,15 @@ def _plan_fault(plan: Any) -> str | None:
         if not path.edge.ndim == path.enter.ndim == path.leave.ndim == 1:
             return f"robot {robot}: edge, enter and leave are not all one-dimensional"
     return None
+
+
+def _joins(paths: Paths) -> bool:
+    """Tell whether `first` divides the other columns, all of the same length."""
+    first, edge = paths.first, paths.edge
+    if not first.ndim == edge.ndim == paths.enter.ndim == paths.leave.ndim == 1 or not len(first):
+        return False
+    ends_fit = first[0] == 0 and first[-1] == len(edge) == len(paths.enter) == len(paths.leave)
+    return bool(ends_fit and (np.diff(first) >= 0).all())
 
 
 def _kind(value: Any) -> str:

@@ -10,7 +10,7 @@ from mrpbench_core.dispatching.resource_requests import ResourceRequests
 from mrpbench_core.dispatching.rotations import cycles, rotations
 from mrpbench_core.model.common.arrays import Bool, Int, Int32
 from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
-from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import Moves, Type2Edges, moves_of, type2_edges
 
@@ -49,7 +49,8 @@ class DependencyGraph:
         self._group = np.arange(len(moves.robot))
         for first, rotation in self.rotations.items():
             self._group[list(rotation)] = first
-        self._stride = max(map(len, plan.paths), default=0) + 1
+        sizes = Paths.of(plan.paths).size
+        self._stride = int(sizes.max(initial=0)) + 1
         dependencies = np.concatenate([self._dependencies(self.order), self._follows()])
         # Lists from here on, because they are read one number at a time.
         self.group: list[int] = self._group.tolist()
@@ -64,7 +65,7 @@ class DependencyGraph:
         self.segment: list[int] = moves.segment.tolist()
         self.robot: list[int] = moves.robot.tolist()
         self.first, self.last = moves.first[:-1].tolist(), moves.first[1:].tolist()
-        self.lengths = [len(path) for path in plan.paths]
+        self.lengths = sizes.tolist()
         self.rotating = [rotation for first, rotation in self.rotations.items() if not self.unmet[first]]
         """Rotations that are released and not completed."""
         self.frontier = list(self.first)

@@ -8,7 +8,7 @@ from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.dispatching.dependency_graph import REACHED, DependencyGraph
 from mrpbench_core.model.common.arrays import Bool, Int, Int32, frozen_array
 from mrpbench_core.model.execution.orders import FleetView, Orders
-from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import Moves
 
@@ -58,11 +58,12 @@ class OrderKeepingSession(DispatcherSession):
         """
         _check(problem, plan)
         gone: Int32 = np.zeros(len(problem), np.int32) if cut is None else cut
-        for robot, (first, count) in enumerate(zip(gone.tolist(), self.released.tolist(), strict=True)):
-            if not np.array_equal(plan.paths[robot].edge[: count - first], self.plan.paths[robot].edge[first:count]):
-                raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
+        old, new = (Paths.of(paths) for paths in (self.plan.paths, plan.paths))
+        for robot in _differing(old.part(gone, self.released), new.part(np.zeros_like(gone), self.released - gone)):
+            count = self.released[robot]
+            raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
         seen, released = np.maximum(self.seen - gone, 0), self.released - gone
-        committed: Int32 = np.maximum(released, [len(path) for path in problem.commitments] or 0)
+        committed: Int32 = np.maximum(released, problem.committed).astype("i4")
         graph = DependencyGraph(problem, plan, self.options.group_margin, self.options.request_ahead)
         graph.update(seen, np.arange(len(problem)))
         graph.commit(committed)
@@ -109,6 +110,15 @@ class OrderKeepingSession(DispatcherSession):
     def _release(self) -> None:
         ahead = (self.seen[REACHED] + 1 + self.options.lookahead).astype(np.int32)
         self.released = frozen_array(np.maximum(self.released, np.minimum(self.graph.released, ahead)), "i4")
+
+
+def _differing(old: Paths, new: Paths) -> list[int]:
+    """The robots whose paths use different edges."""
+    differs = old.size != new.size
+    same = ~differs[old.robot]
+    unequal = old.edge[same] != new.edge[~differs[new.robot]]
+    differs[old.robot[same][unequal]] = True
+    return np.flatnonzero(differs).tolist()
 
 
 def _check(problem: Problem, plan: Plan) -> None:

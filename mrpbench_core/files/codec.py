@@ -1,6 +1,6 @@
 """Encode model objects as JSON and decode them; arrays are stored separately as `.npy`."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextvars import ContextVar
 from enum import Enum
 from functools import cache
@@ -26,6 +26,8 @@ def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
         return value.value
     if isinstance(value, np.generic):
         return value.item()
+    if isinstance(value, Sequence) and not isinstance(value, str | bytes):  # of whatever class
+        return [encode(item, keep) for item in value]
     if attrs.has(type(value)):
         recorded = (field for field in attrs.fields(type(value)) if field.metadata.get("recorded", True))
         return {field.name: encode(getattr(value, field.name), keep) for field in recorded}
@@ -33,8 +35,6 @@ def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
         return {str(key): encode(item, keep) for key, item in value.items()}
     if isinstance(value, frozenset):
         return sorted(encode(item, keep) for item in value)
-    if isinstance(value, tuple | list):
-        return [encode(item, keep) for item in value]
     return value
 
 

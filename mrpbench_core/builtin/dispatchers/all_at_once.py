@@ -11,7 +11,7 @@ from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, opti
 from mrpbench_core.checking.facility_use import check_facility_use
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.orders import FleetView, Orders
-from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 
 
@@ -45,11 +45,11 @@ class AllAtOnceSession(DispatcherSession):
         """Continue with the new paths."""
         if uses := check_facility_use(problem, plan):
             raise DispatchError(f"{uses[0]}, and the dispatcher all_at_once does not request doors or lifts: use adg")
-        self.length = np.array([len(path) for path in plan.paths], np.int32)
+        self.length = Paths.of(plan.paths).size.astype(np.int32)
         if cut is not None:
             self.released = self.released - cut
         if problem.commitments:
-            self.released = np.maximum(self.released, [len(path) for path in problem.commitments])
+            self.released = np.maximum(self.released, problem.committed)
 
     def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - progress does not matter
         """Release the whole paths of the robots that may start now."""

@@ -7,7 +7,7 @@ from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession
 from mrpbench_core.checking.facility_use import check_facility_use
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.orders import FleetView, Orders
-from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 
 
@@ -38,12 +38,11 @@ class TimedSession(DispatcherSession):
         if cut is not None:
             self.released = self.released - cut
         if problem.commitments:
-            self.released = np.maximum(self.released, [len(path) for path in problem.commitments])
-        robot = np.repeat(np.arange(len(plan.paths)), [len(path) for path in plan.paths])
-        enter = np.concatenate([np.empty(0, np.int64), *(path.enter for path in plan.paths)])
-        order = np.argsort(enter, kind="stable")
-        self.robot = robot[order]
-        self.due = enter[order] * problem.roadmap.tick
+            self.released = np.maximum(self.released, problem.committed)
+        paths = Paths.of(plan.paths)
+        order = np.argsort(paths.enter, kind="stable")
+        self.robot = paths.robot[order]
+        self.due = paths.enter[order] * problem.roadmap.tick
         self.passed = 0
         self.by_clock = np.zeros(len(plan.paths), np.int32)
 

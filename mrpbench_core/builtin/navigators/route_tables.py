@@ -7,7 +7,7 @@ import numpy as np
 
 from mrpbench_core.builtin.navigators.route_checks import SLACK, ClearanceCheck, CornerCheck, Legs, WaypointCheck
 from mrpbench_core.model.common.arrays import Bool, Float, Int
-from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.execution.route import Route, last_moves
 
 STRAIGHT = 0.3
 """radians: a corner at which the direction changes by less is no bend."""
@@ -49,7 +49,7 @@ class RouteTables:
         """i8[n]: the waypoints of robot i are the rows from `first[i]` on."""
         self.last = sizes - 1
         """i8[n]: the last waypoint of robot i is the row `first[i] + last[i]`."""
-        last_move = np.array([route.last_move for route in routes], np.int64)
+        last_move = last_moves(routes)
         self.goal: Int = np.maximum(last_move, np.minimum(self.last, 1))
         """i8[n]: robot i arrives at the row `first[i] + goal[i]`. Only waits follow, which are reached at once, so that
         a new plan that only adds waits changes nothing."""

@@ -13,7 +13,7 @@ import numpy as np
 from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Planner, PlannerSession, Promise
 from mrpbench_core.model.common.arrays import Int32
-from mrpbench_core.model.planning.plan import Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import Budget, Paths, Plan, PlanResult, PlanStatus, waits
 from mrpbench_core.model.planning.problem import Feature, Problem, ends_of
 from mrpbench_core.model.planning.type2_edges import moves_of
 from mrpbench_core.model.planning.window import until
@@ -108,19 +108,6 @@ def after_commitments(problem: Problem, plan: Plan) -> Plan:
     """Return the commitments of a problem, a wait until the last of them ends, and then `plan`."""
     if not problem.commitments:
         return plan
-    ends, begin = ends_of(problem), _rest(problem)
-    return Plan(
-        paths=tuple(
-            _joined(path, end, begin, new) for path, end, new in zip(problem.commitments, ends, plan.paths, strict=True)
-        )
-    )
-
-
-def _joined(committed: Path, end: int, begin: int, new: Path) -> Path:
-    wait = [begin] if begin > end else []
-    pause = np.full(len(wait), -1, np.int32)
-    return Path(
-        edge=np.concatenate([committed.edge, pause, new.edge]),
-        enter=np.concatenate([committed.enter, [end] * len(wait), new.enter + begin]).astype(np.int64),
-        leave=np.concatenate([committed.leave, wait, new.leave + begin]).astype(np.int64),
-    )
+    begin, new = _rest(problem), Paths.of(plan.paths)
+    later = attrs.evolve(new, enter=new.enter + begin, leave=new.leave + begin)
+    return Plan(paths=Paths.of(problem.commitments).then(waits(np.array(ends_of(problem)), begin), later))

@@ -1,15 +1,14 @@
 """Commitments of a new plan: the released part of the old plan, with the times that it really takes."""
 
+import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Int, Int32
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Paths, Plan, waits
 from mrpbench_core.model.planning.problem import Problem
 
 
-def commitments(
-    problem: Problem, plan: Plan, released: Int32, reached: Int32, ready: Int, due: int
-) -> tuple[Path, ...]:
+def commitments(problem: Problem, plan: Plan, released: Int32, reached: Int32, ready: Int, due: int) -> Paths:
     """The released prefix of each path, with updated times.
 
     What was reached keeps its times, so that the order in which robots passed is kept too. The segment under way ends
@@ -26,25 +25,18 @@ def commitments(
         ready: i8[n] ticks at which each robot comes to the end of the first segment not reached.
         due: tick at which the new plan takes effect.
     """
-    return tuple(
-        _retimed(path, problem.duration(robot), int(released[robot]), int(reached[robot]), int(ready[robot]), due)
-        for robot, path in enumerate(plan.paths)
-    )
-
-
-def _retimed(path: Path, duration: Int32, released: int, reached: int, ready: int, due: int) -> Path:
-    edge, leave = path.edge[:released].tolist(), path.leave[:released].tolist()
-    enter = path.enter[:1].tolist() if released else []
-    for segment in range(released):
-        if segment:
-            enter.append(leave[segment - 1])
-        if segment >= reached:
-            least = int(duration[edge[segment]]) if edge[segment] >= 0 else 0
-            soonest = ready if segment == reached else 0
-            leave[segment] = max(leave[segment], soonest, enter[segment] + least)
-    end = leave[-1] if released else 0
-    if end < due:
-        edge.append(-1)
-        enter.append(end)
-        leave.append(due)
-    return Path(edge=np.array(edge, np.int32), enter=np.array(enter, np.int64), leave=np.array(leave, np.int64))
+    kept = Paths.of(plan.paths).part(np.zeros_like(released), released)
+    leave = kept.leave.copy()
+    least, moves = np.zeros_like(leave), kept.edge >= 0
+    least[moves] = problem.roadmap.duration[problem.profile[kept.robot[moves]], kept.edge[moves]]
+    for later in range(int((released - reached).max(initial=0))):
+        robots = np.flatnonzero(reached + later < released)
+        row = kept.first[robots] + reached[robots] + later
+        enter = np.where(row > kept.first[robots], leave[row - 1], kept.enter[row])
+        soonest = ready[robots] if later == 0 else 0
+        leave[row] = np.maximum(np.maximum(leave[row], soonest), enter + least[row])
+    follows = np.flatnonzero(kept.segment)
+    enter = kept.enter.copy()
+    enter[follows] = leave[follows - 1]
+    ends = np.where(kept.size > 0, np.append(leave, 0)[kept.first[1:] - 1], 0)
+    return attrs.evolve(kept, enter=enter, leave=leave).then(waits(ends, due))

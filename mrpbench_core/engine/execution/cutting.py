@@ -10,7 +10,7 @@ import numpy as np
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.motion import Motion
 from mrpbench_core.model.execution.orders import Orders
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 
 KEPT = 8
@@ -28,26 +28,24 @@ def driven(plan: Plan, reached: Int32, cleared: Int32) -> Int32:
         reached: i4[n] leading segments that each robot has completed.
         cleared: i4[n] leading segments whose start it has left.
     """
-    done = reached.copy()
-    for robot in np.flatnonzero(cleared < reached).tolist():
-        if (plan.paths[robot].edge[cleared[robot] : reached[robot]] >= 0).any():
-            done[robot] = cleared[robot]
-    return np.maximum(done - KEPT, 0).astype(np.int32)
+    paths = Paths.of(plan.paths)
+    moves = np.concatenate([[0], np.cumsum(paths.edge >= 0)])
+    left = moves[paths.first[:-1] + np.minimum(cleared, reached)] == moves[paths.first[:-1] + reached]
+    done: Int32 = np.maximum(np.where(left, reached, cleared) - KEPT, 0).astype(np.int32)
+    return done
 
 
-def without(problem: Problem, commitments: tuple[Path, ...], cut: Int32) -> Problem:
+def without(problem: Problem, commitments: Paths, cut: Int32) -> Problem:
     """Return a problem whose `commitments` lack the first `cut` i4[n] segments; it begins where and when these end."""
     start, ready = problem.start.copy(), problem.ready.copy()
-    since = np.array([problem.begin(robot) for robot in range(len(problem))], np.int64)
-    left = list(commitments)
-    for robot in np.flatnonzero(cut).tolist():
-        path, first = commitments[robot], int(cut[robot])
-        moves = np.flatnonzero(path.edge[:first] >= 0)
-        if len(moves):
-            start[robot] = problem.roadmap.edges[path.edge[moves[-1]], 1]
-        since[robot], ready[robot] = path.leave[first - 1], 0
-        left[robot] = Path(edge=path.edge[first:], enter=path.enter[first:], leave=path.leave[first:])
-    return attrs.evolve(problem, start=start, ready=ready, since=since, commitments=tuple(left))
+    since = problem.since.copy() if len(problem.since) else np.zeros(len(problem), np.int64)
+    gone = commitments.part(np.zeros_like(cut), cut)
+    move = gone.edge >= 0
+    start[gone.robot[move]] = problem.roadmap.edges[gone.edge[move]].reshape(-1, 2)[:, 1]  # the last one counts
+    since[gone.robot], ready[cut > 0] = gone.leave, 0
+    return attrs.evolve(
+        problem, start=start, ready=ready, since=since, commitments=commitments.part(cut, commitments.size)
+    )
 
 
 class DrivenSegments:

@@ -42,9 +42,7 @@ class FacilityManager:
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
         """Go on with a new plan."""
-        starts = problem.start.tolist()
-        self._vertices = [path.vertices(problem.roadmap, start) for path, start in zip(plan.paths, starts, strict=True)]
-        self._edges = [path.edge for path in plan.paths]
+        self._problem, self._plan = problem, plan
         self._shown: dict[tuple[int, str], tuple[Bool, Bool, Bool]] = {}
 
     def with_grants(self, view: FleetView, state: State) -> FleetView:
@@ -130,7 +128,8 @@ class FacilityManager:
         inside, _, _ = self._uses(robot, name)
         ahead = np.flatnonzero(inside[reached:])
         first = reached + (int(ahead[0]) if len(ahead) else 0)
-        levels = self._level[self._vertices[robot][first : first + 2]]
+        vertices = self._plan.paths[robot].vertices(self._problem.roadmap, int(self._problem.start[robot]))
+        levels = self._level[vertices[first : first + 2]]
         return int(levels[-1] if first < released and first == reached else levels[0])
 
     def _lift_commands(self, lift: Lift, stop: int | None, state: Mapping[str, float]) -> dict[str, float]:
@@ -162,7 +161,8 @@ class FacilityManager:
         each vertex, whether it is in the resource. A use ends at a vertex outside of the resource.
         """
         if (robot, name) not in self._shown:
-            resource, edge, vertex = self._resources[name], self._edges[robot], self._vertices[robot]
+            resource, path = self._resources[name], self._plan.paths[robot]
+            edge, vertex = path.edge, path.vertices(self._problem.roadmap, int(self._problem.start[robot]))
             waits = (edge < 0) & np.isin(vertex[1:], resource.vertices)
             inside = np.isin(edge, resource.edges) | waits
             self._shown[robot, name] = inside, np.isin(edge, resource.passage), np.isin(vertex, resource.vertices)

@@ -23,7 +23,7 @@ from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.observation import FleetObservation
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.execution.state import Inputs, State
-from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.plan import Paths
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.model.runs.run import RunContext
 
@@ -54,7 +54,7 @@ class ExecutionLoop:
         self._driven = DrivenSegments(robots)
         """The segments that are not part of the plan any more."""
         self._causes: dict[int, str] = {}
-        self._checks = ContractChecks(_segments(plan), _reach(context), len(inputs.crowds.members))
+        self._checks = ContractChecks(Paths.of(plan.paths).size, _reach(context), len(inputs.crowds.members))
         self._checks.state(attrs.evolve(inputs.simulation.state, pose=inputs.placed))
         self._state: State = self._checks.state(inputs.simulation.state)
         self._dispatcher = components.dispatcher.start(given.problem, given.result.plan)
@@ -178,7 +178,7 @@ class ExecutionLoop:
                 self._given_routes = own(new.routes)
                 self._navigator.adopt(self._given_routes, new.cut.copy())
                 self._inputs.replanner.use(new.problem, new.plan)
-                self._checks.adopt(_segments(new.plan), new.cut)
+                self._checks.adopt(Paths.of(new.plan.paths).size, new.cut)
                 self._reactions.adopt()
                 self._inputs.faults.cut(new.cut)
                 self._facility_manager.adopt(new.problem, new.plan)
@@ -327,8 +327,3 @@ def _reach(context: RunContext) -> NDArray[np.float64]:
 def _patience(inputs: LoopInputs) -> float:
     """Simulated seconds without progress after which an execution with faults that do not end is over."""
     return max(inputs.faults.settings.patience, 2 * inputs.replanner.interval)
-
-
-def _segments(plan: Plan) -> NDArray[np.int64]:
-    """Number of segments i8[n] of each path."""
-    return np.array([len(path) for path in plan.paths], np.int64)

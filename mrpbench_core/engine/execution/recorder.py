@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.engine.execution.task_board import TaskEvent
-from mrpbench_core.model.common.arrays import Int, Int32
+from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.motion import Event, Motion
 from mrpbench_core.model.execution.movers import Movers
 from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.execution.state import State
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.model.runs.recording import Chunk
 
@@ -198,7 +198,7 @@ class Recorder:
             kept: i4[n] leading waypoints of each route that are known already, and left out.
             driven: i4[n] segments of each robot that are not part of the plan any more.
         """
-        paths, begin = plan.paths, kept.tolist()
+        paths, begin = Paths.of(plan.paths), kept.tolist()
         size = np.array([len(route.waypoint) for route in routes]) - kept
         rows = int(size.sum())
         within = np.arange(rows) - np.repeat(np.cumsum(size) - size, size)
@@ -210,8 +210,7 @@ class Recorder:
             "waypoint": np.concatenate([route.waypoint[at:] for route, at in zip(routes, begin, strict=True)]),
             "level": np.concatenate([route.level[at:] for route, at in zip(routes, begin, strict=True)]),
             "speed": _after(np.inf, [route.speed for route in routes], begin),
-            "edge": _after(np.int32(-1), [path.edge for path in paths], begin),
-            "leave": _leaves(paths, begin),
+            **_segments(paths, kept),
         }.items():
             self._rows[f"route_{name}"].append(values)
         self._waypoints += rows
@@ -233,14 +232,19 @@ def _after(first: float | np.int32, segments: list[NDArray[Any]], begin: list[in
     return np.concatenate(parts)
 
 
-def _leaves(paths: Sequence[Path], begin: list[int]) -> Int:
-    """Ticks at which robots come to waypoints from `begin` on; the first is where the path begins."""
-    nothing = np.zeros(1, np.int64)
-    parts = [
-        path.leave[at - 1 :] if at else np.concatenate([path.enter[:1] if len(path) else nothing, path.leave])
-        for path, at in zip(paths, begin, strict=True)
-    ]
-    return np.concatenate(parts)
+def _segments(paths: Paths, kept: Int32) -> dict[str, NDArray[Any]]:
+    """The edge that leads to each waypoint and the tick at which its robot comes there, but for the `kept` i4[n] first.
+
+    The first waypoint of a route is where the path begins: no edge leads there.
+    """
+    begin, at = paths.first[:-1], np.arange(len(paths.edge)) + paths.robot + 1
+    edge, leave = np.full(len(paths.edge) + len(paths), -1, np.int32), np.zeros(len(paths.edge) + len(paths), np.int64)
+    edge[at], leave[at] = paths.edge, paths.leave
+    starts = begin + np.arange(len(paths))
+    some = paths.size > 0
+    leave[starts[some]] = paths.enter[begin[some]]
+    new = np.arange(len(edge)) - np.repeat(starts + kept, paths.size + 1) >= 0
+    return {"edge": edge[new], "leave": leave[new]}
 
 
 def _stack(name: str, rows: list[Any]) -> np.ndarray:

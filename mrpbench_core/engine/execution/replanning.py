@@ -14,7 +14,7 @@ from mrpbench_core.engine.execution.routes import Router
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.route import Route
-from mrpbench_core.model.planning.plan import Plan, PlanResult
+from mrpbench_core.model.planning.plan import Paths, Plan, PlanResult
 from mrpbench_core.model.planning.problem import Feature, Problem, ends_of, features_of
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.type2_edges import moves_of
@@ -90,10 +90,11 @@ class Replanner:
         """Note that a plan is in force."""
         self.failing = False
         self.problem, self.plan, self.moves = problem, plan, moves_of(problem, plan)
-        self._first: Int = np.cumsum([0, *(len(path) for path in plan.paths)])
+        self._paths = Paths.of(plan.paths)
+        self._first = self._paths.first
         self._arrival: Int = self._first[:-1].copy()
         self._arrival[self.moves.robot] = self._first[self.moves.robot] + self.moves.segment + 1  # the last move counts
-        self._leave: Int = np.concatenate([*(path.leave for path in plan.paths), [0]])  # one more to index at the end
+        self._leave: Int = np.append(self._paths.leave, 0)  # one more to index at the end
 
     def reason(self, now: float, view: FleetView, wish: str | None) -> str | None:
         """Return the reason why a new plan is needed now, or None; `wish` is that of the dispatcher."""
@@ -187,12 +188,13 @@ class Replanner:
         """Ticks i8[n] that robots need from where they are to the end of the first segment not reached."""
         left = np.zeros(len(self.problem), np.int64)
         roadmap = self.problem.roadmap
-        for robot, (path, reached) in enumerate(zip(self.plan.paths, view.reached.tolist(), strict=True)):
-            if reached < len(path) and (edge := int(path.edge[reached])) >= 0:
-                tail, head = roadmap.position[roadmap.edges[edge]]
-                length = float(np.hypot(*(head - tail)))
-                share = min(1.0, float(np.hypot(*(head - view.pose[robot, :2]))) / length) if length > 0 else 1.0
-                left[robot] = math.ceil(share * int(self.problem.duration(robot)[edge]))
+        robots = np.flatnonzero(view.reached < self._paths.size)
+        edge = self._paths.edge[self._first[robots] + view.reached[robots]]
+        robots, edge = robots[edge >= 0], edge[edge >= 0]
+        tail, head = roadmap.position[roadmap.edges[edge]].reshape(-1, 2, 2).transpose(1, 0, 2)
+        length, ahead = (np.hypot(*(head - place).T) for place in (tail, view.pose[robots, :2]))
+        share = np.minimum(1.0, np.divide(ahead, length, out=np.ones_like(length), where=length > 0))
+        left[robots] = np.ceil(share * roadmap.duration[self.problem.profile[robots], edge])
         return left
 
 

@@ -1,5 +1,7 @@
 """From a plan on the roadmap to routes in metres."""
 
+from itertools import pairwise
+
 import attrs
 import numpy as np
 
@@ -7,7 +9,7 @@ from mrpbench_core.api.plan_filter import PlanFilter
 from mrpbench_core.engine.contract_checks import check_kept
 from mrpbench_core.model.common.arrays import Bool, Float, Int16
 from mrpbench_core.model.execution.route import Route
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.worlds.world import World
@@ -27,18 +29,26 @@ class Router:
 
     def __call__(self, plan: Plan) -> tuple[Route, ...]:
         """The routes of `plan`."""
-        return tuple(self._route(robot, path) for robot, path in enumerate(plan.paths))
-
-    def _route(self, robot: int, path: Path) -> Route:
-        roadmap = self.problem.roadmap
-        vertices = path.vertices(roadmap, int(self.problem.start[robot]))
+        paths, roadmap = Paths.of(plan.paths), self.problem.roadmap
+        vertices = paths.vertices(roadmap, self.problem.start)
         waypoint = np.column_stack([roadmap.position[vertices], roadmap.heading[vertices]])
+        level = roadmap.level[vertices]
+        limits = self.speed_limits[paths.edge] if len(self.speed_limits) else np.inf
+        speed = np.where(paths.edge >= 0, limits, np.inf)
+        routes = []
+        for robot, (first, end) in enumerate(pairwise(paths.first.tolist())):
+            rows = slice(first + robot, end + robot + 1)
+            line = self._line(robot, waypoint[rows], level[rows])
+            routes.append(Route(waypoint=line, level=level[rows], speed=speed[first:end]))
+        return tuple(routes)
+
+    def _line(self, robot: int, waypoint: Float, level: Int16) -> Float:
+        """The waypoints f8[k+1,3] of a robot with the yaw wanted at the end, filtered."""
         if not np.isnan(self.final_yaw[robot]):
-            waypoint[_end(waypoint, roadmap.level[vertices]) :, 2] = self.final_yaw[robot]
-        if self.plan_filter is not None:
-            waypoint = _straightened(waypoint, check_kept(self.plan_filter.keep(waypoint[:, :2].copy()), len(waypoint)))
-        limits = self.speed_limits[path.edge] if len(self.speed_limits) else np.inf
-        return Route(waypoint=waypoint, level=roadmap.level[vertices], speed=np.where(path.edge >= 0, limits, np.inf))
+            waypoint[_end(waypoint, level) :, 2] = self.final_yaw[robot]
+        if self.plan_filter is None:
+            return waypoint
+        return _straightened(waypoint, check_kept(self.plan_filter.keep(waypoint[:, :2].copy()), len(waypoint)))
 
 
 def _end(waypoint: Float, level: Int16) -> int:

@@ -1,7 +1,8 @@
 """The result of a planner: one timed path per robot, a status and statistics."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
+from typing import overload
 
 import attrs
 import numpy as np
@@ -46,10 +47,115 @@ class Path:
 
 
 @attrs.frozen(kw_only=True)
+class Paths(Sequence[Path]):
+    """The paths of all robots in flat arrays, which are copied and compared as a whole; items are made on demand."""
+
+    first: Int = array("i8")
+    """i8[n+1]: the segments of robot i are `first[i]:first[i + 1]`."""
+    edge: Int32 = array("i4")
+    """i4[m] as in `Path`, like the other columns."""
+    enter: Int = array("i8")
+    leave: Int = array("i8")
+
+    @classmethod
+    def of(cls, paths: Iterable[Path]) -> "Paths":
+        """Join paths that have as many edges as times; `Paths` are returned as they are."""
+        if isinstance(paths, Paths):
+            return paths
+        given = tuple(paths)
+        nothing = np.empty(0, np.int64)
+        return cls(
+            first=np.cumsum([0, *map(len, given)]),
+            edge=np.concatenate([nothing.astype(np.int32), *(path.edge for path in given)]),
+            enter=np.concatenate([nothing, *(path.enter for path in given)]),
+            leave=np.concatenate([nothing, *(path.leave for path in given)]),
+        )
+
+    def __len__(self) -> int:
+        return len(self.first) - 1
+
+    @overload
+    def __getitem__(self, robot: int) -> Path: ...
+    @overload
+    def __getitem__(self, robot: slice) -> tuple[Path, ...]: ...
+    def __getitem__(self, robot: int | slice) -> Path | tuple[Path, ...]:
+        if isinstance(robot, slice):
+            return tuple(self[index] for index in range(len(self))[robot])
+        index = range(len(self))[robot]
+        rows = slice(*self.first[index : index + 2].tolist())
+        return Path(edge=self.edge[rows], enter=self.enter[rows], leave=self.leave[rows])
+
+    @property
+    def size(self) -> Int:
+        """Number i8[n] of segments of each path."""
+        return np.diff(self.first)
+
+    @property
+    def robot(self) -> Int:
+        """i8[m]: the robot of each segment."""
+        return np.repeat(np.arange(len(self)), self.size)
+
+    @property
+    def segment(self) -> Int:
+        """i8[m]: the index of each segment in its path."""
+        return np.arange(len(self.edge)) - np.repeat(self.first[:-1], self.size)
+
+    def part(self, begin: Int | Int32, end: Int | Int32) -> "Paths":
+        """The segments from `begin` i8[n] until before `end` i8[n] of each path; a path may have fewer."""
+        robot, segment = self.robot, self.segment
+        kept = (begin[robot] <= segment) & (segment < end[robot])
+        first = np.searchsorted(robot[kept], np.arange(len(self) + 1))
+        return Paths(first=first, edge=self.edge[kept], enter=self.enter[kept], leave=self.leave[kept])
+
+    def then(self, *others: "Paths") -> "Paths":
+        """Each path, continued by that of the same robot in each of `others`."""
+        parts = (self, *others)
+        order = np.argsort(np.concatenate([part.robot for part in parts]), kind="stable")
+        return Paths(
+            first=np.sum([part.first for part in parts], axis=0),
+            edge=np.concatenate([part.edge for part in parts])[order],
+            enter=np.concatenate([part.enter for part in parts])[order],
+            leave=np.concatenate([part.leave for part in parts])[order],
+        )
+
+    def vertices(self, roadmap: Roadmap, start: Int32) -> Int32:
+        """Vertices i4[m+n]: for each robot its `start` i4[n], then the vertex at the end of each segment."""
+        rows = np.arange(len(self.edge)) + self.robot + 1
+        edge: Int32 = np.full(len(self.edge) + len(self), -1, np.int32)
+        edge[rows] = self.edge
+        vertex: Int32 = np.where(edge >= 0, roadmap.edges[edge, 1], -1) if len(roadmap.edges) else edge.copy()
+        begins = self.first[:-1] + np.arange(len(self))
+        vertex[begins] = start
+        known = np.zeros(len(vertex), np.int64)
+        known[begins], known[edge >= 0] = begins, np.flatnonzero(edge >= 0)
+        return vertex[np.maximum.accumulate(known)].astype(np.int32)
+
+
+def waits(enter: Int, leave: int) -> Paths:
+    """Paths that wait from `enter` i8[n] until `leave`, or that are empty where this is not later."""
+    some = enter < leave
+    first = np.concatenate([[0], np.cumsum(some)])
+    count = int(first[-1])
+    return Paths(first=first, edge=np.full(count, -1), enter=enter[some], leave=np.full(count, leave))
+
+
+def flat(paths: Sequence[Path]) -> Sequence[Path]:
+    """Join paths into `Paths`. What does not fit together stays as it is, so that checks can say what is wrong."""
+    if type(paths) is Paths or not isinstance(paths, tuple | list):
+        return paths
+    sound = all(
+        type(path) is Path and path.edge.ndim == 1 and path.edge.shape == path.enter.shape == path.leave.shape
+        for path in paths
+    )
+    return Paths.of(paths) if sound else paths
+
+
+@attrs.frozen(kw_only=True)
 class Plan:
     """One path per robot (the paper's *schedule*)."""
 
-    paths: tuple[Path, ...]
+    paths: Sequence[Path] = attrs.field(converter=flat)
+    """n paths, held as `Paths`."""
 
     @property
     def sum_of_costs(self) -> int:

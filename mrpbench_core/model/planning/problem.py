@@ -1,12 +1,13 @@
 """The problem of a planner: robots on a roadmap, with goals and rules."""
 
+from collections.abc import Sequence
 from enum import StrEnum
 
 import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Float, Int, Int32, array
-from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.plan import Path, Paths, flat
 from mrpbench_core.model.planning.roadmap import Roadmap
 
 GoalSet = tuple[int, ...]
@@ -63,7 +64,7 @@ class Problem:
     """i8[n] ticks: the path of a robot begins then, and it occupies nothing before; empty: all begin at 0."""
     goals: tuple[tuple[GoalSet, ...], ...]
     """goals[robot] = the goal sets to visit in order; the robot ends at the last. Empty: it may end anywhere."""
-    commitments: tuple[Path, ...] = ()
+    commitments: Sequence[Path] = attrs.field(default=(), converter=flat)
     """Released prefixes, one per robot (possibly empty), with which a new plan must begin; () = none."""
     rules: Rules = Rules()
     horizon: int | None = None
@@ -77,6 +78,11 @@ class Problem:
         """Return the tick at which the path of `robot` begins."""
         return int(self.since[robot]) if len(self.since) else 0
 
+    @property
+    def committed(self) -> Int:
+        """Number i8[n] of leading segments to which each robot is committed."""
+        return Paths.of(self.commitments).size if self.commitments else np.zeros(len(self), np.int64)
+
     def duration(self, robot: int) -> Int32:
         """Return the duration i4[E] of each edge for `robot`, in ticks, -1 = forbidden."""
         row: Int32 = self.roadmap.duration[self.profile[robot]]
@@ -85,7 +91,11 @@ class Problem:
 
 def ends_of(problem: Problem) -> list[int]:
     """Return the tick at which the commitments of each robot end; where its path begins if it has none."""
-    return [int(path.leave[-1]) if len(path) else problem.begin(i) for i, path in enumerate(problem.commitments)]
+    paths = Paths.of(problem.commitments)
+    begins = problem.since if len(problem.since) else np.zeros(len(paths), np.int64)
+    last = np.append(paths.leave, 0)[paths.first[1:] - 1]
+    ends: list[int] = np.where(paths.size > 0, last, begins[: len(paths)]).tolist()
+    return ends
 
 
 def features_of(problem: Problem) -> frozenset[Feature]:
@@ -104,7 +114,7 @@ def features_of(problem: Problem) -> frozenset[Feature]:
         found.add(Feature.GOAL_SETS)
     if any(len(sequence) != 1 for sequence in problem.goals):
         found.add(Feature.GOAL_SEQUENCES)
-    if any(len(path) for path in problem.commitments) or problem.ready.any():
+    if problem.committed.any() or problem.ready.any():
         found.add(Feature.COMMITMENTS)
     if problem.since.any():
         found.add(Feature.SINCE)

@@ -19,7 +19,7 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Int
 from mrpbench_core.model.planning.conflicts import exclusions
-from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Feature, Problem
 
 
@@ -53,18 +53,12 @@ class Type2Edges(NamedTuple):
 
 def moves_of(problem: Problem, plan: Plan) -> Moves:
     """List the moves of a plan whose paths have no faults."""
-    sizes = [len(path) for path in plan.paths]
-    nothing = np.empty(0, np.int64)
-    edge, enter, leave = (
-        np.concatenate([nothing, *(getattr(path, name) for path in plan.paths)]) for name in ("edge", "enter", "leave")
-    )
-    robot = np.repeat(np.arange(len(sizes)), sizes)
-    segment = np.arange(len(edge)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-    is_move = edge >= 0
-    robot, segment, edge = robot[is_move], segment[is_move], edge[is_move]
-    first = np.searchsorted(robot, np.arange(len(sizes) + 1))
+    paths = Paths.of(plan.paths)
+    is_move = paths.edge >= 0
+    robot, segment, edge = paths.robot[is_move], paths.segment[is_move], paths.edge[is_move].astype(np.int64)
+    first = np.searchsorted(robot, np.arange(len(paths) + 1))
     ends = problem.roadmap.edges[edge].astype(np.int64).reshape(-1, 2)
-    return Moves(first, robot, segment, edge, ends[:, 0], ends[:, 1], enter[is_move], leave[is_move])
+    return Moves(first, robot, segment, edge, ends[:, 0], ends[:, 1], paths.enter[is_move], paths.leave[is_move])
 
 
 def type2_edges(problem: Problem, moves: Moves, resources: Type2Edges, chosen: Bool | None = None) -> Type2Edges:

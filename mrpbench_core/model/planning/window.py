@@ -9,7 +9,7 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Int
 from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import Moves, moves_of, type2_edges
 
@@ -22,13 +22,13 @@ def until(horizon: int, problem: Problem, plan: Plan) -> Plan:
     before, where all robots then stand, so none of them has to.
     """
     moves = moves_of(problem, plan)
-    committed = np.array([len(path) for path in problem.commitments] or [0] * len(problem))
+    committed = problem.committed
     end = np.maximum(_first_after(moves, moves.leave > horizon), moves.first[:-1] + _leading(moves, committed))
     if (moves.leave - moves.enter > 1).any():
         end = _closed(problem, moves, end, committed, horizon)
     last = np.where(end > moves.first[:-1], moves.segment[np.maximum(end, 1) - 1] + 1 if len(moves.segment) else 0, 0)
-    size = np.maximum(last, committed).tolist()
-    return Plan(paths=tuple(_leading_part(path, count) for path, count in zip(plan.paths, size, strict=True)))
+    size = np.maximum(last, committed)
+    return Plan(paths=Paths.of(plan.paths).part(np.zeros_like(size), size))
 
 
 def leads_to_goals(problem: Problem, plan: Plan) -> Bool:
@@ -81,9 +81,3 @@ def _chosen(moves: Moves, kept: Bool) -> Moves:
     robots = len(moves.first) - 1
     columns = [column[kept] for column in moves[1:]]
     return Moves(np.searchsorted(columns[0], np.arange(robots + 1)), *columns)
-
-
-def _leading_part(path: Path, count: int) -> Path:
-    if count == len(path):
-        return path
-    return Path(edge=path.edge[:count], enter=path.enter[:count], leave=path.leave[:count])

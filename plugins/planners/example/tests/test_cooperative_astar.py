@@ -156,4 +156,4 @@ def test_problems_that_it_does_not_support_are_skipped(fields, missing):
 def test_a_problem_without_robots_is_solved():
     result = Example().plan(problem(grid(1, 2), [], []), AMPLE)
     assert result.status is PlanStatus.SOLVED
-    assert result.plan.paths == ()
+    assert len(result.plan.paths) == 0

@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Mapping
-from itertools import pairwise
 from types import ModuleType
 
 import numpy as np
@@ -18,7 +17,7 @@ from mrpbench_native.instances import (
 )
 
 from mrpbench_core.model.planning.conflicts import exclusions
-from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Paths, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.planning.window import until
 
@@ -95,6 +94,4 @@ def _exclusions(problem: Problem) -> SolverExclusions:
 
 
 def _plan(answer: mapf.Answer) -> Plan:
-    edge, enter, leave = answer.edge, answer.enter, answer.leave
-    rows = [slice(first, end) for first, end in pairwise(answer.first.tolist())]
-    return Plan(paths=tuple(Path(edge=edge[row], enter=enter[row], leave=leave[row]) for row in rows))
+    return Plan(paths=Paths(first=answer.first, edge=answer.edge, enter=answer.enter, leave=answer.leave))

@@ -132,7 +132,7 @@ def test_robots_that_exclude_one_another_are_unsolvable(planner, starts, goals, 
 def test_no_robots_have_an_empty_plan(planner):
     result = planner.plan(problem_on(grid_of(["."]), [], []), BUDGET)
     assert result.status is PlanStatus.SOLVED
-    assert result.plan.paths == ()
+    assert len(result.plan.paths) == 0
 
 
 @pytest.mark.parametrize("planner", PLANNERS)
