@@ -1,10 +1,10 @@
 """Measure how many times faster than real time whole executions are on one core, and the share of each part.
 
-Everything is on: lidars of 360 beams at 5 Hz, for every robot a costmap and Nav2's DWB with seven critics at 20 Hz,
-recoveries, the dispatcher `adg`, the recording. Robots cross a generated warehouse by plans of `prioritized`. The last
-row is a thousand robots with pure pursuit and no lidars. The target is simulated seconds per second on one core;
-CPU time counts less of what else a machine does than wall time. From the first control period to the last; of several
-rounds the fastest.
+Everything is on: lidars of 360 beams at 5 Hz, for every robot a costmap and Nav2's DWB with seven critics at 20 Hz (or
+MPPI, or RPP), recoveries, the dispatcher `adg`, the recording. Robots cross a generated warehouse by plans of
+`prioritized`. The last row is a thousand robots with pure pursuit and no lidars. The target is simulated seconds per
+second on one core; CPU time counts less of what else a machine does than wall time. From the first control period to
+the last; of several rounds the fastest.
 """
 
 import argparse
@@ -35,6 +35,8 @@ PARTS = {
     "recorder": ("recorder.py", ""),
 }
 """File and function of each part of the loop; without a function, all of the file's that the loop calls."""
+COSTMAPS = ("dwb", "mppi", "rpp")
+"""Controllers that work by scans, and share the robots among threads."""
 
 
 @attrs.frozen
@@ -58,7 +60,7 @@ class Case:
         side = max(4, round((self.robots / 3) ** 0.5))
         robot = (
             {"robot": "turtlebot3_burger"}
-            if self.controller == "dwb"
+            if self.controller in COSTMAPS
             else {"robot": "turtlebot3_burger", "lidar": "none"}
         )
         return {
@@ -83,9 +85,12 @@ class Case:
 
 
 ROWS = {
-    "planar-9": (Case("planar", 9), 90),
-    "planar-100": (Case("planar", 100), 8),
-    "planar-400": (Case("planar", 400), 2),
+    "planar-9": (Case("planar", 9), 150),
+    "planar-100": (Case("planar", 100), 25),
+    "planar-400": (Case("planar", 400), 7),
+    "planar-9-mppi": (Case("planar", 9, "mppi"), 40),
+    "planar-100-mppi": (Case("planar", 100, "mppi"), 3),
+    "planar-100-rpp": (Case("planar", 100, "rpp"), 30),
     "wheels-9": (Case("pybullet", 9), 12),
     "bodies-9": (Case({"plugin": "pybullet", "model": "body"}, 9), 60),
     "planar-1000-pure_pursuit": (Case("planar", 1000, "pure_pursuit"), 20),
@@ -153,7 +158,7 @@ def main() -> None:
     parser.add_argument("rows", nargs="*", default=list(ROWS), help=f"of {', '.join(ROWS)} (default: all)")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seconds", type=float, default=20.0, help="simulated, of each execution")
-    parser.add_argument("--threads", type=int, default=1, help="of dwb")
+    parser.add_argument("--threads", type=int, default=1, help="of controllers with a costmap")
     options = parser.parse_args()
     if unknown := set(options.rows) - set(ROWS):
         parser.error(f"no such row: {', '.join(sorted(unknown))}")
@@ -166,7 +171,7 @@ def main() -> None:
         if case.simulator_name == "pybullet" and find_spec("pybullet") is None:
             print(f"{name:<26} {asked:>5}x   no PyBullet here")
             continue
-        extra = {"threads": options.threads} if case.controller == "dwb" else {}
+        extra = {"threads": options.threads} if case.controller in COSTMAPS else {}
         case = attrs.evolve(case, seconds=options.seconds, options=extra)
         rounds = [run(case) for _ in range(options.rounds)]
         cpu = max(clock.simulated / clock.cpu for clock in rounds)
