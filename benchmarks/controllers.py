@@ -36,7 +36,8 @@ ROBOT = load_robot("turtlebot3_burger")
 PERIOD = 0.05
 SCAN_PERIODS = 4
 HALF_WIDTH = 1.0
-AHEAD = 5.0
+END = 10.0
+"""Where the paths end, metres along the corridor."""
 
 
 def scans(now: float, pose: Float) -> ScanBatch:
@@ -65,7 +66,7 @@ def measure(controller: Controller, robots: int, seconds: float) -> tuple[float,
             pose=pose,
             twist=twist,
             foot=np.column_stack([x, np.zeros(robots)]),
-            points=np.column_stack([x + AHEAD, np.zeros(robots)]),
+            points=np.tile([END, 0.0], (robots, 1)),
             begin=every,
             end=every + 1,
             yaw=np.full(robots, np.nan),
