@@ -57,7 +57,8 @@ def test_tasks_are_those_of_the_moment_also_backwards(show, tasks, ask):
         goals = ask("[0, 1].map((robot) => replay.run.tasks.goal(robot))")
         assert (ask("document.querySelector('#throughput p').textContent"), goals) == expected[now], now
     browser.execute_script("replay.clock.seek(4)")
-    assert ask("replay.tasks.rate(4)") == pytest.approx(3600 / 4)  # one task in all 4 s
+    assert ask("[replay.tasks.window, replay.tasks.rate(4), replay.tasks.rate(3)]") == [1, 0, 3600]  # one task, at 3 s
+    assert ask("Number.isNaN(replay.tasks.rate(0.5))")  # in the first window
     rows = ask("[...document.querySelectorAll('#task-list .what')].map((row) => row.textContent)")
     assert rows == ["refused after 3 s", "done after 3 s"]
 

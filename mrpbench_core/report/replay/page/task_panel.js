@@ -15,7 +15,8 @@ export class TaskPanel {
     this.run = run;
     this.tasks = run.tasks;
     if (!run.tasks) return;
-    this.window = WINDOWS.findLast((window) => window * PARTS <= run.end - run.begin) ?? WINDOWS[0];
+    const length = run.end - run.begin;
+    this.window = WINDOWS.findLast((window) => window * PARTS <= length) ?? Math.max(Math.round(length / PARTS), 1);
     this.canvas = document.querySelector("#throughput canvas");
     this.note = document.querySelector("#throughput p");
     this.list = new List(
@@ -27,12 +28,12 @@ export class TaskPanel {
     );
   }
 
-  /** Tasks done per hour, over the window that ends at a time (over a shorter one at the beginning). */
+  /** Tasks done per hour, over the window that ends at a time; NaN in the first window, in which too little is known. */
   rate(time) {
     const { doneTimes } = this.tasks;
-    const from = Math.max(time - this.window, this.run.begin);
-    if (time <= from) return 0;
-    return ((lastAtMost(doneTimes, time + 5e-4) - lastAtMost(doneTimes, from + 5e-4)) * 3600) / (time - from);
+    const from = time - this.window;
+    if (from < this.run.begin - 1e-9) return NaN;
+    return ((lastAtMost(doneTimes, time + 5e-4) - lastAtMost(doneTimes, from + 5e-4)) * 3600) / this.window;
   }
 
   refresh(theme) {
@@ -47,26 +48,26 @@ export class TaskPanel {
     const { run } = this;
     const context = fitCanvas(this.canvas);
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const first = Math.min(run.begin + this.window, run.end); // before that, too little is known
     const span = Math.max(run.end - run.begin, 1e-9);
     const x = (time) => ((time - run.begin) / span) * (width - 1);
     const rates = Array.from({ length: width }, (_, column) => this.rate(run.begin + (column / Math.max(width - 1, 1)) * span));
-    const from = Math.ceil(x(first));
-    const most = Math.max(...rates.slice(from), 1);
+    const known = rates.filter((rate) => !Number.isNaN(rate));
+    const most = Math.max(...known, 1);
+    const now = this.rate(run.now);
     const y = (rate) => height - 1 - (rate / most) * (height - LABEL - 3);
     context.clearRect(0, 0, width, height);
     context.fillStyle = theme.muted;
     context.font = "11px system-ui, sans-serif";
     [context.textBaseline, context.textAlign] = ["top", "left"];
     const last = this.window < 120 ? `${this.window} s` : `${this.window / 60} min`;
-    context.fillText(`done per hour, over ${last}; now ${Math.round(this.rate(run.now))}, most ${Math.round(most)}`, 0, 0);
+    context.fillText(`done per hour, over ${last}; now ${Number.isNaN(now) ? "–" : Math.round(now)}, most ${Math.round(most)}`, 0, 0);
     context.strokeStyle = theme.rule;
     context.lineWidth = 1;
     context.strokeRect(0.5, LABEL + 0.5, width - 1, height - LABEL - 1);
     context.strokeStyle = theme.accent;
     context.lineWidth = 1.75;
     context.beginPath();
-    for (let column = from; column < width; column++) context.lineTo(column, y(rates[column]));
+    for (let column = width - known.length; column < width; column++) context.lineTo(column, y(rates[column]));
     context.stroke();
     context.fillStyle = theme.ink;
     context.fillRect(x(run.now) - 0.5, LABEL, 1.5, height - LABEL);
