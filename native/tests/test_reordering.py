@@ -61,7 +61,7 @@ def test_an_independent_solver_finds_no_better_order(graph):
     pytest.importorskip("ortools", reason="needs OR-Tools")
     found = reorder(**graph.arrays(), wall_s=60, memory_bytes=1 << 30)
     assert found.status == "solved"
-    switched = Sadg(max_deterministic_time=1e3).search(graph.arrays())
+    switched, _ = Sadg(max_deterministic_time=1e3).search(graph.arrays())
     assert found.cost == sum_of_arrivals(graph.arrays(), switched) <= found.planned_cost
 
 

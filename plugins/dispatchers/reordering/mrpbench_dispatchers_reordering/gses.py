@@ -29,8 +29,7 @@ class Gses(SearchingDispatcher):
         validator=attrs.validators.ge(0),
     )
 
-    def search(self, arrays: Mapping[str, Int32]) -> Bool:
-        """Return which alternatives bool[k] are best switched."""
+    def search(self, arrays: Mapping[str, Int32]) -> tuple[Bool, int]:
+        """See `SearchingDispatcher.search`."""
         found = reorder(**arrays, wall_s=math.inf, memory_bytes=MEMORY_BYTES, probe_limit=self.probe_limit)
-        switched: Bool = found.switched.astype(bool)
-        return switched
+        return found.switched.astype(bool), found.planned_cost - found.cost

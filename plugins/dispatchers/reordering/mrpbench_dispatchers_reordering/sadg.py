@@ -17,7 +17,7 @@ from mrpbench_core.files.extras import pip
 from mrpbench_core.model.common.arrays import Bool, Int32
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_dispatchers_reordering.searching import SearchingDispatcher, SearchingSession
+from mrpbench_dispatchers_reordering.searching import SearchingDispatcher, SearchingSession, sum_of_arrivals
 
 
 @attrs.frozen(kw_only=True)
@@ -53,8 +53,8 @@ class Sadg(SearchingDispatcher):
             raise DispatchError(f"`sadg` needs OR-Tools: {pip('ortools')} installs it")
         return super().start(problem, plan)
 
-    def search(self, arrays: Mapping[str, Int32]) -> Bool | None:
-        """Return which alternatives bool[k] are best switched, None if CP-SAT found no order in time."""
+    def search(self, arrays: Mapping[str, Int32]) -> tuple[Bool, int] | None:
+        """See `SearchingDispatcher.search`; None if CP-SAT found no order in time."""
         from ortools.sat.python import cp_model  # takes a second
 
         planned = earliest(arrays["first"], arrays["duration"], np.concatenate([arrays["fixed"], arrays["planned"]]))
@@ -81,4 +81,5 @@ class Sadg(SearchingDispatcher):
         solver.parameters.max_deterministic_time = self.max_deterministic_time
         if solver.solve(model) not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
             return None
-        return np.array([solver.boolean_value(choice) for choice in choices])
+        switched = np.array([solver.boolean_value(choice) for choice in choices])
+        return switched, int(planned[arrays["first"][1:] - 1].sum()) - sum_of_arrivals(arrays, switched)

@@ -36,8 +36,8 @@ class SearchingDispatcher(SwitchingDispatcher):
     )
 
     @abstractmethod
-    def search(self, arrays: Mapping[str, Int32]) -> Bool | None:
-        """Return which alternatives bool[k] are best switched, None if no order was found.
+    def search(self, arrays: Mapping[str, Int32]) -> tuple[Bool, int] | None:
+        """Return which alternatives bool[k] are best switched, and by how many ms arrivals fall in sum; None: no order.
 
         Args:
             arrays: `AlternativeGraph.arrays`.
@@ -81,12 +81,9 @@ class SearchingSession(SwitchingSession):
         return bool((changes >= self.options.lateness).any())
 
     def _change(self, graph: AlternativeGraph) -> None:
-        switched = self.options.search(graph.arrays)
-        if switched is None or not switched.any():
-            return
-        gain = sum_of_arrivals(graph.arrays, np.zeros_like(switched)) - sum_of_arrivals(graph.arrays, switched)
-        if gain >= self.options.gain * MILLISECONDS:
-            self.put_next(graph.order(switched))
+        found = self.options.search(graph.arrays)
+        if found is not None and found[1] >= self.options.gain * MILLISECONDS:
+            self.put_next(graph.order(found[0]))
 
 
 def sum_of_arrivals(arrays: Mapping[str, Int32], switched: Bool) -> int:
