@@ -7,7 +7,7 @@ with the hash of its content. An absent component is the word `none`.
 import enum
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,21 +16,34 @@ import attrs
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.content import content_hash
 from mrpbench_core.config.settings import NOT_IDENTIFYING, RunConfig
+from mrpbench_core.config.shared import Shared
 from mrpbench_core.plugins.local import source_of
-from mrpbench_core.plugins.provenance import components_in, kind_class
+from mrpbench_core.plugins.provenance import kind_class
 from mrpbench_core.plugins.registry import Registry
 
 
-def canonical(config: RunConfig, folder: Path) -> dict[str, Any]:
-    """Return a configuration as plain data, with files relative to `folder`; `structure` is the inverse."""
-    plain: dict[str, Any] = _plain(config, folder)
+def canonical(config: RunConfig, folder: Path, shared: Shared | None = None) -> dict[str, Any]:
+    """Return a configuration as plain data, with files relative to `folder`; `structure` is the inverse.
+
+    With `shared`, configurations with the same settings get the same data, which is not to be changed.
+    """
+    shared = shared or Shared()
+    return {
+        field.name: shared(_setting, getattr(config, field.name), "written_default" in field.metadata, folder)
+        for field in attrs.fields(RunConfig)
+    }
+
+
+def canonical_component(component: Component, folder: Path) -> dict[str, Any]:
+    """Return one component as `canonical` does."""
+    plain: dict[str, Any] = _plain(component, folder)
     return plain
 
 
-def sources(config: RunConfig, folder: Path) -> dict[str, str]:
+def sources(components: Iterable[Component], folder: Path) -> dict[str, str]:
     """Return the texts of local plugins and of the modules that they import, by name relative to `folder`."""
     found: dict[str, str] = {}
-    for component in components_in(config):
+    for component in components:
         if source := source_of(type(component)):
             found |= {relative(file, folder): text for file, text in source.files.items()}
     return found
@@ -56,7 +69,11 @@ def _plain(value: Any, folder: Path) -> Any:
         return {"path": relative(value, folder), "sha256": content_hash(value)}
     if attrs.has(type(value)):
         named = {"plugin": plugin_name(value, folder)} if isinstance(value, Component) else {}
-        return named | {field.alias: _field(value, field, folder) for field in attrs.fields(type(value)) if field.init}
+        return named | {
+            field.alias: _setting(getattr(value, field.name), "written_default" in field.metadata, folder)
+            for field in attrs.fields(type(value))
+            if field.init
+        }
     if isinstance(value, Mapping):
         if value and all(isinstance(inner, Component) for inner in value.values()):
             return [_plain(inner, folder) for inner in value.values()]
@@ -68,13 +85,11 @@ def _plain(value: Any, folder: Path) -> Any:
     return json_scalar(value)
 
 
-def _field(owner: Any, field: Any, folder: Path) -> Any:
-    value = getattr(owner, field.name)
-    if "written_default" in field.metadata:
-        if value is None:
-            return "none"
-        if not value:
-            return []
+def _setting(value: Any, may_be_none: bool, folder: Path) -> Any:
+    if may_be_none and value is None:
+        return "none"
+    if may_be_none and not value:
+        return []
     return _plain(value, folder)
 
 

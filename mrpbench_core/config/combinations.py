@@ -1,5 +1,6 @@
 """Combinations of settings that cannot mean anything, which are refused, and options that have no effect in a study."""
 
+import functools
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -15,6 +16,7 @@ from mrpbench_core.config.settings import (
     Replanning,
     RunConfig,
 )
+from mrpbench_core.config.shared import Shared
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.plugins.provenance import origin
@@ -76,7 +78,7 @@ class IdleOptions:
     def __init__(self) -> None:
         self._idle: dict[str, str] = {}
         self._effective: set[str] = set()
-        self._of_components: dict[int, tuple[Component, Mapping[str, str]]] = {}
+        self._shared = Shared()
 
     def add(self, config: RunConfig, root: Item) -> None:
         """Add one run."""
@@ -106,7 +108,8 @@ class IdleOptions:
             for number, component in enumerate(several):
                 if isinstance(component, Component):
                     block = f"{key}.{number}" if isinstance(item.value, list) else key
-                    found |= {f"{block}.{name}": IDLE + why for name, why in self._of_component(component).items()}
+                    idle = self._shared(_idle_options, component)
+                    found |= {f"{block}.{name}": IDLE + reason for name, reason in idle.items()}
         if all(entry.graph is None or not _is(config.roadmap, "graph") for entry in config.fleet):
             found |= {
                 f"fleet.{number}.graph": f"{IDLE}only `roadmap: graph` has lanes of graphs"
@@ -115,11 +118,9 @@ class IdleOptions:
             }
         return found
 
-    def _of_component(self, component: Component) -> Mapping[str, str]:
-        """Return the idle options of a component, which runs share and which may read files."""
-        if id(component) not in self._of_components:
-            self._of_components[id(component)] = component, component.idle_options()
-        return self._of_components[id(component)][1]
+
+def _idle_options(component: Component) -> Mapping[str, str]:
+    return component.idle_options()
 
 
 def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:
@@ -188,8 +189,13 @@ def _has_lidar(entry: FleetEntry) -> bool:
 
 
 def _is(component: Component | None, name: str) -> bool:
-    return component is not None and origin(type(component))["name"] == name
+    return component is not None and _name(component) == name
 
 
 def _name(component: Component) -> str:
-    return str(origin(type(component))["name"])
+    return _name_of(type(component))
+
+
+@functools.lru_cache(maxsize=256)
+def _name_of(cls: type[Component]) -> str:
+    return str(origin(cls)["name"])

@@ -23,44 +23,46 @@ from mrpbench_core.config.settings import (
     RunConfig,
     default_plugin,
 )
+from mrpbench_core.config.shared import Shared
 from mrpbench_core.config.validation import default_of
 
 LENGTH = 16
 """Hexadecimal digits of a run id."""
 
 
-def run_id(config: RunConfig, folder: Path) -> str:
+def run_id(config: RunConfig, folder: Path, shared: Shared | None = None) -> str:
     """Return the identity of a run, with files relative to `folder`."""
-    text = json.dumps(choices(config, folder), sort_keys=True, ensure_ascii=False, separators=(",", ":"))
+    chosen = choices(config, folder, shared or Shared())
+    text = json.dumps(chosen, sort_keys=True, ensure_ascii=False, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:LENGTH]
 
 
-def choices(config: RunConfig, folder: Path) -> dict[str, Any]:
+def choices(config: RunConfig, folder: Path, shared: Shared) -> dict[str, Any]:
     """Return the options that identify a run, as plain data."""
     chosen, ignored = {}, _ignored(config)
     for field in attrs.fields(RunConfig):
         if field.name not in ignored and _differs(config, field):
-            chosen[field.name] = _chosen(getattr(config, field.name), folder, field.name, ignored)
+            chosen[field.name] = shared(_chosen, getattr(config, field.name), folder, field.name, ignored)
     return {name: value for name, value in chosen.items() if value != {} and not _is_default_plugin(name, value)}
 
 
 def options_text(component: Component) -> str:
     """Return the class of a component and its options that differ from their defaults, with files by content."""
     chosen = {
-        field.alias: _chosen(getattr(component, field.name), Path(), "", set())
+        field.alias: _chosen(getattr(component, field.name), Path(), "", frozenset())
         for field in attrs.fields(cast("Any", type(component)))
         if field.init and _differs(component, field)
     }
     return json.dumps({type(component).__qualname__: chosen}, sort_keys=True)
 
 
-def _ignored(config: RunConfig) -> set[str]:
+def _ignored(config: RunConfig) -> frozenset[str]:
     ignored = set(NOT_IDENTIFYING)
     if config.planner.assigns:
         ignored.add("assigner")  # the planner assigns the tasks itself
     if not config.executes:
         ignored |= {name for name in EXECUTION if getattr(config, name) is None} | set(ONLY_EXECUTION)
-    return ignored
+    return frozenset(ignored)
 
 
 def _is_default_plugin(name: str, value: Any) -> bool:

@@ -2,11 +2,13 @@
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 import attrs
 
+from mrpbench_core.api.component import Component
 from mrpbench_core.config.canonical import canonical, sources
 from mrpbench_core.config.combinations import IdleOptions, refusals
 from mrpbench_core.config.identity import run_id
@@ -14,9 +16,11 @@ from mrpbench_core.config.items import COMMAND_LINE, Item, Location, from_data, 
 from mrpbench_core.config.matrix import Matrix, Point, parse_matrix
 from mrpbench_core.config.overrides import parse_overrides
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.config.shared import Shared
 from mrpbench_core.config.structure import Structure, structure
 from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order, read_all
 from mrpbench_core.files.yaml import load
+from mrpbench_core.plugins.provenance import components_in
 
 NAMED_POINTS = 5
 """Points that an error names."""
@@ -46,6 +50,8 @@ class RunPoint(RunData):
     """One run of a study with its configuration."""
 
     config: RunConfig
+    components: tuple[Component, ...] = attrs.field(repr=False)
+    """All components of the configuration, outermost first."""
 
 
 @attrs.frozen(kw_only=True)
@@ -136,7 +142,7 @@ def _structure(
     points: Sequence[Point], folder: Path, idle: IdleOptions
 ) -> tuple[dict[str, RunPoint], dict[str, tuple[InputError, list[Point]]]]:
     """Return the runs by id, and each error with the points that it affects."""
-    structurer = Structure(folder)
+    structurer, shared = Structure(folder), Shared()
     runs: dict[str, RunPoint] = {}
     faults: dict[str, tuple[InputError, list[Point]]] = {}
     for point in points:
@@ -151,17 +157,24 @@ def _structure(
                 faults.setdefault(str(error), (error, []))[1].append(point)
             continue
         idle.add(config, point.root)
-        identity = run_id(config, folder)
+        identity = run_id(config, folder, shared)
         if identity not in runs:
+            settings = (getattr(config, field.name) for field in attrs.fields(RunConfig))
+            components = tuple(chain.from_iterable(shared(_components, setting) for setting in settings))
             runs[identity] = RunPoint(
                 run_id=identity,
                 config=config,
-                canonical=canonical(config, folder),
+                components=components,
+                canonical=canonical(config, folder, shared),
                 axes=point.axes,
                 folder=folder,
-                sources=sources(config, folder),
+                sources=sources(components, folder),
             )
     return runs, faults
+
+
+def _components(setting: Any) -> tuple[Component, ...]:
+    return tuple(components_in(setting))
 
 
 def _explain(faults: Mapping[str, tuple[InputError, list[Point]]], size: int) -> list[InputError]:

@@ -20,6 +20,7 @@ _MAY_BE_ZERO = {"min_range"}
 _MOST_BEAMS = 100_000
 
 
+@functools.cache
 def robot_names() -> tuple[str, ...]:
     """Return the names of the built-in robots."""
     return tuple(sorted(file.stem for file in _ROBOTS.glob("*.yaml")))

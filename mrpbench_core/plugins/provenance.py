@@ -17,6 +17,8 @@ from mrpbench_core.plugins.registry import Registry
 
 def components_in(value: Any) -> Iterator[Component]:
     """Yield every component in a value (attrs fields, tuples, mappings), recursively, outermost first."""
+    if value is None or isinstance(value, bool | int | float | str):
+        return
     if isinstance(value, Component):
         yield value
     if attrs.has(type(value)):

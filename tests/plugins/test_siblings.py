@@ -9,7 +9,7 @@ from mrpbench_core.api.planner import Planner
 from mrpbench_core.config.canonical import sources
 from mrpbench_core.config.study import load_study
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.provenance import provenance
+from mrpbench_core.plugins.provenance import components_in, provenance
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.plugins.siblings import sibling_imports
 
@@ -86,7 +86,7 @@ def test_an_edited_module_is_read_anew(folder):
 def test_modules_that_it_imports_are_sent_with_it(folder):
     (folder / "a.yaml").write_text("{world: office, scenario: {robots: 1}, planner: ./mine.py:Mine, simulator: none}")
     (point,) = load_study(folder / "a.yaml").runs
-    texts = sources(point.config, folder)
+    texts = sources(components_in(point.config), folder)
     assert set(texts) == {"mine.py", "aid.py", "tables.py", "late.py"}
     for name in texts:
         (folder / name).unlink()

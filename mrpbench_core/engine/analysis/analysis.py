@@ -5,7 +5,7 @@ import os
 from datetime import UTC, datetime
 from fnmatch import fnmatchcase
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import attrs
 import numpy as np
@@ -14,7 +14,7 @@ from mrpbench_core.api.component import Component
 from mrpbench_core.api.importer import Importer, Observed
 from mrpbench_core.api.metric import Metric
 from mrpbench_core.api.world import WorldSource
-from mrpbench_core.config.canonical import canonical
+from mrpbench_core.config.canonical import canonical_component
 from mrpbench_core.config.settings import FleetEntry
 from mrpbench_core.engine.analysis.observed_run import ObservedRun, Sampling, observe, observe_own
 from mrpbench_core.engine.loading.versions import with_versions
@@ -191,7 +191,7 @@ def _config(analysis: Analysis, fleet: Fleet) -> dict[str, Any]:
 
 
 def _plain(component: Component) -> dict[str, Any]:
-    return canonical(cast("Any", component), Path.cwd())
+    return canonical_component(component, Path.cwd())
 
 
 def _identity(analysis: Analysis, found: ObservedRun) -> str:

@@ -7,13 +7,14 @@ from typing import Any
 
 import attrs
 
+from mrpbench_core.api.component import Component
 from mrpbench_core.config.canonical import relative, sources
-from mrpbench_core.config.study import load_study
+from mrpbench_core.config.settings import FleetEntry
+from mrpbench_core.config.study import RunPoint, load_study
 from mrpbench_core.engine.loading.runs import StudyRuns, pack_study, unpack_study
 from mrpbench_core.engine.processes.call import CallFailedError, call
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.local import refuse_local
-from mrpbench_core.plugins.provenance import components_in
 
 READING_S = 3600.0
 """Wall seconds that reading a configuration may take."""
@@ -76,15 +77,16 @@ def packed_runs(document: Mapping[str, Any], overrides: Sequence[str], folder: s
         refuse_local()
     os.chdir(folder)
     study = load_study(document, overrides)
-    files = dict.fromkeys(name for point in study.runs for name in _files(point.config, point.canonical, Path(folder)))
+    files = dict.fromkeys(name for point in study.runs for name in _files(point, Path(folder)))
     return {"study": pack_study(study), "files": list(files)}
 
 
-def _files(config: Any, canonical: Any, folder: Path) -> Iterator[str]:
-    yield from named_files(canonical)
-    yield from sources(config, folder)
-    for part in (*components_in(config), *config.fleet):
-        yield from (relative(file, folder) for file in part.reads() if file.is_file())
+def _files(point: RunPoint, folder: Path) -> Iterator[str]:
+    yield from named_files(point.canonical)
+    yield from sources(point.components, folder)
+    readers: tuple[Component | FleetEntry, ...] = (*point.components, *point.config.fleet)
+    for reader in readers:
+        yield from (relative(file, folder) for file in reader.reads() if file.is_file())
 
 
 def named_files(canonical: Any) -> Iterator[str]:

@@ -7,11 +7,11 @@ from typing import Any
 
 import attrs
 
+from mrpbench_core.config.shared import Shared
 from mrpbench_core.config.study import RunData, RunPoint, Study, load_study
 from mrpbench_core.engine.loading.versions import code_of
 from mrpbench_core.engine.stages.measure import describe
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.provenance import components_in
 
 
 @attrs.frozen(kw_only=True)
@@ -71,9 +71,10 @@ class _Values:
     def __init__(self) -> None:
         self.texts: list[str] = []
         self._numbers: dict[str, int] = {}
+        self._shared = Shared()
 
     def __call__(self, value: Any) -> int:
-        text = json.dumps(value)
+        text = self._shared(json.dumps, value)
         if text not in self._numbers:
             self._numbers[text] = len(self.texts)
             self.texts.append(text)
@@ -87,8 +88,8 @@ def _packed(point: RunPoint, values: _Values) -> list[Any]:
         {key: values(value) for key, value in point.canonical.items()},
         point.axes,
         values(point.sources),
-        values(code_of(point.config, point.folder)),
-        any(component.live for component in components_in(point.config)),
+        values(code_of(point.components, point.folder)),
+        any(component.live for component in point.components),
         limits.wall,
         limits.memory,
     ]

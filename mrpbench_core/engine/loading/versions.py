@@ -10,15 +10,14 @@ from packaging.markers import UndefinedEnvironmentName
 from packaging.requirements import InvalidRequirement, Requirement
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.plugins.checkout import version_of
 from mrpbench_core.plugins.installed import CORE, distribution
-from mrpbench_core.plugins.provenance import components_in, origin
+from mrpbench_core.plugins.provenance import origin
 
 
-def code_of(config: RunConfig, folder: Path) -> dict[str, Any]:
-    """The components and versions that a run would be made with now."""
-    return _code(tuple(dict.fromkeys(map(type, components_in(config)))), folder)
+def code_of(components: Iterable[Component], folder: Path) -> dict[str, Any]:
+    """The components and versions that a run with these components would be made with now."""
+    return _code(tuple(dict.fromkeys(map(type, components))), folder)
 
 
 @functools.lru_cache(maxsize=256)

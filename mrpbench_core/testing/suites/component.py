@@ -3,15 +3,14 @@
 import json
 import pickle
 from pathlib import Path
-from typing import Any, cast
+from typing import Any
 
 import attrs
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.config.canonical import canonical
+from mrpbench_core.config.canonical import canonical_component
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.schema import options_schema
-from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.structure import structure_component
 from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.plugins.contract import violation
@@ -71,8 +70,7 @@ class ComponentConformance:
         if "<locals>" in cls.__qualname__:
             raise Skip("a class inside a function has no name that a configuration can use")
         folder = Path.cwd()
-        # `canonical` accepts any attrs object, although its annotation names a configuration.
-        written: Any = canonical(cast("RunConfig", made), folder)
+        written = canonical_component(made, folder)
         json.dumps(written, allow_nan=False)
         try:
             read = structure_component(kind_class(cls), from_data(written, Location()), "", folder)
