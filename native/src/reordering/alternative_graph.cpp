@@ -62,6 +62,31 @@ void AlternativeGraph::check() const {
   for (std::size_t k = 0; k < alternatives.size(); ++k) checker.pair(alternatives[k], k);
 }
 
+AlternativeGraph reduced(const AlternativeGraph& graph) {
+  AlternativeGraph result{.first = {0}, .duration = {}, .fixed = graph.fixed, .alternatives = graph.alternatives};
+  std::vector<char> kept(graph.events());
+  const auto for_all_arcs = [](AlternativeGraph& of, const auto& visit) {
+    for (Arc& arc : of.fixed) visit(arc);
+    for (Alternatives& pair : of.alternatives) visit(pair.planned), visit(pair.switched);
+  };
+  for_all_arcs(result, [&](const Arc& arc) { kept[arc.before] = kept[arc.after] = true; });
+  std::vector<std::int32_t> number(graph.events());
+  for (int robot = 0; robot < graph.robots(); ++robot) {
+    const std::int32_t begin = graph.first[robot], last = graph.first[robot + 1] - 1;
+    kept[begin] = kept[last] = true;
+    for (std::int32_t event = begin; event <= last; ++event) {
+      if (kept[event]) {
+        number[event] = static_cast<std::int32_t>(result.duration.size());
+        result.duration.push_back(0);
+      }
+      if (event < last || begin == last) result.duration.back() += graph.duration[event];
+    }
+    result.first.push_back(static_cast<std::int32_t>(result.duration.size()));
+  }
+  for_all_arcs(result, [&](Arc& arc) { arc.before = number[arc.before], arc.after = number[arc.after]; });
+  return result;
+}
+
 std::vector<Tick> earliest_times(std::span<const std::int32_t> first, std::span<const Tick> duration,
                                  std::span<const Arc> arcs) {
   const std::int32_t events = first.back();

@@ -59,6 +59,7 @@ Decisions::Decisions(const AlternativeGraph& graph) : planned_(graph.alternative
     implied[2 * b + 1].push_back(a);
   }
   for (std::size_t k = 0; k < choices; ++k) {
+    std::ranges::stable_sort(arcs[k], {}, &Arc::after);  // what delays a robot first delays it most
     arc_begin_.push_back(static_cast<std::int32_t>(arcs_.size()));
     arcs_.insert(arcs_.end(), arcs[k].begin(), arcs[k].end());
     std::ranges::sort(implied[k]);

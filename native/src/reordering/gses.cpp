@@ -28,16 +28,16 @@ struct Known {
 
 class Search {
  public:
-  Search(const AlternativeGraph& graph, Limits& limits, std::int64_t probe_limit)
-      : graph_(graph),
+  Search(AlternativeGraph graph, Limits& limits, std::int64_t probe_limit)
+      : graph_(std::move(graph)),
         limits_(limits),
         probe_limit_(probe_limit),
-        decisions_(graph),
-        schedule_(graph, decisions_, limits),
+        decisions_(graph_),
+        schedule_(graph_, decisions_, limits),
         known_(2 * decisions_.count()) {
     result_.decisions = decisions_.count();
-    const std::vector<char> planned(graph.alternatives.size());
-    result_.planned_cost = cost_of_order(graph, planned);
+    const std::vector<char> planned(graph_.alternatives.size());
+    result_.planned_cost = cost_of_order(graph_, planned);
     if (result_.planned_cost >= 0) {
       result_.switched = planned;
       best_ = result_.planned_cost;
@@ -124,6 +124,7 @@ class Search {
   /// Bound the present node and create its children. Returns the more promising child.
   std::optional<std::int32_t> expand(std::int32_t node) {
     ++result_.expansions;
+    if (node == 0) dive();
     if (!tighten(node)) return std::nullopt;
     if (kShareOfDives * dive_probes_ <= result_.probes) dive();
     if (schedule_.cost() >= best_) return std::nullopt;
@@ -261,7 +262,7 @@ class Search {
     }
   }
 
-  const AlternativeGraph& graph_;
+  const AlternativeGraph graph_;
   Limits& limits_;
   std::int64_t probe_limit_;
   Decisions decisions_;
@@ -283,7 +284,7 @@ class Search {
 
 Reordering solve_gses(const AlternativeGraph& graph, Limits& limits, std::int64_t probe_limit) {
   graph.check();
-  return Search(graph, limits, probe_limit).run();
+  return Search(reduced(graph), limits, probe_limit).run();
 }
 
 }  // namespace mrpbench::mapf

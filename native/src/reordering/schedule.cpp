@@ -28,10 +28,11 @@ Schedule::Schedule(const AlternativeGraph& graph, const Decisions& decisions, Li
       limits_(limits),
       violations_(2 * decisions.count()),
       goal_of_(graph.events(), -1),
-      time_(graph.events()),
+      time_(earliest_times(graph.first, graph.duration, graph.fixed)),
       next_time_(graph.events()),
       side_(decisions.count(), kOpen),
-      position_(decisions.count(), -1) {
+      position_(decisions.count(), -1),
+      consistent_(static_cast<int>(time_.size()) == graph.events()) {
   for (int decision = 0; decision < decisions.count(); ++decision) {
     for (const Side side : {Side{0}, Side{1}}) {
       arc_begin_.push_back(static_cast<std::int32_t>(arcs_.size()));
@@ -44,21 +45,16 @@ Schedule::Schedule(const AlternativeGraph& graph, const Decisions& decisions, Li
   arc_begin_.push_back(static_cast<std::int32_t>(arcs_.size()));
   arcs_.insert(arcs_.end(), graph.fixed.begin(), graph.fixed.end());
   active_.resize(arcs_.size());
+  std::fill(active_.begin() + static_cast<std::ptrdiff_t>(decision_of_.size()), active_.end(), 1);
   violated_.resize(arcs_.size());
   sort_by_event(arcs_, graph.events(), [](const Arc& arc) { return arc.before; }, out_, out_begin_);
   sort_by_event(arcs_, graph.events(), [](const Arc& arc) { return arc.after; }, in_, in_begin_);
   for (int robot = 0; robot < graph.robots(); ++robot) {
     last_.push_back(graph.first[robot + 1] - 1);
     goal_of_[last_.back()] = robot;
-    for (std::int32_t event = graph.first[robot]; event < last_.back(); ++event) {
-      time_[event + 1] = time_[event] + graph.duration[event];
-    }
-    cost_ += time_[last_.back()];
+    if (consistent_) cost_ += time_[last_.back()];
   }
-  for (std::size_t arc = decision_of_.size(); arc < arcs_.size() && consistent_; ++arc) {
-    consistent_ = add(static_cast<std::int32_t>(arc));
-  }
-  changes_.clear();
+  if (!consistent_) return;
   for (std::int32_t event = 0; event < graph.events(); ++event) update_violations(event);
 }
 

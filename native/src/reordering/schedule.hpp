@@ -88,7 +88,7 @@ class Schedule {
   std::vector<Choice> made_;
   std::vector<Waiting> heap_;
   Cost cost_ = 0;
-  bool consistent_ = true;
+  bool consistent_;
 };
 
 }  // namespace mrpbench::mapf

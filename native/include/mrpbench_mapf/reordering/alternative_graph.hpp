@@ -42,6 +42,10 @@ struct AlternativeGraph {
   void check() const;
 };
 
+/// The same graph without events that no arc touches and that are neither the first nor the last of a robot, and without
+/// fixed arcs that others imply.
+AlternativeGraph reduced(const AlternativeGraph& graph);
+
 /// The earliest time of each event, given arcs that hold; nothing if they form a cycle.
 std::vector<Tick> earliest_times(std::span<const std::int32_t> first, std::span<const Tick> duration,
                                  std::span<const Arc> arcs);
