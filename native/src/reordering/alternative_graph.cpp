@@ -79,7 +79,7 @@ AlternativeGraph reduced(const AlternativeGraph& graph) {
         number[event] = static_cast<std::int32_t>(result.duration.size());
         result.duration.push_back(0);
       }
-      if (event < last || begin == last) result.duration.back() += graph.duration[event];
+      result.duration.back() += graph.duration[event];
     }
     result.first.push_back(static_cast<std::int32_t>(result.duration.size()));
   }

@@ -1,6 +1,8 @@
 #include "mrpbench_mapf/reordering/gses.hpp"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -8,6 +10,7 @@
 #include <tuple>
 
 #include "reordering/decisions.hpp"
+#include "reordering/local_search.hpp"
 #include "reordering/raise_bound.hpp"
 #include "reordering/schedule.hpp"
 
@@ -17,7 +20,7 @@ namespace {
 
 constexpr Cost kNone = std::numeric_limits<Cost>::max();
 constexpr std::int64_t kBytesOfNode = 128;
-constexpr std::int64_t kShareOfDives = 4;  // one probe of so many finds orders, the others bound them
+constexpr std::int64_t kShareOfDives = 4;  // one part of the work in so many finds orders, the others bound them
 
 /// What is known of a choice here and in the nodes below: robots arrive at these times at the earliest.
 struct Known {
@@ -28,12 +31,13 @@ struct Known {
 
 class Search {
  public:
-  Search(AlternativeGraph graph, Limits& limits, std::int64_t probe_limit)
+  Search(AlternativeGraph graph, Limits& limits, std::int64_t work_limit)
       : graph_(std::move(graph)),
         limits_(limits),
-        probe_limit_(probe_limit),
+        work_limit_(work_limit),
         decisions_(graph_),
-        schedule_(graph_, decisions_, limits),
+        arcs_(graph_, decisions_),
+        schedule_(graph_, decisions_, arcs_, limits),
         known_(2 * decisions_.count()) {
     result_.decisions = decisions_.count();
     const std::vector<char> planned(graph_.alternatives.size());
@@ -73,6 +77,7 @@ class Search {
   void search() {
     if (!schedule_.consistent()) return;
     bound_ = schedule_.cost();
+    if (best_ != kNone) improve();
     nodes_.push_back({-1, 0, bound_, {}});
     path_.push_back({0, schedule_.mark(), 0});
     std::optional<std::int32_t> next = 0;
@@ -126,7 +131,7 @@ class Search {
     ++result_.expansions;
     if (node == 0) dive();
     if (!tighten(node)) return std::nullopt;
-    if (kShareOfDives * dive_probes_ <= result_.probes) dive();
+    if (kShareOfDives * dive_work_ <= schedule_.work()) dive();
     if (schedule_.cost() >= best_) return std::nullopt;
     if (schedule_.pending().empty()) {
       keep();
@@ -192,7 +197,7 @@ class Search {
     const std::size_t index = 2 * static_cast<std::size_t>(choice.decision) + choice.side;
     const std::int64_t times = schedule_.times_around(choice);
     if (known_[index] && (!known_[index]->possible || known_[index]->times == times)) return *known_[index];
-    count_probe(result_.probes);
+    check_work();
     auto fresh = std::make_shared<Known>();
     auto arrivals = schedule_.probe(choice);
     fresh->possible = arrivals.has_value();
@@ -203,10 +208,8 @@ class Search {
     return *known_[index];
   }
 
-  /// Count a probe before it is made; the limit holds for both kinds together.
-  void count_probe(std::int64_t& count) {
-    if (result_.probes + dive_probes_ >= probe_limit_) throw LimitReached{Status::timeout};
-    ++count;
+  void check_work() const {
+    if (local_work_ + schedule_.work() >= work_limit_) throw LimitReached{Status::timeout};
   }
 
   void forget(std::size_t until) {
@@ -237,13 +240,14 @@ class Search {
   /// Decide what is pending one by one, earliest first, each time as it costs less; keep the order if it is better.
   void dive() {
     const Schedule::Mark mark = schedule_.mark();
+    const std::int64_t work = schedule_.work();
     bool possible = true;
     while (possible && !schedule_.pending().empty() && schedule_.cost() < best_) {
       const std::int32_t decision = *std::ranges::min_element(
           schedule_.pending(), {}, [&](std::int32_t it) { return std::pair{schedule_.begins(it), it}; });
       std::array<Cost, 2> more = {kNone, kNone};
       for (const Side side : {Side{0}, Side{1}}) {
-        count_probe(dive_probes_);
+        check_work();
         if (const auto arrivals = schedule_.probe({decision, side})) more[side] = later(*arrivals);
       }
       possible = std::min(more[0], more[1]) < kNone;
@@ -251,6 +255,23 @@ class Search {
     }
     if (possible && schedule_.cost() < best_) keep();
     schedule_.undo(mark);
+    dive_work_ += schedule_.work() - work;
+  }
+
+  /// Search for better orders next to the planned one.
+  void improve() {
+    std::vector<Side> sides(decisions_.count());
+    for (std::size_t k = 0; k < graph_.alternatives.size(); ++k) {
+      sides[decisions_.planned(k).decision] = decisions_.planned(k).side;
+    }
+    LocalSearch local(graph_, decisions_, arcs_, std::move(sides), limits_);
+    local_work_ = local.run(work_limit_);
+    best_ = local.cost();
+    for (std::size_t k = 0; k < graph_.alternatives.size(); ++k) {
+      const Choice planned = decisions_.planned(k);
+      result_.switched[k] = local.sides()[planned.decision] != planned.side;
+    }
+    if (std::getenv("V")) std::fprintf(stderr, "local %ld work, gain %ld\n", local_work_, result_.planned_cost - best_);
   }
 
   /// Take the order of the present node: decisions made, and for the others a choice that holds.
@@ -264,12 +285,13 @@ class Search {
 
   const AlternativeGraph graph_;
   Limits& limits_;
-  std::int64_t probe_limit_;
+  std::int64_t work_limit_;
   Decisions decisions_;
+  ArcIndex arcs_;
   Schedule schedule_;
   Reordering result_;
   Cost best_ = kNone, bound_ = 0;
-  std::int64_t dive_probes_ = 0;
+  std::int64_t local_work_ = 0, dive_work_ = 0;
   std::vector<std::int32_t> probed_;
   std::vector<Node> nodes_;
   std::vector<Step> path_;
@@ -282,9 +304,9 @@ class Search {
 
 }  // namespace
 
-Reordering solve_gses(const AlternativeGraph& graph, Limits& limits, std::int64_t probe_limit) {
+Reordering solve_gses(const AlternativeGraph& graph, Limits& limits, std::int64_t work_limit) {
   graph.check();
-  return Search(reduced(graph), limits, probe_limit).run();
+  return Search(reduced(graph), limits, work_limit).run();
 }
 
 }  // namespace mrpbench::mapf

@@ -42,8 +42,7 @@ struct AlternativeGraph {
   void check() const;
 };
 
-/// The same graph without events that no arc touches and that are neither the first nor the last of a robot, and without
-/// fixed arcs that others imply.
+/// The same graph without events that no arc touches and that are neither the first nor the last of a robot.
 AlternativeGraph reduced(const AlternativeGraph& graph);
 
 /// The earliest time of each event, given arcs that hold; nothing if they form a cycle.

@@ -36,6 +36,6 @@ struct Reordering {
 /// The best order found within `limits` and by at most `probe_limit` probes; the planned one if none is better. The
 /// number of probes, unlike the clock, ends the search at the same order on every machine (status `timeout`).
 Reordering solve_gses(const AlternativeGraph& graph, Limits& limits,
-                      std::int64_t probe_limit = std::numeric_limits<std::int64_t>::max());
+                      std::int64_t work_limit = std::numeric_limits<std::int64_t>::max());
 
 }  // namespace mrpbench::mapf
