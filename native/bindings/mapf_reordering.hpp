@@ -33,7 +33,7 @@ inline auto earliest(const Vector<std::int32_t>& first, const Vector<std::int32_
 
 inline mapf::Reordering reorder(const Vector<std::int32_t>& first, const Vector<std::int32_t>& duration,
                                 const Arcs& fixed, const Arcs& planned, const Arcs& switched, double wall_s,
-                                std::int64_t memory_bytes, std::optional<std::int64_t> probe_limit) {
+                                std::int64_t memory_bytes, std::optional<std::int64_t> work_limit) {
   static_assert(sizeof(mapf::Arc) == 3 * sizeof(std::int32_t));
   require(planned.shape(0) == switched.shape(0), "as many switched arcs as planned ones");
   mapf::AlternativeGraph graph;
@@ -44,7 +44,7 @@ inline mapf::Reordering reorder(const Vector<std::int32_t>& first, const Vector<
   for (std::size_t k = 0; k < one.size(); ++k) graph.alternatives.push_back({one[k], other[k]});
   const nb::gil_scoped_release without_python;
   mapf::Limits limits(wall_s, memory_bytes);
-  return solve_gses(graph, limits, probe_limit.value_or(std::numeric_limits<std::int64_t>::max()));
+  return solve_gses(graph, limits, work_limit.value_or(std::numeric_limits<std::int64_t>::max()));
 }
 
 inline void define_reordering(nb::module_& module) {
@@ -63,11 +63,11 @@ inline void define_reordering(nb::module_& module) {
       .def_ro("planned_cost", &Reordering::planned_cost)
       .def_ro("lower_bound", &Reordering::lower_bound)
       .def_ro("expansions", &Reordering::expansions)
-      .def_ro("probes", &Reordering::probes)
+      .def_ro("work", &Reordering::work)
       .def_ro("decisions", &Reordering::decisions);
   module.def("earliest", &earliest, "first"_a, "duration"_a, "arcs"_a);
   module.def("reorder", &reorder, nb::kw_only(), "first"_a, "duration"_a, "fixed"_a, "planned"_a, "switched"_a,
-             "wall_s"_a, "memory_bytes"_a, "probe_limit"_a = nb::none());
+             "wall_s"_a, "memory_bytes"_a, "work_limit"_a = nb::none());
 }
 
 }  // namespace mrpbench::bindings

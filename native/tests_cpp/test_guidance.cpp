@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "../src/discrete/guidance.hpp"
+#include "discrete/guidance.hpp"
 #include "check.hpp"
 
 using namespace mrpbench::discrete;

@@ -4,6 +4,7 @@
 #include "check.hpp"
 #include "grids.hpp"
 #include "mrpbench_mapf/reordering/gses.hpp"
+#include "reordering/local_search.hpp"
 
 using namespace mrpbench::mapf;
 
@@ -80,6 +81,48 @@ TEST("the order found is the best of all") {
   CHECK(impossible > 100);
 }
 
+TEST("local search ends where no decision helps that is switched with those it implies") {
+  std::mt19937 random(4);
+  int improved = 0;
+  for (int round = 0; round < 1000; ++round) {
+    const AlternativeGraph graph = drawn(random, 4 + round % 9, 3 + round % 9);
+    const Cost planned_cost = cost_of_order(graph, std::vector<char>(graph.alternatives.size()));
+    if (planned_cost < 0) continue;
+    const Decisions decisions(graph);
+    const ArcIndex arcs(graph, decisions);
+    std::vector<Side> planned(decisions.count());
+    for (std::size_t k = 0; k < graph.alternatives.size(); ++k) {
+      planned[decisions.planned(k).decision] = decisions.planned(k).side;
+    }
+    const auto cost = [&](const std::vector<Side>& sides) {
+      std::vector<char> switched;
+      for (std::size_t k = 0; k < graph.alternatives.size(); ++k) {
+        switched.push_back(sides[decisions.planned(k).decision] != decisions.planned(k).side);
+      }
+      return cost_of_order(graph, switched);
+    };
+    Limits limits = unlimited();
+    LocalSearch search(graph, decisions, arcs, planned, limits);
+    search.run(1 << 30);
+    CHECK(search.cost() == cost(search.sides()));
+    improved += search.cost() < planned_cost;
+    for (int decision = 0; decision < decisions.count(); ++decision) {
+      std::vector<Side> sides = search.sides();
+      std::vector<Choice> todo = {{decision, static_cast<Side>(1 - sides[decision])}};
+      while (!todo.empty()) {
+        const Choice choice = todo.back();
+        todo.pop_back();
+        if (sides[choice.decision] == choice.side) continue;
+        sides[choice.decision] = choice.side;
+        for (const std::int32_t other : decisions.implied(choice)) todo.push_back({other, choice.side});
+      }
+      const Cost other = cost(sides);
+      CHECK(other < 0 || other >= search.cost());
+    }
+  }
+  CHECK(improved > 30);
+}
+
 TEST("a search without time keeps the planned order, and bounds it") {
   std::mt19937 random(2);
   for (int round = 0; round < 200; ++round) {
@@ -94,7 +137,7 @@ TEST("a search without time keeps the planned order, and bounds it") {
   }
 }
 
-TEST("a search of few probes finds the same order again, and bounds it") {
+TEST("a search of little work finds the same order again, and bounds it") {
   std::mt19937 random(3);
   int limited = 0;
   for (int round = 0; round < 1000; ++round) {
@@ -102,9 +145,9 @@ TEST("a search of few probes finds the same order again, and bounds it") {
     Limits enough = unlimited(), one = unlimited(), other = unlimited();
     const Reordering found = solve_gses(graph, enough);
     if (found.planned_cost < 0) continue;
-    const Reordering few = solve_gses(graph, one, round % 7), again = solve_gses(graph, other, round % 7);
+    const Reordering few = solve_gses(graph, one, round % 40), again = solve_gses(graph, other, round % 40);
     CHECK(few.switched == again.switched && few.lower_bound == again.lower_bound);
-    CHECK(few.probes <= round % 7);
+    CHECK(few.work >= round % 40 || few.status != Status::timeout);
     CHECK(few.cost == cost_of_order(graph, few.switched) && few.cost <= few.planned_cost);
     CHECK(few.lower_bound <= found.cost && found.cost <= few.cost);
     limited += few.status == Status::timeout;

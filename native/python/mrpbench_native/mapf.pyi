@@ -123,7 +123,8 @@ class Reordering:
     @property
     def expansions(self) -> int: ...
     @property
-    def probes(self) -> int: ...
+    def work(self) -> int:
+        """Number of times of events computed."""
     @property
     def decisions(self) -> int:
         """Number of groups of pairs that can only be decided alike."""
@@ -149,7 +150,7 @@ def reorder(
     switched: NDArray[np.int32],
     wall_s: float,
     memory_bytes: int,
-    probe_limit: int | None = None,
+    work_limit: int | None = None,
 ) -> Reordering:
     """Find the order of robots with the least sum of arrivals: graph-based switchable edge search.
 
@@ -163,8 +164,8 @@ def reorder(
         switched: i4[k,3] between the same two robots in the other direction.
         wall_s: at this limit the best order found is returned.
         memory_bytes: limit of what the search counts.
-        probe_limit: number of probes at which the best order found is returned, which does not depend on the clock;
-            None = no limit.
+        work_limit: number of computed times of events at which the best order found is returned, which does not depend
+            on the clock; None = no limit.
 
     Raises:
         ValueError: indices out of range, arcs within one robot, or times below 1.

@@ -121,7 +121,7 @@ void EarliestTimes::set(std::int32_t event, Tick time) {
 }
 
 Tick EarliestTimes::earliest(std::int32_t event) const {
-  Tick time = is_first_[event] ? 0 : time_[event - 1] + graph_.duration[event - 1];
+  Tick time = without_waiting(event);
   for (const std::int32_t in : arcs_.in(event)) {
     if (holds_[in]) time = std::max(time, time_[arcs_[in].before] + arcs_[in].lag);
   }

@@ -26,7 +26,10 @@ class EarliestTimes {
   Cost cost() const { return cost_; }
   Tick operator[](std::int32_t event) const { return time_[event]; }
   Tick arrival(int robot) const { return time_[graph_.first[robot + 1] - 1]; }
-  bool is_first(std::int32_t event) const { return is_first_[event]; }
+  /// When its robot would be there if it waited for nobody after the event before.
+  Tick without_waiting(std::int32_t event) const {
+    return is_first_[event] ? 0 : time_[event - 1] + graph_.duration[event - 1];
+  }
   /// Robot whose last event this is, -1 for other events.
   std::int32_t robot_at_goal(std::int32_t event) const { return goal_of_[event]; }
   /// Number of times computed so far: the work done, whatever the clock says.
@@ -45,7 +48,7 @@ class EarliestTimes {
   /// Tell whether the arcs of a choice hold, where `undo` has taken care of the times.
   void hold(Choice choice, bool now);
   /// Keep the changes for good.
-  void forget_changes() { changes_.clear(); }
+  void keep() { changes_.clear(); }
 
  private:
   struct Waiting {

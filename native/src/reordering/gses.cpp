@@ -1,8 +1,6 @@
 #include "mrpbench_mapf/reordering/gses.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -58,6 +56,7 @@ class Search {
       result_.lower_bound = std::min(bound_, best_);
     }
     if (best_ != kNone) result_.cost = best_;
+    result_.work = work();
     return std::move(result_);
   }
 
@@ -77,7 +76,7 @@ class Search {
   void search() {
     if (!schedule_.consistent()) return;
     bound_ = schedule_.cost();
-    if (best_ != kNone) improve();
+    if (best_ != kNone) improve_planned_order();
     nodes_.push_back({-1, 0, bound_, {}});
     path_.push_back({0, schedule_.mark(), 0});
     std::optional<std::int32_t> next = 0;
@@ -91,6 +90,30 @@ class Search {
         next = pop();
       }
     }
+  }
+
+  void improve_planned_order() {
+    std::vector<Side> sides(decisions_.count());
+    for (std::size_t k = 0; k < graph_.alternatives.size(); ++k) {
+      const Choice planned = decisions_.planned(k);
+      sides[planned.decision] = planned.side;
+    }
+    LocalSearch local(graph_, decisions_, arcs_, std::move(sides), limits_);
+    const auto take = [&] {
+      best_ = local.cost();
+      local_work_ = local.work();
+      for (std::size_t k = 0; k < graph_.alternatives.size(); ++k) {
+        const Choice planned = decisions_.planned(k);
+        result_.switched[k] = local.sides()[planned.decision] != planned.side;
+      }
+    };
+    try {
+      local.run(work_limit_);
+    } catch (const LimitReached&) {
+      take();
+      throw;
+    }
+    take();
   }
 
   void push(std::int32_t node) { open_.emplace(nodes_[node].bound, -nodes_[node].depth, node); }
@@ -208,8 +231,10 @@ class Search {
     return *known_[index];
   }
 
+  std::int64_t work() const { return local_work_ + schedule_.work(); }
+
   void check_work() const {
-    if (local_work_ + schedule_.work() >= work_limit_) throw LimitReached{Status::timeout};
+    if (work() >= work_limit_) throw LimitReached{Status::timeout};
   }
 
   void forget(std::size_t until) {
@@ -256,22 +281,6 @@ class Search {
     if (possible && schedule_.cost() < best_) keep();
     schedule_.undo(mark);
     dive_work_ += schedule_.work() - work;
-  }
-
-  /// Search for better orders next to the planned one.
-  void improve() {
-    std::vector<Side> sides(decisions_.count());
-    for (std::size_t k = 0; k < graph_.alternatives.size(); ++k) {
-      sides[decisions_.planned(k).decision] = decisions_.planned(k).side;
-    }
-    LocalSearch local(graph_, decisions_, arcs_, std::move(sides), limits_);
-    local_work_ = local.run(work_limit_);
-    best_ = local.cost();
-    for (std::size_t k = 0; k < graph_.alternatives.size(); ++k) {
-      const Choice planned = decisions_.planned(k);
-      result_.switched[k] = local.sides()[planned.decision] != planned.side;
-    }
-    if (std::getenv("V")) std::fprintf(stderr, "local %ld work, gain %ld\n", local_work_, result_.planned_cost - best_);
   }
 
   /// Take the order of the present node: decisions made, and for the others a choice that holds.

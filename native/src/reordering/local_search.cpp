@@ -8,50 +8,48 @@ namespace mrpbench::mapf {
 
 LocalSearch::LocalSearch(const AlternativeGraph& graph, const Decisions& decisions, const ArcIndex& arcs,
                          std::vector<Side> sides, Limits& limits)
-    : graph_(graph),
-      decisions_(decisions),
+    : decisions_(decisions),
       arcs_(arcs),
       times_(graph, arcs, arcs.holding(sides), limits),
       sides_(std::move(sides)),
+      cost_(times_.cost()),
       round_of_(sides_.size()) {}
 
-std::int64_t LocalSearch::run(std::int64_t work) {
-  for (bool changed = true; changed && times_.work() < work;) {
+void LocalSearch::run(std::int64_t work) {
+  for (bool changed = true; changed;) {
     changed = false;
     for (const Wait& wait : waits()) {
-      if (times_.work() >= work) break;
+      if (times_.work() >= work) return;
       changed |= improves(wait.decision);
     }
   }
-  return times_.work();
 }
 
 /// Decisions that robots wait for, the longest waits first.
 std::vector<LocalSearch::Wait> LocalSearch::waits() const {
   std::vector<Wait> found;
   for (std::int32_t decision = 0; decision < decisions_.count(); ++decision) {
-    const Choice choice{decision, sides_[decision]};
-    Tick most = 0;
-    for (std::int32_t arc = arcs_.begin(choice); arc < arcs_.end(choice); ++arc) most = std::max(most, waiting(arc));
-    if (most > 0) found.push_back({most, decision});
+    const Tick ticks = longest_wait({decision, sides_[decision]});
+    if (ticks > 0) found.push_back({ticks, decision});
   }
   std::ranges::stable_sort(found, std::greater{}, &Wait::ticks);
   return found;
 }
 
-/// Time for which the robot of the later event waits for the earlier one; 0 if something else holds it up.
-Tick LocalSearch::waiting(std::int32_t arc) const {
-  const auto [before, after, lag] = arcs_[arc];
-  if (times_[after] > times_[before] + lag) return 0;
-  return times_[after] - (times_.is_first(after) ? 0 : times_[after - 1] + graph_.duration[after - 1]);
+/// The longest time for which a robot waits because of a choice, and of nothing else.
+Tick LocalSearch::longest_wait(Choice choice) const {
+  Tick most = 0;
+  for (const auto [before, after, lag] : decisions_.arcs(choice)) {
+    if (times_[after] > times_[before] + lag) continue;
+    most = std::max(most, times_[after] - times_.without_waiting(after));
+  }
+  return most;
 }
 
 /// Switch a decision if robots then arrive earlier in sum.
 bool LocalSearch::improves(std::int32_t decision) {
   const Choice choice{decision, sides_[decision]};
-  bool waits = false;
-  for (std::int32_t arc = arcs_.begin(choice); arc < arcs_.end(choice); ++arc) waits |= waiting(arc) > 0;
-  if (!waits) return false;
+  if (longest_wait(choice) == 0) return false;
   ++round_;
   chosen_ = {choice.other()};
   round_of_[decision] = round_;
@@ -71,21 +69,24 @@ bool LocalSearch::improves(std::int32_t decision) {
       times_.hold(it.other(), true);
     }
   }
-  if (!better) times_.undo(0);
-  times_.forget_changes();
+  if (better) {
+    times_.keep();
+    cost_ = times_.cost();
+  } else {
+    times_.undo(0);
+  }
   return better;
 }
 
 /// Let the chosen choices hold; tell whether robots arrive earlier in sum.
 bool LocalSearch::switched() {
-  const Cost before = times_.cost();
   for (const Choice& it : chosen_) times_.remove(it.other());
   for (const Choice& it : chosen_) {
     for (std::int32_t arc = arcs_.begin(it); arc < arcs_.end(it); ++arc) {
-      if (times_.cost() >= before || !times_.add(arc)) return false;
+      if (times_.cost() >= cost_ || !times_.add(arc)) return false;
     }
   }
-  return times_.cost() < before;
+  return times_.cost() < cost_;
 }
 
 }  // namespace mrpbench::mapf

@@ -18,9 +18,11 @@ class LocalSearch {
   LocalSearch(const AlternativeGraph& graph, const Decisions& decisions, const ArcIndex& arcs, std::vector<Side> sides,
               Limits& limits);
 
-  /// Switch decisions until no single switch helps or `work` is done, see `EarliestTimes`. Returns the work done.
-  std::int64_t run(std::int64_t work);
-  Cost cost() const { return times_.cost(); }
+  /// Switch decisions until no single switch helps or so much `work` is done. Where `Limits` ends it, the order is the
+  /// last one that was kept.
+  void run(std::int64_t work);
+  Cost cost() const { return cost_; }
+  std::int64_t work() const { return times_.work(); }
   const std::vector<Side>& sides() const { return sides_; }
 
  private:
@@ -32,15 +34,15 @@ class LocalSearch {
   std::vector<Wait> waits() const;
   bool improves(std::int32_t decision);
   bool switched();
-  Tick waiting(std::int32_t arc) const;
+  Tick longest_wait(Choice choice) const;
 
-  const AlternativeGraph& graph_;
   const Decisions& decisions_;
   const ArcIndex& arcs_;
   EarliestTimes times_;
   std::vector<Side> sides_;
-  std::vector<Choice> chosen_;  // the choices that a switch makes
-  std::vector<std::int32_t> round_of_;  // by decision: the last round in which it was among them
+  Cost cost_;
+  std::vector<Choice> chosen_;          // the choices that a switch makes
+  std::vector<std::int32_t> round_of_;  // by decision: the last switch that made a choice of it
   std::int32_t round_ = 0;
 };
 

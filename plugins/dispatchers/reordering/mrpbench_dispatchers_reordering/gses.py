@@ -23,13 +23,13 @@ MEMORY_BYTES = 1 << 30
 class Gses(SearchingDispatcher):
     """Releases moves in the order that lets robots arrive earliest, given how late they are."""
 
-    probe_limit: int = option(
-        2000,
-        help="choices of which one search computes the consequences, after which the best order found is taken",
+    work_limit: int = option(
+        200_000,
+        help="times of events that one search computes, after which the best order found is taken",
         validator=attrs.validators.ge(0),
     )
 
     def search(self, arrays: Mapping[str, Int32]) -> tuple[Bool, int]:
         """See `SearchingDispatcher.search`."""
-        found = reorder(**arrays, wall_s=math.inf, memory_bytes=MEMORY_BYTES, probe_limit=self.probe_limit)
+        found = reorder(**arrays, wall_s=math.inf, memory_bytes=MEMORY_BYTES, work_limit=self.work_limit)
         return found.switched.astype(bool), found.planned_cost - found.cost

@@ -68,5 +68,5 @@ def test_orders_change_and_robots_arrive_earlier_than_in_the_order_of_the_plan()
 
 def test_an_execution_repeats_bit_by_bit_where_the_search_is_cut_short():
     for seed in range(4):
-        dispatcher = Gses(period=0, lateness=0, gain=0.001, probe_limit=seed)
+        dispatcher = Gses(period=0, lateness=0, gain=0.001, work_limit=10 * seed)
         assert drained(dispatcher, seed) == drained(dispatcher, seed)
