@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "discrete/guidance.hpp"
 #include "check.hpp"
+#include "discrete/guidance.hpp"
 
 using namespace mrpbench::discrete;
 

@@ -152,7 +152,6 @@ class Search {
   /// Bound the present node and create its children. Returns the more promising child.
   std::optional<std::int32_t> expand(std::int32_t node) {
     ++result_.expansions;
-    if (node == 0) dive();
     if (!tighten(node)) return std::nullopt;
     if (kShareOfDives * dive_work_ <= schedule_.work()) dive();
     if (schedule_.cost() >= best_) return std::nullopt;
