@@ -63,7 +63,7 @@ def _occupations(problem: Problem, plan: Plan) -> Int:
     segments = segments_of(plan.paths)
     moves = segments.where(segments.edge >= 0)
     count = np.bincount(moves.robot, minlength=len(robots))
-    since = problem.since if len(problem.since) else np.zeros(len(robots), np.int64)
+    since = problem.begins
     last = since.copy()
     last[segments.robot] = segments.leave  # of equal robots the last one counts
     final = np.full(len(robots), FOREVER) if problem.rules.at_goal == "stay" else last + late

@@ -77,7 +77,7 @@ def _of_edges(problem: Problem, segments: Segments) -> Faults:
 
 def _of_times(problem: Problem, segments: Segments) -> Faults:
     robots, index, _, enter, leave = segments
-    begin = problem.since[robots] if len(problem.since) else np.zeros_like(enter)
+    begin = problem.begins[robots]
     for row in np.flatnonzero(segments.first & (enter != begin)).tolist():
         yield int(robots[row]), f"begins at tick {enter[row]} instead of {begin[row]}"
     for row in np.flatnonzero(segments.follows & (enter[1:] != leave[:-1])).tolist():

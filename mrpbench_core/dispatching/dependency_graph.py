@@ -46,9 +46,11 @@ class DependencyGraph:
                 raise DispatchError(
                     f"robots rotate through {', '.join(sorted(needed))}, which admits one robot at a time"
                 )
-        self._group = np.arange(len(moves.robot))
+        self.rotation: Int = np.full(len(moves.robot), -1)
+        """i8[m]: the first move of the rotation that each move belongs to, -1 for other moves."""
         for first, rotation in self.rotations.items():
-            self._group[list(rotation)] = first
+            self.rotation[list(rotation)] = first
+        self._group = np.where(self.rotation < 0, np.arange(len(moves.robot)), self.rotation)
         sizes = Paths.of(plan.paths).size
         self._stride = int(sizes.max(initial=0)) + 1
         dependencies = np.concatenate([self._dependencies(self.order), self._follows()])
@@ -85,9 +87,10 @@ class DependencyGraph:
     def _follows(self) -> Int:
         """All robots of a rotation must have reached its start, and a robot in a lift its exit."""
         moves, group, level = self.moves, self._group, self._problem.roadmap.level
-        in_rotation = np.isin(group, group[group != np.arange(len(group))])
         after_ride = np.append(False, level[moves.tail[:-1]] != level[moves.head[:-1]])[: len(group)]
-        follows = np.flatnonzero((in_rotation | after_ride) & (np.arange(len(group)) > moves.first[moves.robot]))
+        follows = np.flatnonzero(
+            ((self.rotation >= 0) | after_ride) & (np.arange(len(group)) > moves.first[moves.robot])
+        )
         row = REACHED * len(self._problem) + moves.robot[follows]
         return self._coded(row, moves.segment[follows - 1] + 1, group[follows])
 
@@ -102,7 +105,8 @@ class DependencyGraph:
 
         Args:
             moves: at the new times.
-            chosen: bool[m] moves whose order changes, and those before them that are not over; the others come later.
+            chosen: bool[m] moves whose order changes, and those before them that are not over. Those that are not over
+                and not chosen come later, and their order remains.
             committed: i4[n] leading segments of each robot that remain released.
 
         Raises:
@@ -112,8 +116,7 @@ class DependencyGraph:
         new = type2_edges(self._problem, moves, self.resources, chosen)
         old, kept = (self.order.kept(which[self.order.before]) for which in (chosen, ~chosen))
         order = Type2Edges(*(np.concatenate(columns) for columns in zip(kept, new, strict=True)))
-        if cycles(moves, order) != list(self.rotations.values()):
-            raise DispatchError("robots would wait for one another in the new order")
+        self._check(moves, order, chosen)
         before, after = self._dependencies(old), self._dependencies(new)
         removed = self._unmet_among(np.setdiff1d(before, after, assume_unique=True))
         added = self._unmet_among(np.setdiff1d(after, before, assume_unique=True))
@@ -128,13 +131,33 @@ class DependencyGraph:
             self._waiting.setdefault(key, []).append(group)
             self.unmet[group] += 1
         self.rotating = [rotation for first, rotation in self.rotations.items() if not self.unmet[first]]
+        groups = {group for _, group in removed + added}
+        robots = {self.robot[move] for group in groups for move in self.rotations.get(group, (group,))}
         if self.requests:
             self.requests = ResourceRequests(len(self.frontier), self.moves, self.occupations, self._ahead)
             self.granted = frozenset()
+            robots = set(range(len(committed)))
         places = self.moves.robot * self._stride + self.moves.segment
-        self.frontier = np.searchsorted(places, np.arange(len(committed)) * self._stride + committed).tolist()
-        for robot in range(len(committed)):
+        frontier = np.searchsorted(places, np.arange(len(committed)) * self._stride + committed).tolist()
+        for robot in robots:
+            self.frontier[robot] = frontier[robot]
             self._advance(robot)
+
+    def _check(self, moves: Moves, order: Type2Edges, chosen: Bool) -> None:
+        """Find the moves that would wait for one another, given the arguments of `retime` and the new `order`.
+
+        Moves that come after the chosen ones have kept their order, so a cycle has a chosen move. It has nothing but
+        chosen moves unless one of them waits for a later one.
+
+        Raises:
+            DispatchError: there are some, other than rotations.
+        """
+        later = ~chosen & (moves.enter > moves.enter[chosen].max(initial=-1))
+        along = (moves.robot[1:] == moves.robot[:-1]) & later[:-1] & chosen[1:]
+        expected = [rotation for first, rotation in self.rotations.items() if chosen[first]]
+        expected = [rotation for rotation in expected if chosen[list(rotation)].all()]
+        if (later[order.before] & chosen[order.after]).any() or along.any() or cycles(moves, order, chosen) != expected:
+            raise DispatchError("robots would wait for one another in the new order")
 
     def _unmet_among(self, dependencies: Int) -> list[tuple[int, int]]:
         """The key of `_waiting` and the group of each dependency that is not met."""

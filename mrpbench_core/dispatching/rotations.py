@@ -21,7 +21,7 @@ import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.checking.strong_components import strong_components
-from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.planning.conflicts import TOLERANCE
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import Moves, Type2Edges
@@ -46,18 +46,21 @@ def rotations(problem: Problem, moves: Moves, order: Type2Edges, margin: float) 
     return groups
 
 
-def cycles(moves: Moves, order: Type2Edges) -> list[tuple[int, ...]]:
-    """Groups of moves that wait for one another, sorted."""
-    before, after = _suspects(moves, order)
+def cycles(moves: Moves, order: Type2Edges, chosen: Bool | None = None) -> list[tuple[int, ...]]:
+    """Groups of moves that wait for one another, sorted; with `chosen` bool[m], of these only."""
+    along = moves.robot[1:] == moves.robot[:-1]
+    if chosen is not None:
+        along &= chosen[1:] & chosen[:-1]
+        order = order.kept(chosen[order.before] & chosen[order.after])
+    before, after = _suspects(moves, order, np.flatnonzero(along))
     return strong_components(before.tolist(), after.tolist())
 
 
-def _suspects(moves: Moves, order: Type2Edges) -> tuple[Int, Int]:
-    """The arcs, also those along paths, that can be part of a cycle.
+def _suspects(moves: Moves, order: Type2Edges, along: Int) -> tuple[Int, Int]:
+    """The arcs, also those from the moves `along` paths to the next ones, that can be part of a cycle.
 
     A cycle comes back to the time it left, so arcs that do not go forward in the plan's time cover all of it.
     """
-    along = np.flatnonzero(moves.robot[1:] == moves.robot[:-1])
     before, after = np.concatenate([order.before, along]), np.concatenate([order.after, along + 1])
     back = moves.enter[before] >= moves.enter[after]
     low, high = moves.enter[after[back]], moves.enter[before[back]]

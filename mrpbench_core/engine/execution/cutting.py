@@ -37,8 +37,7 @@ def driven(plan: Plan, reached: Int32, cleared: Int32) -> Int32:
 
 def without(problem: Problem, commitments: Paths, cut: Int32) -> Problem:
     """Return a problem whose `commitments` lack the first `cut` i4[n] segments; it begins where and when these end."""
-    start, ready = problem.start.copy(), problem.ready.copy()
-    since = problem.since.copy() if len(problem.since) else np.zeros(len(problem), np.int64)
+    start, ready, since = problem.start.copy(), problem.ready.copy(), problem.begins.copy()
     gone = commitments.part(np.zeros_like(cut), cut)
     move = gone.edge >= 0
     start[gone.robot[move]] = problem.roadmap.edges[gone.edge[move]].reshape(-1, 2)[:, 1]  # the last one counts

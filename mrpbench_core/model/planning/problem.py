@@ -79,6 +79,11 @@ class Problem:
         return int(self.since[robot]) if len(self.since) else 0
 
     @property
+    def begins(self) -> Int:
+        """Ticks i8[n] at which the paths of the robots begin."""
+        return self.since if len(self.since) else np.zeros(len(self), np.int64)
+
+    @property
     def committed(self) -> Int:
         """Number i8[n] of leading segments to which each robot is committed."""
         return Paths.of(self.commitments).size if self.commitments else np.zeros(len(self), np.int64)
@@ -92,9 +97,8 @@ class Problem:
 def ends_of(problem: Problem) -> list[int]:
     """Return the tick at which the commitments of each robot end; where its path begins if it has none."""
     paths = Paths.of(problem.commitments)
-    begins = problem.since if len(problem.since) else np.zeros(len(paths), np.int64)
     last = np.append(paths.leave, 0)[paths.first[1:] - 1]
-    ends: list[int] = np.where(paths.size > 0, last, begins[: len(paths)]).tolist()
+    ends: list[int] = np.where(paths.size > 0, last, problem.begins[: len(paths)]).tolist()
     return ends
 
 

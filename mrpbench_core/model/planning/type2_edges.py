@@ -66,14 +66,14 @@ def type2_edges(problem: Problem, moves: Moves, resources: Type2Edges, chosen: B
 
     With `chosen` bool[m], only the edges from chosen moves.
     """
-    found = [_at_vertices(problem, moves), resources]
+    found = [_at_vertices(problem, moves, chosen), resources]
     if Feature.FOOTPRINTS in problem.features:
         found += _between_footprints(problem, moves)
     edges = Type2Edges(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
     return without_implied(moves, edges if chosen is None else edges.kept(chosen[edges.before]))
 
 
-def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
+def _at_vertices(problem: Problem, moves: Moves, chosen: Bool | None) -> Type2Edges:
     """Rules 1 to 4: each robot moves into a vertex after the one that stood there before moved out."""
     robots = np.arange(len(problem))
     starts, count = moves.first[:-1], np.diff(moves.first)
@@ -81,10 +81,14 @@ def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
     is_last = np.append(moves.robot[1:] != moves.robot[:-1], True)[: len(index)]
     vertex = np.concatenate([problem.start, moves.head])
     robot = np.concatenate([robots, moves.robot])
-    since = problem.since if len(problem.since) else np.zeros(len(robots), np.int64)
-    begin = np.concatenate([since, moves.leave])
+    begin = np.concatenate([problem.begins, moves.leave])
     arrival = np.concatenate([np.full(len(robots), -1), index])
     departure = np.concatenate([np.where(count > 0, starts, -1), np.where(is_last, -1, index + 1)])
+    if chosen is not None:
+        ours = np.append(chosen, False)[np.where(departure < 0, arrival, departure)]
+        needed = _around(vertex, begin, ours)
+        vertex, robot, begin = vertex[needed], robot[needed], begin[needed]
+        arrival, departure = arrival[needed], departure[needed]
     order = np.argsort(vertex * (int(begin.max(initial=0)) + 1) + begin, kind="stable")
     earlier, later = order[:-1], order[1:]
     pairs = (vertex[earlier] == vertex[later]) & (robot[earlier] != robot[later])
@@ -101,6 +105,18 @@ def _at_vertices(problem: Problem, moves: Moves) -> Type2Edges:
     return Type2Edges(
         np.concatenate([before[~passed], before[completed]]), np.concatenate([after[~passed], after[completed]]), kinds
     )
+
+
+def _around(vertex: Int, begin: Int, ours: Bool) -> Bool:
+    """The visits bool[v] of each vertex from the first of `ours` bool[v] to the next one after the last of these."""
+    never = np.iinfo(np.int64).max
+    low, high, following = (np.full(int(vertex.max(initial=0)) + 1, value) for value in (never, -1, never))
+    np.minimum.at(low, vertex[ours], begin[ours])
+    np.maximum.at(high, vertex[ours], begin[ours])
+    later = (low[vertex] < never) & (begin > high[vertex])
+    np.minimum.at(following, vertex[later], begin[later])
+    found: Bool = (begin >= low[vertex]) & (begin <= following[vertex])
+    return found & (low[vertex] < never)
 
 
 def _between_footprints(problem: Problem, moves: Moves) -> list[Type2Edges]:

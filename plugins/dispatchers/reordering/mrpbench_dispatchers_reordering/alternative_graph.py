@@ -14,7 +14,7 @@ from mrpbench_core.dispatching.dependency_graph import CLEARED, REACHED, Depende
 from mrpbench_core.model.common.arrays import Bool, Int, Int32
 from mrpbench_core.model.planning.type2_edges import Moves
 from mrpbench_dispatchers_reordering.progress import Progress
-from mrpbench_dispatchers_reordering.visits import NONE, Conflicts, Pairs, Visits
+from mrpbench_dispatchers_reordering.visits import NONE, Conflicts, Pairs, Visits, expanded
 
 MILLISECONDS = 1000.0
 BEGIN, CLEAR, COMPLETE = range(3)
@@ -77,14 +77,14 @@ def alternative_graph(
     for row, needed in ((CLEARED, visits.cleared), (REACHED, visits.completed)):
         ended &= ~needed | (state.seen[row, visits.robot] > moves.segment[visits.end])
     first, second = conflicts.pairs(visits, np.flatnonzero(~ended & (begun | events.has(visits.begin))))
-    rotation = np.append(_rotations(graph), NONE)
+    rotation = np.append(graph.rotation, NONE)
     counts = ~begun[second] & (visits.end[first] != NONE)
     counts &= (rotation[visits.end[first]] == NONE) | (rotation[visits.end[first]] != rotation[visits.begin[second]])
     first, second = first[counts], second[counts]
     planned = events.arcs(visits.end[first], visits.completed[first], visits.begin[second])
     fixed = np.concatenate([_resource_arcs(graph, events, state), _arcs_from_beyond(graph, events)])
     arcs = np.concatenate([fixed, planned])
-    fixed = np.concatenate([fixed, events.arcs_into_rotations(graph, arcs)])
+    fixed = np.concatenate([fixed, events.arcs_into_rotations(graph.rotation, arcs)])
     time = earliest(events.first.astype(np.int32), events.duration.astype(np.int32), np.concatenate([arcs, fixed]))
     inside = np.flatnonzero(
         events.has(np.arange(len(moves.robot))) & ~_is_released(moves, np.arange(len(moves.robot)), state)
@@ -146,14 +146,6 @@ def _is_released(moves: Moves, move: Int, state: State) -> Bool:
     return released
 
 
-def _rotations(graph: DependencyGraph) -> Int:
-    """The first move of the rotation i8[m] that each move belongs to, `NONE` for other moves."""
-    group = np.full(len(graph.moves.robot), NONE)
-    for first, rotation in graph.rotations.items():
-        group[list(rotation)] = first
-    return group
-
-
 class _Events:
     """Numbers the events of all robots, and gives the times between them."""
 
@@ -206,19 +198,26 @@ class _Events:
         begins = self.of(after, np.full(len(after), BEGIN))
         return np.stack([ends, begins, np.ones(len(ends), np.int64)], axis=1).astype(np.int32)
 
-    def arcs_into_rotations(self, graph: DependencyGraph, arcs: Int32) -> Int32:
+    def arcs_into_rotations(self, rotation: Int, arcs: Int32) -> Int32:
         """The moves of a rotation start together, so what one of them waits for the others wait for too."""
-        found = [np.empty((0, 3), np.int32)]
+        members = np.flatnonzero(rotation != NONE)
+        begins, inside = self.of(members, np.full(len(members), BEGIN)), self.has(members)
+        started = begins == self.first[self._moves.robot[members]]  # under way or over
+        group = rotation[members]
+        counts = np.zeros(len(rotation), bool)
+        counts[group[inside]] = True
+        counts[group[started]] = False
+        kept = counts[group]
+        begins, inside, group = begins[kept], inside[kept], group[kept]
+        arcs = arcs[np.argsort(arcs[:, 1])]
+        found = np.searchsorted(arcs[:, 1], begins), np.searchsorted(arcs[:, 1], begins, side="right")
+        of_group, earlier = expanded(group, arcs[:, 0].astype(np.int64), *found)
+        sources, of_group = np.concatenate([begins - inside, earlier]), np.concatenate([group, of_group])
+        order = np.argsort(group[inside], kind="stable")
+        begins, group = begins[inside][order], group[inside][order]
+        found = np.searchsorted(group, of_group), np.searchsorted(group, of_group, side="right")
+        before, after = expanded(sources, begins, *found)
         robot_of = np.repeat(np.arange(len(self.first) - 1), np.diff(self.first))
-        for rotation in graph.rotations.values():
-            members = np.array(rotation)
-            begins, inside = self.of(members, np.full(len(members), BEGIN)), self.has(members)
-            if not inside.any() or (begins == self.first[self._moves.robot[members]]).any():
-                continue  # beyond, under way or over
-            sources = np.concatenate([begins - inside, arcs[np.isin(arcs[:, 1], begins), 0]])
-            begins = begins[inside]
-            before, after = np.repeat(sources, len(begins)), np.tile(begins, len(sources))
-            apart = robot_of[before] != robot_of[after]
-            ones = np.ones(int(apart.sum()), np.int64)
-            found.append(np.stack([before[apart], after[apart], ones], axis=1).astype(np.int32))
-        return np.concatenate(found)
+        apart = robot_of[before] != robot_of[after]
+        ones = np.ones(int(apart.sum()), np.int64)
+        return np.stack([before[apart], after[apart], ones], axis=1).astype(np.int32)

@@ -12,7 +12,7 @@ from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_dispatchers_reordering.alternative_graph import AlternativeGraph, State, alternative_graph
 from mrpbench_dispatchers_reordering.progress import Progress
-from mrpbench_dispatchers_reordering.visits import Conflicts, visits_of
+from mrpbench_dispatchers_reordering.visits import Conflicts, at_times, visits_of
 
 
 @attrs.frozen(kw_only=True)
@@ -84,17 +84,18 @@ class SwitchingSession(OrderKeepingSession):
         released = timed.segment < self.released[timed.robot]
         others = ~released
         others[moves] = False
-        others_in_order = np.flatnonzero(others)[np.argsort(timed.leave[others], kind="stable")]
         enter, leave = timed.enter.copy(), timed.leave.copy()
         latest = max(leave[released].max(initial=0), self.problem.since.max(initial=0))
-        sequence = np.concatenate([moves, others_in_order])
-        enter[sequence] = latest + 2 * np.arange(len(sequence))
-        leave[sequence] = enter[sequence] + 1
+        enter[moves] = latest + 2 * np.arange(len(moves))
+        leave[moves] = enter[moves] + 1
+        shift = max(0, int(latest) + 2 * len(moves) - int(enter[others].min(initial=np.iinfo(np.int64).max)))
+        enter[others] += shift
+        leave[others] += shift
         over = timed.segment < self.seen.min(axis=0)[timed.robot]
         try:
             self.retime(timed._replace(enter=enter, leave=leave), ~others & ~over)
         except DispatchError:
             return False
         self.moves = timed._replace(enter=enter, leave=leave)
-        self.visits = visits_of(self.problem, self.moves)
+        self.visits = at_times(self.visits, self.moves)
         return True

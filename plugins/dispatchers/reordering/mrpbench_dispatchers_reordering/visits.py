@@ -63,7 +63,7 @@ def visits_of(problem: Problem, moves: Moves) -> Visits:
         end=end,
         cleared=~disappears & (not footprints),
         completed=completed,
-        arrival=np.concatenate([problem.since if len(problem.since) else np.zeros(len(robots), np.int64), moves.leave]),
+        arrival=np.concatenate([problem.begins, moves.leave]),
     )
     kept = ~(disappears & (begin == NONE))
     there = _chosen(there, kept)
@@ -72,6 +72,12 @@ def visits_of(problem: Problem, moves: Moves) -> Visits:
         ways = Visits(moves.robot, len(problem.roadmap.position) + moves.edge, index, index, ~on, on, moves.leave)
         there = Visits(*(np.concatenate(columns) for columns in zip(there, ways, strict=True)))
     return there
+
+
+def at_times(visits: Visits, moves: Moves) -> Visits:
+    """The same visits, where the moves have other times."""
+    arrival = np.where(visits.begin == NONE, visits.arrival, np.append(moves.leave, 0)[visits.begin])
+    return visits._replace(arrival=arrival)
 
 
 def _chosen(visits: Visits, kept: Bool) -> Visits:
@@ -110,10 +116,10 @@ class Conflicts:
             right = right[np.argsort(visits.element[right], kind="stable")]
             there = visits.element[right]
             rows = visits.element[left]
-            one, at = _expanded(left, np.arange(len(near.element)), near.first[rows], near.first[rows + 1])
+            one, at = expanded(left, np.arange(len(near.element)), near.first[rows], near.first[rows + 1])
             element = near.element[at].astype(np.int64)
             begin, end = np.searchsorted(there, element), np.searchsorted(there, element, side="right")
-            one, other = _expanded(one, right, begin, end)
+            one, other = expanded(one, right, begin, end)
             once = (one < other) if mine == theirs else np.ones(len(one), bool)
             one, other = one[once], other[once]
             needed = ~self._are_implied(len(near.first), keys, visits.element[one], visits.element[other])
@@ -138,10 +144,10 @@ def _of_one_element(visits: Visits, chosen: Int) -> tuple[Int, Int]:
     order = chosen[np.argsort(visits.element[chosen], kind="stable")]
     there = visits.element[order]
     at = np.arange(len(order))
-    return _expanded(order, order, at + 1, np.searchsorted(there, there, side="right"))
+    return expanded(order, order, at + 1, np.searchsorted(there, there, side="right"))
 
 
-def _expanded(values: Int, lists: Int, begin: Int, end: Int) -> tuple[Int, Int]:
+def expanded(values: Int, lists: Int, begin: Int, end: Int) -> tuple[Int, Int]:
     """Each of `values` as often as there are elements in `lists[begin:end]`, and these elements."""
     size = end - begin
     at = np.arange(int(size.sum())) + np.repeat(begin - np.cumsum(size) + size, size)
