@@ -5,6 +5,7 @@ from enum import StrEnum
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.plan import Budget, PlanResult
 from mrpbench_core.model.planning.problem import Feature, Problem
 
@@ -42,6 +43,8 @@ class Planner(Component):
     group: ClassVar[str] = "mrpbench.planners"
     supports: ClassVar[frozenset[Feature]] = frozenset()
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE})
+    reads_remaining: ClassVar[bool] = False
+    """True if the planner uses `Problem.remaining`, which is otherwise not given."""
 
     @abstractmethod
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
@@ -64,6 +67,15 @@ class Planner(Component):
         """Return why this planner cannot be given `problem`, or None. By default: the features it does not support."""
         lacking = sorted(problem.features - self.supports)
         return f"does not support {', '.join(lacking)}" if lacking else None
+
+    def skip_tasks(self, problem: Problem, places: Int | None) -> str | None:  # noqa: ARG002
+        """Return why this planner cannot be used with tasks that come over time, or None, as by default.
+
+        Args:
+            problem: robots stand at their starts.
+            places: vertices i8[k] at which errands may be; None: not known.
+        """
+        return None
 
 
 class _OneShot(PlannerSession):

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Task
@@ -28,6 +29,11 @@ class TaskStream(ABC):
 
         Their indices count on, from 0, and no `release` is later than `now`.
         """
+
+    @property
+    def places(self) -> tuple[Float, Int16] | None:
+        """Positions f8[k,2] (metres) and levels i2[k] at which errands of the stream may be; None: not known."""
+        return None
 
     @property
     def ended(self) -> bool:

@@ -20,13 +20,14 @@ from mrpbench_core.engine.stage import Announce, RunEnded, RunInputs
 from mrpbench_core.engine.stages.assign import assign, tasks_of_plan
 from mrpbench_core.engine.stages.claims import claims_of
 from mrpbench_core.engine.stages.discrete import execute_steps
-from mrpbench_core.engine.stages.execute import execute_plan
+from mrpbench_core.engine.stages.execute import execute_plan, start_stream
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.measure import measure, measure_recording
 from mrpbench_core.engine.stages.plan import LATE_S, STATUS, budget_of, call_planner
 from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance, require_free_doorways
 from mrpbench_core.engine.stages.problem_building import build_problem, standing_problem
 from mrpbench_core.files.printing import printable
+from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.runs.run import FinishedRun, RunContext
@@ -71,7 +72,7 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
     assigned: tuple[int, ...] | None
     if config.tasks is not None:
         assigned, problem = (-1,) * len(instance.fleet), standing_problem(instance)
-        result, failure = _stand(inputs, problem, record), None
+        result, failure = _stand(inputs, instance, problem, record), None
     else:
         assigned = None if config.planner.assigns else assign(config, instance, inputs.announce, inputs.timing)
         if assigned is not None and config.scenario.gives_goals:
@@ -131,7 +132,7 @@ def _plan(inputs: RunInputs, problem: Problem, record: RunRecord) -> tuple[PlanR
     return result, None
 
 
-def _stand(inputs: RunInputs, problem: Problem, record: RunRecord) -> PlanResult:
+def _stand(inputs: RunInputs, instance: RunInstance, problem: Problem, record: RunRecord) -> PlanResult:
     """The first plan where tasks come over time: every robot stays where it is until it has one.
 
     Raises:
@@ -144,12 +145,22 @@ def _stand(inputs: RunInputs, problem: Problem, record: RunRecord) -> PlanResult
     else:
         asked = attrs.evolve(problem, features=problem.features | {Feature.COMMITMENTS})
         reason = replanning_fault(config) or config.planner.skip(own(asked))
+        reason = reason or config.planner.skip_tasks(own(problem), _places_of_tasks(config, instance))
     if reason:
         raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, reason)
     nothing = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
     result = PlanResult(status=PlanStatus.SOLVED, plan=Plan(paths=(nothing,) * len(problem)))
     inputs.observers.planned(problem=own(problem), result=own(result))
     return result
+
+
+def _places_of_tasks(config: RunConfig, instance: RunInstance) -> Int | None:
+    """The vertices at which tasks that come over time may have errands, if their source says so."""
+    places = start_stream(config, instance.world, instance.roadmap, instance.fleet).places
+    if places is None:
+        return None
+    vertices = np.unique(instance.roadmap.locate(*places)).astype(np.int64)
+    return vertices[vertices >= 0]
 
 
 def _unsolved(config: RunConfig, result: PlanResult, timing: Mapping[str, Any]) -> str:

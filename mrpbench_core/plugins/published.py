@@ -19,7 +19,7 @@ _METRICS = (
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
-    *("pbs", "pibt", "lacam", "lns", "league", "example", "external"),
+    *("pbs", "pibt", "lacam", "lns", "token_passing", "league", "example", "external"),
 )
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {

@@ -63,6 +63,8 @@ def run(folder, **changes):
     (point,) = load_study({**BASE, **changes}, []).runs
     paths = RunPaths(recording=folder / "run.zip", exports=folder / "exports", picture=None)
     record = execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
+    if record["status"] == "skipped":
+        return record, {}
     recording = Recording(paths.recording)
     channels = {name: load() for name, load in recording.channels.items()}
     recording.close()
@@ -187,3 +189,31 @@ def test_a_task_of_a_file_takes_a_robot_to_another_floor(tmp_path):
     ((_, task, robot),) = happened(channels, "done")
     assert (task, robot) == (0, 0)
     assert channels["level"][-1].tolist() == [1]
+
+
+def test_token_passing_does_well_formed_tasks_and_refuses_others(tmp_path):
+    rows = ["type octile", "height 3", "width 7", "map", ".......", ".@.@.@.", "......."]
+    (tmp_path / "room.map").write_text("\n".join([*rows, ""]))
+    (tmp_path / "tasks.csv").write_text("release,errands\n0,2.5 1.5;4.5 1.5\n0,4.5 1.5;2.5 1.5\n1,2.5 1.5\n")
+
+    def started(second):
+        starts = f"robots:\n- {{x: 0.5, y: 1.5}}\n- {{x: {second}, y: 1.5}}\n"
+        (tmp_path / "starts.yaml").write_text(f"mrpbench_scenario: 1\n{starts}tasks: []\n")
+        return run(
+            tmp_path,
+            world={"plugin": "movingai", "file": f"{tmp_path}/room.map"},
+            roadmap="grid",
+            scenario={"plugin": "file", "file": f"{tmp_path}/starts.yaml"},
+            tasks={"plugin": "file", "file": f"{tmp_path}/tasks.csv"},
+            assigner={"plugin": "token_passing", "task_swaps": True},
+            planner={"plugin": "rolling_horizon", "planner": "token_passing"},
+            replanning={"parking": "home"},
+        )
+
+    record, channels = started(6.5)
+    assert record["status"] == "succeeded", record
+    assert {task for _, task, _ in happened(channels, "done")} == {0, 1, 2}
+    assert "replan_failed" not in channels["event_kind"]
+    record, _ = started(2.5)
+    assert record["status"] == "skipped"
+    assert "needs well-formed tasks: robot 1 starts at (2.5, 1.5)" in record["error"]["message"]

@@ -5,15 +5,15 @@ plan again in every period, and resolve conflicts within a window of time. There
 begins; here they are on their way.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import attrs
 import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Planner, PlannerSession, Promise
-from mrpbench_core.model.common.arrays import Int32
-from mrpbench_core.model.planning.plan import Budget, Paths, Plan, PlanResult, PlanStatus, waits
+from mrpbench_core.model.common.arrays import Int, Int32
+from mrpbench_core.model.planning.plan import Budget, Path, Paths, Plan, PlanResult, PlanStatus, waits
 from mrpbench_core.model.planning.problem import Feature, Problem, ends_of
 from mrpbench_core.model.planning.type2_edges import moves_of
 from mrpbench_core.model.planning.window import until
@@ -43,9 +43,18 @@ class RollingHorizon(Planner):
         """What holds for the whole if it holds for the new part."""
         return self.planner.promises & {Promise.CONFLICT_FREE, Promise.DETERMINISTIC}
 
+    @property
+    def reads_remaining(self) -> bool:  # type: ignore[override]
+        """What the planner reads."""
+        return self.planner.reads_remaining
+
     def skip(self, problem: Problem) -> str | None:
         """Return why the planner cannot be given the new part, or None."""
         return self.planner.skip(self._given(problem))
+
+    def skip_tasks(self, problem: Problem, places: Int | None) -> str | None:
+        """Return why the planner cannot be used with tasks, or None."""
+        return self.planner.skip_tasks(problem, places)
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """Plan the new part."""
@@ -94,9 +103,22 @@ def from_rest(problem: Problem) -> Problem:
         ready=np.zeros_like(problem.ready),
         since=np.zeros(0, np.int64),
         commitments=(),
+        remaining=_from_rest(problem),
         horizon=None if problem.horizon is None else max(0, problem.horizon - _rest(problem)),
         features=problem.features - {Feature.COMMITMENTS, Feature.SINCE},
     )
+
+
+def _from_rest(problem: Problem) -> Sequence[Path]:
+    """What remains of the paths in force, all as much later as robots need to come to rest, counted from then on."""
+    if not problem.remaining:
+        return ()
+    paths, begin = Paths.of(problem.remaining), _rest(problem)
+    moves = paths.edge >= 0
+    shift = max(0, begin - int(paths.enter[moves].min(initial=begin))) - begin
+    enter, leave = np.maximum(paths.enter + shift, 0), np.maximum(paths.leave + shift, 0)
+    first = np.append(enter, 0)[paths.first[:-1]] * (paths.size > 0)
+    return waits(np.zeros_like(first), first).then(attrs.evolve(paths, enter=enter, leave=leave))
 
 
 def _rest(problem: Problem) -> int:

@@ -9,6 +9,7 @@ import attrs
 from mrpbench_core.api.component import option
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.builtin.task_sources.drawn import AnyPlace, Drawing
+from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Task
@@ -37,6 +38,10 @@ class ClosedPool(AnyPlace):
 class Draws(Protocol):
     """Gives tasks by their index."""
 
+    @property
+    def everywhere(self) -> tuple[Float, Int16]:
+        """Positions f8[k,2] and levels i2[k] of all errands."""
+
     def task(self, index: int, release: float) -> Task:
         """Return task `index`, released at `release` seconds."""
 
@@ -56,6 +61,11 @@ class ClosedPoolStream(TaskStream):
             found.append(self._drawing.task(self._index, now))
             self._index += 1
         return found
+
+    @property
+    def places(self) -> tuple[Float, Int16]:
+        """Where errands are drawn."""
+        return self._drawing.everywhere
 
     @property
     def ended(self) -> bool:

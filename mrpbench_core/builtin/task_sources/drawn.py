@@ -15,7 +15,7 @@ from mrpbench_core.builtin.scenarios.places import (
     places_of_world,
 )
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.model.worlds.world import World
@@ -74,6 +74,11 @@ class Drawing:
     places: tuple[Places, ...]
     """For each errand."""
     seed: int
+
+    @property
+    def everywhere(self) -> tuple[Float, Int16]:
+        """Positions f8[k,2] and levels i2[k] of all places."""
+        return np.concatenate([it.position for it in self.places]), np.concatenate([it.level for it in self.places])
 
     def task(self, index: int, release: float) -> Task:
         """Return task `index`, released at `release` seconds; no errand is at the place of the one before."""

@@ -2,7 +2,10 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from mrpbench_core.api.task_source import TaskStream
+from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.planning.scenario import Task
 
 
@@ -18,6 +21,12 @@ class ListedStream(TaskStream):
         while self._next < len(self._tasks) and self._tasks[self._next].release <= now:
             self._next += 1
         return self._tasks[first : self._next]
+
+    @property
+    def places(self) -> tuple[Float, Int16]:
+        """Where the errands are."""
+        goals = np.concatenate([task.goals[:, :2] for task in self._tasks])
+        return goals, np.concatenate([task.levels for task in self._tasks])
 
     @property
     def ended(self) -> bool:

@@ -11,7 +11,7 @@ from mrpbench_core.builtin.scenarios.lorr import centres_of
 from mrpbench_core.builtin.task_sources.closed_pool import ClosedPoolStream
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.lorr.problem import LorrProblem, problem_reads, read_problem
-from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Task
@@ -47,6 +47,11 @@ class Lines:
     problem: LorrProblem
     goals: Float
     """f8[k,3] of all errands."""
+
+    @property
+    def everywhere(self) -> tuple[Float, Int16]:
+        """Positions f8[k,2] and levels i2[k] of all errands."""
+        return self.goals[:, :2], np.zeros(len(self.goals), np.int16)
 
     def task(self, index: int, release: float) -> Task:
         """Return task `index`, released at `release` seconds."""

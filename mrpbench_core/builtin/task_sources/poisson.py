@@ -7,6 +7,7 @@ import attrs
 from mrpbench_core.api.component import option
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.builtin.task_sources.drawn import ARRIVALS, AnyPlace, Drawing, stream
+from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Task
@@ -45,6 +46,11 @@ class PoissonStream(TaskStream):
             self._index += 1
             self._next += self._gap()
         return found
+
+    @property
+    def places(self) -> tuple[Float, Int16]:
+        """Where errands are drawn."""
+        return self._drawing.everywhere
 
     def _gap(self) -> float:
         """Seconds between the task before the next one and the next one."""

@@ -1,11 +1,11 @@
-"""Commitments of a new plan: the released part of the old plan, with the times that it really takes."""
+"""The old plan at a new one: its released part, with the times that it really takes, and the rest of it."""
 
 import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Int, Int32
 from mrpbench_core.model.planning.plan import Paths, Plan, waits
-from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.problem import Problem, ends_of
 
 
 def commitments(problem: Problem, plan: Plan, released: Int32, reached: Int32, ready: Int, due: int) -> Paths:
@@ -40,3 +40,20 @@ def commitments(problem: Problem, plan: Plan, released: Int32, reached: Int32, r
     enter[follows] = leave[follows - 1]
     ends = np.where(kept.size > 0, np.append(leave, 0)[kept.first[1:] - 1], 0)
     return attrs.evolve(kept, enter=enter, leave=leave).then(waits(ends, due))
+
+
+def remaining(plan: Plan, released: Int32, problem: Problem) -> Paths:
+    """What follows the `released` i4[n] segments in `plan`, all of it as much later as the commitments of `problem`.
+
+    One shift for all robots keeps every order among them, and that to the commitments, none of which is delayed more.
+    """
+    whole = Paths.of(plan.paths)
+    rest = whole.part(released, whole.size)
+    before, now = whole.part(np.zeros_like(released), released), Paths.of(problem.commitments)
+    some = np.flatnonzero(rest.size)
+    begin = np.array(ends_of(problem), np.int64)
+    later = int((now.part(np.zeros_like(released), released).leave - before.leave).max(initial=0))
+    later = max(later, int((np.maximum(begin, problem.ready)[some] - rest.enter[rest.first[some]]).max(initial=0)))
+    enter = begin.copy()
+    enter[some] = rest.enter[rest.first[some]] + later
+    return waits(begin, enter).then(attrs.evolve(rest, enter=rest.enter + later, leave=rest.leave + later))

@@ -139,7 +139,7 @@ class ExecutionLoop:
     def _replan(self, view: FleetView) -> None:
         """Ask for a new plan if one is needed."""
         now, replanner, tasks, reactions = self._now, self._inputs.replanner, self._inputs.tasks, self._reactions
-        wish, released = self._orders.replan or reactions.reason(now), self._orders.released
+        wish, released = reactions.reason(now), self._orders.released
         given_up = reactions.update()
         if tasks is not None:
             head = heads(replanner.problem, replanner.moves, released)

@@ -7,7 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.config.settings import Replanning, RunConfig
-from mrpbench_core.engine.execution.commitments import commitments
+from mrpbench_core.engine.execution.commitments import commitments, remaining
 from mrpbench_core.engine.execution.cutting import driven, without
 from mrpbench_core.engine.execution.destinations import Destinations
 from mrpbench_core.engine.execution.routes import Router
@@ -59,6 +59,7 @@ class Replanner:
         problem: of the first plan.
         plan: the first plan.
         supports: features that the planner supports; with `since`, plans leave out what robots drove long ago.
+        reads_remaining: the planner uses what remains of the plan in force.
     """
 
     def __init__(
@@ -69,9 +70,11 @@ class Replanner:
         problem: Problem,
         plan: Plan,
         supports: frozenset[Feature] = frozenset(),
+        reads_remaining: bool = False,
     ) -> None:
         self.supports, self.yaw = supports, router.final_yaw
         self._cuts = Feature.SINCE in supports and router.plan_filter is None  # which may shift waypoints anywhere
+        self._reads_remaining = reads_remaining
         self._settings = settings
         self._ask = ask
         self._router = router
@@ -97,7 +100,7 @@ class Replanner:
         self._leave: Int = np.append(self._paths.leave, 0)  # one more to index at the end
 
     def reason(self, now: float, view: FleetView, wish: str | None) -> str | None:
-        """Return the reason why a new plan is needed now, or None; `wish` is that of the dispatcher."""
+        """Return the reason why a new plan is needed now, or None; `wish` is that of others."""
         settings = self._settings
         if now < self._not_before:
             return None
@@ -135,6 +138,9 @@ class Replanner:
         if self._cuts:
             cut = driven(self.plan, view.reached, view.cleared)
         problem = without(self.problem, prefix, cut)
+        if self._reads_remaining:
+            in_force = attrs.evolve(self.problem, commitments=prefix)
+            problem = attrs.evolve(problem, remaining=remaining(self.plan, released, in_force))
         features = self.problem.features | {Feature.COMMITMENTS} | ({Feature.SINCE} if problem.since.any() else set())
         if self._settings.window is not None:
             horizon = max(ends_of(problem)) + math.ceil(self._settings.window / tick - 1e-9)

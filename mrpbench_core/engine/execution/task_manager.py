@@ -6,7 +6,7 @@ plan in force leads it there.
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from typing import Protocol
 
 import numpy as np
@@ -86,6 +86,11 @@ class TaskManager:
     def ended(self) -> bool:
         """True if all tasks are done and none will come."""
         return self._stream.ended and not self._board.jobs
+
+    @property
+    def unfinished(self) -> Set[int]:
+        """The indices of the tasks that are released and not finished."""
+        return self._board.jobs.keys()
 
     @property
     def unserved(self) -> bool:
@@ -209,6 +214,10 @@ class TaskManager:
             length=length,
             between=between,
             profile=self._costs.profile.astype(np.int32),
+            errands=tuple(job.vertices for job in jobs),
+            ahead=tuple(
+                () if job is None else job.vertices[job.errand :] for job in map(self._board.begun, self._robots)
+            ),
         )
 
     def reason(self, now: float) -> str | None:

@@ -165,7 +165,8 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
         return result, fault or (f"the planner ended with {result.status}" if result.plan is None else None), late
 
     assert context.result.plan is not None
-    return Replanner(config.replanning, ask, router, context.problem, context.result.plan, config.planner.supports)
+    planner, problem, plan = config.planner, context.problem, context.result.plan
+    return Replanner(config.replanning, ask, router, problem, plan, planner.supports, planner.reads_remaining)
 
 
 def call_timing(seconds: list[float], limit: float) -> dict[str, float]:

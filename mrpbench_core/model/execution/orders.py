@@ -37,5 +37,3 @@ class Orders:
     in_step: tuple[tuple[tuple[int, int], ...], ...] = ()
     """Groups of (robot, segment) that rotate: each robot moves to where the next one of its group starts, so none of
     them may lead the others along these segments by more than a small distance."""
-    replan: str | None = None
-    """The reason why a new plan is needed, or None."""

@@ -59,3 +59,7 @@ class QueueProblem:
     `reads_between`."""
     profile: Int32 = array("i4")
     """i4[n] first index of `between` for each robot."""
+    errands: tuple[tuple[int, ...], ...] = ()
+    """Roadmap vertices of the errands of each of the m tasks."""
+    ahead: tuple[tuple[int, ...], ...] = ()
+    """For each of n robots the vertices of the errands left of the task that it has begun."""

@@ -131,12 +131,12 @@ class Paths(Sequence[Path]):
         return vertex[np.maximum.accumulate(known)].astype(np.int32)
 
 
-def waits(enter: Int, leave: int) -> Paths:
+def waits(enter: Int, leave: Int | int) -> Paths:
     """Paths that wait from `enter` i8[n] until `leave`, or that are empty where this is not later."""
     some = enter < leave
     first = np.concatenate([[0], np.cumsum(some)])
-    count = int(first[-1])
-    return Paths(first=first, edge=np.full(count, -1), enter=enter[some], leave=np.full(count, leave))
+    ends = np.broadcast_to(leave, enter.shape)[some]
+    return Paths(first=first, edge=np.full(len(ends), -1), enter=enter[some], leave=ends)
 
 
 def flat(paths: Sequence[Path]) -> Sequence[Path]:

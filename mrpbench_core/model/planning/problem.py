@@ -66,6 +66,9 @@ class Problem:
     """goals[robot] = the goal sets to visit in order; the robot ends at the last. Empty: it may end anywhere."""
     commitments: Sequence[Path] = attrs.field(default=(), converter=flat)
     """Released prefixes, one per robot (possibly empty), with which a new plan must begin; () = none."""
+    remaining: Sequence[Path] = attrs.field(default=(), converter=flat)
+    """What follows the commitments in the plan in force, one per robot, where the planner `reads_remaining`; () = none.
+    Commitments, each continued by it, are a plan without conflicts. Nothing has to be kept of it."""
     rules: Rules = Rules()
     horizon: int | None = None
     """Tick from which on paths may end anywhere, where their robots then stay; None = paths lead to the goals."""

@@ -4,10 +4,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.builtin.planners.rolling_horizon import RollingHorizon
+from mrpbench_core.builtin.planners.rolling_horizon import RollingHorizon, from_rest
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.engine.execution.commitments import commitments
-from mrpbench_core.model.planning.plan import Budget
+from mrpbench_core.engine.execution.commitments import commitments, remaining
+from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing import PlannerConformance
 from mrpbench_core.testing.instances.problems import grid_of, problem_on
@@ -49,3 +49,10 @@ def test_new_plans_begin_with_what_was_released_and_have_no_conflicts(cut, data)
     assert found.plan is not None
     assert not check_plan(new, found.plan).faults
     assert not check_plan(new, found.plan).conflicts
+
+    rest = remaining(plan, released, attrs.evolve(problem, commitments=prefix))
+    goes_on = attrs.evolve(new, goals=problem.goals, remaining=rest)
+    for asked, paths in ((goes_on, prefix.then(rest)), (given := from_rest(goes_on), given.remaining)):
+        report = check_plan(asked, Plan(paths=paths))
+        assert not report.faults
+        assert not report.conflicts

@@ -33,6 +33,13 @@ STUDY = {
     "recording": {"keep": "all"},
     "matrix": {"seed": f"0..{RUNS - 1}"},
 }
+TASKS = {
+    "roadmap": "graph",
+    "tasks": {"plugin": "poisson", "rate": 12},
+    "planner": {"plugin": "rolling_horizon", "planner": "prioritized"},
+    "limits": {"execution": 40, "iterations": 5},
+}
+"""With even seeds, tasks keep coming."""
 
 
 def invoke(out: Path) -> psutil.Popen:
@@ -99,7 +106,8 @@ def main(count: int, seed: int) -> int:
     with tempfile.TemporaryDirectory() as name:
         alone = Path(name, "alone")
         export = {"plugin": "rosbag2", "storage": ("mcap", "sqlite3")[seed % 2]}
-        write_document(Path(name, "study.yaml"), STUDY | {"export": [export]})
+        settings = STUDY | {"export": [export]} | (TASKS if seed % 2 == 0 else {})
+        write_document(Path(name, "study.yaml"), settings)
         assert invoke(alone).wait() == 0
         while done < count:
             rounds += 1
