@@ -19,7 +19,7 @@ RUNS_PER_PLANNER = {
     "table4": 54,
     "replicability": 300,
     "safe": 216,
-    "late_robots": 180,
+    "late_robots": 240,
     "league": 120,
     "orders": 10,
     "faults": 80,

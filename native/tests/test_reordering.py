@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_dispatchers_reordering import Sadg
 from mrpbench_dispatchers_reordering.searching import sum_of_arrivals
-from mrpbench_native.mapf import reorder
+from mrpbench_native.mapf import open_orders, reorder
 
 from mrpbench_core.testing.instances.switchable import Switchable, read_situation
 
@@ -66,9 +66,15 @@ def test_an_independent_solver_finds_no_better_order(graph):
 
 
 def test_arrays_that_make_no_sense_are_refused():
-    arrays = {"first": np.array([0, 2], np.int32), "duration": np.ones(2, np.int32), "wall_s": 1, "memory_bytes": 1}
+    graph = {"first": np.array([0, 2], np.int32), "duration": np.ones(2, np.int32)}
+    arrays = graph | {"wall_s": 1, "memory_bytes": 1}
     none, arc = np.empty((0, 3), np.int32), np.array([[0, 1, 1]], np.int32)
     with pytest.raises(ValueError, match=r"fixed\[0\] connects two events of one robot"):
         reorder(**arrays, fixed=arc, planned=none, switched=none)
     with pytest.raises(ValueError, match="as many switched arcs"):
         reorder(**arrays, fixed=none, planned=arc, switched=none)
+    nothing = {"fixed": none, "planned": none, "switched": none, "limit": 1}
+    with pytest.raises(ValueError, match="together names an event"):
+        open_orders(**graph, **nothing, together=np.array([0, 2], np.int32), begin=np.empty(0, np.int64))
+    with pytest.raises(ValueError, match="one value for each pair"):
+        open_orders(**graph, **nothing, together=np.array([0, 1], np.int32), begin=np.empty(1, np.int64))

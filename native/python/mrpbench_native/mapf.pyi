@@ -141,6 +141,38 @@ def earliest(first: NDArray[np.int32], duration: NDArray[np.int32], arcs: NDArra
         ValueError: the arcs form a cycle, or make no sense.
     """
 
+def open_orders(
+    *,
+    first: NDArray[np.int32],
+    duration: NDArray[np.int32],
+    fixed: NDArray[np.int32],
+    planned: NDArray[np.int32],
+    switched: NDArray[np.int32],
+    together: NDArray[np.int32],
+    begin: NDArray[np.int64],
+    limit: int,
+) -> NDArray[np.int32]:
+    """Find the pairs whose order may stay open: whichever way all of them are decided, there is no cycle.
+
+    Su, Veerapaneni and Li, "Bidirectional temporal plan graph", AAAI 2024.
+
+    Args:
+        first: as for `reorder`.
+        duration: as for `reorder`.
+        fixed: as for `reorder`.
+        planned: as for `reorder`.
+        switched: as for `reorder`.
+        together: i4[events]: the first event of a set of events that are at the same time, such as the event itself.
+        begin: i8[k] by pair: groups of pairs are tried in the order of their least value.
+        limit: number of groups that are tried.
+
+    Returns:
+        The group i4[k] of each pair whose order may stay open, -1 for the others.
+
+    Raises:
+        ValueError: indices out of range, arcs within one robot, or a planned order with a cycle.
+    """
+
 def reorder(
     *,
     first: NDArray[np.int32],

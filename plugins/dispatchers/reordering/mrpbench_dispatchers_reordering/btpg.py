@@ -16,7 +16,7 @@ from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_dispatchers_reordering.bidirectional import open_groups
 from mrpbench_dispatchers_reordering.switching import SwitchingDispatcher, SwitchingSession
-from mrpbench_dispatchers_reordering.visits import NONE, Pairs
+from mrpbench_dispatchers_reordering.visits import NONE
 
 
 @attrs.frozen(kw_only=True)
@@ -53,6 +53,10 @@ class BtpgSession(SwitchingSession):
         limit = self.options.group_limit
         self.pairs = self.conflicts.pairs(self.visits, np.arange(len(self.visits.robot) if limit else 0))
         self.group = open_groups(self.graph, self.visits, self.pairs, limit)
+        count = np.arange(len(self.group))
+        moves = np.concatenate([self.visits.begin[visit] for visit in self.pairs])
+        self._of_move = _Lists(moves, np.concatenate([count, count]))
+        self._of_group = _Lists(self.group, count)
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Release the moves that wait for nothing, or only for robots that come later to places with an open order."""
@@ -76,12 +80,16 @@ class BtpgSession(SwitchingSession):
     def _groups_ahead(self, robot: int) -> Int:
         """The groups with which a robot could go before all those that it waits for, if these are still to come."""
         first, second = self.pairs
-        blocks = np.flatnonzero(self.visits.begin[second] == self.graph.frontier[robot])
+        pairs = self._of_move[self.graph.frontier[robot]]
+        blocks = pairs[self.visits.robot[second[pairs]] == robot]
         blocks = blocks[~self._ended(first[blocks])]
         groups = np.unique(self.group[blocks])
-        switched = np.isin(self.group, groups)
-        if NONE in groups or (self._is_released(first[switched]) | self._is_released(second[switched])).any():
+        if NONE in groups:
             return np.empty(0, np.int64)
+        for group in groups.tolist():
+            members = self._of_group[group]
+            if (self._is_released(first[members]) | self._is_released(second[members])).any():
+                return np.empty(0, np.int64)
         return groups
 
     def _switch(self, groups: Int, view: FleetView) -> bool:
@@ -89,11 +97,14 @@ class BtpgSession(SwitchingSession):
         graph, (first, second) = self.next_decisions(view), self.pairs
         count = len(self.visits.robot)
         decided = graph.pairs.first * count + graph.pairs.second
-        near = np.setdiff1d(groups, self.group[~np.isin(first * count + second, decided)])
-        switched = np.isin(self.group, near)
-        if not switched.any() or not self.put_next(graph.order(np.isin(decided, (first * count + second)[switched]))):
+        members = [self._of_group[group] for group in np.unique(groups).tolist()]
+        near = [pairs for pairs in members if np.isin(first[pairs] * count + second[pairs], decided).all()]
+        if not near:
             return False
-        self.pairs = Pairs(np.where(switched, second, first), np.where(switched, first, second))
+        switched = np.concatenate(near)
+        if not self.put_next(graph.order(np.isin(decided, first[switched] * count + second[switched]))):
+            return False
+        first[switched], second[switched] = second[switched], first[switched]
         return True
 
     def _is_released(self, visit: Int) -> Bool:
@@ -110,3 +121,15 @@ class BtpgSession(SwitchingSession):
         for row, needed in ((CLEARED, visits.cleared[visit]), (REACHED, visits.completed[visit])):
             ended &= ~needed | (self.seen[row, robot] > moves.segment[end])
         return ended
+
+
+class _Lists:
+    """Lists of values by key."""
+
+    def __init__(self, keys: Int, values: Int) -> None:
+        order = np.argsort(keys, kind="stable")
+        self._keys, self._values = keys[order], values[order]
+
+    def __getitem__(self, key: int) -> Int:
+        begin, end = np.searchsorted(self._keys, [key, key + 1])
+        return self._values[begin:end]

@@ -24,7 +24,7 @@ class Gses(SearchingDispatcher):
     """Releases moves in the order that lets robots arrive earliest, given how late they are."""
 
     work_limit: int = option(
-        200_000,
+        100_000,
         help="times of events that one search computes, after which the best order found is taken",
         validator=attrs.validators.ge(0),
     )
