@@ -23,6 +23,7 @@ from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS, contacts, events
 from mrpbench_exporters_rosbag2.fleet_states import fleet_states
 from mrpbench_exporters_rosbag2.frames import frames
 from mrpbench_exporters_rosbag2.messages import Topic, message, nanoseconds, time
+from mrpbench_exporters_rosbag2.people import mover_numbers, people, people_markers
 from mrpbench_exporters_rosbag2.rmf import Release
 from mrpbench_exporters_rosbag2.robots import robot_markers
 from mrpbench_exporters_rosbag2.routes import routes
@@ -151,6 +152,10 @@ def sources(context: RunContext, rmf: Release) -> Iterator[TopicSource]:
         yield advance(len(robots))
         yield fleet_states(context, rmf)
     yield robot_markers(context)
+    if context.movers:
+        yield people(context)
+        yield people_markers(context)
+        yield mover_numbers(context)
     if Facilities(context.world).names:
         yield facility_numbers(context.world)
     for index, (name, robot) in enumerate(robots):

@@ -1,19 +1,13 @@
 """Estimated poses for Open-RMF: `/fleet_states`, as fleet drivers publish it."""
 
-from functools import lru_cache
-from itertools import pairwise
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
-from mrpbench_core.model.common.arrays import Int, Int16
 from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2.messages import Topic, time
 from mrpbench_exporters_rosbag2.rmf import ADAPTER_ERROR, IDLE, MOVING, WAITING, Release, rmf_message, rmf_types
-from mrpbench_exporters_rosbag2.source import Rows, Throttle, TopicSource
+from mrpbench_exporters_rosbag2.source import Rows, Throttle, TopicSource, Varying
 from mrpbench_exporters_rosbag2.template import STAMP, Template, hole
 
 FLEET = "mrpbench"
@@ -48,28 +42,8 @@ def fleet_states(context: RunContext, release: Release) -> TopicSource:
             "level": block["level"][shown],
         }
 
-    return TopicSource(topic, _ByLevel(context, topic), rows)
-
-
-class _ByLevel:
-    """A template for every combination of levels that robots are on: the lengths of their names differ."""
-
-    def __init__(self, context: RunContext, topic: Topic) -> None:
-        self._context, self._topic = context, topic
-        self._of = lru_cache(4)(self._template)
-
-    def fill(self, stamps: Int, **values: NDArray[Any]) -> list[bytes]:
-        """One message for each of `stamps`."""
-        level: Int16 = values.pop("level")
-        changes = np.flatnonzero((level[1:] != level[:-1]).any(axis=1)) + 1
-        messages = []
-        for begin, end in pairwise([0, *changes.tolist(), len(stamps)]):
-            part = {name: rows[begin:end] for name, rows in values.items()}
-            messages += self._of(tuple(level[begin].tolist())).fill(stamps[begin:end], **part)
-        return messages
-
-    def _template(self, levels: tuple[int, ...]) -> Template:
-        types, fleet = self._topic.types, self._context.fleet
+    def template(levels: tuple[int, ...]) -> Template:
+        types, fleet = topic.types, context.fleet
         states = []
         for index, (robot, name, level) in enumerate(zip(fleet.robots, fleet.names, levels, strict=True)):
             place = rmf_message(
@@ -81,7 +55,7 @@ class _ByLevel:
                 yaw=PLACE[2],
                 obey_approach_speed_limit=False,
                 approach_speed_limit=0.0,
-                level_name=self._context.world.levels[level].name,
+                level_name=context.world.levels[level].name,
                 index=0,
             )
             mode = rmf_message(types, "RobotMode", mode=STATE[0], mode_request_id=0, performing_action="")
@@ -91,7 +65,7 @@ class _ByLevel:
                     "RobotState",
                     name=name,
                     model=robot.name,
-                    task_id=str(self._context.assigned[index]) if self._context.assigned else "",
+                    task_id=str(context.assigned[index]) if context.assigned else "",
                     seq=COUNT[0],
                     mode=mode,
                     battery_percent=100.0,
@@ -100,4 +74,6 @@ class _ByLevel:
                 )
             )
         value = rmf_message(types, "FleetState", name=FLEET, robots=states)
-        return Template(self._topic.type, value, {"place": PLACE, "mode": STATE, "seq": COUNT}, types)
+        return Template(topic.type, value, {"place": PLACE, "mode": STATE, "seq": COUNT}, types)
+
+    return TopicSource(topic, Varying("level", template), rows)

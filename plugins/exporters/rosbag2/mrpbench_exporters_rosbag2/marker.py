@@ -11,6 +11,8 @@ from mrpbench_exporters_rosbag2.template import STAMP
 
 ARROW, CYLINDER, LINE_STRIP, LINE_LIST, TEXT = 0, 3, 4, 5, 9
 """Types of `visualization_msgs/Marker`."""
+ADD, DELETE = 0, 2
+"""Its actions."""
 Colour = tuple[float, float, float, float]
 """Red, green, blue, alpha."""
 DARK = (0.1, 0.1, 0.1, 1.0)
@@ -33,6 +35,7 @@ def marker(
     text: str = "",
     values: Float = POSE,
     stamp: int = STAMP,
+    action: int = ADD,
 ) -> object:
     """A marker in `map` that stays until another with the same namespace and number replaces it."""
     red, green, blue, alpha = colour
@@ -42,7 +45,7 @@ def marker(
         ns=namespace,
         id=number,
         type=kind,
-        action=0,
+        action=action,
         pose=pose(values),
         scale=vector(scale),
         color=message("std_msgs/ColorRGBA", r=red, g=green, b=blue, a=alpha),

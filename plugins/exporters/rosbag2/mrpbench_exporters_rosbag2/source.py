@@ -2,9 +2,12 @@
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from functools import lru_cache
+from itertools import pairwise
 from typing import Any, Protocol
 
 import attrs
+import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.model.common.arrays import Float, Int
@@ -42,6 +45,25 @@ class Templates(Protocol):
 
     def fill(self, stamps: Int, **values: NDArray[Any]) -> list[bytes]:
         """One message for each of `stamps`."""
+
+
+class Varying:
+    """Makes a template for every state of what is more than numbers in a message, such as names of levels."""
+
+    def __init__(self, state: str, template: Callable[[tuple[Any, ...]], Templates]) -> None:
+        """`state` names the rows [k,n] of the states that `template` gets."""
+        self._state = state
+        self._of = lru_cache(4)(template)
+
+    def fill(self, stamps: Int, **values: NDArray[Any]) -> list[bytes]:
+        """One message for each of `stamps`."""
+        state = values.pop(self._state)
+        changes = np.flatnonzero((state[1:] != state[:-1]).any(axis=1)) + 1
+        messages = []
+        for begin, end in pairwise([0, *changes.tolist(), len(stamps)]):
+            part = {name: rows[begin:end] for name, rows in values.items()}
+            messages += self._of(tuple(state[begin].tolist())).fill(stamps[begin:end], **part)
+        return messages
 
 
 @attrs.frozen

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from mrpbench_core.checking.context import check_rows
 from mrpbench_core.checking.recording import axis_of, check_names
 from mrpbench_core.files.errors import one_line
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
-from mrpbench_exporters_rosbag2 import advance, routes, whole
+from mrpbench_exporters_rosbag2 import advance, people, routes, whole
 from mrpbench_exporters_rosbag2.doors_and_lifts import NUMBERS
 from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS
 from mrpbench_exporters_rosbag2.messages import SECOND, full_name
@@ -19,7 +20,7 @@ from mrpbench_exporters_rosbag2.reading.collected import TRANSFORMS, Take, nanos
 from mrpbench_exporters_rosbag2.reading.signals import Said, Signals, table, turn
 from mrpbench_exporters_rosbag2.reading.transforms import compose
 
-TOPICS = (whole.TOPIC, advance.TOPIC, CONTACTS, EVENTS, NUMBERS, routes.TOPIC)
+TOPICS = (whole.TOPIC, advance.TOPIC, CONTACTS, EVENTS, NUMBERS, people.NUMBERS, routes.TOPIC)
 TF = "/tf"
 KINDS = {"released": "i4", "reached": "i4", "cleared": "i4", "mode": "u1", "level": "i2"}
 
@@ -48,6 +49,7 @@ class Own:
             CONTACTS.name: self._contact,
             EVENTS.name: self._event,
             NUMBERS.name: self._facility,
+            people.NUMBERS.name: self._mover,
             routes.TOPIC.name: self._routes,
         }
         return {topic: takes[topic] for topic in self._topics} | (
@@ -75,7 +77,7 @@ class Own:
         return found
 
     def _channels(self, begin: int, context: RunContext) -> Chunk:
-        numbers = {name: index for index, name in enumerate(context.fleet.names)}
+        numbers = {name: index for index, name in enumerate((*context.fleet.names, *context.mover_names))}
 
         def times(name: str) -> NDArray[Any]:
             return (np.array(self._rows[name], np.int64) - begin) / SECOND
@@ -91,6 +93,7 @@ class Own:
             **self._sampled(),
             **self._scans(begin),
             **self._facilities(),
+            **self._movers(),
             "contact_time": times("contact_time"),
             "contact": np.array(pairs, "i4").reshape(-1, 2),
             "event_time": times("event_time"),
@@ -134,18 +137,32 @@ class Own:
         }
 
     def _facilities(self) -> Chunk:
-        """States of doors and lifts, if there is one at every sample."""
-        states = self._rows["facility"]
-        if not states:
+        states = self._at_samples("facility", NUMBERS.name, "the states of doors and lifts")
+        return {} if states is None else {"facility": states}
+
+    def _movers(self) -> Chunk:
+        rows = self._at_samples("mover", people.NUMBERS.name, "people and other movers")
+        if rows is None:
             return {}
-        if self._rows["facility_time"] != self._rows["time"]:
-            self.notes.append(f"not every sample is on {NUMBERS.name}: the states of doors and lifts were not read")
-            return {}
-        return {"facility": np.array(states, float)}
+        table = rows.reshape(len(rows), -1, len(people.COLUMNS))
+        return {"mover": table[..., :-1], "mover_level": table[..., -1].astype("i2")}
+
+    def _at_samples(self, name: str, topic: str, what: str) -> Float | None:
+        """Rows of a topic, if there is one at every sample."""
+        if not self._rows[name]:
+            return None
+        if self._rows[f"{name}_time"] != self._rows["time"]:
+            self.notes.append(f"not every sample is on {topic}: {what} were not read")
+            return None
+        return np.array(self._rows[name], float)
 
     def _facility(self, logged: int, message: Any) -> None:
         self._rows["facility_time"].append(logged)
         self._rows["facility"].append(message.data)
+
+    def _mover(self, logged: int, message: Any) -> None:
+        self._rows["mover_time"].append(logged)
+        self._rows["mover"].append(message.data)
 
     def _transforms(self, logged: int, message: Any) -> None:
         """Estimates, which are what a robot's two transforms make together; see `frames`."""
