@@ -45,6 +45,7 @@ def check_rows(name: str, rows: NDArray[Any], time: NDArray[Any], context: RunCo
     bounds = {
         "level": (0, len(context.world.levels)),
         "mover_level": (-1, len(context.world.levels)),
+        "mover_arrivals": (-1, 2**31),
         "route_level": (0, len(context.world.levels)),
         "mode": (0, max(Mode) + 1),
         "waits_for": (-1, len(context.problem.roadmap.resources)),

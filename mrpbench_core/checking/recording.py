@@ -35,6 +35,7 @@ LAYOUTS: Mapping[str, Layout] = {
     "facility": Layout("f", "time", (ANY,)),
     "mover": Layout("f", "time", (MOVERS, 5)),
     "mover_level": Layout("iu", "time", (MOVERS,)),
+    "mover_arrivals": Layout("i", "time", (MOVERS,)),
     "contact_time": Layout("f", "contact_time"),
     "contact": Layout("i", "contact_time", (2,)),
     "scan_time": Layout("f", "scan_time"),

@@ -141,6 +141,8 @@ def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
         yield "grant_truth", f"{IDLE}{_name(localizer)} does not need it"
     if config.replanning.delay is None and config.replanning.period is None:
         yield "replanning.latency", f"{IDLE}neither `delay` nor `period` calls for new plans"
+    if not config.crowds:
+        yield "crowds_apart", f"{IDLE}there are no crowds"
     for block in ("delays", "faults"):
         for name, reason in getattr(config, block).idle_options().items():
             yield f"{block}.{name}", f"{IDLE}{reason}"

@@ -235,6 +235,11 @@ class RunConfig:
     crowds: tuple[Crowd, ...] = option(
         (), help="people and other movers among the robots: one crowd, or a list; () = none"
     )
+    crowds_apart: bool = option(
+        False,
+        help="the twin of a run with crowds: robots and crowds move at the same time, and neither sees nor touches the "
+        "other, so that differences are what they cost one another",
+    )
     localizer: Localizer | None = block("ground_truth", help="tells robots where they are", validator=_drives)
     control_rate: float = option(
         20.0, help="rate at which dispatcher, navigator and controller act", unit="Hz", validator=validators.gt(0)
@@ -284,6 +289,7 @@ WITHOUT_PHYSICS = (
     "localizer",
     "plan_filter",
     "crowds",
+    "crowds_apart",
     "noise",
     "grant_truth",
     "replanning",
@@ -294,6 +300,7 @@ WITHOUT_PHYSICS = (
 ONLY_EXECUTION = (
     "plan_filter",
     "crowds",
+    "crowds_apart",
     "control_rate",
     "goal_tolerance",
     "grant_truth",

@@ -14,7 +14,7 @@ from mrpbench_core.engine.execution.faults import FaultEvent
 from mrpbench_core.engine.execution.gait import Gait
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
-from mrpbench_core.model.common.arrays import Float, Int16
+from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import CrowdView, Mover, Movers
 from mrpbench_core.model.execution.state import Inputs, State
@@ -24,6 +24,9 @@ from mrpbench_core.model.worlds.world import World
 
 class Crowds:
     """Sessions of crowds, started, and what stands on blocked places.
+
+    If they are `apart`, crowds and robots do not meet: no crowd is given robots after the start, and no simulator is
+    given members of crowds. What stands on blocked places remains.
 
     Raises:
         BrokenContractError: a crowd returned what its contract rules out, here or in any method.
@@ -42,6 +45,7 @@ class Crowds:
         *,
         poses: Float,
         levels: Int16,
+        apart: bool = False,
     ) -> None:
         self._period, self._levels = period, len(world.levels)
         self._doors = frozenset(door.name for door in Facilities(world).doors if door.lift is None)
@@ -54,6 +58,7 @@ class Crowds:
         """Where the members are now."""
         if crowds:
             self._start(crowds, world, fleet, (seed, repeat), _at_rest(world, poses, levels))
+        self._unmet = len(self.members) if apart else 0
         if blocked:
             self._add(Blockages(blocked, fleet))
         self._gait = Gait(self.members)
@@ -80,6 +85,8 @@ class Crowds:
         """Let a control period pass, from the `state` at its beginning."""
         if not self._sessions:
             return
+        if self._unmet:
+            state = attrs.evolve(state, level=np.full(len(state.level), -1, np.int16))
         parts = [session.movers for session in self._sessions]
         for index, (first, last) in enumerate(pairwise(self._first)):
             before = self.movers
@@ -106,9 +113,11 @@ class Crowds:
         if not self.members:
             return inputs
         bodies, seen = np.hstack([movers.pose[:, :2], movers.velocity]), self._gait.seen(movers, self._period)
-        absent = movers.level < 0
+        level = movers.level.copy()
+        level[: self._unmet] = -1
+        absent = level < 0
         bodies[absent, :2], seen[absent, :4] = np.inf, np.inf
-        return attrs.evolve(inputs, movers=bodies, mover_level=movers.level, seen=seen)
+        return attrs.evolve(inputs, movers=bodies, mover_level=level, seen=seen)
 
     def _joined(self, parts: Sequence[Movers]) -> Movers:
         for part, (first, last) in zip(parts, pairwise(self._first), strict=True):
@@ -119,6 +128,8 @@ class Crowds:
                 _refuse(f"{len(part.pose)} movers instead of {size}")
             if not np.isfinite(part.pose).all() or not np.isfinite(part.velocity).all():
                 _refuse("a place or velocity that is not finite")
+            if part.arrivals is not None and len(part.arrivals) != size:
+                _refuse(f"arrivals of {len(part.arrivals)} movers instead of {size}")
             if size and not (part.level.min() >= -1 and part.level.max() < self._levels):
                 _refuse("a level that the world does not have")
         if not parts:
@@ -127,7 +138,13 @@ class Crowds:
             pose=np.concatenate([part.pose for part in parts]),
             velocity=np.concatenate([part.velocity for part in parts]),
             level=np.concatenate([part.level for part in parts]),
+            arrivals=np.concatenate([_arrivals(part) for part in parts]),
         )
+
+
+def _arrivals(movers: Movers) -> Int32:
+    """Goals i4[m] that movers have reached, -1 = has none."""
+    return np.full(len(movers.level), -1, np.int32) if movers.arrivals is None else movers.arrivals
 
 
 def _at_rest(world: World, poses: Float, levels: Int16) -> State:

@@ -131,6 +131,7 @@ class Recorder:
         if sample.movers is not None:
             rows["mover"].append(np.hstack([sample.movers.pose, sample.movers.velocity]))
             rows["mover_level"].append(sample.movers.level)
+            rows["mover_arrivals"].append(sample.movers.arrivals)
         if len(rows["time"]) >= SAMPLES:
             self.flush()
 

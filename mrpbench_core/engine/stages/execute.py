@@ -76,6 +76,7 @@ def execute_plan(
         blocked,
         poses=poses,
         levels=levels,
+        apart=config.crowds_apart,
     )
     context = attrs.evolve(context, movers=crowds.members)
     writer = RecordingWriter(inputs.paths.recording, context)

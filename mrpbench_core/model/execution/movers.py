@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.model.common.arrays import Float, Int16, array
+from mrpbench_core.model.common.arrays import Float, Int16, Int32, array
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.worlds.level_layout import LevelLayout
 
@@ -33,6 +33,8 @@ class Movers:
     """f8[m,2] x, y in m/s."""
     level: Int16 = array("i2")
     """i2[m] index into `World.levels`; -1 = absent, with the pose at which it will come or has left."""
+    arrivals: Int32 | None = None
+    """i4[m] number of goals that each has reached so far, -1 = has none; None = nobody has any."""
 
 
 @attrs.frozen(kw_only=True)
@@ -40,7 +42,7 @@ class CrowdView:
     """What a crowd sees of the truth when it moves: robots as at the beginning of the control period."""
 
     state: State
-    """The robots, and what doors and lifts do."""
+    """The robots, those on level -1 not being there, and what doors and lifts do."""
     others: Movers
     """The movers of the other crowds; those of crowds before this one have moved in this period already."""
     radius: Float = array("f8")

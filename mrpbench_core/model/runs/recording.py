@@ -15,6 +15,7 @@
 | `facility` | f8[F] | what doors and lifts do, in the order of `Facilities.names`; only where there are some |
 | `mover` | f8[m,5] | true x, y, yaw in `map` and velocity x, y of each mover; only where there are some |
 | `mover_level` | i2[m] | index into `World.levels`, -1 = absent; with `mover` |
+| `mover_arrivals` | i4[m] | number of goals that each mover has reached, -1 = has none; with `mover` |
 | `contact_time`, `contact` | f8; i4[2] | per pair and period in contact: robot; robot, -1 = wall or n + j = mover j |
 | `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
 | `route_time`, `route_revision`, `route_robot` | f8; i4; i4 | one row per new waypoint of each plan after the first |

@@ -52,9 +52,9 @@ class AskingSession(CrowdSession):
         return set(self.options.doors) if not self.seen else set()
 
 
-def start(*crowds, world=None):
+def start(*crowds, world=None, apart=False):
     poses, levels = np.array([(1.0, 1.0, 0.0)]), np.zeros(1, np.int16)
-    return Crowds(crowds, world or room(), fleet(1), PERIOD, 0, 0, poses=poses, levels=levels)
+    return Crowds(crowds, world or room(), fleet(1), PERIOD, 0, 0, poses=poses, levels=levels, apart=apart)
 
 
 @attrs.frozen(kw_only=True)
@@ -105,6 +105,18 @@ def test_what_a_crowd_must_not_return_is_refused(crowd, said):
         start(crowd, world=building()).doors(STATE, {})
 
 
+def test_crowds_apart_see_no_robots_and_simulators_none_of_their_members():
+    crowds = start(ONE, Asking(), apart=True)
+    crowds.step(STATE)
+    (seen,) = crowds._sessions[1].seen
+    assert seen.state.level.tolist() == [-1]
+    assert seen.others.level.tolist() == [0]
+    given = crowds.inputs(Inputs(twist=[[0, 0]]))
+    assert given.mover_level.tolist() == [-1, -1]
+    assert np.isinf(given.movers[:, :2]).all()
+    assert crowds.movers.level.tolist() == [0, 0]
+
+
 def test_absent_members_are_nowhere_for_the_simulator(tmp_path):
     (tmp_path / "tracks.csv").write_text("id,t,x,y\na,1,1,1\na,2,2,1\n")
     crowds = start(Scripted(file=tmp_path / "tracks.csv"))
@@ -124,11 +136,14 @@ levels:
 """
 
 
-def test_movers_are_recorded_and_touches_name_them(tmp_path):
+CART = {"plugin": "scripted", "tracks": [{"keyframes": [[0, 4, 2]]}], "kind": "cart", "legs": False}
+PERSON = {"plugin": "scripted", "tracks": [{"keyframes": [[0, 2, 3], [10, 6, 3]], "loop": True}]}
+
+
+def drive(tmp_path, **settings):
+    """The record and the recording of a robot that drives through the hall."""
     pytest.importorskip("mrpbench_planners_mapf")
     (tmp_path / "hall.building.yaml").write_text(HALL)
-    cart = {"plugin": "scripted", "tracks": [{"keyframes": [[0, 4, 2]]}], "kind": "cart", "legs": False}
-    person = {"plugin": "scripted", "tracks": [{"keyframes": [[0, 2, 3], [10, 6, 3]], "loop": True}]}
     study = {
         "world": {"plugin": "rmf", "file": str(tmp_path / "hall.building.yaml")},
         "roadmap": "graph",
@@ -138,12 +153,15 @@ def test_movers_are_recorded_and_touches_name_them(tmp_path):
         "control_rate": "10 Hz",
         "limits": {"execution": "20 s"},
         "metrics": ["execution"],
-        "crowds": [person, cart],
     }
-    (point,) = load_study(study).runs
+    (point,) = load_study(study | settings).runs
     paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
     record = execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
-    recording = Recording(tmp_path / "run.zip")
+    return record, Recording(tmp_path / "run.zip")
+
+
+def test_movers_are_recorded_and_touches_name_them(tmp_path):
+    record, recording = drive(tmp_path, crowds=[PERSON, CART])
     mover, contact = recording.channel("mover"), recording.channel("contact")
     assert mover[:, 1, :2].tolist() == [[4, 2]] * len(mover)
     assert mover[50, 0, [0, 3]] == pytest.approx([4.0, 0.4])  # 5 s after the start
@@ -151,5 +169,18 @@ def test_movers_are_recorded_and_touches_name_them(tmp_path):
     assert recording.context().mover_names == ("person_0", "cart_1")
     assert set(map(tuple, contact.tolist())) == {(0, 2)}
     assert recording.channel("event_detail")[recording.channel("event_kind") == "contact"][0] == "mover_1"
+    arrivals = recording.channel("mover_arrivals")
     recording.close()
+    assert (arrivals == -1).all()
     assert record["metrics"]["execution.wall_contacts"] == record["metrics"]["execution.robot_contacts"] == 0
+
+
+def test_robots_apart_from_crowds_drive_as_without_them(tmp_path):
+    _, alone = drive(tmp_path)
+    truth = alone.channel("truth")
+    alone.close()
+    _, apart = drive(tmp_path, crowds=CART, crowds_apart=True)
+    assert np.array_equal(apart.channel("truth"), truth)
+    assert not len(apart.channel("contact"))
+    assert (apart.channel("mover_level") == 0).all()
+    apart.close()

@@ -65,6 +65,7 @@ class WalkingSession(CrowdSession):
         self._places = self._floor.places[drawn.integers(len(self._floor.places), size=recipe.places)]
         start = self._starts(drawn, seen)
         self._goal_number = np.zeros(count, int)
+        self._has_goals = np.array([self._goals_of(person) for person in range(count)], bool)
         self._goal = np.array([self._next_goal(person) for person in range(count)]).reshape(-1, 2)
         self._waits = np.zeros(count)
         self._seen_for, self._done = np.zeros(count), np.zeros(count, bool)
@@ -89,9 +90,9 @@ class WalkingSession(CrowdSession):
     def movers(self) -> Movers:
         """Where they are now."""
         level: Int16 = np.full(len(self.members), self._level, np.int16)
-        return Movers(
-            pose=np.column_stack([self._walkers.place, self._yaw]), velocity=self._walkers.velocity, level=level
-        )
+        arrivals = np.where(self._has_goals, self._goal_number, -1).astype(np.int32)
+        pose = np.column_stack([self._walkers.place, self._yaw])
+        return Movers(pose=pose, velocity=self._walkers.velocity, level=level, arrivals=arrivals)
 
     def wanted_doors(self) -> set[str]:
         """Doors near people who walk towards them, and doors in which somebody stands."""
@@ -127,7 +128,7 @@ class WalkingSession(CrowdSession):
         self._waits = np.maximum(self._waits - dt, 0.0)
         away = np.hypot(*(self._goal - place).T)
         for person in np.flatnonzero(away < self._recipe.radius + REACHED).tolist():
-            if self._goals_of(person) and self._waits[person] == 0:
+            if self._has_goals[person] and self._waits[person] == 0:
                 self._arrive(person)
         walking = np.flatnonzero((self._waits == 0) & (away > self._recipe.radius))
         velocity[walking] = self._to_goals(place, walking)

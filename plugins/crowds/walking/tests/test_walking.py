@@ -63,9 +63,10 @@ def test_places_of_people_may_be_names_of_the_world():
 
 @pytest.mark.parametrize("kind", [SocialForce, Orca])
 def test_two_people_who_meet_head_on_pass_and_arrive(kind):
-    _, found = walk(kind(given=ACROSS, stay=60.0), 12)
+    session, found = walk(kind(given=ACROSS, stay=60.0), 12)
     assert found[:, 0, 0].max() > 2.7
     assert found[:, 1, 0].min() < 1.3
+    assert session.movers.arrivals.tolist() == [1, 1]
     assert np.hypot(*(found[:, 0, :2] - found[:, 1, :2]).T).min() >= 0.5 - 2e-4
 
 

@@ -14,7 +14,7 @@ from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.runs.recording import PERIODIC, Chunk
 
 AXES = {
-    "time": (*PERIODIC, "facility", "mover", "mover_level"),
+    "time": (*PERIODIC, "facility", "mover", "mover_level", "mover_arrivals"),
     "scan_time": ("scan_robot", "scan_ranges"),
     "contact_time": ("contact",),
     "event_time": ("event_kind", "event_robot", "event_detail"),

@@ -29,8 +29,8 @@ HEIGHT = {"person": 1.7}
 LOW = 1.0
 """Metres of cylinders of other kinds."""
 COLOUR = (0.55, 0.6, 0.65, 0.8)
-COLUMNS = ("x", "y", "yaw", "vx", "vy", "level")
-"""Of a mover on `/movers`: the channels `mover` and `mover_level`."""
+COLUMNS = ("x", "y", "yaw", "vx", "vy", "level", "arrivals")
+"""Of a mover on `/movers`: the channels `mover`, `mover_level` and `mover_arrivals`."""
 PLACE, VELOCITY = hole(3), hole(4)[:3]
 NOWHERE = np.array([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
 DEFINITIONS = {
@@ -67,7 +67,9 @@ def mover_numbers(context: RunContext) -> TopicSource:
     def rows(block: Chunk) -> Rows | None:
         if "mover" not in block:
             return None
-        table = np.concatenate([block["mover"], block["mover_level"][..., None]], axis=2)
+        level = block["mover_level"]
+        arrivals = block.get("mover_arrivals", np.full_like(level, -1))  # older recordings lack them
+        table = np.concatenate([block["mover"], level[..., None], arrivals[..., None]], axis=2)
         return block["time"], {"row": table.reshape(len(table), -1)}
 
     template = Template(NUMBERS.type, message(NUMBERS.type, layout=layout, data=numbers), {"row": numbers})

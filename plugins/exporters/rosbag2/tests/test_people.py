@@ -26,7 +26,12 @@ def walking(recording):
     cart = np.stack([zero + 5, zero + 1, zero + np.pi / 2, zero, zero], axis=1)
     level = np.stack([zero, np.where((time >= 2) & (time < 3), -1, 0)], axis=1).astype("i2")
     contact = np.array([[0, 2], [0, 1], [1, -1]], "i4")  # robot 0 touches the person, then robot 1
-    return recording | {"mover": np.stack([person, cart], axis=1), "mover_level": level, "contact": contact}
+    return recording | {
+        "mover": np.stack([person, cart], axis=1),
+        "mover_level": level,
+        "mover_arrivals": np.stack([time // 2, zero - 1], axis=1).astype("i4"),
+        "contact": contact,
+    }
 
 
 @pytest.fixture
@@ -69,7 +74,7 @@ def test_markers_show_bodies_and_delete_those_of_absent_ones(bag, read):
 def test_the_importer_restores_movers_and_contacts_with_them(bag, walking, peopled):
     observed = FromRosbag2().read(bag)
     assert observed.notes == ()
-    for channel in ("mover", "mover_level", "contact"):
+    for channel in ("mover", "mover_level", "mover_arrivals", "contact"):
         assert np.array_equal(observed.channels[channel], walking[channel]), channel
 
 

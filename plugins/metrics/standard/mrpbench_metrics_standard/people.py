@@ -38,6 +38,14 @@ class People(Metric):
     columns: ClassVar[tuple[Column, ...]] = (
         Column("contacts_per_robot_h", "1/h", "lower", "episodes of a robot touching a mover, per hour of a robot"),
         Column("contacts_per_person_h", "1/h", "lower", "the same episodes, per hour of a mover"),
+        Column(
+            "goal_time_s",
+            "s",
+            "lower",
+            "time that movers with goals spend per goal that they reach, stays included; null if they reach none. The "
+            "difference from the run with `crowds_apart: true` is their delay per goal",
+            requires=frozenset({"mover_arrivals"}),
+        ),
         *(
             Column(
                 f"distance_{name}_m", "m", "higher", f"{words} over samples and robots of the nearest mover's distance"
@@ -112,6 +120,7 @@ class People(Metric):
         return {
             "contacts_per_robot_h": contacts / robot_hours,
             "contacts_per_person_h": contacts / mover_hours,
+            "goal_time_s": _goal_time(run, there, spent),
             **{f"distance_{name}_m": percentile(near, share) for name, (share, _) in DISTANCES.items()},
             **within,
             "collision_soon_share": float((soonest < SOON).mean()),
@@ -165,6 +174,15 @@ def _to_robots(run: FinishedRun, robot: int) -> Float:
     gap[:, robot] = np.inf
     nearest: Float = gap.min(axis=1)
     return nearest
+
+
+def _goal_time(run: FinishedRun, there: Bool, spent: Float) -> float | None:
+    if not run.has("mover_arrivals"):
+        return None
+    arrivals = run.channel("mover_arrivals")
+    walkers = arrivals[-1] >= 0
+    reached = int((arrivals[-1] - arrivals[0])[walkers].sum())
+    return float((there[:, walkers] * spent[:, None]).sum() / reached) if reached else None
 
 
 def _freezing(run: FinishedRun, met: Sequence[_Met], robot_hours: float) -> dict[str, Value]:

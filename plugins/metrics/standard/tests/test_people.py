@@ -50,6 +50,15 @@ def test_contacts_count_by_hours_of_robots_and_of_people(met):
     assert half["contacts_per_person_h"] == pytest.approx(2 * 72)
 
 
+def test_time_per_goal_counts_those_who_have_goals(met):
+    run = met()
+    assert People().measure(run)["goal_time_s"] is None  # recordings of before do not count arrivals
+    for arrivals, expected in ((np.arange(101) // 20, 20), (np.zeros(101), None), (np.full(101, -1), None)):
+        rows = arrivals.astype("i4")[:, None]
+        counted = attrs.evolve(run, channels={**run.channels, "mover_arrivals": lambda rows=rows: rows})
+        assert People().measure(counted)["goal_time_s"] == expected
+
+
 def test_a_robot_freezes_where_a_person_is_near_and_it_may_drive_on(met):
     found = People().measure(met())
     assert found["freezings_per_robot_h"] == pytest.approx(36)

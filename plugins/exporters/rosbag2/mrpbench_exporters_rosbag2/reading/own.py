@@ -145,7 +145,8 @@ class Own:
         if rows is None:
             return {}
         table = rows.reshape(len(rows), -1, len(people.COLUMNS))
-        return {"mover": table[..., :-1], "mover_level": table[..., -1].astype("i2")}
+        level, arrivals = table[..., 5].astype("i2"), table[..., 6].astype("i4")
+        return {"mover": table[..., :5], "mover_level": level, "mover_arrivals": arrivals}
 
     def _at_samples(self, name: str, topic: str, what: str) -> Float | None:
         """Rows of a topic, if there is one at every sample."""
