@@ -57,6 +57,7 @@ def _view_pair(arguments: argparse.Namespace) -> int:
 
 
 def _draw(recording: Recording, file: Path) -> None:
+    from mrpbench_core.report.pictures.movers import read_movers
     from mrpbench_core.report.pictures.world import draw_world
     from mrpbench_core.report.replay.motion import read_levels
 
@@ -71,6 +72,8 @@ def _draw(recording: Recording, file: Path) -> None:
             fleet=context.fleet,
             routes=context.routes,
             truth=truth,
+            bodies=context.movers,
+            movers=read_movers(recording, level),
             level=level,
             planned=context.planned,
             goals="task_time" not in recording.channels,

@@ -8,7 +8,7 @@ import numpy as np
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route
-from mrpbench_core.report.pictures.style import COLOURS
+from mrpbench_core.report.pictures.style import COLOURS, PERSON
 
 
 def on_level(route: Route, level: int) -> Float:
@@ -24,11 +24,12 @@ def draw_paths(
     truth: Float | None,
     planned: bool = True,
     goals: bool = True,
+    people: bool = False,
 ) -> None:
     """Draw for each robot the planned path dashed, the driven path solid, its start as a circle and its goal as a star.
 
     Positions on other levels are NaN. Where no plan is known (`planned` is false), routes give start and goal only.
-    Without `goals`, as where tasks keep coming, no stars are drawn.
+    Without `goals`, as where tasks keep coming, no stars are drawn. `people` adds them to the legend.
     """
     from matplotlib.patches import Circle
 
@@ -48,7 +49,7 @@ def draw_paths(
         for point, marker, size in ((start, "o", 9), (goal, "*", 15))[: 2 if goals else 1]:
             if np.isfinite(point).all():
                 _mark(axes, point, marker, size, colour, str(robot))
-    _legend(axes, bool(routes) and planned, truth is not None, goals)
+    _legend(axes, bool(routes) and planned, truth is not None, goals, people)
 
 
 def _mark(axes: Any, point: Float, marker: str, size: int, colour: str, text: str) -> None:
@@ -57,7 +58,7 @@ def _mark(axes: Any, point: Float, marker: str, size: int, colour: str, text: st
     axes.text(*point, text, color="white", zorder=9, **style)
 
 
-def _legend(axes: Any, planned: bool, driven: bool, goals: bool) -> None:
+def _legend(axes: Any, planned: bool, driven: bool, goals: bool, people: bool) -> None:
     from matplotlib.lines import Line2D
 
     grey: dict[str, Any] = {"color": "#555555"}
@@ -66,5 +67,23 @@ def _legend(axes: Any, planned: bool, driven: bool, goals: bool) -> None:
         *([Line2D([], [], linewidth=1.6, label="driven", **grey)] if driven else []),
         Line2D([], [], linestyle="", marker="o", markersize=6, label="start", **grey),
         *([Line2D([], [], linestyle="", marker="*", markersize=9, label="goal", **grey)] if goals else []),
+        *(
+            [
+                Line2D(
+                    [],
+                    [],
+                    marker="o",
+                    markersize=6,
+                    markerfacecolor="white",
+                    linewidth=0.6,
+                    color=PERSON,
+                    label="people",
+                )
+            ]
+            if people
+            else []
+        ),
     ]
-    axes.legend(handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=4, frameon=False, borderpad=0)
+    axes.legend(
+        handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=len(entries), frameon=False, borderpad=0
+    )

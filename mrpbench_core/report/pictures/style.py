@@ -8,6 +8,8 @@ from mrpbench_core.files.extras import pip
 COLOURS = ("#332288", "#44aa99", "#882255", "#88ccee", "#117733", "#ddcc77", "#aa4499", "#999933")
 """Colours of robots that colour-blind readers can distinguish: Paul Tol, "Colour Schemes", SRON/EPS/TN/09-002, 2021."""
 WALL, LANE, ROAD, NAME, DOOR, LIFT = "#3b4252", "#9db4c8", "#e8f0f6", "#51606e", "#b07d2b", "#7a5195"
+PERSON = "#8a8f98"
+"""Of people and other movers, which no robot has."""
 PIXELS = 1280
 """Width of a picture, or height of a tall one."""
 DPI = 160

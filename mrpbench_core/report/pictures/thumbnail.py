@@ -7,6 +7,7 @@ import numpy as np
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.worlds.solids import wall_boxes
 from mrpbench_core.model.worlds.world import World
+from mrpbench_core.report.pictures.movers import read_movers
 from mrpbench_core.report.pictures.sheet import bounds
 from mrpbench_core.report.pictures.style import COLOURS
 from mrpbench_core.store.recording import Recording
@@ -18,13 +19,13 @@ CELLS = 100
 SAMPLES = 80
 """Points of the path of a robot."""
 ROBOTS = 60
-"""Robots whose paths are drawn."""
+"""Robots, and movers, whose paths are drawn."""
 
 
 def world_thumbnail(recording: Recording) -> str:
     """Draw the level of the world on which most of the run happens."""
     world, level, _ = _read(recording)
-    return _svg(world, level, None, ())
+    return _svg(world, level, None, (), None)
 
 
 def run_thumbnail(recording: Recording) -> str:
@@ -35,7 +36,7 @@ def run_thumbnail(recording: Recording) -> str:
     world, level, truth = _read(recording)
     coming = "task_time" in recording.channels
     goals = [] if coming else [(goal[0], goal[1]) for goal in recording.context().goal]
-    return _svg(world, level, truth, goals)
+    return _svg(world, level, truth, goals, read_movers(recording, level))
 
 
 def _read(recording: Recording) -> tuple[World, int, Float | None]:
@@ -51,7 +52,9 @@ def _read(recording: Recording) -> tuple[World, int, Float | None]:
     return world, level, np.where((levels == level)[..., None], poses, np.nan)
 
 
-def _svg(world: World, level: int, truth: Float | None, goals: Iterable[tuple[float, float]]) -> str:
+def _svg(
+    world: World, level: int, truth: Float | None, goals: Iterable[tuple[float, float]], movers: Float | None
+) -> str:
     low, high = bounds(world, truth, level)
     factor = SIZE / float((high - low).max())
     width, height = (high - low) * factor
@@ -68,6 +71,8 @@ def _svg(world: World, level: int, truth: Float | None, goals: Iterable[tuple[fl
         blocked, size = _merged(np.asarray(cells.blocked, bool), cells.cell_size)
         solid += [f"M{'L'.join(points(np.asarray(cells.origin) + size * corner))}z" for corner in _bars(blocked)]
     parts = [f'<path class="thing" d="{"".join(things)}"/><path class="wall" d="{"".join(solid)}"/>']
+    if movers is not None:
+        parts += [f'<polyline class="mover" points="{" ".join(points(way))}"/>' for way in _ways(movers) if len(way)]
     if truth is not None and len(truth):
         parts += _paths(truth, points, list(goals))
     box = f"0 0 {width:.0f} {height:.0f}"
@@ -76,11 +81,9 @@ def _svg(world: World, level: int, truth: Float | None, goals: Iterable[tuple[fl
 
 def _paths(truth: Float, points: Callable[[Float], list[str]], goals: list[tuple[float, float]]) -> list[str]:
     parts = []
-    for robot in range(min(truth.shape[1], ROBOTS)):
-        way = truth[:, robot][np.isfinite(truth[:, robot]).all(axis=1)]
+    for robot, way in enumerate(_ways(truth)):
         if not len(way):
             continue
-        way = way[np.unique(np.linspace(0, len(way) - 1, SAMPLES).astype(int))]
         steps = points(way)
         (x, y), (u, v) = steps[0].split(","), steps[-1].split(",")
         ring = ""
@@ -93,6 +96,13 @@ def _paths(truth: Float, points: Callable[[Float], list[str]], goals: list[tuple
             f'{ring}<path d="M{u},{v}m-4,-4l8,8m0,-8l-8,8"/></g>'
         )
     return parts
+
+
+def _ways(poses: Float) -> Iterable[Float]:
+    """Some places f8[k,2] of each of the first robots or movers of f8[T,n,...]; none if it never was on the level."""
+    for one in poses[:, :ROBOTS, :2].swapaxes(0, 1):
+        way = one[np.isfinite(one).all(axis=1)]
+        yield way[np.unique(np.linspace(0, len(way) - 1, SAMPLES).astype(int))] if len(way) else way
 
 
 def _merged(blocked: Bool, size: float) -> tuple[Bool, float]:

@@ -9,6 +9,7 @@ import numpy as np
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.movers import Mover
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.worlds.world import World
@@ -20,6 +21,7 @@ from mrpbench_core.report.pictures.level import (
     draw_solids,
     lift_doors,
 )
+from mrpbench_core.report.pictures.movers import draw_movers
 from mrpbench_core.report.pictures.names import draw_names
 from mrpbench_core.report.pictures.paths import draw_paths, on_level
 from mrpbench_core.report.pictures.sheet import bounds, layout, set_axes
@@ -34,6 +36,8 @@ def draw_world(
     fleet: Fleet | None = None,
     routes: Sequence[Route] | None = None,
     truth: Float | None = None,
+    bodies: Sequence[Mover] = (),
+    movers: Float | None = None,
     level: int = 0,
     planned: bool = True,
     goals: bool = True,
@@ -47,6 +51,8 @@ def draw_world(
         fleet: if given, robots are drawn at their starts in their true size.
         routes: planned paths, dashed, with the start as a circle and the goal as a star, which show the robot's number.
         truth: driven paths f8[T,n,3] in metres and radians, solid; NaN where unknown.
+        bodies: people and other movers.
+        movers: their poses f8[T,m,3] in metres and radians, NaN where they are not on the level.
         level: index of the level; only the parts of routes on it are drawn.
         planned: whether the routes are plans; otherwise only their starts and goals are drawn.
         goals: whether routes end at goals; they do not where tasks keep coming.
@@ -58,7 +64,10 @@ def draw_world(
     with own_style():
         figure, axes = world_figure(world, roadmap=roadmap, truth=truth, level=level, faint=moving)
         if moving:
-            draw_paths(axes, fleet, [on_level(route, level) for route in routes or ()], truth, planned, goals)
+            shown = [on_level(route, level) for route in routes or ()]
+            draw_paths(axes, fleet, shown, truth, planned, goals, people=bool(bodies))
+        if movers is not None:
+            draw_movers(axes, bodies, movers)
         try:
             figure.savefig(file, format="png")
         except OSError as error:

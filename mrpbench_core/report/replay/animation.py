@@ -1,6 +1,6 @@
 """Writes a run as a GIF of a few seconds."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,9 +9,11 @@ import numpy as np
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.movers import Mover
 from mrpbench_core.model.worlds.doors import leaf_segments
 from mrpbench_core.model.worlds.facilities import Facilities
-from mrpbench_core.report.pictures.style import COLOURS, WALL
+from mrpbench_core.report.pictures.movers import read_movers
+from mrpbench_core.report.pictures.style import COLOURS, PERSON, WALL
 from mrpbench_core.report.pictures.world import world_figure
 from mrpbench_core.report.replay.motion import read_levels
 from mrpbench_core.store.recording import Recording
@@ -28,6 +30,8 @@ WORLD_COLOURS, SHADES = 128, 12
 """Of the 256 colours of a GIF: the number for the world, and the number of shades of each robot."""
 CROWD = 60
 """Number of robots above which trails are thinner."""
+DISC = np.column_stack([fn(np.arange(24) * np.pi / 12) for fn in (np.cos, np.sin)])
+"""Outline f8[24,2] of a disc of radius 1."""
 
 
 def write_gif(recording: Recording, file: Path) -> None:
@@ -44,9 +48,10 @@ def write_gif(recording: Recording, file: Path) -> None:
     if moments[-1] < times[-1]:
         moments = np.append(moments, times[-1])
     figure, axes = world_figure(context.world, truth=poses, level=level, faint=True, pixels=PIXELS, shut=False)
-    frames = _Frames(figure, axes, context.fleet, len(poses[0]))
+    frames = _Frames(figure, axes, context.fleet, len(poses[0]), context.movers)
     doors = _doors(recording, level)
-    images = [frames.draw(poses, times, moment, f"{moment:.1f} s  ×{speed:.3g}", doors) for moment in moments]
+    movers = read_movers(recording, level)
+    images = [frames.draw(poses, movers, times, moment, f"{moment:.1f} s  ×{speed:.3g}", doors) for moment in moments]
     shared = _share_palette(images)
     durations = [FRAME_MS] * (len(shared) - 1) + [HOLD_MS]
     try:
@@ -88,7 +93,7 @@ def _share_palette(images: list[Any]) -> list[Any]:
 class _Frames:
     """Draws the robots of each frame over the same picture of the world."""
 
-    def __init__(self, figure: Any, axes: Any, fleet: Fleet, robots: int) -> None:
+    def __init__(self, figure: Any, axes: Any, fleet: Fleet, robots: int, movers: Sequence[Mover]) -> None:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.collections import LineCollection, PolyCollection
 
@@ -101,19 +106,23 @@ class _Frames:
         self.bodies = PolyCollection(
             [], facecolors=colours, edgecolors="white", linewidths=0.4, zorder=9, animated=True
         )
+        self.people = PolyCollection([], facecolors="white", edgecolors=PERSON, linewidths=1.0, zorder=8, animated=True)
         self.leaves = LineCollection([], colors=WALL, linewidths=1.4, zorder=5, animated=True)
         self.noses = LineCollection([], colors="white", linewidths=1.0, zorder=10, animated=True)
         self.clock = axes.text(
             1, 1.01, "", transform=axes.transAxes, ha="right", va="bottom", fontsize=8, color="#51606e", animated=True
         )
-        for artist in (self.leaves, self.trails, self.bodies, self.noses):
+        for artist in (self.leaves, self.trails, self.people, self.bodies, self.noses):
             axes.add_collection(artist)
         canvas.draw()
         self.ground = canvas.copy_from_bbox(figure.bbox)
         metre = float(np.diff(axes.transData.transform([(0, 0), (1, 0)])[:, 0])[0])
+        self.discs = [DISC * max(body.radius, LEAST / metre) for body in movers]
         self.shapes = [robot.footprint * max(1.0, LEAST / (robot.radius * metre)) for robot in fleet.robots]
 
-    def draw(self, poses: Float, times: Float, moment: float, text: str, doors: Callable[[int], list[Float]]) -> Any:
+    def draw(
+        self, poses: Float, movers: Float, times: Float, moment: float, text: str, doors: Callable[[int], list[Float]]
+    ) -> Any:
         """Draw the frame of a moment as a Pillow image."""
         from PIL import Image
 
@@ -121,6 +130,7 @@ class _Frames:
         now = poses[sample]
         self.leaves.set_segments(doors(sample))
         self.trails.set_segments(list(poses[: sample + 1, :, :2].swapaxes(0, 1)))
+        self.people.set_verts([disc + at[:2] for disc, at in zip(self.discs, movers[sample], strict=True)])
         cos, sin = np.cos(now[:, 2]), np.sin(now[:, 2])
         turns = np.stack([np.stack([cos, sin], axis=1), np.stack([-sin, cos], axis=1)], axis=1)
         self.bodies.set_verts(
@@ -131,6 +141,6 @@ class _Frames:
         self.noses.set_segments(list(np.stack([now[:, :2], tips], axis=1)))
         self.clock.set_text(text)
         self.canvas.restore_region(self.ground)
-        for artist in (self.leaves, self.trails, self.bodies, self.noses, self.clock):
+        for artist in (self.leaves, self.trails, self.people, self.bodies, self.noses, self.clock):
             self.axes.draw_artist(artist)
         return Image.fromarray(np.asarray(self.canvas.buffer_rgba())[..., :3].copy())
