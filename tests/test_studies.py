@@ -25,7 +25,7 @@ RUNS_PER_PLANNER = {
     "faults": 80,
     "controllers": 240,
     "encounters": 120,
-    "people": 180,
+    "people": 240,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {
