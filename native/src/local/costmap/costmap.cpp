@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "mrpbench_local/costmap/footprint.hpp"
+#include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local {
 
@@ -272,7 +273,7 @@ void Costmap::draw_walls(std::vector<std::uint8_t>& cells) const {
 
 /// Write the costs around each lethal cell. The lethal cell that is nearest to a free one has a free side, so cells
 /// without a free side can be skipped.
-void Costmap::inflate() {
+MRPBENCH_WIDE void Costmap::inflate() {
   const auto width = static_cast<std::size_t>(frame_.width), height = static_cast<std::size_t>(frame_.height);
   const auto reach = static_cast<std::size_t>(reach_), stride = width + 2 * reach + kBlock, side = 2 * reach + 1;
   margined_.assign(stride * (height + 2 * reach), kFree);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mrpbench_local/wide.hpp"
+
 namespace mrpbench::local::mppi {
 
 Pose Batch::in_map(float px, float py, float heading) const {
@@ -10,7 +12,7 @@ Pose Batch::in_map(float px, float py, float heading) const {
   return {robot.x + cosine * px - sine * py, robot.y + sine * px + cosine * py, robot.yaw + heading};
 }
 
-void Batch::find_furthest() {
+MRPBENCH_WIDE void Batch::find_furthest() {
   const std::size_t count = samples(), last = steps() - 1;
   along_.assign(count, 0);
   for (std::size_t t = 0; t <= last; ++t) {

@@ -3,9 +3,11 @@
 #include <map>
 #include <stdexcept>
 
+#include "mrpbench_local/wide.hpp"
+
 namespace mrpbench::local::mppi {
 
-void WeightedCritic::add(std::span<const float> raw, std::span<float> total) const {
+MRPBENCH_WIDE void WeightedCritic::add(std::span<const float> raw, std::span<float> total) const {
   for (std::size_t k = 0; k < raw.size(); ++k) {
     const float weighted = weight * raw[k];
     float product = weighted;

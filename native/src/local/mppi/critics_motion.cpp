@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "mrpbench_local/mppi/critic.hpp"
+#include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local::mppi {
 
@@ -17,6 +18,12 @@ class Constraint : public Critic {
   explicit Constraint(const Options&) {}
 
   bool score(const Batch& batch, std::span<float> raw) override {
+    add(batch, raw);
+    return true;
+  }
+
+ private:
+  MRPBENCH_WIDE static void add(const Batch& batch, std::span<float> raw) {
     const Limits& limit = batch.limits;
     for (std::size_t t = 0; t < batch.steps(); ++t) {
       const float* const vx = batch.vx[t];
@@ -30,7 +37,6 @@ class Constraint : public Critic {
         raw[k] += batch.dt * std::max(limit.min_turning_r - radius, 0.0f);
       }
     }
-    return true;
   }
 };
 

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "mrpbench_local/mppi/critic.hpp"
+#include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local::mppi {
 
@@ -103,6 +104,14 @@ class PathAlign : public Critic {
     const auto taken = std::count(path.free.begin(), path.free.begin() + most + 1, 0);
     const double ratio = static_cast<double>(taken) / (most + 1);
     if (taken > 2 && ratio > options_.max_path_occupancy_ratio) return true;
+    add(batch, most, raw);
+    return true;
+  }
+
+ private:
+  /// `most`: the last point of the plan that poses are compared with.
+  MRPBENCH_WIDE void add(const Batch& batch, std::int32_t most, std::span<float> raw) {
+    const LocalPath& path = batch.path;
     const std::size_t count = raw.size(), step = static_cast<std::size_t>(options_.trajectory_point_step);
     along_.assign(count, 0);
     number_.assign(count, 0);
@@ -122,10 +131,8 @@ class PathAlign : public Critic {
       }
     }
     for (std::size_t k = 0; k < count; ++k) raw[k] /= std::max(number_[k], 1.0f);
-    return true;
   }
 
- private:
   Options options_;
   std::vector<float> along_, number_;
 };

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "mrpbench_local/costmap/collision.hpp"
+#include "mrpbench_local/wide.hpp"
 #include "mrpbench_sim/noise.hpp"
 
 namespace mrpbench::local {
@@ -173,7 +174,7 @@ void Mppi::prepare(const Situation& now) {
 }
 
 /// One update of the plan. Returns false if every sample collides.
-bool Mppi::improve(const Extra& extra) {
+MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
   const std::size_t steps = batch_.steps(), samples = batch_.samples();
   const MppiOptions& it = options_;
   const auto ahead = static_cast<float>(start_.ahead), turn = static_cast<float>(start_.turn);

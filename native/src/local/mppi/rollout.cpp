@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdint>
 
+#include "mrpbench_local/wide.hpp"
+
 namespace mrpbench::local::mppi {
 
-void sine_cosine(const float* angle, float* sine, float* cosine, std::size_t count) {
+MRPBENCH_WIDE void sine_cosine(const float* angle, float* sine, float* cosine, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
     const float a = angle[k];
     const auto quarter = static_cast<std::int32_t>(a * 0.636619772f + (a < 0 ? -0.5f : 0.5f));
@@ -24,8 +26,8 @@ void sine_cosine(const float* angle, float* sine, float* cosine, std::size_t cou
   }
 }
 
-void limit(const Table& wanted_vx, const Table& wanted_wz, float vx, float wz, Change change, Table& out_vx,
-           Table& out_wz) {
+MRPBENCH_WIDE void limit(const Table& wanted_vx, const Table& wanted_wz, float vx, float wz, Change change,
+                         Table& out_vx, Table& out_wz) {
   const std::size_t count = wanted_vx.samples;
   std::fill_n(out_vx[0], count, vx);
   std::fill_n(out_wz[0], count, wz);
@@ -47,7 +49,7 @@ void limit(const Table& wanted_vx, const Table& wanted_wz, float vx, float wz, C
   }
 }
 
-void roll_out(const Table& vx, const Table& wz, float dt, Table& x, Table& y, Table& yaw) {
+MRPBENCH_WIDE void roll_out(const Table& vx, const Table& wz, float dt, Table& x, Table& y, Table& yaw) {
   const std::size_t count = vx.samples;
   std::vector<float> sine(count, 0.0f), cosine(count, 1.0f);
   for (std::size_t t = 0; t < vx.steps; ++t) {
@@ -89,11 +91,11 @@ float sum_of(std::size_t count, Term&& term) {
 
 }  // namespace
 
-float sum(const float* values, std::size_t count) {
+MRPBENCH_WIDE float sum(const float* values, std::size_t count) {
   return sum_of(count, [=](std::size_t k) { return values[k]; });
 }
 
-float weighted_sum(const float* weights, const float* values, std::size_t count) {
+MRPBENCH_WIDE float weighted_sum(const float* weights, const float* values, std::size_t count) {
   return sum_of(count, [=](std::size_t k) { return weights[k] * values[k]; });
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "mrpbench_local/wide.hpp"
+
 namespace mrpbench::local {
 
 namespace {
@@ -50,7 +52,7 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
 }
 
 /// Along rows first, for each of the few cells of the path, then along columns.
-void PathGrid::spread(const Frame& frame) {
+MRPBENCH_WIDE void PathGrid::spread(const Frame& frame) {
   const auto width = static_cast<std::size_t>(frame.width), height = static_cast<std::size_t>(frame.height);
   distance_.assign(frame.size(), kFar);
   away_.resize(2 * width);
