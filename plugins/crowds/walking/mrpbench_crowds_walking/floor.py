@@ -69,9 +69,11 @@ class Floor:
 
     def towards(self, place: Float, goal: Float) -> Float:
         """The points f8[k,2] to which to walk straight on the ways from places to goals, f8[k,2] each."""
-        end = self.cell(goal)
-        ways = zip(end.tolist(), self.cell(place).tolist(), strict=True)
-        following = np.array([self._route(last)[cell] for last, cell in ways], dtype=int)
+        end, begin = self.cell(goal), self.cell(place)
+        following = np.empty_like(end)
+        for last in set(end.tolist()):
+            bound = end == last
+            following[bound] = self._route(last)[begin[bound]]
         straight = (following == end) | (following == -1)
         point: Float = np.where(straight[:, None], goal, self._centre[following])
         return point
