@@ -9,7 +9,7 @@ import numpy as np
 
 from mrpbench_core.api.controller import FleetControllerSession
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
-from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.execution.motion import Event
 from mrpbench_core.model.execution.observation import Observations
 
@@ -87,6 +87,12 @@ class Detours:
                 del self._detours[robot]
                 self._follower.rejoin(robot, *detour[-1].tolist())
 
+    def _detouring(self, robots: Int) -> Bool:
+        """Tell bool[k] which of robots i8[k] are on a detour."""
+        detouring = np.zeros(len(self._follower), bool)
+        detouring[list(self._detours)] = True
+        return detouring[robots]
+
     def _tolerance(self, robot: int, detour: Float) -> float:
         """Metres from the first point of a detour at which the robot goes on to the next one."""
         ends_beside = len(detour) == 1 and robot in self._to_beside
@@ -112,7 +118,7 @@ class Detours:
         blocked = np.abs(places - self._place[robots]).max(axis=1) <= _MOVING
         blocked |= stopped[due] | (self._options.planner_tolerance > 0)
         if self._detours:
-            blocked |= np.isin(robots, list(self._detours))
+            blocked |= self._detouring(robots)
         self._due[robots] = self._step + self._options.every
         self._place[robots] = places
         rows = due[blocked].tolist()
@@ -145,7 +151,7 @@ class Detours:
         foot, begin, end = observations.foot.copy(), observations.begin.copy(), observations.end.copy()
         yaw = observations.yaw.copy()
         points, count = [observations.points], len(observations.points)
-        for row in np.flatnonzero(np.isin(observations.robot, list(self._detours))).tolist():
+        for row in self._detouring(observations.robot).nonzero()[0].tolist():
             detour = self._detours[int(observations.robot[row])]
             reaches_end = bool((detour[-1] == observations.points[observations.end[row] - 1]).all())
             foot[row] = observations.pose[row, :2]

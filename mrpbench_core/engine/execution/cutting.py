@@ -54,17 +54,24 @@ class DrivenSegments:
         self.count: Int32 = np.zeros(robots, np.int32)
         """i4[n] segments of each robot that were left out."""
         self._cleared = self.count
+        self._some = False
 
     def cut(self, cut: Int32) -> None:
         """Note that `cut` i4[n] more segments are left out."""
         self.count = self.count + cut
+        self._some = bool(self.count.any())
 
     def orders(self, orders: Orders) -> Orders:
         """The orders, counted from the first segment of all."""
+        if not self._some:  # the usual case in every control period, here and below
+            return orders
         return attrs.evolve(orders, released=orders.released + self.count)
 
     def motion(self, motion: Motion) -> Motion:
         """The same of how far the robots are. A robot that stands at the end of its path clears nothing."""
+        if not self._some:
+            self._cleared = motion.cleared
+            return motion
         self._cleared = np.where(motion.cleared > 0, motion.cleared + self.count, self._cleared)
         return attrs.evolve(motion, reached=motion.reached + self.count, cleared=self._cleared)
 

@@ -113,11 +113,14 @@ class PlanarSimulation(Simulation):
 
     def _take_scans(self) -> tuple[ScanBatch, ...]:
         """Scans due now."""
+        due = self._schedule.due(self._periods)
+        if not due:
+            return ()
         stamp = self._periods * self._period
         batches = []
         radius = np.concatenate([self._robot_radius, self._movers.seen_radius])
         seen = np.ascontiguousarray(self._movers.seen)
-        for lidar, robots in self._schedule.due(self._periods):
+        for lidar, robots in due:
             scanning = np.array(robots, np.int32)
             ranges = self._casters[lidar].scan(scanning, self._plane.pose, seen, radius, self._leaves)
             batches.append(ScanBatch(stamp=stamp, robot=scanning, ranges=ranges))
