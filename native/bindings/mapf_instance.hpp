@@ -49,6 +49,7 @@ inline std::vector<mapf::Robot> robots_of(const nb::dict& given) {
   const auto profile = arrays.vector<std::int32_t>("profile", count);
   const auto radius = arrays.vector<double>("radius", count);
   const auto ready = arrays.vector<std::int64_t>("ready", count);
+  const auto rank = arrays.vector<std::int32_t>("rank", count);
   const auto goal = arrays.vector<std::int32_t>("goal");
   const auto goal_first = arrays.bounds("goal_first", count, goal.size());
   const auto edge = arrays.vector<std::int32_t>("committed_edge");
@@ -61,6 +62,7 @@ inline std::vector<mapf::Robot> robots_of(const nb::dict& given) {
     robots[r].radius = radius.data()[r];
     robots[r].start = start.data()[r];
     robots[r].ready = tick(ready.data()[r]);
+    robots[r].rank = rank.data()[r];
     robots[r].goals.assign(goal.data() + goal_first.data()[r], goal.data() + goal_first.data()[r + 1]);
     for (auto k = committed_first.data()[r]; k < committed_first.data()[r + 1]; ++k) {
       robots[r].committed.push_back({edge.data()[k], tick(enter.data()[k]), tick(leave.data()[k])});

@@ -47,6 +47,8 @@ class Robots(NamedTuple):
     """f8[n] metres; None = 0."""
     committed: Sequence[Segments] = ()
     """For each robot what is fixed of its path; () = nothing."""
+    rank: NDArray[np.int32] | None = None
+    """i4[n]: those with lower ranks go first, where a planner has an order; None = 0."""
 
 
 class SolverExclusions(NamedTuple):
@@ -100,6 +102,7 @@ def build_instance(
             "ready": np.zeros(count, "i8") if robots.ready is None else robots.ready,
             "profile": np.zeros(count, "i4") if robots.profile is None else robots.profile,
             "radius": np.zeros(count) if robots.radius is None else robots.radius,
+            "rank": np.zeros(count, "i4") if robots.rank is None else robots.rank,
             "goal_first": _first(map(len, robots.goals)),
             "goal": _joined(robots.goals, "i4"),
             "committed_first": _first(len(path.edge) for path in committed),

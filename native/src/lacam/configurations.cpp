@@ -1,8 +1,8 @@
 #include "lacam/configurations.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
+#include <tuple>
 
 namespace mrpbench::mapf::lacam {
 
@@ -15,8 +15,10 @@ std::vector<std::int32_t> goals_of(const Instance& instance) {
 std::vector<std::int32_t> first_order(const Instance& instance, DistanceTables& tables) {
   std::vector<std::int32_t> order(instance.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, std::greater{},
-                           [&](int robot) { return tables[robot](instance.beginning(robot).vertex); });
+  std::ranges::stable_sort(order, {}, [&](int robot) {
+    const Tick distance = tables[robot](instance.beginning(robot).vertex);
+    return std::tuple(distance == 0, instance.robots()[robot].rank, -distance);
+  });
   return order;
 }
 

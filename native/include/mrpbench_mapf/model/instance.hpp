@@ -22,6 +22,7 @@ struct Robot {
   Tick ready = 0;                  // stands at its start at least until then
   std::vector<int> goals;          // reaching any one counts
   std::vector<Segment> committed;  // the path must begin with these
+  int rank = 0;                    // those with lower ranks go first, where a planner has an order
 };
 
 struct Rules {

@@ -16,6 +16,7 @@ from mrpbench_native.instances import (
     build_instance,
 )
 
+from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.planning.conflicts import exclusions
 from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Paths, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
@@ -23,11 +24,19 @@ from mrpbench_core.model.planning.window import until
 
 
 def solve(
-    problem: Problem, budget: Budget, algorithm: str, options: Mapping[str, object], module: ModuleType = mapf
+    problem: Problem,
+    budget: Budget,
+    algorithm: str,
+    options: Mapping[str, object],
+    module: ModuleType = mapf,
+    rank: Int32 | None = None,
 ) -> PlanResult:
-    """Run an algorithm of `module` with its options, within what is left of `budget` after the conversion."""
+    """Run an algorithm of `module` with its options, within what is left of `budget` after the conversion.
+
+    Robots with lower `rank` i4[n] go first where the algorithm has an order; None = it chooses.
+    """
     start = time.monotonic()
-    instance = _instance(problem, module)
+    instance = _instance(problem, module, rank)
     converted = time.monotonic() - start
     answer: mapf.Answer = module.solve(
         instance,
@@ -53,7 +62,7 @@ def solve(
     )
 
 
-def _instance(problem: Problem, module: ModuleType) -> mapf.Instance:
+def _instance(problem: Problem, module: ModuleType, rank: Int32 | None) -> mapf.Instance:
     roadmap = problem.roadmap
     robots = Robots(
         start=problem.start,
@@ -62,6 +71,7 @@ def _instance(problem: Problem, module: ModuleType) -> mapf.Instance:
         profile=problem.profile,
         radius=problem.radius,
         committed=[Segments(path.edge, path.enter, path.leave) for path in problem.commitments],
+        rank=rank,
     )
     edges_after = len(roadmap.position)  # elements are vertices, then edges
     resources = [

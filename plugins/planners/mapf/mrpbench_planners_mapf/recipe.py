@@ -12,6 +12,7 @@ from mrpbench_native.options import Option
 from mrpbench_core.api.component import option
 from mrpbench_core.api.described import as_option, described, validator_of
 from mrpbench_core.api.planner import Planner
+from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_planners_mapf.native import solve
@@ -40,7 +41,11 @@ class NativePlanner(Planner):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""
-        return solve(problem, budget, self.algorithm, self._options(budget), self.solvers)
+        return self.solve(problem, budget)
+
+    def solve(self, problem: Problem, budget: Budget, rank: Int32 | None = None) -> PlanResult:
+        """Run the algorithm; see `mrpbench_planners_mapf.native.solve` for `rank`."""
+        return solve(problem, budget, self.algorithm, self._options(budget), self.solvers, rank)
 
     def _options(self, budget: Budget) -> dict[str, Any]:
         """The options of the algorithm: fields of this recipe, and what the budget sets."""
