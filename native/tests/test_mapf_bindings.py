@@ -33,6 +33,7 @@ def swap(**changes) -> dict:
             "ready": np.zeros(2, "i8"),
             "goal_first": np.array([0, 1, 2]),
             "goal": np.array([1, 0], "i4"),
+            "rank": np.zeros(2, "i4"),
             "committed_first": np.zeros(3, "i8"),
             "committed_edge": np.empty(0, "i4"),
             "committed_enter": np.empty(0, "i8"),

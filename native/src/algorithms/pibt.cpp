@@ -22,6 +22,7 @@ void solve(const Instance& instance, const PibtOptions& options, Limits& limits,
   std::vector<Configuration> sequence;
   sequence.push_back(arena.copy(*start).data());
   const int last = options.steps > 0 ? options.steps : 2 * space.moves().vertex_count() + 1000;
+  const bool ends_in_window = instance.rules().horizon != kForever;
   const auto within = static_cast<std::size_t>(space.steps_within(instance.rules().horizon));
   while (!is_goal(goals, sequence.back()) && sequence.size() <= within) {
     limits.check_clock();
@@ -30,6 +31,7 @@ void solve(const Instance& instance, const PibtOptions& options, Limits& limits,
     if (!(*step)(sequence.back(), order.data(), next.data())) return;
     ++result.statistics.expansions;
     sequence.push_back(arena.copy(next).data());
+    if (ends_in_window) continue;  // a robot arrives only if it is still there at the end, so it keeps its place
     next_order(goals, sequence.back(), order.data(), first, reordered.data());
     std::swap(order, reordered);
   }

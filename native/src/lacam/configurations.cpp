@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
-#include <tuple>
+#include <utility>
 
 namespace mrpbench::mapf::lacam {
 
@@ -16,8 +16,7 @@ std::vector<std::int32_t> first_order(const Instance& instance, DistanceTables& 
   std::vector<std::int32_t> order(instance.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](int robot) {
-    const Tick distance = tables[robot](instance.beginning(robot).vertex);
-    return std::tuple(distance == 0, instance.robots()[robot].rank, -distance);
+    return std::pair(instance.robots()[robot].rank, -tables[robot](instance.beginning(robot).vertex));
   });
   return order;
 }

@@ -5,7 +5,7 @@ from typing import ClassVar
 import numpy as np
 
 from mrpbench_core.api.planner import PlannerSession, Promise
-from mrpbench_core.model.common.arrays import Int32
+from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.plan import Budget, PlanResult
 from mrpbench_core.model.planning.problem import Feature, GoalSet, Problem
 from mrpbench_planners_mapf.configurations import ConfigurationPlanner
@@ -25,32 +25,32 @@ class Pibt(ConfigurationPlanner):
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
 
     def start(self) -> PlannerSession:
-        """Begin a session in which robots that have had their goals for longest go first, as in the paper."""
+        """Begin a session in which robots that have been on their way for longest go first, as in the paper."""
         return PibtSession(self)
 
 
 class PibtSession(PlannerSession):
-    """Ranks robots by the call in which they got their goals, those of one call by their number.
+    """Ranks robots by the number of calls in which they were not at their goals, then by their number.
 
-    A rank does not change until the robot gets other goals. Where it depends on the distance to the goal, robots that
-    meet give way in turns and come no nearer.
+    The count begins anew when a robot gets another goal. If the order depended on distances, robots that meet would
+    give way in turns and come no nearer. If it forgot those that arrive, they would be pushed away before they have
+    rested there. A robot that stays at its goal counts no further, so that it gives way to others in the end.
     """
 
     def __init__(self, planner: Pibt) -> None:
         self._planner = planner
         self._goals: tuple[tuple[GoalSet, ...], ...] = ()
-        self._given: Int32 = np.zeros(0, np.int32)
-        self._calls = 0
+        self._under_way: Int = np.zeros(0, np.int64)
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
-        """Plan, with the robots that have had their goals for longest first."""
+        """Plan, with the robots that have been on their way for longest first."""
         rank = None
-        if self._calls:
-            other = [before != now for before, now in zip(self._goals, problem.goals, strict=True)]
-            self._given[other] = self._calls
-            rank = np.argsort(np.argsort(self._given, kind="stable"), kind="stable").astype(np.int32)
+        if self._goals:
+            there = zip(problem.start.tolist(), self._goals, problem.goals, strict=True)
+            away, same = np.array([(start not in now[-1], now == before) for start, before, now in there]).T
+            self._under_way = np.where(same, self._under_way + away, 0)
+            rank = np.argsort(np.argsort(-self._under_way, kind="stable")).astype(np.int32)
         else:
-            self._given = np.zeros(len(problem), np.int32)
+            self._under_way = np.zeros(len(problem), np.int64)
         self._goals = problem.goals
-        self._calls += 1
         return self._planner.solve(problem, budget, rank)

@@ -1,0 +1,50 @@
+"""PIBT asked anew in every step, as a fleet does that plans in each second."""
+
+import attrs
+import numpy as np
+from mrpbench_planners_mapf.pibt import Pibt
+
+from mrpbench_core.model.planning.plan import Budget
+from mrpbench_core.model.planning.problem import Feature
+from mrpbench_core.testing.instances.problems import grid_of, problem_on
+
+BUDGET = Budget(wall_s=100, memory_bytes=1 << 30)
+RING = ["......", ".####.", "......"]
+
+
+class Steps:
+    """Robots that make the first step of each plan of one session, which are for a window of four."""
+
+    def __init__(self, start, goals):
+        self.session, self.road = Pibt(swap=False).start(), grid_of(RING)
+        self.at, self.goals = np.array(start), list(goals)
+
+    def __call__(self):
+        asked = problem_on(self.road, self.at, self.goals)
+        asked = attrs.evolve(asked, horizon=4, features=asked.features | {Feature.HORIZON})
+        plan = self.session.plan(asked, BUDGET).plan
+        for robot, path in enumerate(plan.paths):
+            if len(path) and path.edge[0] >= 0:
+                self.at[robot] = self.road.edges[path.edge[0], 1]
+        return [path.end(self.road, start) for path, start in zip(plan.paths, asked.start, strict=True)]
+
+
+def test_robots_that_meet_do_not_give_way_in_turns_for_ever():
+    steps = Steps([2, 3], [5, 0])
+    arrived = set()
+    for _ in range(30):
+        steps()
+        arrived |= set(np.flatnonzero(steps.at == steps.goals).tolist())
+    assert arrived == {0, 1}
+
+
+def test_a_robot_that_has_come_to_its_goal_stays_until_another_has_been_under_way_for_longer():
+    steps = Steps([0, 4], [3, 4])
+    for _ in range(4):
+        steps()
+    assert steps.at.tolist() == [3, 4]
+    steps.goals[1] = 2
+    assert steps()[0] == 3
+    for _ in range(12):
+        steps()
+    assert steps.at[1] == 2
