@@ -10,8 +10,8 @@ using Configuration = const std::int32_t*;  // vertex by robot
 
 std::vector<std::int32_t> goals_of(const Instance& instance);
 
-/// Robots in the order in which they first plan their next step: by rank, of one rank those that are farthest from their
-/// goals first.
+/// Robots in the order in which they first plan their next step: by rank, of one rank those that are farthest from
+/// their goals first.
 std::vector<std::int32_t> first_order(const Instance& instance, DistanceTables& tables);
 
 /// The order after a step: robots at their goals go behind all others, in `first` order.
