@@ -13,7 +13,7 @@ from mrpbench_planners_mapf.recipe import NativePlanner, RobustPlanner
 PLANNERS = {
     point.name: point.load()
     for point in entry_points(group="mrpbench.planners")
-    if point.value.startswith("mrpbench_planners_mapf")
+    if point.value.startswith("mrpbench_planners_mapf") and point.name != "token_passing"  # no search of its own
 }
 
 
