@@ -17,12 +17,24 @@ TASKS = {"tasks": {"plugin": "poisson", "rate": 12, "service": 1}, "assigner": "
 TASKS |= {"planner": {"plugin": "rolling_horizon", "planner": "pbs"}, "limits": {"execution": 40, "iterations": 5}}
 
 
+OPEN = []
+"""Recordings to close after a test."""
+
+
 def run(folder, events, reaction="wait", **changes):
     """The record and the recording."""
     (point,) = load_study(BASE | changes | {"faults": {"events": events, "reaction": reaction, "patience": 10}}).runs
     paths = RunPaths(recording=folder / "run.zip", exports=folder / "exports")
     record = execute(point.config, point.run_id, paths, lambda stage, facts: None)
-    return record, Recording(paths.recording)
+    OPEN.append(Recording(paths.recording))
+    return record, OPEN[-1]
+
+
+@pytest.fixture(autouse=True)
+def _closed():
+    yield
+    while OPEN:
+        OPEN.pop().close()
 
 
 def events_of(recording):
