@@ -90,10 +90,6 @@ TEST("local search ends where no decision helps that is switched with those it i
     if (planned_cost < 0) continue;
     const Decisions decisions(graph);
     const ArcIndex arcs(graph, decisions);
-    std::vector<Side> planned(decisions.count());
-    for (std::size_t k = 0; k < graph.alternatives.size(); ++k) {
-      planned[decisions.planned(k).decision] = decisions.planned(k).side;
-    }
     const auto cost = [&](const std::vector<Side>& sides) {
       std::vector<char> switched;
       for (std::size_t k = 0; k < graph.alternatives.size(); ++k) {
@@ -102,7 +98,7 @@ TEST("local search ends where no decision helps that is switched with those it i
       return cost_of_order(graph, switched);
     };
     Limits limits = unlimited();
-    LocalSearch search(graph, decisions, arcs, planned, limits);
+    LocalSearch search(graph, decisions, arcs, decisions.planned_sides(), limits);
     search.run(1 << 30);
     CHECK(search.cost() == cost(search.sides()));
     improved += search.cost() < planned_cost;

@@ -13,12 +13,11 @@ class ArcIndex {
  public:
   ArcIndex(const AlternativeGraph& graph, const Decisions& decisions);
 
-  static std::size_t index(Choice choice) { return 2 * static_cast<std::size_t>(choice.decision) + choice.side; }
   const Arc& operator[](std::int32_t arc) const { return arcs_[arc]; }
   std::int32_t size() const { return static_cast<std::int32_t>(arcs_.size()); }
   /// Numbers of the arcs of a choice: [begin(choice), end(choice)).
-  std::int32_t begin(Choice choice) const { return begin_[index(choice)]; }
-  std::int32_t end(Choice choice) const { return begin_[index(choice) + 1]; }
+  std::int32_t begin(Choice choice) const { return begin_[choice.index()]; }
+  std::int32_t end(Choice choice) const { return begin_[choice.index() + 1]; }
   /// Those from here on are fixed.
   std::int32_t first_fixed() const { return begin_.back(); }
   /// The choice to which an arc belongs that is not fixed.

@@ -49,9 +49,8 @@ Decisions::Decisions(const AlternativeGraph& graph) : planned_(graph.alternative
   const std::size_t choices = 2 * static_cast<std::size_t>(count_);
   std::vector<std::vector<Arc>> arcs(choices);
   for (std::size_t k = 0; k < graph.alternatives.size(); ++k) {
-    const auto [decision, side] = planned_[k];
-    arcs[2 * decision + side].push_back(graph.alternatives[k].planned);
-    arcs[2 * decision + 1 - side].push_back(graph.alternatives[k].switched);
+    arcs[planned_[k].index()].push_back(graph.alternatives[k].planned);
+    arcs[planned_[k].other().index()].push_back(graph.alternatives[k].switched);
   }
   std::vector<std::vector<std::int32_t>> implied(choices);
   for (const auto& [a, b] : implications) {
@@ -69,6 +68,12 @@ Decisions::Decisions(const AlternativeGraph& graph) : planned_(graph.alternative
   }
   arc_begin_.push_back(static_cast<std::int32_t>(arcs_.size()));
   implied_begin_.push_back(static_cast<std::int32_t>(implied_.size()));
+}
+
+std::vector<Side> Decisions::planned_sides() const {
+  std::vector<Side> sides(count_);
+  for (const Choice& planned : planned_) sides[planned.decision] = planned.side;
+  return sides;
 }
 
 /// Side 0 of p with side 1 of q is a cycle if the first robot comes from q's arc to p's, and the second from p's to

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,6 +23,8 @@ struct Choice {
   Side side;
 
   Choice other() const { return {decision, static_cast<Side>(1 - side)}; }
+  /// Among the choices of all decisions.
+  std::size_t index() const { return 2 * static_cast<std::size_t>(decision) + side; }
 };
 
 class Decisions {
@@ -29,18 +32,18 @@ class Decisions {
   explicit Decisions(const AlternativeGraph& graph);
 
   /// The arcs that hold with a choice.
-  std::span<const Arc> arcs(Choice choice) const { return part(arcs_, arc_begin_, 2 * choice.decision + choice.side); }
+  std::span<const Arc> arcs(Choice choice) const { return part(arcs_, arc_begin_, choice.index()); }
   /// Decisions that must have the same side as `choice`, because the other side and `choice` form a cycle.
-  std::span<const std::int32_t> implied(Choice choice) const {
-    return part(implied_, implied_begin_, 2 * choice.decision + choice.side);
-  }
+  std::span<const std::int32_t> implied(Choice choice) const { return part(implied_, implied_begin_, choice.index()); }
   int count() const { return count_; }
   /// The choice with which the planned arc of a pair holds.
   Choice planned(std::size_t pair) const { return planned_[pair]; }
+  /// By decision: the side of the plan.
+  std::vector<Side> planned_sides() const;
 
  private:
   template <class T>
-  static std::span<const T> part(const std::vector<T>& all, const std::vector<std::int32_t>& begin, int index) {
+  static std::span<const T> part(const std::vector<T>& all, const std::vector<std::int32_t>& begin, std::size_t index) {
     return {all.data() + begin[index], all.data() + begin[index + 1]};
   }
   struct Pair {

@@ -93,12 +93,7 @@ class Search {
   }
 
   void improve_planned_order() {
-    std::vector<Side> sides(decisions_.count());
-    for (std::size_t k = 0; k < graph_.alternatives.size(); ++k) {
-      const Choice planned = decisions_.planned(k);
-      sides[planned.decision] = planned.side;
-    }
-    LocalSearch local(graph_, decisions_, arcs_, std::move(sides), limits_);
+    LocalSearch local(graph_, decisions_, arcs_, decisions_.planned_sides(), limits_);
     const auto take = [&] {
       best_ = local.cost();
       local_work_ = local.work();
@@ -216,7 +211,7 @@ class Search {
 
   /// Probe a choice, unless nothing around its arcs has changed since it was probed.
   const Known& learn(Choice choice) {
-    const std::size_t index = 2 * static_cast<std::size_t>(choice.decision) + choice.side;
+    const std::size_t index = choice.index();
     const std::int64_t times = schedule_.times_around(choice);
     if (known_[index] && (!known_[index]->possible || known_[index]->times == times)) return *known_[index];
     check_work();

@@ -18,16 +18,14 @@ class OpenOrders {
         together_(together),
         decisions_(graph),
         arcs_(graph, decisions_),
-        planned_(decisions_.count()),
+        planned_(decisions_.planned_sides()),
+        is_planned_(arcs_.holding(planned_)),
         open_(decisions_.count()),
         robot_(graph.events()),
         members_(graph.events()),
         position_(graph.events()),
         reached_(graph.robots()),
         search_of_(graph.robots()) {
-    for (std::size_t k = 0; k < graph.alternatives.size(); ++k) {
-      planned_[decisions_.planned(k).decision] = decisions_.planned(k).side;
-    }
     for (int robot = 0; robot < graph.robots(); ++robot) {
       std::fill(robot_.begin() + graph.first[robot], robot_.begin() + graph.first[robot + 1], robot);
     }
@@ -67,7 +65,7 @@ class OpenOrders {
       };
       if (event + 1 < graph_.first[robot_[event] + 1]) follow(event, event + 1);
       for (const std::int32_t arc : arcs_.out(event)) {
-        if (is_planned(arc)) follow(event, arcs_[arc].after);
+        if (is_planned_[arc]) follow(event, arcs_[arc].after);
       }
     };
     for (std::int32_t event = 0; event < events; ++event) {
@@ -92,14 +90,8 @@ class OpenOrders {
     if (std::ranges::count(position_, 0) > 0) throw std::invalid_argument("the planned order has a cycle");
   }
 
-  bool is_planned(std::int32_t arc) const {
-    if (arc >= arcs_.first_fixed()) return true;
-    const Choice choice = arcs_.choice_of(arc);
-    return choice.side == planned_[choice.decision];
-  }
-
   void try_to_open(std::int32_t decision) {
-    const Choice switched{decision, static_cast<Side>(1 - planned_[decision])};
+    const Choice switched = Choice{decision, planned_[decision]}.other();
     Span own{std::numeric_limits<std::int32_t>::max(), 0};
     for (const Arc& arc : decisions_.arcs(switched)) {
       own.begin = std::min(own.begin, position_[arc.after]);
@@ -146,9 +138,9 @@ class OpenOrders {
             reach(arcs_[arc].after);
             continue;
           }
-          const Choice choice = arcs_.choice_of(arc);
-          if (choice.decision == switched.decision) continue;
-          if (choice.side == planned_[choice.decision] || open_[choice.decision]) reach(arcs_[arc].after);
+          const std::int32_t decision = arcs_.choice_of(arc).decision;
+          if (decision == switched.decision) continue;
+          if (is_planned_[arc] || open_[decision]) reach(arcs_[arc].after);
         }
       }
       if (is_closed()) return true;
@@ -176,8 +168,9 @@ class OpenOrders {
   std::span<const std::int32_t> together_;
   Decisions decisions_;
   ArcIndex arcs_;
-  std::vector<Side> planned_;
-  std::vector<char> open_;  // by decision, as planned_
+  std::vector<Side> planned_;     // by decision
+  std::vector<char> is_planned_;  // by arc
+  std::vector<char> open_;        // by decision
   std::vector<std::int32_t> robot_;
   std::vector<std::vector<std::int32_t>> members_;  // the other events of a set, by its first one
   std::vector<std::int32_t> position_;

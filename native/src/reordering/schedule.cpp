@@ -103,7 +103,7 @@ void Schedule::update_violation(std::int32_t arc) {
   if (now == static_cast<bool>(violated_[arc])) return;
   violated_[arc] = now;
   const Choice choice = arcs_.choice_of(arc);
-  violations_[ArcIndex::index(choice)] += now ? 1 : -1;
+  violations_[choice.index()] += now ? 1 : -1;
   update_pending(choice.decision);
 }
 

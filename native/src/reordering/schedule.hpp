@@ -33,7 +33,7 @@ class Schedule {
   Tick arrival(int robot) const { return times_.arrival(robot); }
   bool is_open(int decision) const { return side_[decision] == kOpen; }
   /// Whether all arcs of a choice hold at the present times.
-  bool holds(Choice choice) const { return violations_[ArcIndex::index(choice)] == 0; }
+  bool holds(Choice choice) const { return violations_[choice.index()] == 0; }
   /// Open decisions of which neither choice holds.
   std::span<const std::int32_t> pending() const { return pending_; }
   bool is_pending(int decision) const { return position_[decision] >= 0; }
