@@ -19,6 +19,7 @@ from mrpbench_core.config.items import Item, Location, from_data
 from mrpbench_core.config.references import References, short_name
 from mrpbench_core.config.scalars import Unfit, literal, member, scalar, show
 from mrpbench_core.config.settings import EXECUTION, WITHOUT_PHYSICS, FleetEntry, RunConfig
+from mrpbench_core.config.shared import Shared
 from mrpbench_core.config.validation import fault_of, stand_in_of, words_of
 from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order
 from mrpbench_core.files.suggestions import suggest
@@ -34,7 +35,7 @@ class Structure:
     def __init__(self, folder: Path, sources: Mapping[str, str] | None = None, *, verify: bool = True) -> None:
         """See `References` for the arguments."""
         self._references = References(folder, sources or {}, verify)
-        self._done: dict[tuple[int, Any, str], tuple[Item, Any]] = {}
+        self._shared = Shared()
         self._defaults: dict[tuple[str, Any], Item] = {}
 
     def run(self, root: Item) -> RunConfig:
@@ -82,19 +83,19 @@ class Structure:
         return bool(source.gives_goals)
 
     def _value(self, item: Item, expected: Expected, key: str) -> Any:
-        known = (id(item), expected.kind, key)
-        if known not in self._done:
-            try:
-                result = self._read(item, expected, key)
-            except InputErrors as errors:
-                result = errors
-            except Unfit as error:
-                result = InputErrors(item.location.error(key, str(error), error.hint))
-            self._done[known] = (item, result)  # the item is kept, so that its id stays its own
-        result = self._done[known][1]
+        result = self._shared(self._attempt, item, expected, key)
         if isinstance(result, InputErrors):
             raise result
         return result
+
+    def _attempt(self, item: Item, expected: Expected, key: str) -> Any:
+        """A value, or what is wrong with it."""
+        try:
+            return self._read(item, expected, key)
+        except InputErrors as errors:
+            return errors
+        except Unfit as error:
+            return InputErrors(item.location.error(key, str(error), error.hint))
 
     def _read(self, item: Item, expected: Expected, key: str) -> Any:
         kind = expected.kind

@@ -33,9 +33,11 @@ def until(horizon: int, problem: Problem, plan: Plan) -> Plan:
 
 def leads_to_goals(problem: Problem, plan: Plan) -> Bool:
     """Tell of each robot, bool[n], whether its path ends at a goal of it, or anywhere if it has none."""
-    if problem.horizon is None:
-        return np.ones(len(problem), bool)
-    moves = moves_of(problem, plan)
+    return np.ones(len(problem), bool) if problem.horizon is None else ends_at_goals(problem, moves_of(problem, plan))
+
+
+def ends_at_goals(problem: Problem, moves: Moves) -> Bool:
+    """Tell the same of robots that make these moves."""
     at = problem.start.copy()
     at[moves.robot] = moves.head  # of equal robots the last one counts
     goals = zip(problem.goals, at.tolist(), strict=True)

@@ -62,27 +62,13 @@ def _legend(axes: Any, planned: bool, driven: bool, goals: bool, people: bool) -
     from matplotlib.lines import Line2D
 
     grey: dict[str, Any] = {"color": "#555555"}
+    person: dict[str, Any] = {"color": PERSON, "linewidth": 0.6, "marker": "o", "markersize": 6}
     entries = [
         *([Line2D([], [], linestyle="--", linewidth=1.1, label="planned", **grey)] if planned else []),
         *([Line2D([], [], linewidth=1.6, label="driven", **grey)] if driven else []),
         Line2D([], [], linestyle="", marker="o", markersize=6, label="start", **grey),
         *([Line2D([], [], linestyle="", marker="*", markersize=9, label="goal", **grey)] if goals else []),
-        *(
-            [
-                Line2D(
-                    [],
-                    [],
-                    marker="o",
-                    markersize=6,
-                    markerfacecolor="white",
-                    linewidth=0.6,
-                    color=PERSON,
-                    label="people",
-                )
-            ]
-            if people
-            else []
-        ),
+        *([Line2D([], [], label="people", markerfacecolor="white", **person)] if people else []),
     ]
     axes.legend(
         handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=len(entries), frameon=False, borderpad=0

@@ -35,7 +35,7 @@ def open_groups(graph: DependencyGraph, visits: Visits, pairs: Pairs, limit: int
     steady = ((ends != NONE) & ~rotates[ends]).all(axis=0)
     kept = ~steady & (planned[0] != NONE) & (planned[1] != NONE)
     together = np.arange(len(moves.robot) + len(moves.first) - 1)
-    together[event] = event[np.where(graph.rotation == NONE, np.arange(len(event)), graph.rotation)]
+    together[event] = event[np.array(graph.group, np.int64)]
     fixed = np.concatenate([arcs(planned[0][kept], planned[1][kept]), arcs(resources.before, resources.after)])
     found = np.full(len(first), NONE)
     found[steady] = open_orders(

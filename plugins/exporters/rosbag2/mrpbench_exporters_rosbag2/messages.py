@@ -3,12 +3,13 @@
 The definitions are those of Humble. Every type used here has the same fields, and so the same hash, up to Kilted.
 """
 
+from collections.abc import Mapping
 from typing import Any
 
 import attrs
 import numpy as np
 from numpy.typing import ArrayLike
-from rosbags.typesys import Stores, get_typestore
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
 from mrpbench_core.model.common.arrays import Float, Int
@@ -16,6 +17,14 @@ from mrpbench_core.model.common.arrays import Float, Int
 TYPES = get_typestore(Stores.ROS2_HUMBLE)
 SECOND = 1_000_000_000
 """nanoseconds."""
+
+
+def with_types(definitions: Mapping[str, str]) -> Typestore:
+    """The types of Humble, and those of definitions by full name."""
+    types = get_typestore(Stores.ROS2_HUMBLE)
+    for name, text in definitions.items():
+        types.register(get_types_from_msg(text, name))
+    return types
 
 
 @attrs.frozen

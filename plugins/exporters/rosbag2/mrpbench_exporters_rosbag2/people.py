@@ -4,21 +4,18 @@ ROS itself does not have `people_msgs` (https://docs.ros.org/en/humble/p/people_
 """
 
 from collections.abc import Callable
-from functools import cache
 from typing import Any
 
 import attrs
 import numpy as np
 from numpy.typing import NDArray
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-from rosbags.typesys.store import Typestore
 
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.execution.movers import Mover
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2.marker import ADD, ARROW, CYLINDER, DARK, DELETE, TEXT, marker
-from mrpbench_exporters_rosbag2.messages import Topic, header, message, point, spatial
+from mrpbench_exporters_rosbag2.messages import Topic, header, message, point, spatial, with_types
 from mrpbench_exporters_rosbag2.source import POSE, Rows, Throttle, TopicSource, Varying
 from mrpbench_exporters_rosbag2.template import STAMP, Template, hole
 
@@ -38,18 +35,10 @@ DEFINITIONS = {
     "float64 reliability\nstring[] tagnames\nstring[] tags\n",
     "people_msgs/msg/People": "std_msgs/Header header\nPerson[] people\n",
 }
+"""The same from ROS 1 to Rolling."""
 
 
-@cache
-def people_types() -> Typestore:
-    """The types of Humble, and those of `people_msgs`, which are the same from ROS 1 to Rolling."""
-    types = get_typestore(Stores.ROS2_HUMBLE)
-    for name, text in DEFINITIONS.items():
-        types.register(get_types_from_msg(text, name))
-    return types
-
-
-PEOPLE = Topic("/people", "people_msgs/People", types=people_types())
+PEOPLE = Topic("/people", "people_msgs/People", types=with_types(DEFINITIONS))
 MARKERS = Topic("/people_markers", "visualization_msgs/MarkerArray")
 NUMBERS = Topic("/movers", "std_msgs/Float64MultiArray")
 

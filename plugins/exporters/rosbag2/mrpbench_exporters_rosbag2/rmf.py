@@ -8,8 +8,9 @@ https://docs.ros.org/en/humble/p/rmf_fleet_msgs
 from functools import cache
 from typing import Any, Literal
 
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
+
+from mrpbench_exporters_rosbag2.messages import with_types
 
 Release = Literal["galactic", "humble", "rolling"]
 
@@ -36,10 +37,7 @@ FACILITIES = {
 @cache
 def facility_types() -> Typestore:
     """The types of Humble, and those of the states of doors and lifts."""
-    types = get_typestore(Stores.ROS2_HUMBLE)
-    for name, text in FACILITIES.items():
-        types.register(get_types_from_msg(text, name))
-    return types
+    return with_types(FACILITIES)
 
 
 @cache
@@ -55,10 +53,7 @@ def rmf_types(release: Release) -> Typestore:
         "Location location\nLocation[] path\n",
         "FleetState": "string name\nRobotState[] robots\n",
     }
-    types = get_typestore(Stores.ROS2_HUMBLE)
-    for name, text in definitions.items():
-        types.register(get_types_from_msg(text, f"rmf_fleet_msgs/msg/{name}"))
-    return types
+    return with_types({f"rmf_fleet_msgs/msg/{name}": text for name, text in definitions.items()})
 
 
 def rmf_message(types: Typestore, name: str, /, **fields: Any) -> Any:

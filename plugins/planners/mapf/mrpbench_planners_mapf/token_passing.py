@@ -14,6 +14,7 @@ from mrpbench_core.model.common.arrays import Bool, Int
 from mrpbench_core.model.planning.plan import Budget, Paths, Plan, PlanResult
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.planning.type2_edges import moves_of
+from mrpbench_core.model.planning.window import ends_at_goals
 from mrpbench_planners_mapf.native import solve
 from mrpbench_planners_mapf.prioritized import Prioritized
 
@@ -58,8 +59,6 @@ def _leads_to_goals(problem: Problem) -> Bool:
     if problem.commitments:
         paths = Paths.of(problem.commitments).then(paths)
     moves = moves_of(problem, Plan(paths=paths))
-    end = problem.start.copy()
-    end[moves.robot] = moves.head  # of equal robots the last one counts
-    leads = np.array([not it or vertex in it[-1] for it, vertex in zip(problem.goals, end.tolist(), strict=True)], bool)
+    leads = ends_at_goals(problem, moves)
     leads[moves.robot[problem.roadmap.duration[problem.profile[moves.robot], moves.edge] < 0]] = False
     return leads

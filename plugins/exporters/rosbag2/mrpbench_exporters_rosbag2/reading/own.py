@@ -1,6 +1,7 @@
 """Reads bags that mrpbench wrote: context, progress, contacts, events and channels of the recording."""
 
 from collections import defaultdict
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -43,13 +44,13 @@ class Own:
         """Return the handler of each topic, if mrpbench wrote the bag."""
         if whole.TOPIC.name not in self._topics:
             return {}
-        takes = {
+        takes: dict[str, Take] = {
             whole.TOPIC.name: self._whole,
             advance.TOPIC.name: self._progress,
             CONTACTS.name: self._contact,
             EVENTS.name: self._event,
-            NUMBERS.name: self._facility,
-            people.NUMBERS.name: self._mover,
+            NUMBERS.name: partial(self._numbers, "facility"),
+            people.NUMBERS.name: partial(self._numbers, "mover"),
             routes.TOPIC.name: self._routes,
         }
         return {topic: takes[topic] for topic in self._topics} | (
@@ -157,13 +158,9 @@ class Own:
             return None
         return np.array(self._rows[name], float)
 
-    def _facility(self, logged: int, message: Any) -> None:
-        self._rows["facility_time"].append(logged)
-        self._rows["facility"].append(message.data)
-
-    def _mover(self, logged: int, message: Any) -> None:
-        self._rows["mover_time"].append(logged)
-        self._rows["mover"].append(message.data)
+    def _numbers(self, name: str, logged: int, message: Any) -> None:
+        self._rows[f"{name}_time"].append(logged)
+        self._rows[name].append(message.data)
 
     def _transforms(self, logged: int, message: Any) -> None:
         """Estimates, which are what a robot's two transforms make together; see `frames`."""
