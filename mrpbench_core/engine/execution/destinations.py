@@ -1,6 +1,7 @@
-"""Where robots go next: to their errands as far as these do not exclude one another, else out of the way.
+"""Where robots go next: to their errands, else out of the way.
 
-Planners for one batch need goals at which all robots can stand at the same time.
+Planners for one batch need goals at which all robots can stand at the same time. Of errands that exclude one another, only
+the most important one is a goal then.
 """
 
 from collections.abc import Iterable, Sequence
@@ -59,11 +60,15 @@ class Places:
         labels: for each motion profile, equal for vertices between which it can drive both ways.
         parking: where robots without an errand go: nowhere, unless they are in the way, or home.
         sets: the planner takes sets of goals, so that it may choose where they make room.
+        shared: the planner takes errands that exclude one another.
     """
 
-    def __init__(self, problem: Problem, labels: Sequence[Int], parking: Parking, sets: bool) -> None:
+    def __init__(
+        self, problem: Problem, labels: Sequence[Int], parking: Parking, sets: bool, shared: bool = False
+    ) -> None:
         roadmap = problem.roadmap
-        self._problem, self._labels, self._parking, self._sets = problem, labels, parking, sets
+        self._problem, self._labels, self._parking = problem, labels, parking
+        self._sets, self._shared = sets, shared
         self._kept_free = np.zeros(len(roadmap.position), bool)
         for resource in roadmap.resources:
             self._kept_free[list(resource.vertices)] = True
@@ -88,7 +93,7 @@ class Places:
         chosen: list[tuple[int, int] | None] = [None] * robots
         yaw = np.full(robots, np.nan)
         for errand in errands:
-            if taken.leaves(errand.robot, errand.vertex):
+            if self._shared or taken.leaves(errand.robot, errand.vertex):
                 taken.add(errand.robot, errand.vertex)
                 chosen[errand.robot], yaw[errand.robot] = (errand.task, errand.number), errand.yaw
         goals: list[tuple[GoalSet, ...]] = [((taken.vertex.get(robot, -1),),) for robot in range(robots)]

@@ -193,8 +193,9 @@ def _tasks(inputs: RunInputs, context: RunContext, recorder: Recorder) -> TaskMa
         return None
     stream = start_stream(config, context.world, context.problem.roadmap, context.fleet)
     costs = QueueCosts(config.assigner.cost, context.problem.roadmap, context.fleet)
-    sets = Feature.GOAL_SETS in config.planner.supports
-    places = Places(context.problem, costs.labels, config.replanning.parking, sets)
+    supports, windowed = config.planner.supports, config.replanning.window is not None
+    sets, shared = Feature.GOAL_SETS in supports, windowed and Feature.SHARED_GOALS in supports
+    places = Places(context.problem, costs.labels, config.replanning.parking, sets, shared)
     return TaskManager(
         stream, config.assigner, costs, places, context.problem, recorder, interval=config.replanning.interval
     )

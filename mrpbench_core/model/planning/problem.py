@@ -28,6 +28,8 @@ class Feature(StrEnum):
     """Some vertices prescribe a yaw. A move that turns on the spot is an edge between vertices at one place."""
     GOAL_SETS = "goal_sets"
     GOAL_SEQUENCES = "goal_sequences"
+    SHARED_GOALS = "shared_goals"
+    """Robots have the same goal, where not all of them can be at the same time. Only with a horizon."""
     COMMITMENTS = "commitments"
     SINCE = "since"
     """Some path begins after tick 0, because what its robot drove before is left out."""
@@ -121,6 +123,9 @@ def features_of(problem: Problem) -> frozenset[Feature]:
         found.add(Feature.GOAL_SETS)
     if any(len(sequence) != 1 for sequence in problem.goals):
         found.add(Feature.GOAL_SEQUENCES)
+    last = [sequence[-1] for sequence in problem.goals if sequence and len(sequence[-1]) == 1]
+    if problem.horizon is not None and len(set(last)) < len(last):
+        found.add(Feature.SHARED_GOALS)
     if problem.committed.any() or problem.ready.any():
         found.add(Feature.COMMITMENTS)
     if problem.since.any():

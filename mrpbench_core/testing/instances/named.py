@@ -80,6 +80,13 @@ def goal_sequences() -> Problem:
     return problem(". a . A", goals=(((0,), drawn.goals[0][0]),))
 
 
+def shared_goal() -> Problem:
+    """Both robots are on their way to the right end; within the horizon one of them can be there."""
+    drawn = problem("a . bB . A", horizon=4)
+    goal = drawn.goals[0]
+    return problem("a . bB . A", horizon=4, goals=(goal, goal))
+
+
 def resources() -> Problem:
     """The middle of the crossing and the edges to it are a mutex."""
     drawn = problem(CROSSING)
@@ -128,6 +135,7 @@ _SOLVABLE: dict[str, Callable[[], Problem]] = {
     "commitments that begin at different times": since,
     "goal sequences": goal_sequences,
     "a horizon": lambda: problem(BAY, horizon=2),
+    "a goal of two robots": shared_goal,
     "following forbidden": lambda: problem(CONVOY, rules=Rules(following="forbidden")),
     "following forbidden at a crossing": lambda: problem(CROSSING, rules=Rules(following="forbidden")),
     "resources": resources,

@@ -8,7 +8,7 @@ from mrpbench_core.builtin.planners.rolling_horizon import RollingHorizon
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.engine.execution.commitments import commitments
 from mrpbench_core.model.planning.plan import Budget
-from mrpbench_core.model.planning.problem import Feature
+from mrpbench_core.model.planning.problem import Feature, features_of
 from mrpbench_core.model.planning.window import leads_to_goals
 from mrpbench_core.testing.instances.problems import grid_of, problem_on
 from mrpbench_core.testing.instances.roadmaps import roadmap
@@ -35,7 +35,10 @@ def test_robots_may_stay_where_the_plan_of_a_window_ends(planner, horizon, radiu
     longest = data.draw(st.sampled_from([1, 4]))
     ticks = data.draw(st.lists(st.integers(1, longest), min_size=len(SHAPE.edges), max_size=len(SHAPE.edges)))
     vertices = st.permutations(range(len(SHAPE.position)))
-    starts, goals, others = (data.draw(vertices)[:3] for _ in range(3))
+    starts = data.draw(vertices)[:3]
+    shared = st.lists(st.sampled_from(range(len(SHAPE.position))), min_size=3, max_size=3)
+    places = shared if Feature.SHARED_GOALS in planner.supports else vertices
+    goals, others = (data.draw(places)[:3] for _ in range(2))
     windowed = RollingHorizon(planner=planner)
     road = roadmap(SHAPE.position, SHAPE.edges, ticks)
     problem = problem_on(road, starts, goals, radius=radius, horizon=horizon)
@@ -64,7 +67,18 @@ def test_robots_may_stay_where_the_plan_of_a_window_ends(planner, horizon, radiu
     assert found is None or check_plan(new, found).valid
 
 
-@pytest.mark.parametrize("planner", [Pibt(), Prioritized(), Pbs(), Lacam()])
+@pytest.mark.parametrize("planner", [Pibt(), Prioritized(), Pbs()])
+def test_of_robots_with_the_same_goal_one_comes_there_within_a_window_and_another_beside_it(planner):
+    line = grid_of(["." * 7])
+    problem = problem_on(line, [0, 1, 6], [4, 4, 4], horizon=20)
+    assert Feature.SHARED_GOALS in features_of(problem)
+    plan = RollingHorizon(planner=planner).plan(problem, BUDGET).plan
+    assert check_plan(problem, plan).valid
+    ends = {path.end(line, start) for path, start in zip(plan.paths, [0, 1, 6], strict=True)}
+    assert 4 in ends and ends & {3, 5}
+
+
+@pytest.mark.parametrize("planner", [Prioritized(), Pbs(), Lacam()])
 def test_a_window_that_is_long_enough_leads_to_the_goals(planner):
     problem = problem_on(SHAPE, [0, 4], [4, 0], horizon=100)
     plan = RollingHorizon(planner=planner).plan(problem, BUDGET).plan

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.planning.problem import Feature
-from mrpbench_planners_mapf.recipe import SUPPORTED, RobustPlanner, native_planner
+from mrpbench_planners_mapf.recipe import SUPPORTED, WINDOWED, RobustPlanner, native_planner
 
 
 @native_planner("pbs")
@@ -16,5 +16,5 @@ class Pbs(RobustPlanner):
     robots if each were alone.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED | {Feature.RESOURCES, Feature.HORIZON}
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED | WINDOWED | {Feature.RESOURCES}
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.ROBUST, Promise.DETERMINISTIC})

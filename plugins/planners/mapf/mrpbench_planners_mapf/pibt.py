@@ -9,7 +9,7 @@ from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.plan import Budget, PlanResult
 from mrpbench_core.model.planning.problem import Feature, GoalSet, Problem
 from mrpbench_planners_mapf.configurations import ConfigurationPlanner
-from mrpbench_planners_mapf.recipe import native_planner
+from mrpbench_planners_mapf.recipe import WINDOWED, native_planner
 
 
 @native_planner("pibt")
@@ -21,7 +21,7 @@ class Pibt(ConfigurationPlanner):
     moves do. Elsewhere it is one move of each robot, and each move starts as soon as those before it allow.
     """
 
-    supports: ClassVar[frozenset[Feature]] = ConfigurationPlanner.supports | {Feature.HORIZON}
+    supports: ClassVar[frozenset[Feature]] = ConfigurationPlanner.supports | WINDOWED
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
 
     def start(self) -> PlannerSession:

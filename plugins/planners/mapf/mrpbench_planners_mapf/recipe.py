@@ -30,6 +30,7 @@ SUPPORTED = frozenset(
         Feature.FOLLOWING_FORBIDDEN,
     }
 )
+WINDOWED = frozenset({Feature.HORIZON, Feature.SHARED_GOALS})
 
 
 class NativePlanner(Planner):

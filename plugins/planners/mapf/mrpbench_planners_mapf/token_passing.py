@@ -17,6 +17,7 @@ from mrpbench_core.model.planning.type2_edges import moves_of
 from mrpbench_core.model.planning.window import ends_at_goals
 from mrpbench_planners_mapf.native import solve
 from mrpbench_planners_mapf.prioritized import Prioritized
+from mrpbench_planners_mapf.recipe import WINDOWED
 
 
 @attrs.frozen(kw_only=True)
@@ -30,7 +31,7 @@ class TokenPassing(Planner):
     whose paths were kept.
     """
 
-    supports: ClassVar[frozenset[Feature]] = Prioritized.supports - {Feature.HORIZON}
+    supports: ClassVar[frozenset[Feature]] = Prioritized.supports - WINDOWED
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
     reads_remaining: ClassVar[bool] = True
 

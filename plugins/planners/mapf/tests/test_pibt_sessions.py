@@ -16,7 +16,7 @@ class Steps:
     """Robots that make the first step of each plan of one session, which are for a window of four."""
 
     def __init__(self, start, goals):
-        self.session, self.road = Pibt(swap=False).start(), grid_of(RING)
+        self.session, self.road = Pibt().start(), grid_of(RING)
         self.at, self.goals = np.array(start), list(goals)
 
     def __call__(self):
@@ -48,3 +48,13 @@ def test_a_robot_that_has_come_to_its_goal_stays_until_another_has_been_under_wa
     for _ in range(12):
         steps()
     assert steps.at[1] == 2
+
+
+def test_a_robot_that_would_step_back_for_another_waits_for_it():
+    """In a corridor, the second robot could step forward twice, and would be pushed back as often."""
+    road = grid_of(["......"])
+    asked = problem_on(road, [5, 1], [0, 5], horizon=4)
+    rank = np.array([0, 1], np.int32)
+    paths = Pibt().solve(asked, BUDGET, rank).plan.paths
+    assert paths[0].vertices(road, 5).tolist() == [5, 4, 3, 2, 1]
+    assert paths[1].vertices(road, 1).tolist() == [1, 1, 0]
