@@ -20,12 +20,13 @@ from mrpbench_core.engine.stage import Announce, RunEnded, RunInputs
 from mrpbench_core.engine.stages.assign import assign, tasks_of_plan
 from mrpbench_core.engine.stages.claims import claims_of
 from mrpbench_core.engine.stages.discrete import execute_steps
-from mrpbench_core.engine.stages.execute import execute_plan, start_stream
+from mrpbench_core.engine.stages.execute import execute_plan
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.measure import measure, measure_recording
 from mrpbench_core.engine.stages.plan import LATE_S, STATUS, budget_of, call_planner
 from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance, require_free_doorways
 from mrpbench_core.engine.stages.problem_building import build_problem, standing_problem
+from mrpbench_core.engine.stages.tasks import places_of, start_stream
 from mrpbench_core.files.printing import printable
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
@@ -69,10 +70,11 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
     record.scenario_id = instance.scenario.id
     if config.executes:
         require_free_doorways(instance)
+    stream = start_stream(config, instance)
     assigned: tuple[int, ...] | None
-    if config.tasks is not None:
+    if stream is not None:
         assigned, problem = (-1,) * len(instance.fleet), standing_problem(instance)
-        result, failure = _stand(inputs, instance, problem, record), None
+        result, failure = _stand(inputs, problem, record, places_of(stream, instance)), None
     else:
         assigned = None if config.planner.assigns else assign(config, instance, inputs.announce, inputs.timing)
         if assigned is not None and config.scenario.gives_goals:
@@ -86,9 +88,10 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
     if failure is None and config.executes:
         record.true_poses = granted_localizer(config)
         if isinstance(config.simulator, DiscreteSimulator):
-            failure, record.unexported = execute_steps(inputs, context)
+            assert stream is not None
+            failure, record.unexported = execute_steps(inputs, context, stream)
         else:
-            failure, record.unexported, record.unarrived = execute_plan(inputs, context, router)
+            failure, record.unexported, record.unarrived = execute_plan(inputs, context, router, stream)
         inputs.announce(Stage.METRICS, {})
         record.executed = True
         kept = config.recording.keep == "all" or (config.recording.keep == "failed" and failure is not None)
@@ -132,7 +135,7 @@ def _plan(inputs: RunInputs, problem: Problem, record: RunRecord) -> tuple[PlanR
     return result, None
 
 
-def _stand(inputs: RunInputs, instance: RunInstance, problem: Problem, record: RunRecord) -> PlanResult:
+def _stand(inputs: RunInputs, problem: Problem, record: RunRecord, places: Int | None) -> PlanResult:
     """The first plan where tasks come over time: every robot stays where it is until it has one.
 
     Raises:
@@ -145,22 +148,13 @@ def _stand(inputs: RunInputs, instance: RunInstance, problem: Problem, record: R
     else:
         asked = attrs.evolve(problem, features=problem.features | {Feature.COMMITMENTS})
         reason = replanning_fault(config) or config.planner.skip(own(asked))
-        reason = reason or config.planner.skip_tasks(own(problem), _places_of_tasks(config, instance))
+        reason = reason or config.planner.skip_tasks(own(problem), places)
     if reason:
         raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, reason)
     nothing = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
     result = PlanResult(status=PlanStatus.SOLVED, plan=Plan(paths=(nothing,) * len(problem)))
     inputs.observers.planned(problem=own(problem), result=own(result))
     return result
-
-
-def _places_of_tasks(config: RunConfig, instance: RunInstance) -> Int | None:
-    """The vertices at which tasks that come over time may have errands, if their source says so."""
-    places = start_stream(config, instance.world, instance.roadmap, instance.fleet).places
-    if places is None:
-        return None
-    vertices = np.unique(instance.roadmap.locate(*places)).astype(np.int64)
-    return vertices[vertices >= 0]
 
 
 def _unsolved(config: RunConfig, result: PlanResult, timing: Mapping[str, Any]) -> str:

@@ -1,7 +1,7 @@
 """Where robots go next: to their errands, else out of the way.
 
-Planners for one batch need goals at which all robots can stand at the same time. Of errands that exclude one another, only
-the most important one is a goal then.
+Planners for one batch need goals at which all robots can stand at the same time. Of errands that exclude one another,
+only the most important one is a goal then.
 """
 
 from collections.abc import Iterable, Sequence

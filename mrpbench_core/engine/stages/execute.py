@@ -7,7 +7,6 @@ from collections.abc import Mapping
 import attrs
 import numpy as np
 
-from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.config.settings import RunConfig
@@ -27,29 +26,26 @@ from mrpbench_core.engine.execution.routes import Router, start_poses
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.execution.worst_case import Adversary
-from mrpbench_core.engine.own import Handed, name_of, own
+from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.engine.stages.export import Exports
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
 from mrpbench_core.model.common.arrays import Float, Int16
-from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Event
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
-from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
-from mrpbench_core.model.worlds.world import World
 from mrpbench_core.store.recording import RecordingWriter
 
 
 def execute_plan(
-    inputs: RunInputs, context: RunContext, router: Router
+    inputs: RunInputs, context: RunContext, router: Router, stream: TaskStream | None = None
 ) -> tuple[RunEnded | None, dict[str, str], dict[str, str]]:
-    """Execute the plan of `context`.
+    """Execute the plan of `context`, and the tasks of `stream`.
 
     No unfinished recording or export gets its final name.
 
@@ -99,7 +95,8 @@ def execute_plan(
         if config.execution == "schedule_only":
             result = _follow_schedule(config, context, recorder, faults)
         else:
-            result = _simulate(inputs, context, given, (poses, levels), crowds, recorder, replanner, faults)
+            tasks = None if stream is None else _tasks(config, context, stream, recorder)
+            result = _simulate(inputs, context, given, (poses, levels), crowds, recorder, replanner, faults, tasks)
         unarrived = {context.fleet.names[robot]: reason for robot, reason in result.unarrived.items()}
         for robot, reason in result.unarrived.items():
             recorder.events([Event(stamp=result.simulated_s, kind="not_arrived", robot=robot, detail=reason)])
@@ -186,12 +183,8 @@ def _calls(what: str, seconds: list[float]) -> dict[str, float]:
     }
 
 
-def _tasks(inputs: RunInputs, context: RunContext, recorder: Recorder) -> TaskManager | None:
-    """The tasks that come over time, if the configuration has a source of them."""
-    config = inputs.config
-    if config.tasks is None:
-        return None
-    stream = start_stream(config, context.world, context.problem.roadmap, context.fleet)
+def _tasks(config: RunConfig, context: RunContext, stream: TaskStream, recorder: Recorder) -> TaskManager:
+    """The tasks of an execution."""
     costs = QueueCosts(config.assigner.cost, context.problem.roadmap, context.fleet)
     supports, windowed = config.planner.supports, config.replanning.window is not None
     sets, shared = Feature.GOAL_SETS in supports, windowed and Feature.SHARED_GOALS in supports
@@ -199,17 +192,6 @@ def _tasks(inputs: RunInputs, context: RunContext, recorder: Recorder) -> TaskMa
     return TaskManager(
         stream, config.assigner, costs, places, context.problem, recorder, interval=config.replanning.interval
     )
-
-
-def start_stream(config: RunConfig, world: World, roadmap: Roadmap, fleet: Fleet) -> TaskStream:
-    """Begin the stream of a run with tasks that come over time."""
-    assert config.tasks is not None
-    handed = Handed((world, roadmap, fleet), "world, roadmap or fleet")
-    stream = config.tasks.start(*handed.given, config.seed)
-    if not isinstance(stream, TaskStream):
-        raise BrokenContractError(f"{name_of(config.tasks)} returned {type(stream).__name__} instead of a stream")
-    handed.check(config.tasks)
-    return stream
 
 
 def _simulate(
@@ -221,6 +203,7 @@ def _simulate(
     recorder: Recorder,
     replanner: Replanner,
     faults: FaultState,
+    tasks: TaskManager | None,
 ) -> ExecutionResult:
     """Open the simulator and run the execution loop."""
     config = inputs.config
@@ -232,7 +215,6 @@ def _simulate(
     seed = seed_of(*seeds, "simulator")
     radii = [mover.radius for mover in crowds.members]
     placed = poses.copy(), seed, context.period, radii
-    tasks = _tasks(inputs, context, recorder)
     with config.simulator.open(given.world, given.fleet, *placed, levels=levels.copy()) as simulation:
         if not np.array_equal(simulation.state.level, levels):
             raise ExecutionError("the simulator supports the lowest level only, and robots start on other levels")

@@ -15,7 +15,8 @@ struct PibtOptions {
   std::uint64_t seed = 0;
 
   static Description<PibtOptions> description() {
-    return {{"swap", &PibtOptions::swap, "Lets robots change places in narrow passages, but not within a window", "Okumura, IJCAI 2023"},
+    return {{"swap", &PibtOptions::swap, "Lets robots change places in narrow passages, but not within a window",
+             "Okumura, IJCAI 2023"},
             {"steps", &PibtOptions::steps, at_least(0),
              "Steps after which the planner gives up; 0 = twice the number of vertices of the roadmap, plus 1000"},
             {"seed", &PibtOptions::seed, "Seed of the choice between equally good vertices"}};
