@@ -71,7 +71,7 @@ def main() -> None:
     parser.add_argument("--robots", type=int, default=1000)
     parser.add_argument("--seconds", type=float, default=600.0, help="simulated")
     parser.add_argument("--window", type=float, default=10.0, help="simulated seconds; 0: plans lead to the goals")
-    parser.add_argument("--lookahead", type=int, default=2, help="segments released beyond the one under way")
+    parser.add_argument("--lookahead", type=int, default=1, help="segments released beyond the one under way")
     parser.add_argument("--assigner", default="identity")
     parser.add_argument("--control-rate", type=float, default=10.0)
     parser.add_argument("--profile", type=int, default=0, metavar="N", help="print the N most expensive functions")
