@@ -11,7 +11,7 @@ HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 FOLLOWED_ELSEWHERE = {"planner-native", "planner-external"}
 """Pages that need a compiler or other programs; tests in `tests/cli` follow them."""
-ALWAYS = {"planner", "metric", "controller", "configuration"}
+ALWAYS = {"planner", "configuration"}
 """Pages that `make test` follows; `make pages` follows all."""
 PAGES = [
     page
