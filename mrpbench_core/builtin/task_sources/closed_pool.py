@@ -39,7 +39,7 @@ class Draws(Protocol):
     """Gives tasks by their index."""
 
     @property
-    def everywhere(self) -> tuple[Float, Int16]:
+    def places(self) -> tuple[Float, Int16]:
         """Positions f8[k,2] and levels i2[k] of all errands."""
 
     def task(self, index: int, release: float) -> Task:
@@ -65,7 +65,7 @@ class ClosedPoolStream(TaskStream):
     @property
     def places(self) -> tuple[Float, Int16]:
         """Where errands are drawn."""
-        return self._drawing.everywhere
+        return self._drawing.places
 
     @property
     def ended(self) -> bool:

@@ -71,21 +71,21 @@ class Drawing:
     """Draws the tasks of one seed."""
 
     source: DrawnTasks
-    places: tuple[Places, ...]
-    """For each errand."""
+    choices: tuple[Places, ...]
+    """The places from which each errand is drawn."""
     seed: int
 
     @property
-    def everywhere(self) -> tuple[Float, Int16]:
+    def places(self) -> tuple[Float, Int16]:
         """Positions f8[k,2] and levels i2[k] of all places."""
-        return np.concatenate([it.position for it in self.places]), np.concatenate([it.level for it in self.places])
+        return np.concatenate([it.position for it in self.choices]), np.concatenate([it.level for it in self.choices])
 
     def task(self, index: int, release: float) -> Task:
         """Return task `index`, released at `release` seconds; no errand is at the place of the one before."""
-        random = stream(self.seed, ERRANDS, index).random(len(self.places))
-        pose, levels, names = np.full((len(self.places), 3), np.nan), [], []
+        random = stream(self.seed, ERRANDS, index).random(len(self.choices))
+        pose, levels, names = np.full((len(self.choices), 3), np.nan), [], []
         before = -1
-        for errand, (places, share) in enumerate(zip(self.places, random.tolist(), strict=True)):
+        for errand, (places, share) in enumerate(zip(self.choices, random.tolist(), strict=True)):
             open_to = np.flatnonzero(places.vertex != before)
             chosen = int(open_to[int(share * len(open_to))])
             before = int(places.vertex[chosen])
@@ -103,7 +103,7 @@ class Drawing:
         )
 
     def _service(self) -> Float:
-        return np.full(len(self.places), self.source.service)
+        return np.full(len(self.choices), self.source.service)
 
 
 def usable_places(world: World, roadmap: Roadmap) -> Places:

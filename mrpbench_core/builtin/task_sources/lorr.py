@@ -49,7 +49,7 @@ class Lines:
     """f8[k,3] of all errands."""
 
     @property
-    def everywhere(self) -> tuple[Float, Int16]:
+    def places(self) -> tuple[Float, Int16]:
         """Positions f8[k,2] and levels i2[k] of all errands."""
         return self.goals[:, :2], np.zeros(len(self.goals), np.int16)
 

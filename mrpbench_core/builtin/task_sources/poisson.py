@@ -50,7 +50,7 @@ class PoissonStream(TaskStream):
     @property
     def places(self) -> tuple[Float, Int16]:
         """Where errands are drawn."""
-        return self._drawing.everywhere
+        return self._drawing.places
 
     def _gap(self) -> float:
         """Seconds between the task before the next one and the next one."""

@@ -36,7 +36,7 @@ def find_axes(configs: Sequence[dict[str, Any]], by: Sequence[str] | None = None
                 raise InputError(f"--by: no run has the option {name!r}", hint=suggest(name, sorted(known)))
     varying = [key for key in _varying(flat) if by is None or _is_below(key, by)]
     kept = _without_implied(varying, flat)
-    return [{key: entry[key] for key in kept if key in entry} for entry in flat]
+    return _without_shared([{key: entry[key] for key in kept if key in entry} for entry in flat])
 
 
 def name_axes(axes: Axes) -> str:
@@ -62,8 +62,7 @@ def word(value: Any) -> str:
         return "none"
     if isinstance(value, dict):
         options = ",".join(f"{key}={word(item)}" for key, item in value.items() if key not in NAMES)
-        name = str(value.get("plugin", value.get("robot", "")))
-        return f"{name}[{options}]" if options else name
+        return f"{_name(value)}[{options}]" if options else _name(value)
     if isinstance(value, list | tuple):
         return "[" + ",".join(map(word, value)) + "]"
     return str(value)
@@ -114,6 +113,36 @@ def _varying(flat: Sequence[Axes]) -> list[str]:
             if first.setdefault(key, repr(value)) != repr(value):
                 varying[key] = None
     return list(varying)
+
+
+def _without_shared(entries: list[Axes]) -> list[Axes]:
+    """Leave out of the blocks in lists, such as `crowds`, the options that all blocks of a name share."""
+    shown: dict[tuple[str, str, str], set[str]] = {}
+    for key, block in ((key, block) for entry in entries for key, value in entry.items() for block in _blocks(value)):
+        for option in block:
+            shown.setdefault((key, _name(block), option), set()).add(repr(block[option]))
+
+    def differing(key: str, block: dict[str, Any]) -> dict[str, Any]:
+        return {
+            option: value
+            for option, value in block.items()
+            if option in NAMES or len(shown[key, _name(block), option]) > 1
+        }
+
+    return [
+        {key: [differing(key, block) for block in _blocks(value)] or value for key, value in entry.items()}
+        for entry in entries
+    ]
+
+
+def _blocks(value: Any) -> list[dict[str, Any]]:
+    """The blocks of a list of blocks; none of anything else."""
+    is_list = isinstance(value, list | tuple) and all(isinstance(block, dict) for block in value)
+    return list(value) if is_list else []
+
+
+def _name(block: dict[str, Any]) -> str:
+    return str(block.get("plugin", block.get("robot", "")))
 
 
 def _without_implied(varying: Sequence[str], flat: Sequence[Axes]) -> list[str]:

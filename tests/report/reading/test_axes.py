@@ -45,6 +45,21 @@ def test_rows_can_be_made_by_some_options_only():
         find_axes(configs, ["planer"])
 
 
+def test_blocks_in_lists_show_the_options_in_which_blocks_of_a_name_differ():
+    def walkers(people, size, **more):
+        return {"plugin": "social_force", "people": people, "group_size": size, "radius": 0.25, **more}
+
+    carts = {"plugin": "carts", "people": 2, "radius": 0.45}
+    levels = [(), [walkers(6, 1)], [walkers(18, 2), carts], [walkers(6, 1), walkers(6, 1)]]
+    axes = find_axes([config(CBS, crowds=crowds) for crowds in levels])
+    assert [name_axes(entry) for entry in axes] == [
+        "crowds=[]",
+        "crowds=[social_force[people=6,group_size=1]]",
+        "crowds=[social_force[people=18,group_size=2],carts]",
+        "crowds=[social_force[people=6,group_size=1],social_force[people=6,group_size=1]]",
+    ]
+
+
 def test_axes_are_named_in_few_words():
     assert name_axes({"planner.plugin": "ecbs", "planner.w": 1.2, "scenario.robots": 9}) == "ecbs w=1.2 robots=9"
     assert name_axes({"fleet": [{"robot": "burger", "count": 2}]}) == "fleet=[burger[count=2]]"
