@@ -63,7 +63,7 @@ def compare_folders(
     no_common_scenario = []
     for key in (key for key in sides[0] if key in sides[1]):
         pair = sides[0][key], sides[1][key]
-        units, unit = runs.units(np.concatenate([group.members for group in pair]))
+        units, unit = runs.units([group.members for group in pair])
         name = name_axes(pair[0].axes)
         setting = Setting(name=name, groups=pair, names=("A", "B"), units=units, unit=unit)
         entries = compare_pair(runs, setting, 0, 1, tested(runs, known, columns))

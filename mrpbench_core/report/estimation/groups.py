@@ -150,7 +150,7 @@ def differing_factors(first: Axes, second: Axes) -> list[str]:
 
 
 def _setting(runs: Runs, members: Sequence[RunGroup], axes: Axes) -> Setting:
-    units, unit = runs.units(np.concatenate([group.members for group in members]))
+    units, unit = runs.units([group.members for group in members])
     constant = constant_axes(members)
     own = [{key: value for key, value in group.axes.items() if key not in constant} for group in members]
     return Setting(

@@ -55,24 +55,34 @@ class Runs:
     def __len__(self) -> int:
         return len(self.run_id)
 
-    def units(self, members: Int) -> tuple[Int, str]:
+    def units(self, groups: Sequence[Int]) -> tuple[Int, str]:
         """Return the unit of each run, and the word for units: scenarios, or runs if all runs have the same scenario.
 
-        A run whose scenario was never drawn is a unit of its own, without a partner.
+        A run whose scenario was never drawn is a unit of its own, without a partner. Where a group has runs of several
+        worlds with the same starts and goals, as in BARN, these are several scenarios.
 
         Args:
-            members: the runs that are evaluated together.
+            groups: the runs that are evaluated together, those of each group.
         """
-        known = self.scenario[members]
+        world = self._worlds()
+        drawn = [np.unique(np.stack([self.scenario, world])[:, group], axis=1) for group in groups]
         lone = self.scenario < 0
-        one = len(np.unique(known[known >= 0])) == 1
+        number = self.scenario.copy()
+        if any(len(set(pairs[0].tolist())) < pairs.shape[1] for pairs in drawn):
+            number = number * (int(world.max()) + 1) + world
+        known = number[np.concatenate(groups)][~lone[np.concatenate(groups)]]
+        one = len(np.unique(known)) == 1
         if one:  # samples differ in noise alone
             pairs = np.stack([self.seed, self.repeat], axis=1)
             number = np.unique(pairs, axis=0, return_inverse=True)[1].reshape(-1).astype(np.int64)
-        else:
-            number = self.scenario.copy()
         number[lone] = number.max(initial=-1) + 1 + np.arange(lone.sum())
         return number, "runs" if one else "scenarios"
+
+    def _worlds(self) -> Int:
+        """The number i8[n] of the world of each run."""
+        numbers: dict[str, int] = {}
+        of_config = [numbers.setdefault(repr(config.get("world")), len(numbers)) for config in self.configs]
+        return np.array(of_config, np.int64)[self.config]
 
     def axes(self, by: Sequence[str] | None = None) -> list[Axes]:
         """Return the options in which each of `configs` differs from the others."""

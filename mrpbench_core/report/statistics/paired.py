@@ -112,7 +112,7 @@ def _difference(estimate: IntervalEstimate, first: Float, second: Float, steps: 
 
 def _flip_test(steps: Float) -> float:
     moved = steps[steps != 0]
-    if not len(moved):
+    if len(moved) < 2:
         return 1.0
     from scipy.stats import binomtest, norm, permutation_test
 

@@ -44,17 +44,17 @@ def test_of_a_run_in_two_folders_the_later_counts(results, record):
 
 def test_scenarios_are_the_samples_unless_there_is_but_one(results, record):
     several = read_runs([results([record(seed=seed, repeat=repeat) for seed in (0, 1) for repeat in (0, 1)])])
-    units, word = several.units(np.arange(4))
+    units, word = several.units([np.arange(4)])
     assert (units.tolist(), word) == ([0, 0, 1, 1], "scenarios")
     one = read_runs([results([record(repeat=repeat, scenario="same") for repeat in (0, 1, 2)], "one")])
-    units, word = one.units(np.arange(3))
+    units, word = one.units([np.arange(3)])
     assert (len(set(units.tolist())), word) == (3, "runs")
 
 
 def test_runs_whose_scenario_was_never_drawn_stand_alone(results, record):
     lost = [record(seed=seed, status="crashed", scenario=None) for seed in (1, 2)]
     runs = read_runs([results([record(), *lost])])
-    units, _ = runs.units(np.arange(3))
+    units, _ = runs.units([np.arange(3)])
     assert len(set(units.tolist())) == 3
 
 
@@ -79,3 +79,13 @@ def test_memory_grows_by_less_than_a_kilobyte_with_each_run(results, record):
 
     peak(10)  # imports and caches
     assert (peak(3000) - peak(1000)) / 2000 < 1000
+
+
+def test_worlds_with_the_same_starts_and_goals_are_several_scenarios_of_one_group(results, record):
+    def field(number, planner):
+        return record(planner, scenario="a", config={"world": {"plugin": "barn", "index": number}}, tag=str(number))
+
+    runs = read_runs([results([field(number, planner) for planner in ("astar", "cbs") for number in (0, 3, 6)])])
+    assert runs.units([np.arange(3), np.arange(3, 6)])[1] == "scenarios"
+    assert runs.units([np.arange(3), np.arange(3, 6)])[0].tolist() == [0, 1, 2, 0, 1, 2]
+    assert len(set(runs.units([np.arange(1), np.arange(1, 2)])[0].tolist())) == 1, "a row for each world: pairs"

@@ -122,3 +122,8 @@ def test_many_fractions_are_compared_by_the_limit_of_sign_flips():
     steps = second - first
     flipped = np.abs((rng.choice([-1, 1], (20_000, len(steps))) * steps).sum(axis=1))
     assert compare_rates(first, second).p == pytest.approx((flipped >= abs(steps.sum())).mean(), abs=0.01)
+
+
+def test_one_unit_that_differs_by_a_fraction_decides_nothing():
+    found = compare_rates(np.array([0.5]), np.array([0.75]))
+    assert (found.difference.value, found.p) == (0.25, 1.0)
