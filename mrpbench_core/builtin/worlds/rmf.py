@@ -8,6 +8,7 @@ import numpy as np
 from mrpbench_core.api.component import Path, option
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.builtin.worlds.building.coordinates import Frame, read_frames, read_vertices
+from mrpbench_core.builtin.worlds.building.crowd_sim import read_crowd_sim
 from mrpbench_core.builtin.worlds.building.doors import read_doors
 from mrpbench_core.builtin.worlds.building.floors import read_areas
 from mrpbench_core.builtin.worlds.building.footprints import Footprints
@@ -76,6 +77,7 @@ class Rmf(WorldSource):
             drawn = _named_lanes(index, vertices, lanes)
             models = read_models(drawing.node, frames[name], footprints, drawn, self.clearance, notes)
             levels.append(attrs.evolve(bare, obstacles=models))
+        activities, people = read_crowd_sim(building, tuple(drawings.values()), notes)
         note_unsupported(building, nodes, notes)
         return World(
             name=self._world_name(building),
@@ -84,6 +86,8 @@ class Rmf(WorldSource):
             lanes=lanes,
             notes=notes.sentences(),
             lifts=lifts,
+            activities=activities,
+            people=people,
         )
 
     def _levels(self, building: Node) -> dict[str, Node]:

@@ -12,6 +12,7 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Float, array
 from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.routines import Activity, PeopleGroup
 
 
 @attrs.frozen(kw_only=True)
@@ -155,3 +156,7 @@ class World:
     notes: tuple[str, ...] = ()
     """Unsupported features and assumptions of the loader, one sentence each."""
     lifts: tuple[Lift, ...] = ()
+    activities: tuple[Activity, ...] = ()
+    """What people do here, for crowds."""
+    people: tuple[PeopleGroup, ...] = ()
+    """How many people there usually are, and how they begin."""

@@ -5,7 +5,16 @@ from collections.abc import Mapping
 from mrpbench_core.builtin.worlds.building.node import Node
 from mrpbench_core.builtin.worlds.building.notes import Notes
 
-_BUILDING_READ = ("name", "building_name", "levels", "lifts", "coordinate_system", "parameters", "reference_level_name")
+_BUILDING_READ = (
+    "name",
+    "building_name",
+    "levels",
+    "lifts",
+    "coordinate_system",
+    "parameters",
+    "reference_level_name",
+    "crowd_sim",
+)
 _BUILDING_IGNORED = ("map_version", "graphs")
 _LEVEL_READ = ("vertices", "lanes", "walls", "doors", "models", "floors", "holes", "measurements", "fiducials")
 _LEVEL_IGNORED = (  # background, and what the editor uses to align it
@@ -21,10 +30,7 @@ def note_unsupported(building: Node, levels: Mapping[str, Node], notes: Notes) -
     if others:
         chosen = ", ".join(map(repr, levels))
         notes.add(f"only level {chosen} is loaded, not {', '.join(map(repr, others))}")
-    crowd = top["crowd_sim"].value if "crowd_sim" in top else None
-    if isinstance(crowd, dict) and crowd.get("enable"):
-        notes.add("crowd_sim is not supported and has no effect")
-    _note_unknown(top, (*_BUILDING_READ, *_BUILDING_IGNORED, "crowd_sim"), "building", notes)
+    _note_unknown(top, (*_BUILDING_READ, *_BUILDING_IGNORED), "building", notes)
     for level in levels.values():
         parts = level.fields()
         if "human_lanes" in parts and parts["human_lanes"].value:

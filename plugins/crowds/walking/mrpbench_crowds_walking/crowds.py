@@ -38,9 +38,16 @@ class _Walking(Crowd):
     kind: ClassVar[str] = "person"
     orca: ClassVar[bool] = True
 
-    people: int = option(0, help="number of people at random places", validator=validators.ge(0))
+    people: int | None = option(
+        None,
+        help="number of people; none: as many as the world says, which is nobody in most worlds",
+        validator=validators.optional(validators.ge(0)),
+    )
+    activities: bool = option(
+        True, help="these do what people of the world do on the level, if it says so; else they walk between places"
+    )
     places: int = option(
-        12, help="number of random places between which these walk; the same for all", validator=validators.ge(2)
+        12, help="number of random places between which they then walk; the same for all", validator=validators.ge(2)
     )
     given: tuple[Person, ...] = option((), help="further people, with places and goals of their own")
     level: int = option(0, help="index of the level on which they walk", validator=validators.ge(0))
@@ -54,7 +61,7 @@ class _Walking(Crowd):
     stay: float = option(
         2.0, help="mean time at a goal, exponentially distributed", unit="s", validator=validators.ge(0)
     )
-    group_size: int = option(1, help="people at random places walk in groups of so many", validator=validators.ge(1))
+    group_size: int = option(1, help="people walk in groups of so many; not those `given`", validator=validators.ge(1))
     legs: bool = option(True, help="lidars see two legs instead of the body")
     leg_radius: float = option(0.05, help="radius of a leg", unit="m", validator=validators.gt(0))
     reaction: Reaction = option("regular", help="what they do when they see a robot, in the words of HuNavSim")

@@ -67,6 +67,12 @@ class Floor:
         begin, end = self.cell(np.stack([start, goal])).tolist()
         return bool(self._route(end)[begin] >= 0)
 
+    def nearest(self, place: Float, within: float = 1.0) -> Float | None:
+        """Return the nearest of `places` to a place f8[2]; None if none is within so many metres."""
+        away = np.hypot(*(self.places - place).T)
+        found: Float = self.places[away.argmin()]
+        return found if away.min() <= within else None
+
     def towards(self, place: Float, goal: Float) -> Float:
         """The points f8[k,2] to which to walk straight on the ways from places to goals, f8[k,2] each."""
         end, begin = self.cell(goal), self.cell(place)

@@ -17,6 +17,14 @@ from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.solids import segments
 from mrpbench_core.model.worlds.world import World
 from mrpbench_crowds_walking.floor import Floor
+from mrpbench_crowds_walking.goals import (
+    REACHED,
+    ActivityGoals,
+    Goals,
+    PlaceGoals,
+    activities_on,
+    shared_out,
+)
 from mrpbench_crowds_walking.reactions import (
     AS_OBSTACLES,
     AS_PEOPLE,
@@ -27,8 +35,6 @@ from mrpbench_crowds_walking.reactions import (
     react,
 )
 
-REACHED = 0.4
-"""Metres from a goal, in addition to the radius, at which a person is there."""
 AT_DOOR = 1.2
 """Metres from a door within which a person who walks on wants it to be open."""
 ASIDE = 0.1
@@ -56,7 +62,11 @@ class WalkingSession(CrowdSession):
             for door in self._facilities.doors
             if door.lift is None and recipe.level in door.levels
         ]
-        count = recipe.people + len(recipe.given)
+        residents = [group for group in world.people if group.level == recipe.level] if recipe.activities else []
+        usual = sum(group.people for group in residents)
+        self._people = usual if recipe.people is None else recipe.people
+        self._begin = shared_out(residents, self._people if residents else 0)
+        count = self._people + len(recipe.given)
         self._random = [self._draws(person, 0) for person in range(count)]
         self._group = self._groups()
         self._speed = self._speeds()
@@ -64,10 +74,7 @@ class WalkingSession(CrowdSession):
         drawn = np.random.default_rng([seed % 2**64, 2**32])
         self._places = self._floor.places[drawn.integers(len(self._floor.places), size=recipe.places)]
         start = self._starts(drawn, seen)
-        self._goal_number = np.zeros(count, int)
-        self._has_goals = np.array([self._goals_of(person) for person in range(count)], bool)
-        self._goal = np.array([self._next_goal(person) for person in range(count)]).reshape(-1, 2)
-        self._waits = np.zeros(count)
+        self._goals = self._all_goals(world, start)
         self._seen_for, self._done = np.zeros(count), np.zeros(count, bool)
         leg = recipe.leg_radius if recipe.legs else 0.0
         self.members = (Mover(radius=recipe.radius, kind=recipe.kind, leg_radius=leg),) * count
@@ -90,9 +97,14 @@ class WalkingSession(CrowdSession):
     def movers(self) -> Movers:
         """Where they are now."""
         level: Int16 = np.full(len(self.members), self._level, np.int16)
-        arrivals = np.where(self._has_goals, self._goal_number, -1).astype(np.int32)
+        arrivals = np.concatenate([goals.arrivals for goals in self._goals]).astype(np.int32)
         pose = np.column_stack([self._walkers.place, self._yaw])
         return Movers(pose=pose, velocity=self._walkers.velocity, level=level, arrivals=arrivals)
+
+    @property
+    def _goal(self) -> Float:
+        """Where each of them goes f8[m,2]."""
+        return np.concatenate([goals.place for goals in self._goals])
 
     def wanted_doors(self) -> set[str]:
         """Doors near people who walk towards them, and doors in which somebody stands."""
@@ -125,12 +137,10 @@ class WalkingSession(CrowdSession):
         velocity, push, looks = np.zeros((count, 2)), np.zeros((count, 2)), np.full(count, np.nan)
         reaction = self._recipe.reaction
         regard = np.full(count, AS_OBSTACLES if reaction == "impassive" else AS_PEOPLE, np.uint8)
-        self._waits = np.maximum(self._waits - dt, 0.0)
         away = np.hypot(*(self._goal - place).T)
-        for person in np.flatnonzero(away < self._recipe.radius + REACHED).tolist():
-            if self._has_goals[person] and self._waits[person] == 0:
-                self._arrive(person)
-        walking = np.flatnonzero((self._waits == 0) & (away > self._recipe.radius))
+        parts = np.split(away, [self._people])
+        stands = np.concatenate([goals.advance(dt, part) for goals, part in zip(self._goals, parts, strict=True)])
+        walking = np.flatnonzero(~stands & (away > self._recipe.radius))
         velocity[walking] = self._to_goals(place, walking)
         if reaction in SIGHT:
             alert = np.flatnonzero(~self._done)
@@ -159,17 +169,6 @@ class WalkingSession(CrowdSession):
         tired = who[self._seen_for[who] >= PATIENCE[reaction]]
         self._seen_for[tired], self._done[tired] = 0.0, reaction != "scared"
 
-    def _arrive(self, person: int) -> None:
-        """Stay for a while, then go to the next goal; a group goes together."""
-        together = np.flatnonzero(self._group == self._group[person]) if self._group[person] >= 0 else [person]
-        for member in together:
-            self._goal_number[member] += 1
-            own = self._draws(
-                int(member if self._group[person] < 0 else self._leader(person)), self._goal_number[member]
-            )
-            self._waits[member] = own.exponential(self._recipe.stay) if self._recipe.stay else 0.0
-            self._goal[member] = self._next_goal(int(member))
-
     def _look(self, dt: float, looks: Float) -> None:
         """Turn ahead while walking, or to what a person looks at."""
         velocity = self._walkers.velocity
@@ -196,24 +195,41 @@ class WalkingSession(CrowdSession):
     def _leader(self, person: int) -> int:
         return int(np.flatnonzero(self._group == self._group[person])[0])
 
-    def _goals_of(self, person: int) -> bool:
-        return person < self._recipe.people or len(self._recipe.given[person - self._recipe.people].goals) > 0
+    def _all_goals(self, world: World, start: Float) -> tuple[Goals, Goals]:
+        """The goals of people who are not `given`, and of those who are."""
+        recipe, (group, own), (begin, begin_own) = (
+            self._recipe,
+            np.split(self._group, [self._people]),
+            np.split(start, [self._people]),
+        )
+        reach = recipe.radius + REACHED
 
-    def _next_goal(self, person: int) -> Float:
-        """The goal of the number at which a person is."""
-        number = int(self._goal_number[person])
-        if person >= self._recipe.people:
-            own = self._recipe.given[person - self._recipe.people]
-            return np.array(own.goals[number % len(own.goals)] if own.goals else own.start)
-        who = self._leader(person) if self._group[person] >= 0 else person
-        goal: Float = self._places[self._draws(who, number + 1).integers(len(self._places))]
-        return goal
+        def drawn(person: int, number: int) -> Float:
+            who = person if group[person] < 0 else int(np.flatnonzero(group == group[person])[0])
+            place: Float = self._places[self._draws(who, number + 1).integers(len(self._places))]
+            return place
+
+        def stated(person: int, number: int) -> Float | None:
+            goals = recipe.given[person].goals
+            return np.array(goals[number % len(goals)]) if goals else None
+
+        def draws_own(person: int, number: int) -> np.random.Generator:
+            return self._draws(self._people + person, number)
+
+        first: Goals
+        if self._begin:
+            activities = activities_on(world, recipe.level, self._floor)
+            begun = [one.activity for one in self._begin]
+            first = ActivityGoals(group, self._draws, reach, activities, begun, begin)
+        else:
+            first = PlaceGoals(group, self._draws, reach, drawn, begin, recipe.stay)
+        return first, PlaceGoals(own, draws_own, reach, stated, begin_own, recipe.stay)
 
     def _groups(self) -> Int:
-        """Groups i8[m], -1 = none; those that are given come after those of people at random places."""
+        """Groups i8[m], -1 = none; those that are `given` come last."""
         recipe = self._recipe
         size = recipe.group_size
-        drawn = np.arange(recipe.people) // size if size > 1 else np.full(recipe.people, -1)
+        drawn = np.arange(self._people) // size if size > 1 else np.full(self._people, -1)
         first = int(drawn.max(initial=-1)) + 1
         return np.concatenate([drawn, [-1 if p.group is None else first + p.group for p in recipe.given]]).astype(int)
 
@@ -223,7 +239,7 @@ class WalkingSession(CrowdSession):
         speed: Float = np.clip(np.array(drawn, float), min(0.5, recipe.speed), 2.2)
         for index, person in enumerate(recipe.given):
             if person.speed is not None:
-                speed[recipe.people + index] = person.speed
+                speed[self._people + index] = person.speed
         return speed
 
     def _turns(self) -> Float:
@@ -234,7 +250,7 @@ class WalkingSession(CrowdSession):
         return rotation
 
     def _starts(self, drawn: np.random.Generator, seen: CrowdView) -> Float:
-        """Given places first, then random ones; nobody overlaps a robot or another mover.
+        """Given places first, then those where activities begin, or random ones; nobody overlaps a robot or another mover.
 
         Raises:
             InputError: a given place is not free, or there is no room.
@@ -255,13 +271,20 @@ class WalkingSession(CrowdSession):
                 )
             taken.append(np.array(person.start, float))
         found: list[Float] = []
-        for place in self._floor.places[drawn.permutation(len(self._floor.places))]:
-            if len(found) == recipe.people:
-                break
-            if _apart(place, [*taken, *found], 2 * recipe.radius + APART) and _apart(place, bodies, reach + APART):
-                found.append(place)
-        if len(found) < recipe.people:
-            raise InputError(f"crowds: there is room for {len(found)} of {recipe.people} people")
+        places, orders = (
+            self._floor.places,
+            {None: iter(self._floor.places[drawn.permutation(len(self._floor.places))])},
+        )
+        for person in range(self._people):
+            near = (self._begin[person].x, self._begin[person].y) if self._begin else None
+            if near not in orders:
+                orders[near] = iter(places[np.hypot(*(places - near).T).argsort(kind="stable")])
+            for place in orders[near]:  # what is taken stays so
+                if _apart(place, [*taken, *found], 2 * recipe.radius + APART) and _apart(place, bodies, reach + APART):
+                    found.append(place)
+                    break
+            else:
+                raise InputError(f"crowds: there is room for {len(found)} of {self._people} people")
         return np.array([*found, *taken]).reshape(-1, 2)
 
 
