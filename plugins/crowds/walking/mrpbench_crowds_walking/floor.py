@@ -6,6 +6,7 @@ from mrpbench_native.sim import walking_routes
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
+from mrpbench_core.model.common.geometry import inside
 from mrpbench_core.model.worlds.solids import segments
 from mrpbench_core.model.worlds.world import World
 
@@ -35,7 +36,10 @@ class Floor:
         for lift in world.lifts:
             low, high = lift.corners.min(axis=0) - radius, lift.corners.max(axis=0) + radius
             free &= ~((self._centre > low) & (self._centre < high)).all(axis=1)
+        if storey.floors:  # the building may be open to the outside
+            free &= np.any([inside(area.polygon, self._centre) for area in storey.floors], axis=0)
         self._free = free.reshape(rows, columns)
+        self._bounded = bool(storey.floors)
         inner = self._joined()
         self.places: Float = self._centre[inner.ravel()]
         """f8[k,2] centres of the cells of the largest connected part."""
@@ -44,13 +48,13 @@ class Floor:
         self._routes: dict[int, Int32] = {}
 
     def _joined(self) -> Bool:
-        """The largest part of the free cells that is connected and does not reach the border of the raster."""
+        """The largest connected part of the free cells; without a drawn floor, of those that do not reach the border."""
         left, best = self._free.copy(), np.zeros_like(self._free)
         while left.any():
             seed = int(left.ravel().argmax())
             part = (walking_routes(self._free.astype(np.uint8), seed) >= 0).reshape(left.shape) & self._free
             border = part[0].any() or part[-1].any() or part[:, 0].any() or part[:, -1].any()
-            if not border and part.sum() > best.sum():
+            if (self._bounded or not border) and part.sum() > best.sum():
                 best = part
             left &= ~part
         return best
