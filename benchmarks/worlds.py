@@ -18,6 +18,10 @@ WORLDS: dict[str, dict[str, Any]] = {
     "warehouse": {},
     "airport": {"limits": {"execution": "40 min"}},
     "household": {},
+    "station": {},
+    "office_noon": {},
+    "hospital_corridor": {"roadmap": "graph"},
+    "warehouse_pickers": {},
     "household_graph": {"world": "household", "roadmap": "graph"},
     **{
         f"bottlenecks_{case}": {

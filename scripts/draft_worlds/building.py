@@ -1,6 +1,6 @@
 """Writes building files of the RMF traffic editor, in metres, in the layout of our built-in worlds."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 
@@ -29,6 +29,12 @@ class DraftLevel:
         stated = ", ".join(f"{key}: [1, {value[0]}]" if value else f"{key}: [4, true]" for key, *value in pairs)
         self.places[name] = (x, y, f", {{{stated}}}" if stated else "")
         return name
+
+    def people(self, goal_set: str, *points: tuple[float, float]) -> None:
+        """Places of people, outside of the navigation graph."""
+        drawn = sum(goal_set in parameters for _, _, parameters in self.places.values())
+        for number, (x, y) in enumerate(points, drawn + 1):
+            self.place(f"{goal_set}_{number}", x, y, f"human_goal_set_name={goal_set}")
 
     def lane(self, *names: str, one_way: bool = False) -> None:
         """Lanes through these places, one after the other."""
@@ -100,9 +106,44 @@ class DraftLevel:
         return text
 
 
-def write(file: Path, title: str, *levels: DraftLevel, lifts: Sequence[str] = ()) -> None:
-    """A whole building file; `title` is its head comment, `lifts` are the lines of that section."""
+Routine = Mapping[str, tuple[tuple[float, float], Mapping[str, float]]]
+"""For each goal set the seconds for which people stay there, and the weights of the sets to which they go next."""
+
+
+def crowd_sim(routine: Routine, groups: Sequence[tuple[str, int, float, float]]) -> list[str]:
+    """The lines of that section: people walk to a place of a set (state `to_SET`) and stay (`at_SET`).
+
+    Args:
+        routine: what people do.
+        groups: the set to which people go first, how many they are, and x and y near which they begin.
+    """
+    text = ["crowd_sim:", "  enable: 1", "  goal_sets:"]
+    for index, name in enumerate(routine):
+        text.append(f"    - {{set_id: {index}, set_area: [{name}], capacity: 10}}")
+    text.append("  states:  # people walk to a place of a set, and stay there")
+    for index, name in enumerate(routine):
+        text.append(f"    - {{name: to_{name}, goal_set: {index}, final: 0}}")
+        text.append(f"    - {{name: at_{name}, goal_set: -1, final: 0}}")
+    text.append("  transitions:")
+    for name, ((least, most), following) in routine.items():
+        there = "{type: goal_reached, distance: 0.5}"
+        text.append(f"    - {{from: to_{name}, to: at_{name}, Condition: {there}}}")
+        stay = f"{{type: timer, dist: u, min: {number(least)}, max: {number(most)}, per_agent: true}}"
+        targets = ", ".join(f"{{name: to_{other}, weight: {number(weight)}}}" for other, weight in following.items())
+        text.append(f"    - {{from: at_{name}, Condition: {stay},")
+        text.append(f"       Target: [{targets}]}}")
+    text.append("  agent_groups:")
+    for index, (name, count, x, y) in enumerate(groups, 1):
+        where = f"x: {number(x)}, y: {number(y)}"
+        text.append(f"    - {{group_id: {index}, agents_number: {count}, {where}, state_selector: to_{name}}}")
+    return text
+
+
+def write(
+    file: Path, title: str, *levels: DraftLevel, lifts: Sequence[str] = (), people: Sequence[str] = ()
+) -> None:
+    """A whole building file; `title` is its head comment, `lifts` and `people` are the lines of those sections."""
     text = [*(f"# {line}" for line in title.splitlines()), f"name: {file.name.split('.')[0]}"]
     text += ["coordinate_system: cartesian_meters", *(["lifts:", *lifts] if lifts else ["lifts: {}"]), "levels:"]
     text += [line for level in levels for line in level.lines()]
-    file.write_text("\n".join(text) + "\n", encoding="utf-8")
+    file.write_text("\n".join([*text, *people]) + "\n", encoding="utf-8")

@@ -92,6 +92,47 @@ class Station(WorldSource):
 
 
 @attrs.frozen(kw_only=True)
+class OfficeNoon(WorldSource):
+    """An office of 24 × 12 m at noon: offices with doors, kitchen, canteen, meeting room, 23 places.
+
+    Crowds do what people do there: 12 walk between desks, kitchen, canteen, meeting, post and entrance.
+    """
+
+    doors: DoorState = doors_option()
+
+    def load(self) -> World:
+        """Read the packaged file."""
+        return Rmf(file=FOLDER / "office_noon.building.yaml", doors=self.doors).load()
+
+
+@attrs.frozen(kw_only=True)
+class HospitalCorridor(WorldSource):
+    """Two hospital floors of 24 × 10.4 m: fourteen rooms with doors at corridors of 2.4 m, one lift, 46 places.
+
+    Crowds do what people do there, one crowd for each floor: 8 staff, visitors and patients walk between nurses'
+    station, rooms and lift, and along the corridor.
+    """
+
+    doors: DoorState = doors_option()
+
+    def load(self) -> World:
+        """Read the packaged file."""
+        return Rmf(file=FOLDER / "hospital_corridor.building.yaml", doors=self.doors).load()
+
+
+@attrs.frozen(kw_only=True)
+class WarehousePickers(WorldSource):
+    """A warehouse of 24 × 17 m with pickers: five racks, six aisles of 2.2 m and more, packing stations, 32 places.
+
+    Crowds do what people do there: 10 walk along an aisle, pick at shelves, and bring it to a packing station.
+    """
+
+    def load(self) -> World:
+        """Read the packaged file."""
+        return Rmf(file=FOLDER / "warehouse_pickers.building.yaml").load()
+
+
+@attrs.frozen(kw_only=True)
 class Encounters(WorldSource):
     """Minimal cases in which a robot, from `robot` to `robot_goal`, meets one who goes from `person` to `person_goal`.
 

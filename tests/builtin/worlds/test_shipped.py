@@ -10,10 +10,13 @@ from mrpbench_core.builtin.worlds.shipped import (
     Airport,
     Bottlenecks,
     Encounters,
+    HospitalCorridor,
     Household,
     Office,
+    OfficeNoon,
     Station,
     Warehouse,
+    WarehousePickers,
 )
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
@@ -26,7 +29,8 @@ BURGERS = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
 
 NARROW = [Household(), *(Bottlenecks(case=case) for case in CASES)]
 ROOMY = [Office(), Warehouse(), Airport()]
-PEOPLED = [Station(), *(Encounters(case=case) for case in ENCOUNTERS)]
+PEOPLED = [Station(), OfficeNoon(), WarehousePickers(), *(Encounters(case=case) for case in ENCOUNTERS)]
+INHABITED = [(OfficeNoon(), 0), (WarehousePickers(), 0), (HospitalCorridor(), 0), (HospitalCorridor(), 1)]
 
 
 @pytest.fixture(params=[*ROOMY, *NARROW, *PEOPLED], ids=repr, scope="module")
@@ -119,3 +123,31 @@ def test_nothing_is_left_out_of_the_roadmaps_of_roomy_worlds(source):
 def test_roads_have_about_as_many_cells_as_the_papers(source, paper):
     built = Lanes(cell_size=0.4, compatible="mrp_bench").build(source().load(), BURGERS)
     assert len(built.position) == pytest.approx(paper, rel=0.2)
+
+
+def test_the_hospital_corridor_is_one_graph_over_two_floors():
+    hospital = HospitalCorridor().load()
+    built = Graph().build(hospital, BURGERS)
+    assert (hospital.notes, built.notes) == ((), ())
+    assert (len(hospital.vertices), [len(level.doors) for level in hospital.levels]) == (46, [7, 7])
+    assert len(set(components(len(built.position), built.edges))) == 1
+    assert check_world(hospital, built, 0.125).faults == ()
+
+
+@pytest.mark.parametrize(("source", "level"), INHABITED, ids=repr)
+def test_people_of_a_level_come_to_all_that_happens_there_and_stay_there(source, level):
+    world = source.load()
+    known = {group.activity for group in world.people if group.level == level}
+    assert sum(group.people for group in world.people if group.level == level) >= 8
+    queue = [*known]
+    for number in queue:
+        activity = world.activities[number]
+        assert activity.following
+        assert (activity.level == level).all()
+        place = activity.places
+        assert has_clearance(world.levels[level], place, place, 0.25).all(), activity.name
+        new = {other for other, _ in activity.following} - known
+        known |= new
+        queue += new
+    assert len(known) >= 10
+    assert len(known) in (len(world.activities), len(world.activities) // 2)
