@@ -25,7 +25,8 @@ RUNS_PER_PLANNER = {
     "faults": 80,
     "controllers": 240,
     "encounters": 120,
-    "people": 240,
+    "people": 400,
+    "people_floors": 80,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {
@@ -42,6 +43,7 @@ PLANNERS = {
     "controllers": 1,
     "encounters": 1,
     "people": 1,
+    "people_floors": 1,
 }
 VARIANTS = {"league": 2}
 """Options of one planner that a study compares."""
@@ -52,7 +54,7 @@ def missing_planners():
 
 
 def test_every_study_is_known_here():
-    assert {file.stem for file in FOLDER.glob("*.yaml")} == {*RUNS_PER_PLANNER, "movingai"}
+    assert {file.stem for file in FOLDER.glob("*.yaml")} == {*RUNS_PER_PLANNER, "barn", "movingai"}
 
 
 def test_the_study_of_the_movingai_benchmark_finds_its_files_beside_it(shared_data, tmp_path):
@@ -63,6 +65,16 @@ def test_the_study_of_the_movingai_benchmark_finds_its_files_beside_it(shared_da
     assert Counter(point.canonical["planner"]["plugin"] for point in study.runs) == dict.fromkeys(
         ("prioritized", "eecbs", "pibt", "lacam", "lns"), 15
     )
+
+
+def test_the_study_of_the_barn_challenge_takes_its_tables_and_worlds_from_the_command(shared_data):
+    files = [
+        f"world.{key}={shared_data / 'barn' / name}.csv.gz" for key, name in (("file", "cylinders"), ("path", "paths"))
+    ]
+    study = load_study(FOLDER / "barn.yaml", [*files, "world.index=[0, 3]"])
+    assert not study.errors
+    local = Counter(point.canonical["controller"]["primary_controller"]["plugin"] for point in study.runs)
+    assert local == dict.fromkeys(("graceful", "rpp", "dwb", "mppi"), 2)
 
 
 @pytest.mark.parametrize("name", RUNS_PER_PLANNER)

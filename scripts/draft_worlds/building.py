@@ -139,9 +139,7 @@ def crowd_sim(routine: Routine, groups: Sequence[tuple[str, int, float, float]])
     return text
 
 
-def write(
-    file: Path, title: str, *levels: DraftLevel, lifts: Sequence[str] = (), people: Sequence[str] = ()
-) -> None:
+def write(file: Path, title: str, *levels: DraftLevel, lifts: Sequence[str] = (), people: Sequence[str] = ()) -> None:
     """A whole building file; `title` is its head comment, `lifts` and `people` are the lines of those sections."""
     text = [*(f"# {line}" for line in title.splitlines()), f"name: {file.name.split('.')[0]}"]
     text += ["coordinate_system: cartesian_meters", *(["lifts:", *lifts] if lifts else ["lifts: {}"]), "levels:"]

@@ -1,13 +1,15 @@
-"""First draft of the built-in world `hospital_corridor`; the shipped file is the truth and may have been edited since."""
+"""First draft of the built-in world `hospital_corridor`.
+
+The shipped file is the truth and may have been edited since.
+"""
 
 import sys
-from itertools import pairwise
 from pathlib import Path
 
 from building import DraftLevel, Routine, crowd_sim, write
 
-TITLE = """Two floors of a hospital, 24 x 10.4 m each: seven rooms with doors and a nurses' station on both sides of a corridor
-of 2.4 m, one lift. Staff and visitors walk between station, rooms and lift, patients up and down the corridor.
+TITLE = """Two floors of a hospital, 24 x 10.4 m each: seven rooms with doors and a nurses' station on both sides of a
+corridor of 2.4 m, one lift. Staff and visitors walk between station, rooms and lift, patients up and down the corridor.
 
 Edit it here or in the RMF traffic editor. People stay on their floor: one crowd for each."""
 SOUTH, NORTH, WIDTH, DEPTH = 4.0, 6.4, 24.0, 10.4

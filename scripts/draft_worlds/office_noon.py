@@ -6,8 +6,8 @@ from pathlib import Path
 
 from building import DraftLevel, Routine, crowd_sim, write
 
-TITLE = """An office of 24 x 12 m at noon: three offices, meeting room and post room north of a corridor, kitchen, canteen
-and reception south of it. People walk between desks, kitchen, canteen, meeting, post and entrance.
+TITLE = """An office of 24 x 12 m at noon: three offices, meeting room and post room north of a corridor, kitchen,
+canteen and reception south of it. People walk between desks, kitchen, canteen, meeting, post and entrance.
 
 Edit it here or in the RMF traffic editor."""
 SPINE = (0.8, 2.4, 3.6, 7.2, 12.0, 16.8, 20.4, 21.6, 23.2)

@@ -1,4 +1,7 @@
-"""First draft of the built-in world `warehouse_pickers`; the shipped file is the truth and may have been edited since."""
+"""First draft of the built-in world `warehouse_pickers`.
+
+The shipped file is the truth and may have been edited since.
+"""
 
 import sys
 from itertools import pairwise

@@ -1,6 +1,7 @@
 """What people do in a building all day: the states of RMF's `crowd_sim`, which are those of Menge.
 
-S. Curtis, A. Best and D. Manocha, "Menge: A Modular Framework for Simulating Crowd Movement", Collective Dynamics 1, 2016.
+S. Curtis, A. Best and D. Manocha, "Menge: A Modular Framework for Simulating Crowd Movement", Collective Dynamics 1,
+2016.
 """
 
 import attrs

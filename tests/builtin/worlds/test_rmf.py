@@ -116,11 +116,11 @@ def test_open_doors_leave_free_doorways(tmp_path):
 def test_unknown_parts_are_noted(tmp_path):
     text = BUILDING.replace("alpha: [3, 1]", "alpha: [3, 1], colour: [1, red], odd: [9, 1]") + (
         "    models: [{model_name: Throne, x: 1, y: 1}, {model_name: Throne, x: 2, y: 2}]\n"
-        "    human_lanes: [1, 2, 3]\n    smell: 1\n  L2: {}\ncrowd_sim: {enable: 1}\n"
+        "    human_lanes: [1, 2, 3]\n    smell: 1\n  L2: {}\n"
     )
     notes = load(tmp_path, text, level="L1").notes
     expected = ("'colour'", "unknown type 9", "'Throne' has no known footprint", "(2 times)", ": 3 left out", "'smell'")
-    for part in (*expected, "not 'L2'", "crowd_sim is not supported"):
+    for part in (*expected, "not 'L2'"):
         assert any(part in note for note in notes), part
 
 

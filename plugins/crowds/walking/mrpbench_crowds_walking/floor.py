@@ -48,7 +48,7 @@ class Floor:
         self._routes: dict[int, Int32] = {}
 
     def _joined(self) -> Bool:
-        """The largest connected part of the free cells; without a drawn floor, of those that do not reach the border."""
+        """The largest connected part of the free cells; without a drawn floor, one that does not reach the border."""
         left, best = self._free.copy(), np.zeros_like(self._free)
         while left.any():
             seed = int(left.ravel().argmax())

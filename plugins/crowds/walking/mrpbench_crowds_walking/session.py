@@ -250,7 +250,7 @@ class WalkingSession(CrowdSession):
         return rotation
 
     def _starts(self, drawn: np.random.Generator, seen: CrowdView) -> Float:
-        """Given places first, then those where activities begin, or random ones; nobody overlaps a robot or another mover.
+        """Given places first, then those near which activities begin, or random ones; nobody overlaps a body.
 
         Raises:
             InputError: a given place is not free, or there is no room.

@@ -48,7 +48,6 @@ def test_every_part_is_read(fleet):
     assert [vertex.lift for vertex in world.vertices] == ["", "", "", "hoist", "hoist", "", "", ""]
     assert len(world.levels[0].holes) == len(world.levels[0].floors) == len(world.levels[0].obstacles) == 1
     assert sorted(world.notes) == [
-        "crowd_sim is not supported and has no effect.",
         "human lanes are not supported: 1 left out.",
         "lane of a graph above 8 is left out, as RMF does.",
         "lane with orientation backward is driven forward, like all lanes.",
