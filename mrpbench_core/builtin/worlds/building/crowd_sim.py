@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import attrs
+import numpy as np
 
 from mrpbench_core.builtin.worlds.building.lanes import LevelDrawing
 from mrpbench_core.builtin.worlds.building.node import Node
@@ -50,17 +51,21 @@ def read_crowd_sim(
             usable[name] = sets[key] if key != -1 else []
     index = {name: number for number, name in enumerate(usable)}
     activities = [
-        Activity(name=name, places=[place[:2] for place in places], level=[place[2] for place in places])
+        Activity(
+            name=name,
+            places=np.array([place[:2] for place in places], float).reshape(-1, 2),
+            level=np.array([place[2] for place in places], np.int16),
+        )
         for name, places in usable.items()
     ]
     for node in _with(top, "transitions", "from"):
         _check_state(origin := node.fields()["from"], states)
-        if (number := index.get(origin.text())) is None:
+        if (of := index.get(origin.text())) is None:
             continue
-        if activities[number].following:
+        if activities[of].following:
             notes.add(f"crowd_sim has several transitions from {origin.text()!r}: only the first has an effect")
             continue
-        activities[number] = _ended(activities[number], node, states, index, notes)
+        activities[of] = _ended(activities[of], node, states, index, notes)
     return tuple(activities), _groups(top, states, index, activities)
 
 

@@ -173,8 +173,8 @@ def activities_on(world: World, level: int, floor: Floor) -> tuple[Activity, ...
     kept = []
     for activity in world.activities:
         here = [floor.nearest(place) for place in activity.places[activity.level == level]]
-        places = [place for place in here if place is not None]
-        kept.append(attrs.evolve(activity, places=places, level=[level] * len(places)))
+        places = np.array([place for place in here if place is not None], float).reshape(-1, 2)
+        kept.append(attrs.evolve(activity, places=places, level=np.full(len(places), level, np.int16)))
     lost = {
         index
         for index, (before, after) in enumerate(zip(world.activities, kept, strict=True))

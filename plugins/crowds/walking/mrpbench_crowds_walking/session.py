@@ -1,6 +1,6 @@
 """People under way: goals, waiting, doors and reactions; the native `Walkers` moves them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import attrs
@@ -271,12 +271,10 @@ class WalkingSession(CrowdSession):
                 )
             taken.append(np.array(person.start, float))
         found: list[Float] = []
-        places, orders = (
-            self._floor.places,
-            {None: iter(self._floor.places[drawn.permutation(len(self._floor.places))])},
-        )
+        places = self._floor.places
+        orders: dict[tuple[float, ...], Iterator[Float]] = {(): iter(places[drawn.permutation(len(places))])}
         for person in range(self._people):
-            near = (self._begin[person].x, self._begin[person].y) if self._begin else None
+            near = (self._begin[person].x, self._begin[person].y) if self._begin else ()
             if near not in orders:
                 orders[near] = iter(places[np.hypot(*(places - near).T).argsort(kind="stable")])
             for place in orders[near]:  # what is taken stays so
