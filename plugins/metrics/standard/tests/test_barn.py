@@ -1,10 +1,13 @@
 """The metric `barn` on drives by hand: two metres a sample, from the start to the goal ten metres north."""
 
+from pathlib import Path
+
 import attrs
 import numpy as np
 import pytest
 from mrpbench_metrics_standard import Barn
 
+from mrpbench_core import run
 from mrpbench_core.model.worlds.world import Vertex
 
 LENGTH = 12.0
@@ -52,3 +55,25 @@ def test_there_is_no_score_without_a_reference_path_and_nothing_in_other_worlds(
 def test_a_negative_length_as_in_dynabarn_gives_every_success_an_eighth(driven, duration):
     assert Barn().measure(driven(duration, parameters={"barn_path_m": -20.0}))["score"] == pytest.approx(1 / 8)
     assert Barn().measure(driven(duration, [1.0], parameters={"barn_path_m": -20.0}))["score"] == 0
+
+
+@pytest.mark.parametrize(("x", "score"), [(5.0, 0.0), (20.0, 1 / 8)])
+def test_a_drive_through_a_dynabarn_world_of_our_own_scores_an_eighth_unless_it_touches(tmp_path, x, score):
+    (tmp_path / "worlds.csv").write_text("world,class,index\n4,easy,1\n")
+    (tmp_path / "frames.csv").write_text(f"class,index,t,x,y\neasy,1,0,{x},-0.5\neasy,1,9,{x},0.5\n")
+    tables = {"worlds": str(tmp_path / "worlds.csv"), "keyframes": str(tmp_path / "frames.csv")}
+    config = {
+        "world": "dynabarn",
+        "scenario": "barn",
+        "fleet": str(Path(__file__).parents[4] / "benchmarks" / "jackal.yaml"),
+        "roadmap": "straight",
+        "planner": "astar",
+        "dispatcher": "all_at_once",
+        "simulator": "planar",
+        "crowds": {"plugin": "dynabarn", "index": 4, **tables},
+        "limits": {"execution": 100.0},
+        "metrics": ["barn", "execution"],
+    }
+    (record,) = run(config, out=tmp_path / "results")
+    assert record["metrics"]["barn.score"] == pytest.approx(score)
+    assert record["metrics"]["barn.success"] == (score > 0)
