@@ -1,6 +1,7 @@
 """Measure the time that dispatchers take with large fleets of which some robots are late.
 
     python benchmarks/dispatching.py --robots 100 300 1000 --dispatchers adg gses btpg
+    python benchmarks/dispatching.py --robots 1000 --dispatchers adg --speed-profiles
 
 Each fleet has a grid in which one cell of ten holds a robot and one of five is blocked, drawn goals, and a plan
 of `lacam`. Robots make one move in each second, unless they are stopped: in every second, one robot of a hundred stops
@@ -35,6 +36,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--robots", type=int, nargs="+", default=[100, 300, 1000])
     parser.add_argument("--dispatchers", nargs="+", choices=sorted(DISPATCHERS), default=sorted(DISPATCHERS))
+    parser.add_argument("--speed-profiles", action="store_true", help="with speed profiles, in each update")
     parser.add_argument("--seed", type=int, default=0)
     given = parser.parse_args()
     names = f"{'start':>7} {'mean':>7} {'p99':>7} {'most':>7} {'slow':>9} arrival"
@@ -43,7 +45,9 @@ def main() -> None:
         problem, plan = drawn_plan(robots, given.seed)
         moves = sum(int((path.edge >= 0).sum()) for path in plan.paths)
         for name in given.dispatchers:
-            start, updates, arrival = execute(DISPATCHERS[name](), problem, plan, given.seed)
+            start, updates, arrival = execute(
+                DISPATCHERS[name](speed_profiles=given.speed_profiles), problem, plan, given.seed
+            )
             figures = 1000 * np.array([np.mean(updates), np.quantile(updates, 0.99), np.max(updates)])
             slow = f"{sum(update > SLOW for update in updates)}/{len(updates)}"
             columns = " ".join(f"{figure:7.1f}" for figure in figures)
@@ -83,12 +87,15 @@ def execute(dispatcher: Dispatcher, problem: Problem, plan: Plan, seed: int) -> 
     waits = [path.edge < 0 for path in plan.paths]
     updates: list[float] = []
     level, pose = np.zeros(robots, np.int16), np.zeros((robots, 3))
+    vertices = [path.vertices(problem.roadmap, at) for path, at in zip(plan.paths, problem.start.tolist(), strict=True)]
     for now in range(20 * max(lengths)):
+        here = [visited[count] for visited, count in zip(vertices, reached.tolist(), strict=True)]
+        pose[:, :2] = problem.roadmap.position[here]
         view = FleetView(
             revision=0,
             reached=reached.copy(),
             cleared=reached.copy(),
-            pose=pose,
+            pose=pose.copy(),
             level=level,
             mode=np.full(robots, Mode.FOLLOWING, np.uint8),
         )

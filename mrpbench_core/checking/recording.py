@@ -32,6 +32,7 @@ LAYOUTS: Mapping[str, Layout] = {
     "time": Layout("f", "time"),
     **{name: Layout("f", "time", (ROBOTS, width)) for name, width in _FLOAT.items()},
     **{name: Layout("iu", "time", (ROBOTS,)) for name in PERIODIC if name not in _FLOAT},
+    "speed_limit": Layout("f", "time", (ROBOTS,)),
     "facility": Layout("f", "time", (ANY,)),
     "mover": Layout("f", "time", (MOVERS, 5)),
     "mover_level": Layout("iu", "time", (MOVERS,)),
@@ -140,6 +141,8 @@ def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int
         return f"{name} names a robot that does not exist"
     if name in ("released", "reached", "cleared", "level", "route_level", "route_revision") and (rows < 0).any():
         return f"{name} is negative"
+    if name == "speed_limit" and not (rows > 0).all():
+        return "speed_limit is not above 0"
     if name in (*_FLOAT, "facility", "mover", "route_waypoint") and (np.abs(rows) > LARGEST).any():
         return f"{name} is not finite"
     return None

@@ -50,12 +50,13 @@ class DependencyGraph:
         """i8[m]: the first move of the rotation that each move belongs to, -1 for other moves."""
         for first, rotation in self.rotations.items():
             self.rotation[list(rotation)] = first
-        self._group = np.where(self.rotation < 0, np.arange(len(moves.robot)), self.rotation)
+        self.group_of_moves: Int = np.where(self.rotation < 0, np.arange(len(moves.robot)), self.rotation)
+        """i8[m]: the first move of the group of each move."""
         sizes = Paths.of(plan.paths).size
         self._stride = int(sizes.max(initial=0)) + 1
         dependencies = np.concatenate([self._dependencies(self.order), self._follows()])
         # Lists from here on, because they are read one number at a time.
-        self.group: list[int] = self._group.tolist()
+        self.group: list[int] = self.group_of_moves.tolist()
         keys, waiting = np.divmod(dependencies, max(1, len(moves.robot)))
         self.unmet: list[int] = np.bincount(waiting, minlength=len(self.group)).tolist()
         self._waiting: dict[int, list[int]] = {}
@@ -79,14 +80,14 @@ class DependencyGraph:
 
     def _dependencies(self, order: Type2Edges) -> Int:
         """The key of the row and count, and the waiting group, of every dependency of an order, as one number i8[k]."""
-        apart = self._group[order.before] != self._group[order.after]
+        apart = self.group_of_moves[order.before] != self.group_of_moves[order.after]
         before, after = order.before[apart], order.after[apart]
         row = np.where(order.completed[apart], REACHED, CLEARED) * len(self._problem) + self.moves.robot[before]
-        return np.unique(self._coded(row, self.moves.segment[before] + 1, self._group[after]))
+        return np.unique(self._coded(row, self.moves.segment[before] + 1, self.group_of_moves[after]))
 
     def _follows(self) -> Int:
         """All robots of a rotation must have reached its start, and a robot in a lift its exit."""
-        moves, group, level = self.moves, self._group, self._problem.roadmap.level
+        moves, group, level = self.moves, self.group_of_moves, self._problem.roadmap.level
         after_ride = np.append(False, level[moves.tail[:-1]] != level[moves.head[:-1]])[: len(group)]
         follows = np.flatnonzero(
             ((self.rotation >= 0) | after_ride) & (np.arange(len(group)) > moves.first[moves.robot])

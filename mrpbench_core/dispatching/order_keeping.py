@@ -1,12 +1,15 @@
 """Dispatchers that release each move once the moves that precede it in some order are out of its way."""
 
+from collections.abc import Mapping
+
 import attrs
 import numpy as np
 
 from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, option
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.dispatching.dependency_graph import REACHED, DependencyGraph
-from mrpbench_core.model.common.arrays import Bool, Int, Int32, frozen_array
+from mrpbench_core.dispatching.speed_profiles import PERIOD, SpeedProfiles
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32, frozen_array
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -34,6 +37,20 @@ class OrderKeepingDispatcher(Dispatcher):
         help="segments before a door, lift or mutex at which a robot asks for it, once the robots before it have left",
         validator=attrs.validators.ge(0),
     )
+    speed_profiles: bool = option(
+        False, help="robots that would have to wait drive slowly before, so that they need not stop"
+    )
+    speed_margin: float = option(
+        0.5,
+        help="time by which a robot that drives slowly comes later to where it waits than it may go on; it brakes "
+        "otherwise, because it may go on only when it is there",
+        unit="s",
+        validator=attrs.validators.ge(0),
+    )
+
+    def idle_options(self) -> Mapping[str, str]:
+        """Return options that the others make idle."""
+        return {} if self.speed_profiles else {"speed_margin": "speed_profiles is false"}
 
 
 class OrderKeepingSession(DispatcherSession):
@@ -68,6 +85,11 @@ class OrderKeepingSession(DispatcherSession):
         graph.update(seen, np.arange(len(problem)))
         graph.commit(committed)
         self.problem, self.plan, self.graph, self.seen = problem, plan, graph, seen
+        self._speed: Float = np.zeros(0)
+        self._profiles = (
+            SpeedProfiles(problem, graph, self.options.speed_margin) if self.options.speed_profiles else None
+        )
+        self._profiles_due = -np.inf
         self._begin_to_release(committed)
 
     def retime(self, moves: Moves, chosen: Bool) -> None:
@@ -88,11 +110,14 @@ class OrderKeepingSession(DispatcherSession):
         self.released = committed
         self._release()
 
-    def update(self, now: float, view: FleetView) -> Orders:  # noqa: ARG002 - only the order counts
+    def update(self, now: float, view: FleetView) -> Orders:
         """Release the moves that no longer wait for anything, given the progress of the robots."""
         seen = np.maximum(self.seen, (view.reached, view.cleared))
         changed = (seen != self.seen).any(axis=0).nonzero()[0]
-        if self.orders is None or len(changed) or self.graph.requests:
+        slowed = self._profiles is not None and now >= self._profiles_due
+        if slowed and self._profiles is not None:
+            self._speed, self._profiles_due = self._profiles.speed(seen, view.pose[:, :2]), now + PERIOD
+        if self.orders is None or len(changed) or self.graph.requests or slowed:
             self.orders = self._orders(view, seen, changed)
         return self.orders
 
@@ -105,7 +130,7 @@ class OrderKeepingSession(DispatcherSession):
             self._release()
         requests = self.graph.requests.pairs()
         in_step = self.graph.in_step(seen[REACHED])
-        return Orders(released=self.released, requests=requests, in_step=in_step)
+        return Orders(released=self.released, requests=requests, in_step=in_step, speed=self._speed)
 
     def _release(self) -> None:
         ahead = (self.seen[REACHED] + 1 + self.options.lookahead).astype(np.int32)

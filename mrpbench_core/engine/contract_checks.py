@@ -42,6 +42,8 @@ class ContractChecks:
         self._robots, self._movers = len(length), movers
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
+        self._limits_speed: bool | None = None
+        """Whether the dispatcher limits speeds."""
 
     def adopt(self, length: NDArray[Any], cut: Int32) -> None:
         """Continue with the paths of a new plan, which leave out the first `cut` i4[n] segments."""
@@ -105,6 +107,12 @@ class ContractChecks:
         self._one_each(kind, "released", orders.released)
         self._no_robot(kind, "released less than before", orders.released < self._released)
         self._no_robot(kind, "released more segments than there are", orders.released > self.length)
+        if len(orders.speed):
+            self._one_each(kind, "speed", orders.speed)
+            self._no_robot(kind, "a speed that is not above 0", ~(orders.speed > 0))
+        if self._limits_speed not in (None, bool(len(orders.speed))):
+            _refuse(kind, "speeds at some times and none at others")
+        self._limits_speed = bool(len(orders.speed))
         self._released = orders.released
         return orders
 

@@ -22,13 +22,21 @@ class ProgressChecker:
         self._place: Float = np.full((robots, 2), np.inf)  # far from everywhere: the first pose is progress
         self._yaw: Float = np.zeros(robots)
         self._since: Float = np.zeros(robots)
+        self._now = 0.0
 
-    def check(self, now: float, pose: Float, under_way: Bool) -> Bool:
-        """Tell bool[n] which robots under way are stuck; their time begins anew."""
+    def check(self, now: float, pose: Float, under_way: Bool, speed: Float) -> Bool:
+        """Tell bool[n] which robots under way are stuck; their time begins anew.
+
+        Where `speed` f8[n] m/s is so low that a robot needs more than half of the time allowed to move far enough, its
+        time passes more slowly.
+        """
         offset = pose[:, :2] - self._place
         moved = (offset * offset).sum(axis=1) > self._squared
         if np.isfinite(self._angle):
             moved |= np.abs(np.remainder(pose[:, 2] - self._yaw + np.pi, 2 * np.pi) - np.pi) > self._angle
+        share = np.minimum(1.0, speed * self._allowance / (2 * np.sqrt(self._squared)))
+        self._since += (now - self._now) * (1 - share)
+        self._now = now
         fresh = moved | ~under_way
         stuck: Bool = ~fresh & (now - self._since > self._allowance)
         renewed = fresh | stuck

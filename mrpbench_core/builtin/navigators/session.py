@@ -60,8 +60,9 @@ class WaypointsSession(NavigatorSession):
         under_way = follower.under_way(pose) & ~recoveries.aborted
         able = ~recoveries.aborted & ~recoveries.recovering
         following = follower.driven(pose, foot) & able & ~rotating
-        twist, events = self._drive(now, observation, foot, following.nonzero()[0])
-        stuck = self.progress_checker.check(now, pose, under_way & ~recoveries.recovering & ~rotating)
+        speed = np.minimum(follower.speed, orders.speed) if len(orders.speed) else follower.speed
+        twist, events = self._drive(now, observation, foot, speed, following.nonzero()[0])
+        stuck = self.progress_checker.check(now, pose, under_way & ~recoveries.recovering & ~rotating, speed)
         stuck |= self.rotations.command(now, pose, able, twist)
         failed = self.controllers.have_failed(now, following)
         for robot in (stuck | failed).nonzero()[0].tolist():
@@ -84,8 +85,10 @@ class WaypointsSession(NavigatorSession):
             events=tuple(events),
         )
 
-    def _drive(self, now: float, observation: FleetObservation, foot: Float, robots: Int) -> tuple[Float, list[Event]]:
-        """The controllers' commands for the whole fleet f8[n,2], zero where there is none."""
+    def _drive(
+        self, now: float, observation: FleetObservation, foot: Float, speed: Float, robots: Int
+    ) -> tuple[Float, list[Event]]:
+        """The controllers' commands for the whole fleet f8[n,2], zero where there is none, within `speed` f8[n]."""
         twist = np.zeros((len(foot), 2))
         follower = self.follower
         rows = slice(None) if len(robots) == len(foot) else robots
@@ -99,7 +102,7 @@ class WaypointsSession(NavigatorSession):
             begin=follower.begin[rows],
             end=follower.end[rows],
             yaw=follower.yaw[rows],
-            speed=follower.speed[rows],
+            speed=speed[rows],
             tolerance=self.xy_goal_tolerance,
             scans=observation.scans,
             fleet_pose=observation.estimate.pose,

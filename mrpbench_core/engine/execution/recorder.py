@@ -122,6 +122,8 @@ class Recorder:
             rows["odometry"].append(np.column_stack([sample.odometry.pose, sample.odometry.twist]))
             rows["command"].append(motion.twist)
         rows["released"].append(sample.orders.released)
+        if len(sample.orders.speed):
+            rows["speed_limit"].append(sample.orders.speed)
         rows["reached"].append(motion.reached)
         rows["cleared"].append(motion.cleared)
         rows["mode"].append(motion.mode)

@@ -5,6 +5,7 @@ another if the dispatcher lets them; the recording has that as contacts.
 
 - A robot makes each move within what is released at the relative speed of `DelayStream.speed`, and stands while it
   stops. Waits take no time, because a dispatcher releases a robot when it may go on.
+- It makes a move no faster than the speed limit that the dispatcher sets (`Orders.speed`).
 - A robot has cleared the start of a move when it is its own radius and the largest one of the fleet away from it, as
   the navigator `waypoints` reports it, or at the end of a shorter move.
 - Robots that rotate (`Orders.in_step`) move when none of them stops, as fast as the slowest of them.
@@ -142,7 +143,10 @@ class ScheduleLoop:
 
     def _speed(self) -> Float:
         """Relative speed f8[n] of each robot on its segment."""
-        return self._delays.speed(self._reached) * self._faults.speed
+        relative = self._delays.speed(self._reached) * self._faults.speed
+        if len(self._orders.speed):
+            relative = np.minimum(relative, self._orders.speed * self._paths.pace(self._reached))
+        return relative
 
     def _advance(self) -> Bool:
         """Let one control period pass; return which robots have moved."""
@@ -225,19 +229,21 @@ class _Paths:
         self.last_move: Int = np.array([route.last_move for route in context.routes], np.int64)
         self._point = np.concatenate([route.waypoint[:, :2] for route in context.routes]).reshape(-1, 2)
         self._level = np.concatenate([route.level for route in context.routes]).astype(np.int16)
-        durations, settled, clearing = [], [], []
+        durations, settled, clearing, paces = [], [], [], []
         reach = problem.radius + problem.radius.max(initial=0.0)
         for robot, (path, route) in enumerate(zip(plan.paths, context.routes, strict=True)):
             is_move = path.edge >= 0
             own_ticks = problem.duration(robot)[path.edge] if len(path) else np.empty(0, np.int32)
             duration = np.where(is_move, own_ticks, 0) * problem.roadmap.tick
             length = np.hypot(*np.diff(route.waypoint[:, :2], axis=0).T)
+            paces.append(np.append(np.where(length > 0, duration / np.maximum(length, 1e-9), np.inf), np.inf))
             share = np.minimum(1.0, reach[robot] / np.maximum(length, 1e-9))
             durations.append(np.append(duration, 0.0))
             clearing.append(np.append(duration * share, np.inf))
             settled.append(np.maximum.accumulate(np.append(0, np.where(is_move, np.arange(1, len(path) + 1), 0))))
         self._duration = np.concatenate(durations) if durations else np.empty(0)
         self._clearing, self._settled = np.concatenate(clearing), np.concatenate(settled)
+        self._pace: Float = np.concatenate(paces)
         ahead = np.diff(self._point, axis=0, append=self._point[-1:])
         ahead[self._first[1:] - 1] = 0.0
         self._ahead = ahead
@@ -249,6 +255,11 @@ class _Paths:
     def duration(self, segment: Int) -> Float:
         """Planned seconds f8[n] of each robot's `segment` i8[n], 0 for waits and ends."""
         found: Float = self._duration[self._first + segment]
+        return found
+
+    def pace(self, segment: Int) -> Float:
+        """Planned seconds per metre f8[n] of each robot's `segment` i8[n], inf for turns, waits and ends."""
+        found: Float = self._pace[self._first + segment]
         return found
 
     def clearing(self, segment: Int) -> Float:

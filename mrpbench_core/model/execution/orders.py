@@ -1,6 +1,7 @@
 """The inputs and the decisions of a dispatcher."""
 
 import attrs
+import numpy as np
 
 from mrpbench_core.model.common.arrays import Byte, Float, Int16, Int32, array
 
@@ -37,3 +38,6 @@ class Orders:
     in_step: tuple[tuple[tuple[int, int], ...], ...] = ()
     """Groups of (robot, segment) that rotate: each robot moves to where the next one of its group starts, so none of
     them may lead the others along these segments by more than a small distance."""
+    speed: Float = array("f8", factory=lambda: np.zeros(0))
+    """f8[n] m/s: upper limit of each robot now, inf = none; empty: there are no limits in the whole execution. No rule
+    depends on it: a robot that ignores it only drives on to where it has to wait."""

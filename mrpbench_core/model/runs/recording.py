@@ -10,6 +10,7 @@
 | `command` | f8[n,2] | commanded m/s, rad/s |
 | `level` | i2[n] | index into `World.levels` |
 | `released`, `reached`, `cleared` | i4[n] | path segments |
+| `speed_limit` | f8[n] | m/s that the dispatcher allows each robot, inf = any; only where it limits speeds |
 | `mode` | u1[n] | `Mode` |
 | `waits_for` | i4[n] | index into `Roadmap.resources` of what each robot has asked for and may not use yet, -1 = none |
 | `facility` | f8[F] | what doors and lifts do, in the order of `Facilities.names`; only where there are some |

@@ -56,8 +56,19 @@ def test_a_position_goal_checker_takes_any_yaw():
 @pytest.mark.parametrize(("angle", "stuck"), [(np.inf, True), (0.5, False)])
 def test_turning_is_progress_to_a_pose_progress_checker_alone(angle, stuck):
     checker, under_way = ProgressChecker(1, 0.5, 10.0, angle), np.ones(1, bool)
-    found = [checker.check(now, np.array([[0.1, 0.0, 0.06 * now]]), under_way)[0] for now in np.arange(0.0, 30.0, 0.5)]
+    free = np.full(1, np.inf)
+    poses = ((now, np.array([[0.1, 0.0, 0.06 * now]])) for now in np.arange(0.0, 30.0, 0.5))
+    found = [checker.check(now, pose, under_way, free)[0] for now, pose in poses]
     assert any(found) == stuck
+
+
+@pytest.mark.parametrize("limit", [0.01, 0.06, 0.3])
+def test_a_robot_that_drives_as_slowly_as_it_has_to_is_not_stuck_but_one_that_stands_is(limit):
+    for speed, stuck in ((limit, False), (0.0, True)):
+        checker = ProgressChecker(1, 0.5, 10.0)
+        poses = ((now, np.array([[speed * now, 0.0, 0.0]])) for now in np.arange(0.0, 200.0, 0.5))
+        found = [checker.check(now, pose, np.ones(1, bool), np.full(1, limit))[0] for now, pose in poses]
+        assert any(found) == stuck
 
 
 def test_a_nav2_file_names_the_checkers(tmp_path):
