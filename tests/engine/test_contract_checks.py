@@ -75,6 +75,22 @@ def test_wrong_orders_are_refused(released, message):
         checks().orders(Orders(released=released))
 
 
+@pytest.mark.parametrize(
+    ("speed", "message"),
+    [
+        ([0.1], "speed of shape"),
+        ([0.0, 1.0], "for robot 0: a speed"),
+        ([1.0, np.nan], "for robot 1: a speed"),
+        ([], "none"),
+    ],
+)
+def test_wrong_speeds_are_refused(speed, message):
+    checked = checks()
+    checked.orders(Orders(released=[1, 1], speed=[0.1, np.inf]))
+    with pytest.raises(BrokenContractError, match=f"the dispatcher returned .*{message}"):
+        checked.orders(Orders(released=[1, 1], speed=speed))
+
+
 def test_released_segments_are_not_taken_back():
     checked = checks()
     checked.orders(ORDERS)

@@ -63,6 +63,18 @@ def test_a_robot_under_way_gets_its_controllers_command_and_one_that_waits_stand
     assert controllers[0].seen[0].path.tolist() == [[0, 0], [1, 0]]
 
 
+def test_a_controller_gets_the_lesser_limit_of_route_and_dispatcher():
+    routes = [attrs.evolve(route, speed=np.array([0.15])) for route in ROUTES]
+    controller, fleet = _Recording(), Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
+    session = Waypoints().start(fleet, World(name="w", levels=()), routes, controller, 0.05, 0)
+    for limits in ((), (0.1, 0.2), (np.inf, 0.05)):
+        session.step(0.0, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[1, 1], speed=np.array(limits)))
+    assert [[seen.speed for seen in each.seen] for each in controller.sessions] == [
+        [0.15, 0.1, 0.15],
+        [0.15, 0.15, 0.05],
+    ]
+
+
 def test_a_robot_whose_controller_knows_no_way_stands(fleet):
     session, _ = fleet
     motion = session.step(0.0, observe([[-0.1, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))

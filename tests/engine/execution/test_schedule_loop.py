@@ -64,6 +64,36 @@ def executed(context, dispatcher, delays=None, limit=3000.0):
     return arrived, seconds, {name: np.concatenate([c[name] for c in chunks if name in c]) for name in names}
 
 
+@pytest.fixture
+def crossing():
+    """A robot that crosses a row behind another one, which the plan lets pass first although it comes from far away."""
+    grid = two_way_grid(9, 9)
+    first, second = [9 * row + 6 for row in range(9)], [9 * 6 + column for column in range(9)]
+    plan = Plan(paths=(path_through(grid, first), path_through(grid, [second[0]] * 4 + second)))
+    return attrs.evolve(build(grid, [first[0], second[0]], [(), ()]), goals=(((first[-1],),), ((second[-1],),))), plan
+
+
+def test_with_speed_profiles_robots_come_as_early_and_stand_less(context_of, crossing):
+    context = context_of(*crossing)
+    late = Delays(speed=0.0)
+    standing, seconds, recorded = {}, {}, {}
+    for profiles in (False, True):
+        arrived, seconds[profiles], recorded[profiles] = executed(
+            context, Adg(speed_profiles=profiles, speed_margin=0), late
+        )
+        assert arrived
+        truth = recorded[profiles]["truth"][:, 1, :2]
+        under_way = recorded[profiles]["reached"][1:, 1] < len(crossing[1].paths[1])
+        standing[profiles] = int(((np.diff(truth, axis=0) == 0).all(axis=1) & under_way).sum())
+    assert seconds[True] <= seconds[False] + 2 * PERIOD
+    assert standing[True] < 0.5 * standing[False]
+    assert "speed_limit" not in recorded[False]
+    limit = recorded[True]["speed_limit"]
+    assert (limit[:, 0] == np.inf).all()
+    assert limit[0, 1] < np.inf
+    assert limit[-1, 1] == np.inf
+
+
 def test_a_robot_alone_takes_the_time_of_its_plan_and_of_its_stops(context_of, straight):
     problem, plan = straight
     context = context_of(problem, plan)
