@@ -90,6 +90,7 @@ class OrderKeepingSession(DispatcherSession):
             SpeedProfiles(problem, graph, self.options.speed_margin) if self.options.speed_profiles else None
         )
         self._profiles_due = -np.inf
+        self._free = graph.released.copy()
         self._begin_to_release(committed)
 
     def retime(self, moves: Moves, chosen: Bool) -> None:
@@ -117,6 +118,7 @@ class OrderKeepingSession(DispatcherSession):
         slowed = self._profiles is not None and now >= self._profiles_due
         if slowed and self._profiles is not None:
             self._speed, self._profiles_due = self._profiles.speed(seen, view.pose[:, :2]), now + PERIOD
+            self._free = self.graph.released.copy()  # as these limits assume
         if self.orders is None or len(changed) or self.graph.requests or slowed:
             self.orders = self._orders(view, seen, changed)
         return self.orders
@@ -128,6 +130,8 @@ class OrderKeepingSession(DispatcherSession):
         requested = self.graph.request(seen, view.granted)
         if requested or len(changed):
             self._release()
+            if len(self._speed):  # whoever may go on now does not wait for the next profile
+                self._speed = np.where(self.graph.released > self._free, np.inf, self._speed)
         requests = self.graph.requests.pairs()
         in_step = self.graph.in_step(seen[REACHED])
         return Orders(released=self.released, requests=requests, in_step=in_step, speed=self._speed)
