@@ -54,7 +54,7 @@ RUN = {
     "scenario": {"plugin": "random", "robots": 2},
     "planner": "prioritized",
     "simulator": "kinematic",
-    "recording": {"scans": True, "rate": 1},
+    "recording": {"scans": True, "rate": 1, "trajectories": {"every": 10}},
     "replanning": {"period": "4 s"},
     "limits": {"execution": "9 s"},
 }

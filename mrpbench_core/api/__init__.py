@@ -21,6 +21,7 @@ from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.api.simulator import Simulation, Simulator
 from mrpbench_core.api.task_source import TaskSource, TaskStream
 from mrpbench_core.api.world import WorldSource
+from mrpbench_core.model.execution.evaluation import Evaluation
 
 KINDS: dict[str, type[Component]] = {
     "world": WorldSource,
@@ -60,6 +61,7 @@ __all__ = [
     "DispatchError",
     "Dispatcher",
     "DispatcherSession",
+    "Evaluation",
     "ExecutorSource",
     "Exporter",
     "ExporterSession",

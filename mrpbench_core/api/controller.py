@@ -11,6 +11,7 @@ from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.execution.evaluation import Evaluation
 from mrpbench_core.model.execution.observation import Observation, Observations, ScanBatch
 from mrpbench_core.model.worlds.world import World
 
@@ -40,6 +41,10 @@ class ControllerSession(ABC):
         """Return waypoints f8[k,2] to the free place nearest to the end of the path, at most `tolerance` metres from
         it, or None if the end itself is free or there is no way.
         """
+        return None
+
+    def evaluation(self) -> Evaluation | None:
+        """Return what led to the last command, None if that is not known; for recordings, and called only for these."""
         return None
 
 
@@ -95,6 +100,10 @@ class FleetControllerSession:
         """Return waypoints f8[k,2] to a place near the end of the path of one row; see `ControllerSession.approach`."""
         return self.sessions[int(observations.robot[row])].approach(observations.of(row), tolerance)
 
+    def evaluation(self, robot: int) -> Evaluation | None:
+        """Return what led to the last command of one robot; see `ControllerSession.evaluation`."""
+        return self.sessions[robot].evaluation() if self.sessions else None
+
     def failure_reason(self, robot: int) -> str:  # noqa: ARG002 - for those that override it
         """Return in a few words why a robot had no admissible command, for events and logs."""
         return ""
@@ -126,6 +135,10 @@ class FleetOfOne(ControllerSession):
     def approach(self, observation: Observation, tolerance: float) -> Float | None:
         """Return waypoints to a place near the end of the path."""
         return self._fleet.approach(Observations.alone(observation), 0, tolerance)
+
+    def evaluation(self) -> Evaluation | None:
+        """Return what led to the last command."""
+        return self._fleet.evaluation(0)
 
 
 class Controller(Component):

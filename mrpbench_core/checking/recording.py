@@ -42,6 +42,14 @@ LAYOUTS: Mapping[str, Layout] = {
     "scan_time": Layout("f", "scan_time"),
     "scan_robot": Layout("iu", "scan_time"),
     "scan_ranges": Layout("f", "scan_time", (ANY,)),
+    "trajectory_time": Layout("f", "trajectory_time"),
+    **{f"trajectory_{name}": Layout("iu", "trajectory_time") for name in ("robot", "chosen")},
+    "trajectory_cost": Layout("f", "trajectory_time"),
+    "trajectory_pose": Layout("f", "trajectory_time", (ANY, 3)),
+    "critic_time": Layout("f", "critic_time"),
+    "critic_robot": Layout("iu", "critic_time"),
+    "critic_name": Layout("U", "critic_time"),
+    "critic_score": Layout("f", "critic_time"),
     "route_time": Layout("f", "route_time"),
     **{
         f"route_{name}": Layout("iu", "route_time")
@@ -62,6 +70,11 @@ LAYOUTS: Mapping[str, Layout] = {
     "event_robot": Layout("i", "event_time"),
     "event_detail": Layout("U", "event_time"),
 }
+_LEAST_ROBOT = {
+    **dict.fromkeys(("scan_robot", "route_robot", "trajectory_robot", "critic_robot"), 0),
+    **dict.fromkeys(("event_robot", "task_robot"), -1),
+}
+"""The least index in channels that name robots; -1 = none."""
 OPTIONAL = frozenset({"route_segment", "route_edge", "route_leave"})
 """Channels that older recordings lack beside the others with their time axis."""
 LARGEST = 1e9
@@ -136,7 +149,7 @@ def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int
         one, other = rows[:, 0], rows[:, 1]
         if ((one < 0) | (one >= robots) | (other < -1) | (other >= robots + movers) | (one == other)).any():
             return "contact names a robot that does not exist, or a robot touching itself"
-    least = {"scan_robot": 0, "event_robot": -1, "route_robot": 0, "task_robot": -1}.get(name)
+    least = _LEAST_ROBOT.get(name)
     if least is not None and ((rows < least) | (rows >= robots)).any():
         return f"{name} names a robot that does not exist"
     if name in ("released", "reached", "cleared", "level", "route_level", "route_revision") and (rows < 0).any():
@@ -145,6 +158,21 @@ def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int
         return "speed_limit is not above 0"
     if name in (*_FLOAT, "facility", "mover", "route_waypoint") and (np.abs(rows) > LARGEST).any():
         return f"{name} is not finite"
+    return _of_trajectories(name, rows)
+
+
+def _of_trajectories(name: str, rows: NDArray[Any]) -> str | None:
+    """What is wrong with the numbers of a channel of trajectories."""
+    if name == "trajectory_pose" and not rows.shape[1]:
+        return "trajectory_pose has no poses"
+    if name == "trajectory_chosen" and (rows > 1).any() | (rows < 0).any():
+        return "trajectory_chosen is neither 0 nor 1"
+    if name == "trajectory_cost" and (rows == -np.inf).any():
+        return "trajectory_cost is -inf"
+    if name == "critic_score" and not np.isfinite(rows).all():
+        return "critic_score is not finite"
+    if name == "trajectory_pose" and not (np.abs(rows) <= LARGEST).all():
+        return "trajectory_pose is not finite"
     return None
 
 

@@ -137,6 +137,7 @@ def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
         return
     if config.execution == "schedule_only":
         yield "goal_tolerance", f"{IDLE}robots do not leave their paths in `execution: schedule_only`"
+        yield "recording.trajectories", f"{IDLE}there are no controllers in `execution: schedule_only`"
     if localizer is not None and (not localizer.needs_truth or _is(localizer, "ground_truth")):
         yield "grant_truth", f"{IDLE}{_name(localizer)} does not need it"
     if config.replanning.delay is None and config.replanning.period is None:

@@ -110,12 +110,28 @@ class Noise:
 
 
 @attrs.frozen(kw_only=True)
+class RecordedTrajectories:
+    """Of which robots the trajectories that their controllers sample are recorded, and how often."""
+
+    robots: tuple[int, ...] = option(
+        (0,),
+        help="indices of the robots",
+        validator=validators.and_(validators.min_len(1), validators.deep_iterable(validators.ge(0))),
+    )
+    every: int = option(1, help="record one of so many control periods", validator=validators.ge(1))
+
+
+@attrs.frozen(kw_only=True)
 class RecordingOptions:
     """Settings of recordings."""
 
     keep: Literal["all", "failed", "none"] = option("all", help="of which runs the recording is kept")
     rate: float = option(10.0, help="samples per simulated second", unit="Hz", validator=validators.gt(0))
     scans: bool = option(False, help="keep laser scans, which are large")
+    trajectories: RecordedTrajectories | None = option(
+        None,
+        help="keep the trajectories that the controllers of some robots sample, the chosen one, and the scores of critics",
+    )
 
 
 @attrs.frozen(kw_only=True)

@@ -12,6 +12,7 @@ from mrpbench_core.engine.execution.cutting import DrivenSegments, shifted
 from mrpbench_core.engine.execution.destinations import heads
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
 from mrpbench_core.engine.execution.loop_inputs import ExecutionResult, LoopInputs
+from mrpbench_core.engine.execution.observed_controller import observed
 from mrpbench_core.engine.execution.reactions import Reactions
 from mrpbench_core.engine.execution.recorder import Sample
 from mrpbench_core.engine.execution.replanning import Revision
@@ -65,7 +66,7 @@ class ExecutionLoop:
             given.fleet,
             given.world,
             given.routes,
-            components.controller,
+            observed(components.controller, inputs.evaluations) if inputs.evaluations else components.controller,
             context.period,
             seed_of(*inputs.seeds, "navigator"),
         )
@@ -280,6 +281,8 @@ class ExecutionLoop:
         """Record this control period, and show it to hooks."""
         inputs, now, state, recorder = self._inputs, self._now, self._state, self._inputs.recorder
         recorder.scans(observation.scans)
+        if inputs.evaluations is not None:
+            recorder.evaluations(now, inputs.evaluations.take())
         count = self._driven.count
         attacked = inputs.delays.attacked(now, self._motion.reached + count, self._orders.released + count)
         recorder.events((*inputs.delays.begun(now), *attacked, *self._motion.events))

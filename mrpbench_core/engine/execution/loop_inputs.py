@@ -15,6 +15,7 @@ from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.execution.delays import DelayStream
+from mrpbench_core.engine.execution.evaluations import Evaluations
 from mrpbench_core.engine.execution.faults import FaultState
 from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.recorder import Recorder
@@ -110,6 +111,8 @@ class LoopInputs:
     """Stops and speeds of the robots."""
     faults: FaultState
     """What fails."""
+    evaluations: Evaluations | None = None
+    """Collects what controllers weigh; None = it is not recorded."""
     recorder: Recorder
     """Receives everything that happens; flushed at the end."""
     replanner: Replanner

@@ -8,6 +8,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_core.engine.execution.evaluations import POSES, RecordedEvaluation
 from mrpbench_core.engine.execution.task_board import TaskEvent
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.motion import Event, Motion
@@ -24,6 +25,8 @@ SAMPLES = 256
 """Periodic samples per chunk."""
 WAYPOINTS = 1 << 18
 """Waypoints of new plans per chunk, at least: a thousand robots that plan every second get as many in some seconds."""
+TRAJECTORIES = 4096
+"""Trajectories per chunk, nearly a megabyte."""
 SCANS = 4096
 """Scans per chunk: a thousand robots take that many in a second."""
 
@@ -63,9 +66,22 @@ TASKS: dict[str, tuple[str, tuple[int, ...]]] = {
 }
 """The same, where tasks come over time."""
 
+TRAJECTORY: dict[str, tuple[str, tuple[int, ...]]] = {
+    "trajectory_time": ("f8", ()),
+    "trajectory_robot": ("i4", ()),
+    "trajectory_chosen": ("u1", ()),
+    "trajectory_cost": ("f8", ()),
+    "trajectory_pose": ("f4", (POSES, 3)),
+    "critic_time": ("f8", ()),
+    "critic_robot": ("i4", ()),
+    "critic_name": ("U1", ()),
+    "critic_score": ("f8", ()),
+}
+"""The same, where the trajectories of controllers are recorded."""
+
 INTEGERS = dict.fromkeys(
     (
-        *("contact", "scan_robot", "event_robot"),
+        *("contact", "scan_robot", "event_robot", "critic_robot"),
         *("errand_task", "errand_priority", "task_index", "task_robot", "task_errand"),
     ),
     "i4",
@@ -97,15 +113,21 @@ class Recorder:
     """
 
     def __init__(
-        self, rate: float, period: float, sink: Callable[[Chunk], None], scans: bool = True, tasks: bool = False
+        self,
+        rate: float,
+        period: float,
+        sink: Callable[[Chunk], None],
+        scans: bool = True,
+        tasks: bool = False,
+        trajectories: bool = False,
     ) -> None:
         self._keeps_scans = scans
         self._every = max(1, round(1 / (rate * period)))
         self._sink = sink
-        channels = IRREGULAR | (TASKS if tasks else {})
+        channels = IRREGULAR | (TASKS if tasks else {}) | (TRAJECTORY if trajectories else {})
         sink({name: np.empty((0, *shape), kind) for name, (kind, shape) in channels.items()})
         self._rows: dict[str, list[Any]] = defaultdict(list)
-        self._waypoints = 0
+        self._waypoints = self._trajectories = 0
         self._touching: set[tuple[int, int]] = set()
 
     def sample(self, step: int, sample: Sample, last: bool) -> None:
@@ -159,6 +181,25 @@ class Recorder:
                 self._rows["scan_robot"].append(robot)
                 self._rows["scan_ranges"].append(ranges)
         if len(self._rows.get("scan_time", ())) >= SCANS:
+            self.flush()
+
+    def evaluations(self, now: float, found: Sequence[RecordedEvaluation]) -> None:
+        """Record what controllers weighed: one row per trajectory, and one per critic and chosen trajectory."""
+        rows = self._rows
+        for each in found:
+            count = len(each.pose)
+            rows["trajectory_time"].append(np.full(count, now))
+            rows["trajectory_robot"].append(np.full(count, each.robot, "i4"))
+            rows["trajectory_chosen"].append(each.chosen.astype("u1"))
+            rows["trajectory_cost"].append(each.cost)
+            rows["trajectory_pose"].append(each.pose)
+            self._trajectories += count
+            for name, score in each.scores.items():
+                rows["critic_time"].append(now)
+                rows["critic_robot"].append(each.robot)
+                rows["critic_name"].append(name)
+                rows["critic_score"].append(score)
+        if self._trajectories >= TRAJECTORIES:
             self.flush()
 
     def events(self, events: Sequence[Event]) -> None:
@@ -225,7 +266,7 @@ class Recorder:
         if self._rows:
             self._sink({name: _stack(name, rows) for name, rows in self._rows.items()})
             self._rows.clear()
-            self._waypoints = 0
+            self._waypoints = self._trajectories = 0
 
 
 def _after(first: float | np.int32, segments: list[NDArray[Any]], begin: list[int]) -> NDArray[Any]:
@@ -251,7 +292,7 @@ def _segments(paths: Paths, kept: Int32) -> dict[str, NDArray[Any]]:
 
 
 def _stack(name: str, rows: list[Any]) -> np.ndarray:
-    if name.startswith("route_"):
+    if name.startswith(("route_", "trajectory_")):
         return np.concatenate(rows)
     if name == "scan_ranges":
         beams = max(len(row) for row in rows)

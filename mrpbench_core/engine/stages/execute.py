@@ -14,6 +14,7 @@ from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.destinations import Places
 from mrpbench_core.engine.execution.facility_manager import ExecutionError
+from mrpbench_core.engine.execution.evaluations import Evaluations
 from mrpbench_core.engine.execution.faults import FaultState, draw_faults
 from mrpbench_core.engine.execution.loop import ExecutionLoop
 from mrpbench_core.engine.execution.loop_inputs import ExecutionResult, LoopComponents, LoopInputs
@@ -54,7 +55,7 @@ def execute_plan(
         faults, why robots did not arrive, by their names.
 
     Raises:
-        InputError: a fault names what does not exist.
+        InputError: a fault, or a setting of the recording, names what does not exist.
     """
     config, timing = inputs.config, inputs.timing
     inputs.announce(Stage.EXECUTION, {})
@@ -88,7 +89,14 @@ def execute_plan(
     try:
         exports.open(config.export, given, inputs.paths.exports)
         wants_scans = config.recording.scans or bool(config.export)
-        recorder = Recorder(config.recording.rate, context.period, sink, wants_scans, tasks=config.tasks is not None)
+        recorder = Recorder(
+            config.recording.rate,
+            context.period,
+            sink,
+            wants_scans,
+            tasks=config.tasks is not None,
+            trajectories=config.recording.trajectories is not None and config.execution == "simulated",
+        )
         began = time.perf_counter()
         replanner = _replanner(inputs, context, router)
         inputs.observers.executing(context=given)
@@ -116,6 +124,12 @@ def execute_plan(
     inputs.announce(Stage.EXPORT, {})
     exports.close()
     return ended, exports.failed, unarrived
+
+
+def _evaluations(config: RunConfig, context: RunContext) -> Evaluations | None:
+    """Collects what controllers weigh, if that is recorded."""
+    settings = config.recording.trajectories
+    return None if settings is None else Evaluations(settings, len(context.fleet))
 
 
 def _faults(config: RunConfig, context: RunContext) -> FaultState:
@@ -229,6 +243,7 @@ def _simulate(
                 noise=noise,
                 delays=_delays(config, context),
                 faults=faults,
+                evaluations=_evaluations(config, context),
                 recorder=recorder,
                 replanner=replanner,
                 tasks=tasks,

@@ -19,6 +19,11 @@
 | `mover_arrivals` | i4[m] | number of goals that each mover has reached, -1 = has none; with `mover` |
 | `contact_time`, `contact` | f8; i4[2] | per pair and period in contact: robot; robot, -1 = wall or n + j = mover j |
 | `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
+| `trajectory_time`, `trajectory_robot` | f8; i4 | per trajectory; only with `recording.trajectories` |
+| `trajectory_chosen`, `trajectory_cost` | u1; f8 | 1 = the chosen one; lower is better, inf = refused, NaN = not known |
+| `trajectory_pose` | f4[16,3] | x, y, yaw in `map`, in order of time |
+| `critic_time`, `critic_robot` | f8; i4 | per critic and chosen trajectory; only with `recording.trajectories` |
+| `critic_name`, `critic_score` | U; f8 | what the critic adds to the cost of the chosen trajectory |
 | `route_time`, `route_revision`, `route_robot` | f8; i4; i4 | one row per new waypoint of each plan after the first |
 | `route_segment` | i4 | segments of the robot before this waypoint, from the beginning of the execution |
 | `route_waypoint`, `route_level`, `route_speed` | f8[3]; i2; f8 | see `mrpbench_core.model.runs.routes.RouteHistory` |

@@ -32,8 +32,9 @@ class Dwb : public Controller {
   std::optional<Twist> command(const Situation& now, const Extra& extra) override;
 
   /// The trajectories from which the last command was chosen: names of the `critics`, `twist`, `pose`, raw `score` of
-  /// each critic, `total`, and the `reason` why each was dropped. Totals of those that were not fully checked are
-  /// partial.
+  /// each critic, `total`, the `reason` why each was dropped, and the `cost`: the total, infinite where there is such a
+  /// reason. Totals of those that were not fully checked are partial. If one was chosen, its poses are `chosen` f8[p,3], and `chosen_score` has its scores, multiplied by the
+  /// scales. Nothing where no trajectories were sampled.
   Explanation explain() const override;
 
  private:
@@ -48,7 +49,8 @@ class Dwb : public Controller {
   PathGrid path_;
   std::optional<Pose> goal_;
   bool turning_ = false;
-  std::vector<double> raw_, total_;
+  std::optional<std::size_t> chosen_;
+  std::vector<double> raw_, total_, scale_, added_;
   std::vector<Reason> why_, fault_;
   std::vector<int> dropped_;
   std::vector<std::size_t> order_;

@@ -30,8 +30,10 @@ class Mppi : public Controller {
 
   std::optional<Twist> command(const Situation& now, const Extra& extra) override;
 
-  /// Every fifth sample and third step as `twist` and `pose`; of all samples the raw `score` of each critic, and
-  /// `total`; the `plan` f8[T,2] of velocities; names of the `critics`; the `reason` why there is no command.
+  /// Every fifth sample and third step as `twist` and `pose`, and their `cost`; of all samples the raw `score`
+  /// of each critic, and `total`; the `plan` f8[T,2] of velocities; names of the `critics`; the `reason` why there is no
+  /// command. If there is one, the poses of the plan are `chosen` f8[T+1,3], and `chosen_score` has the mean scores over
+  /// all samples, weighted as the plan weighs them.
   Explanation explain() const override;
 
  private:
@@ -41,19 +43,22 @@ class Mppi : public Controller {
   bool improve(const Extra& extra);
   void begin_plan();
   bool score(const Extra& extra);
+  template <class Visit>
+  bool walk(std::size_t steps, Visit&& visit) const;
   bool is_safe() const;
+  std::vector<double> mean_scores() const;
   Twist send();
   Samples trajectories(std::size_t every, std::size_t step) const;
 
   MppiOptions options_;
   RandomKey key_;
   std::vector<mppi::WeightedCritic> critics_;
-  bool shift_ = true, drawn_fresh_ = false;
+  bool shift_ = true, drawn_fresh_ = false, scored_ = false;
   std::uint64_t drawn_ = 0;
   Twist start_, last_;
   mppi::Batch batch_;
   mppi::Table noise_vx_, noise_wz_, control_vx_, control_wz_;
-  std::vector<float> plan_vx_, plan_wz_, total_, raw_, weight_;
+  std::vector<float> plan_vx_, plan_wz_, total_, raw_, weight_, added_;
   std::array<float, 4> past_vx_{}, past_wz_{};
   const char* fault_ = "";
 };

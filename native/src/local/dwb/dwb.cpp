@@ -108,6 +108,8 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   const Pose& pose = it.pose;
   const Frame& frame = it.costmap->frame();
   const Point end = path.end();
+  chosen_.reset();
+  total_.clear();
   if (is_new(goal_, path)) {
     goal_ = {end.x, end.y, path.yaw};
     for (const Weighted& each : critics_) each.critic->reset();
@@ -123,10 +125,10 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   EndCells ends(frame, all_);
   const Scene scene{it.now, pose, measured, *goal_, path.tolerance, it.costmap, &path_, &ends};
   score(scene, extra);
-  const auto chosen = best(scene);
-  const Twist command = chosen ? all_.twist(*chosen) : Twist{};
+  chosen_ = best(scene);
+  const Twist command = chosen_ ? all_.twist(*chosen_) : Twist{};
   for (const Weighted& it : critics_) it.critic->debrief(scene, command);
-  if (!chosen) return std::nullopt;
+  if (!chosen_) return std::nullopt;
   return command;
 }
 
@@ -149,11 +151,12 @@ void Dwb::score(const Scene& scene, const Extra& extra) {
   dropped_.assign(count, -1);
   raw_.resize(count * critics_.size());
   fault_.assign(count, kLegal);
+  scale_.assign(critics_.size(), 0);
   for (std::size_t c = 0; c < critics_.size(); ++c) {
     const Weighted& it = critics_[c];
     it.critic->prepare(scene);
     const std::span<double> raw(&raw_[c * count], count);
-    const double scale = it.scale * it.critic->weight(scene);
+    const double scale = scale_[c] = it.scale * it.critic->weight(scene);
     if (scale == 0) {
       std::fill(raw.begin(), raw.end(), 0);
       continue;
@@ -169,7 +172,10 @@ void Dwb::score(const Scene& scene, const Extra& extra) {
       fault_[i] = kLegal;
     }
   }
-  if (extra) extra(samples_of(all_), total_);
+  if (!extra) return;
+  added_.assign(count, 0);
+  extra(samples_of(all_), added_);
+  for (std::size_t i = 0; i < count; ++i) total_[i] += added_[i];
 }
 
 /// Check all poses of a trajectory.
@@ -216,9 +222,10 @@ std::optional<std::size_t> Dwb::best(const Scene& scene) {
 }
 
 Explanation Dwb::explain() const {
-  const std::size_t count = all_.size();
-  Samples samples = samples_of(all_);
+  const std::size_t count = total_.size();
   Explanation found;
+  if (count == 0) return found;
+  Samples samples = samples_of(all_);
   found.arrays = {{"twist", std::move(samples.twist)},
                   {"pose", std::move(samples.pose)},
                   {"score", {raw_, {critics_.size(), count}}},
@@ -229,6 +236,19 @@ Explanation Dwb::explain() const {
     const int critic = dropped_[i];
     reasons.push_back(critic < 0 ? "" : critics_[static_cast<std::size_t>(critic)].name + ": " + why_[i]);
   }
+  Array& cost = found.arrays["cost"] = {total_, {count}};
+  for (std::size_t i = 0; i < count; ++i) {
+    if (why_[i]) cost.values[i] = std::numeric_limits<double>::infinity();
+  }
+  if (!chosen_) return found;
+  const auto& poses = found.arrays["pose"];
+  const std::size_t size = 3 * poses.shape[1];
+  const auto first = poses.values.begin() + static_cast<std::ptrdiff_t>(*chosen_ * size);
+  found.arrays["chosen"] = {{first, first + static_cast<std::ptrdiff_t>(size)}, {poses.shape[1], 3}};
+  Array& scores = found.arrays["chosen_score"];
+  for (std::size_t c = 0; c < critics_.size(); ++c) scores.values.push_back(raw_[c * count + *chosen_] * scale_[c]);
+  if (!added_.empty()) scores.values.push_back(added_[*chosen_]);
+  scores.shape = {scores.values.size()};
   return found;
 }
 

@@ -110,6 +110,7 @@ void Mppi::reset() {
 
 std::optional<Twist> Mppi::command(const Situation& now, const Extra& extra) {
   fault_ = "";
+  scored_ = false;
   prepare(now);
   const double away = sim::length(now.path.end() - Point{now.pose.x, now.pose.y});
   if (away <= now.path.tolerance / 2 && std::isnan(now.path.yaw)) {
@@ -117,6 +118,7 @@ std::optional<Twist> Mppi::command(const Situation& now, const Extra& extra) {
     last_ = {};
     return last_;
   }
+  scored_ = true;
   for (int attempt = 0; attempt <= options_.retry_attempt_limit; ++attempt) {
     if (!drawn_fresh_ || options_.regenerate_noises) draw();
     drawn_fresh_ = true;
@@ -244,13 +246,30 @@ bool Mppi::score(const Extra& extra) {
     const WeightedCritic& it = critics_[c];
     if (it.weight == 0) continue;
     const std::span<float> raw(&raw_[c * samples], samples);
-    if (!it.critic->score(batch_, raw)) return false;
+    if (!it.critic->score(batch_, raw)) {
+      std::fill(total_.begin(), total_.end(), kInfinity);
+      return false;
+    }
     it.add(raw, total_);
   }
   if (!extra) return true;
   std::vector<double> added(samples, 0.0);
   extra(trajectories(1, 1), added);
-  for (std::size_t k = 0; k < samples; ++k) total_[k] += static_cast<float>(added[k]);
+  added_.assign(added.begin(), added.end());
+  for (std::size_t k = 0; k < samples; ++k) total_[k] += added_[k];
+  return true;
+}
+
+/// Call `visit(pose)` at the end of each of the first steps of the plan, until it returns false.
+template <class Visit>
+bool Mppi::walk(std::size_t steps, Visit&& visit) const {
+  Pose pose = batch_.robot;
+  for (std::size_t t = 0; t < steps; ++t) {
+    pose.x += plan_vx_[t] * std::cos(pose.yaw) * options_.model_dt;
+    pose.y += plan_vx_[t] * std::sin(pose.yaw) * options_.model_dt;
+    pose.yaw += plan_wz_[t] * options_.model_dt;
+    if (!visit(pose)) return false;
+  }
   return true;
 }
 
@@ -258,14 +277,22 @@ bool Mppi::score(const Extra& extra) {
 bool Mppi::is_safe() const {
   const auto steps =
       std::min(plan_vx_.size(), static_cast<std::size_t>(options_.collision_lookahead_time / options_.model_dt));
-  Pose pose = batch_.robot;
-  for (std::size_t t = 0; t < steps; ++t) {
-    pose.x += plan_vx_[t] * std::cos(pose.yaw) * options_.model_dt;
-    pose.y += plan_vx_[t] * std::sin(pose.yaw) * options_.model_dt;
-    pose.yaw += plan_wz_[t] * options_.model_dt;
-    if (!is_free(*batch_.costmap, pose, batch_.by_radius)) return false;
+  return walk(steps, [&](Pose pose) { return is_free(*batch_.costmap, pose, batch_.by_radius); });
+}
+
+/// What each critic, and then those of the caller if there are some, contributes to the mean total of the plan.
+std::vector<double> Mppi::mean_scores() const {
+  const std::size_t samples = batch_.samples();
+  const float per = 1 / sum(weight_.data(), samples);
+  std::vector<double> found;
+  std::vector<float> scores(samples);
+  for (std::size_t c = 0; c < critics_.size(); ++c) {
+    std::fill(scores.begin(), scores.end(), 0.0f);
+    if (critics_[c].weight != 0) critics_[c].add(std::span<const float>(raw_).subspan(c * samples, samples), scores);
+    found.push_back(weighted_sum(weight_.data(), scores.data(), samples) * per);
   }
-  return true;
+  if (!added_.empty()) found.push_back(weighted_sum(weight_.data(), added_.data(), samples) * per);
+  return found;
 }
 
 /// The command of the plan; the plan moves on by one step if a step is a control period.
@@ -298,8 +325,11 @@ Samples Mppi::trajectories(std::size_t every, std::size_t step) const {
 }
 
 Explanation Mppi::explain() const {
-  Samples samples = trajectories(5, 3);
   Explanation found;
+  found.words["reason"] = {fault_};
+  if (!scored_) return found;
+  constexpr std::size_t every = 5;
+  Samples samples = trajectories(every, 3);
   found.arrays = {{"twist", std::move(samples.twist)},
                   {"pose", std::move(samples.pose)},
                   {"score", {{raw_.begin(), raw_.end()}, {critics_.size(), batch_.samples()}}},
@@ -308,7 +338,21 @@ Explanation Mppi::explain() const {
   for (std::size_t t = 0; t < plan_vx_.size(); ++t) plan.values.insert(plan.values.end(), {plan_vx_[t], plan_wz_[t]});
   plan.shape = {plan_vx_.size(), 2};
   for (const WeightedCritic& it : critics_) found.words["critics"].push_back(it.name);
-  found.words["reason"] = {fault_};
+  Array& cost = found.arrays["cost"];
+  for (std::size_t k = 0; k < batch_.samples(); k += every) cost.values.push_back(total_[k]);
+  cost.shape = {cost.values.size()};
+  if (*fault_) return found;
+  Array& chosen = found.arrays["chosen"];
+  const auto add = [&](Pose pose) {
+    chosen.values.insert(chosen.values.end(), {pose.x, pose.y, pose.yaw});
+    return true;
+  };
+  add(batch_.robot);
+  walk(plan_vx_.size(), add);
+  chosen.shape = {chosen.values.size() / 3, 3};
+  Array& scores = found.arrays["chosen_score"];
+  scores.values = mean_scores();
+  scores.shape = {scores.values.size()};
   return found;
 }
 

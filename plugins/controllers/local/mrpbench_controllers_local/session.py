@@ -9,7 +9,7 @@ from mrpbench_native.local import Fleet
 
 from mrpbench_controllers_local.critics import CriticSession, NativeCritic, Trajectories
 from mrpbench_controllers_local.settings import RobotSettings
-from mrpbench_core.api import FleetControllerSession
+from mrpbench_core.api import Evaluation, FleetControllerSession
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Bool, Float
@@ -109,6 +109,17 @@ class LocalSession(FleetControllerSession):
         are scored in part only, unless `short_circuit_trajectory_evaluation` is false.
         """
         return dict(self._fleet.explain(robot))
+
+    def evaluation(self, robot: int) -> Evaluation | None:
+        """Return the sampled and the chosen trajectory of controllers that sample; critics in Python share a score."""
+        why = self.explain(robot)
+        if "pose" not in why:
+            return None
+        scores = {}
+        if "chosen" in why:
+            others = " + ".join(name for name, _, _ in self._in_python[robot])
+            scores = dict(zip((*why["critics"], others), why["chosen_score"].tolist(), strict=False))
+        return Evaluation(pose=why["pose"], cost=why["cost"], chosen=why.get("chosen"), scores=scores)
 
     def costmap(self, robot: int) -> tuple[Float, float, float, float]:
         """Return a robot's costmap f8[rows,columns], its lower left corner x, y, and the inscribed radius."""

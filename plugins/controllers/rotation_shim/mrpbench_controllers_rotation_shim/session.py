@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from mrpbench_core.api import FleetControllerSession
+from mrpbench_core.api import Evaluation, FleetControllerSession
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.execution.observation import Observations
@@ -48,6 +48,8 @@ class RotationShimSession(FleetControllerSession):
         self._goal: Float = np.full((len(robots), 2), np.inf)
         """f8[n,2]: where the path of each robot ended in the last period."""
         self._turns: Bool = np.zeros(len(robots), bool)
+        self._turns_now: Bool = np.zeros(len(robots), bool)
+        """bool[n]: whether each robot turns in this period, to its path or to the yaw at the end."""
         self._last: Float = np.zeros(len(robots))
         """f8[n]: the last turn rate commanded."""
         self._blocked: Bool = np.zeros(len(robots), bool)
@@ -69,6 +71,7 @@ class RotationShimSession(FleetControllerSession):
             at_end = (away <= seen.tolerance) & ~np.isnan(seen.yaw)
             angle = np.where(at_end, _wrapped(seen.yaw - seen.pose[:, 2]), angle)
             turns = turns | at_end
+        self._turns_now[robot] = turns
         twist = np.empty((len(robot), 2))
         others = (~turns).nonzero()[0]
         twist[others] = self._primary.command(_rows(seen, others))
@@ -122,6 +125,10 @@ class RotationShimSession(FleetControllerSession):
     def approach(self, observations: Observations, row: int, tolerance: float) -> Float | None:
         """Find a way to the free place that is nearest to the end of the path of one row."""
         return self._primary.approach(observations, row, tolerance)
+
+    def evaluation(self, robot: int) -> Evaluation | None:
+        """Return what the primary controller weighed, None while the robot turns."""
+        return None if self._turns_now[robot] else self._primary.evaluation(robot)
 
     def failure_reason(self, robot: int) -> str:
         """Return why a robot had no admissible command."""

@@ -22,6 +22,7 @@ from mrpbench_exporters_rosbag2.doors_and_lifts import FacilityStates, facility_
 from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS, contacts, events
 from mrpbench_exporters_rosbag2.fleet_states import fleet_states
 from mrpbench_exporters_rosbag2.frames import frames
+from mrpbench_exporters_rosbag2.local_plans import local_plan
 from mrpbench_exporters_rosbag2.messages import Topic, message, nanoseconds, time
 from mrpbench_exporters_rosbag2.people import mover_numbers, people, people_markers
 from mrpbench_exporters_rosbag2.rmf import Release
@@ -161,6 +162,8 @@ def sources(context: RunContext, rmf: Release) -> Iterator[TopicSource]:
     for index, (name, robot) in enumerate(robots):
         if robot.lidar:
             yield scan(index, name, robot.lidar)
+    for index, name in enumerate(context.fleet.names):
+        yield local_plan(index, name, context.world)
 
 
 def clock() -> TopicSource:
