@@ -130,7 +130,7 @@ class RecordingOptions:
     scans: bool = option(False, help="keep laser scans, which are large")
     trajectories: RecordedTrajectories | None = option(
         None,
-        help="keep the trajectories that the controllers of some robots sample, the chosen one, and the scores of critics",
+        help="keep what the controllers of some robots weigh: sampled trajectories, the chosen one, scores of critics",
     )
 
 

@@ -90,7 +90,10 @@ def shorten(channel):
         (put("trajectory_pose", (0, 3, 1), np.nan), "trajectory_pose is not finite"),
         (put("critic_score", 0, np.inf), "critic_score is not finite"),
         (lambda it: it.update(trajectory_pose=np.zeros((3, 0, 3))), "trajectory_pose has no poses"),
-        (lambda it: it.update(trajectory_pose=np.zeros((3, 4, 2))), "trajectory_pose has shape (3, 4, 2) instead of (3, -2, 3)"),
+        (
+            lambda it: it.update(trajectory_pose=np.zeros((3, 4, 2))),
+            "trajectory_pose has shape (3, 4, 2) instead of (3, -2, 3)",
+        ),
         (put("time", 3, 2.0), "time does not increase after 2 s"),
         (put("time", 4, np.nan), "time is not finite"),
         (put("contact_time", 1, 0.5), "contact_time decreases after 1 s"),

@@ -87,7 +87,12 @@ def _fault(found: Any) -> str:
     pose, cost, chosen = found.pose, found.cost, found.chosen
     if not isinstance(pose, np.ndarray) or pose.ndim != 3 or pose.shape[2] != 3 or (len(pose) and not pose.shape[1]):
         return "`pose` is not f8[m,p,3]"
-    if not isinstance(cost, np.ndarray) or cost.shape != (len(pose),) or np.isnan(cost).any() or (cost == -np.inf).any():
+    if (
+        not isinstance(cost, np.ndarray)
+        or cost.shape != (len(pose),)
+        or np.isnan(cost).any()
+        or (cost == -np.inf).any()
+    ):
         return f"`cost` is not f8[{len(pose)}] without NaN and -inf"
     is_path = chosen is None or (isinstance(chosen, np.ndarray) and chosen.ndim == 2 and chosen.shape[1:] == (3,))
     if not is_path or (chosen is not None and not len(chosen)):
@@ -123,9 +128,7 @@ def _thinned(robot: int, found: Evaluation) -> RecordedEvaluation:
         cost = np.append(sum(found.scores.values()) if found.scores else np.nan, cost)
     chosen = np.zeros(len(pose), bool)
     chosen[:1] = found.chosen is not None
-    return RecordedEvaluation(
-        robot=robot, pose=pose.astype("f4"), cost=cost, chosen=chosen, scores={**found.scores}
-    )
+    return RecordedEvaluation(robot=robot, pose=pose.astype("f4"), cost=cost, chosen=chosen, scores={**found.scores})
 
 
 def _spread(count: int) -> np.ndarray:

@@ -20,7 +20,7 @@
 | `contact_time`, `contact` | f8; i4[2] | per pair and period in contact: robot; robot, -1 = wall or n + j = mover j |
 | `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
 | `trajectory_time`, `trajectory_robot` | f8; i4 | per trajectory; only with `recording.trajectories` |
-| `trajectory_chosen`, `trajectory_cost` | u1; f8 | 1 = the chosen one; lower is better, inf = refused, NaN = not known |
+| `trajectory_chosen`, `trajectory_cost` | u1; f8 | 1 = the chosen one; lower is better, inf = refused, NaN = unknown |
 | `trajectory_pose` | f4[16,3] | x, y, yaw in `map`, in order of time |
 | `critic_time`, `critic_robot` | f8; i4 | per critic and chosen trajectory; only with `recording.trajectories` |
 | `critic_name`, `critic_score` | U; f8 | what the critic adds to the cost of the chosen trajectory |

@@ -21,6 +21,7 @@ from mrpbench_core.report.replay.scans import pack_scans
 from mrpbench_core.report.replay.scene import pack_resources, pack_robots, pack_world
 from mrpbench_core.report.replay.schedule import pack_schedule
 from mrpbench_core.report.replay.tasks import pack_tasks
+from mrpbench_core.report.replay.trajectories import pack_trajectories
 from mrpbench_core.report.replay.waits import pack_waits
 from mrpbench_core.report.template import PageTemplate
 from mrpbench_core.store.recording import Recording
@@ -49,7 +50,7 @@ def write_page(
         InputError: nothing was recorded, or the file cannot be written.
     """
     context = recording.context()
-    motion, scans = Packing(), Packing()
+    motion, scans, trajectories = Packing(), Packing(), Packing()
     pack_motion(recording, motion)
     plans = read_plans(recording.first_context(), recording.channels)
     pack_schedule(plans, context.problem.roadmap.tick, motion)
@@ -66,9 +67,12 @@ def write_page(
         "contacts": read_contacts(recording),
         "movers": pack_movers(recording, motion),
         "scans": thinned,
+        "trajectories": pack_trajectories(recording, trajectories),
     }
     title = f"{context.world.name}: {record['run_id'][:12]}"
-    template().write(file, title, {"data": _data(data, {"motion": motion, "scans": scans})})
+    template().write(
+        file, title, {"data": _data(data, {"motion": motion, "scans": scans, "trajectories": trajectories})}
+    )
 
 
 @cache

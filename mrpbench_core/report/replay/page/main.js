@@ -1,10 +1,12 @@
 // Puts the page together and draws it, a frame at a time and only when something changed.
 
 import { EventPanel, eventText, fillAbout, fillFigures, fillHeader } from "replay/about.js";
-import { Clock, clockText, SPEEDS } from "replay/clock.js";
+import { boundsOf } from "replay/bounds.js";
+import { Clock, clockText } from "replay/clock.js";
 import { coloursOf } from "replay/colours.js";
 import { layerControls, levelControls, tabs } from "replay/controls.js";
-import { decoded, readArrays } from "replay/data.js";
+import { CriticsTable } from "replay/critics.js";
+import { readArrays } from "replay/data.js";
 import { Facilities } from "replay/facilities.js";
 import { FleetPanel } from "replay/fleet.js";
 import { Ground } from "replay/ground.js";
@@ -15,6 +17,7 @@ import { legend } from "replay/legend.js";
 import { Lidar } from "replay/lidar.js";
 import { Paths } from "replay/paths.js";
 import { People } from "replay/people.js";
+import { playback } from "replay/playback.js";
 import { listenToPointers } from "replay/pointer.js";
 import { Robots } from "replay/robots.js";
 import { Run, STATES } from "replay/run.js";
@@ -23,6 +26,7 @@ import { fitCanvas, isNarrow } from "replay/surface.js";
 import { TaskPanel } from "replay/task_panel.js";
 import { applyTheme, readTheme } from "replay/theme.js";
 import { Timeline } from "replay/timeline.js";
+import { Trajectories } from "replay/trajectories.js";
 import { View } from "replay/view.js";
 
 const get = (id) => document.getElementById(id);
@@ -32,13 +36,14 @@ const CLOSE = 70; // pixels per metre at least when a robot is followed
 const data = JSON.parse(get("run").textContent);
 const run = new Run(data, await readArrays("motion"));
 const clock = new Clock(run.begin, run.end);
-const shown = new Shown(run, Boolean(data.scans));
+const shown = new Shown(run, { scans: Boolean(data.scans), trajectories: Boolean(data.trajectories) });
 const view = new View(boundsOf(run));
 const [ground, paths, robots] = [new Ground(run), new Paths(run), new Robots(run)];
 const facilities = new Facilities(run);
 const people = new People(run);
 const heat = new Heat(run, view.bounds);
 const lidar = new Lidar(run, data.scans);
+const trajectories = new Trajectories(run, data.trajectories);
 const timeline = new Timeline(run, get("track"));
 const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
 applyTheme(shown.dark);
@@ -49,11 +54,12 @@ let [lastFrame, lastPanel] = [0, 0];
 
 fillHeader(run);
 fillFigures(run);
-fillAbout(run, data.scans);
+fillAbout(run, data.scans, data.trajectories);
 layerControls(shown);
 const refreshLevels = levelControls(run, shown);
 const drawLegend = legend(run);
 const fleet = new FleetPanel(run, shown, colours);
+const critics = new CriticsTable(run, trajectories);
 const events = new EventPanel(run, ([time, , robot]) => {
   clock.seek(time);
   if (robot >= 0) shown.select(robot);
@@ -63,29 +69,6 @@ const gantt = new Gantt(run, { seek: (time) => clock.seek(time), choose: (robot)
 get("tab-tasks").hidden = !run.tasks;
 const openTab = tabs(() => (stale.panel = true));
 const help = helpDialog();
-
-/** Left, bottom, right, top of everything, with a margin, metres. */
-function boundsOf({ arrays, world, routeX, routeY }) {
-  let [left, bottom, right, top] = [Infinity, Infinity, -Infinity, -Infinity];
-  const include = (x, y) => {
-    [left, right] = [Math.min(left, x), Math.max(right, x)];
-    [bottom, top] = [Math.min(bottom, y), Math.max(top, y)];
-  };
-  world.levels.forEach(({ raster, obstacles, floors }, number) => {
-    const walls = decoded(arrays[`walls_${number}`]);
-    for (let i = 0; i < walls.length; i += 2) include(walls[i], walls[i + 1]);
-    for (const polygon of [...floors, ...obstacles.map((obstacle) => obstacle[1])]) polygon.forEach(([x, y]) => include(x, y));
-    if (!raster) return;
-    const [rows, columns] = arrays[`blocked_${number}`].shape;
-    include(...raster.origin);
-    include(raster.origin[0] + columns * raster.cell, raster.origin[1] + rows * raster.cell);
-  });
-  for (const [x, y] of world.vertices) include(x, y);
-  for (let i = 0; i < routeX.length; i++) include(routeX[i], routeY[i]);
-  if (left > right) include(0, 0);
-  const margin = 0.015 * Math.max(right - left, top - bottom) + 0.2;
-  return [left - margin, bottom - margin, right + margin, top + margin];
-}
 
 function retheme() {
   applyTheme(shown.dark);
@@ -131,6 +114,7 @@ function draw() {
   if (shown.layers.lidar) lidar.draw(context, view, shown, painted);
   if (shown.layers.waits) run.why.draw(context, view, theme, shown);
   people.draw(context, view, theme, shown);
+  if (shown.layers.trajectories) trajectories.draw(context, view, theme, shown);
   robots.draw(context, view, theme, shown, painted, calm.matches || !clock.playing);
   if (run.tasks && shown.layers.tasks) run.tasks.draw(context, view, theme, shown);
   timeline.draw(theme);
@@ -149,6 +133,7 @@ function follow() {
 
 function refreshPanel() {
   fleet.refresh();
+  critics.refresh(shown.selected, shown.layers.trajectories);
   events.list.refresh();
   tasks.refresh(theme);
   refreshLevels();
@@ -170,9 +155,6 @@ function frame(now) {
 
 clock.addEventListener("change", () => {
   stale.actors = stale.panel = true;
-  document.body.classList.toggle("playing", clock.playing);
-  get("play").setAttribute("aria-label", clock.playing ? "Pause" : "Play");
-  get("speed").value = clock.speed;
 });
 
 let before = -1;
@@ -191,21 +173,9 @@ shown.addEventListener("change", () => {
   }
   before = shown.selected;
   if (shown.layers.lidar) lidar.read().then(() => (stale.actors = true));
+  if (shown.layers.trajectories && shown.selected >= 0) trajectories.read().then(() => (stale.actors = stale.panel = true));
 });
-
-for (const speed of SPEEDS) get("speed").append(new Option(`${speed}×`, speed));
-get("speed").value = clock.speed;
-get("speed").addEventListener("change", () => clock.setSpeed(Number(get("speed").value)));
-Object.assign(get("scrub"), { min: run.begin, max: run.end, value: run.begin });
-get("scrub").addEventListener("input", () => clock.seek(Number(get("scrub").value)));
-
-/** Stop at the next sample in a direction. */
-function step(by) {
-  clock.toggle(false);
-  run.seek(clock.now); // the last step may not be drawn yet
-  const at = run.sample + (by > 0 || run.fraction === 0 ? by : 0) + (by > 0 && run.fraction >= 1 ? 1 : 0);
-  clock.seek(run.time[Math.min(Math.max(at, 0), run.samples - 1)]);
-}
+const step = playback(run, clock);
 
 function nextEvent(forward) {
   const found = events.next(clock.now, forward);
@@ -231,9 +201,6 @@ const pan = (dx, dy) => {
   moveView(() => view.pan(dx, dy));
 };
 
-get("play").addEventListener("click", () => clock.toggle());
-get("back").addEventListener("click", () => step(-1));
-get("forth").addEventListener("click", () => step(1));
 get("zoom-in").addEventListener("click", () => zoom(1.5));
 get("zoom-out").addEventListener("click", () => zoom(1 / 1.5));
 get("fit").addEventListener("click", fit);
@@ -309,5 +276,5 @@ resize();
 requestAnimationFrame(frame);
 
 /** For the console and for tests. */
-window.replay = { run, clock, shown, view, robots, lidar, facilities, heat, gantt, tasks };
+window.replay = { run, clock, shown, view, robots, lidar, trajectories, facilities, heat, gantt, tasks };
 document.body.classList.add("ready");

@@ -10,13 +10,14 @@ export const LAYERS = [
   { key: "waits", label: "Waits", letter: "w" },
   { key: "estimate", label: "Estimate", letter: "m" },
   { key: "lidar", label: "Lidar", letter: "l" },
+  { key: "trajectories", label: "Trajectories", letter: "y" },
   { key: "heat", label: "Heat", letter: "h" },
   { key: "gantt", label: "Gantt", letter: "g" },
 ];
 const FEW = 40; // number of robots whose paths a reader can distinguish
 
 export class Shown extends EventTarget {
-  constructor(run, hasScans) {
+  constructor(run, recorded) {
     super();
     const few = run.count <= FEW;
     this.many = !few;
@@ -27,12 +28,13 @@ export class Shown extends EventTarget {
       tasks: !run.tasks,
       waits: !run.arrays.reason,
       estimate: !run.ghost,
-      lidar: !hasScans,
+      lidar: !recorded.scans,
+      trajectories: !recorded.trajectories,
       heat: !run.arrays.mode,
     };
     this.offered = LAYERS.filter(({ key }) => !missing[key]);
     if (!run.planned) this.offered = this.offered.map((it) => (it.key === "plan" ? { ...it, label: "Goals" } : it));
-    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, tasks: true, waits: true, estimate: false, lidar: false, heat: false, gantt: false };
+    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, tasks: true, waits: true, estimate: false, lidar: false, trajectories: Boolean(recorded.trajectories), heat: false, gantt: false };
     this.colour = few ? "robot" : "state";
     this.selected = -1;
     this.follow = false;
