@@ -84,7 +84,9 @@ def _fault(found: Any) -> str:
     """What is wrong with an evaluation, or an empty text."""
     if not isinstance(found, Evaluation):
         return f"is {found!r:.60}"
-    pose, cost, chosen = found.pose, found.cost, found.chosen
+    pose: Any = found.pose
+    cost: Any = found.cost
+    chosen: Any = found.chosen
     if not isinstance(pose, np.ndarray) or pose.ndim != 3 or pose.shape[2] != 3 or (len(pose) and not pose.shape[1]):
         return "`pose` is not f8[m,p,3]"
     if (

@@ -4,6 +4,7 @@
 
 #include "mrpbench_local/controller.hpp"
 #include "mrpbench_local/dwb/critic.hpp"
+#include "mrpbench_local/path/rotate_to_path.hpp"
 
 namespace mrpbench::local {
 
@@ -38,7 +39,6 @@ class Dwb : public Controller {
   Explanation explain() const override;
 
  private:
-  std::optional<Twist> turn_first(Pose pose, const Path& path, const Costmap& costmap);
   void score(const Scene& scene, const Extra& extra);
   bool passes(const Scene& scene, std::size_t i);
   std::optional<std::size_t> best(const Scene& scene);
@@ -48,7 +48,7 @@ class Dwb : public Controller {
   Trajectories all_;
   PathGrid path_;
   std::optional<Pose> goal_;
-  bool turning_ = false;
+  RotateToPath rotate_;
   std::optional<std::size_t> chosen_;
   std::vector<double> raw_, total_, scale_, added_;
   std::vector<Reason> why_, fault_;

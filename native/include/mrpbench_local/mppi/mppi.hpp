@@ -6,6 +6,7 @@
 #include "mrpbench_local/controller.hpp"
 #include "mrpbench_local/mppi/critic.hpp"
 #include "mrpbench_local/mppi/rollout.hpp"
+#include "mrpbench_local/path/rotate_to_path.hpp"
 
 namespace mrpbench::local {
 
@@ -15,7 +16,7 @@ struct MppiOptions {
   double vx_max = 0.5, vx_min = -0.35, wz_max = 1.9, ax_max = 3, ax_min = -3, az_max = 3.5;
   double prune_distance = 2, collision_lookahead_time = 2;
   bool open_loop = false, regenerate_noises = false, clamp_raw_controls = false;
-  double path_spacing = 0;
+  double path_spacing = 0, rotate_to_path = 0.4;
   double min_turning_r = 0;
   double period = 0.05;
 
@@ -60,6 +61,8 @@ class Mppi : public Controller {
   mppi::Table noise_vx_, noise_wz_, control_vx_, control_wz_;
   std::vector<float> plan_vx_, plan_wz_, total_, raw_, weight_, added_;
   std::array<float, 4> past_vx_{}, past_wz_{};
+  std::optional<Pose> goal_;
+  RotateToPath rotate_;
   const char* fault_ = "";
 };
 

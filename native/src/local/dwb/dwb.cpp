@@ -3,35 +3,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "mrpbench_local/costmap/collision.hpp"
-
 namespace mrpbench::local {
 
 namespace {
 
 double thresholded(double speed, double threshold) {
   return std::abs(speed) < threshold ? 0 : speed;
-}
-
-/// Distance along a path, in metres, at which its direction is measured.
-constexpr double kAhead = 0.3;
-
-/// Angle in radians between the heading of a robot and its path.
-double off(Pose pose, const Path& path) {
-  Point at = path.first;
-  double left = kAhead;
-  for (const Point& next : path.rest) {
-    const double length = sim::length(next - at);
-    if (length >= left) {
-      at = at + (next - at) * (left / length);
-      break;
-    }
-    left -= length;
-    at = next;
-  }
-  const Point away = at - Point{pose.x, pose.y};
-  if (sim::length(away) < kAhead / 3) return 0;  // a robot that has nearly arrived need not turn
-  return wrapped(std::atan2(away.y, away.x) - pose.yaw);
 }
 
 /// Twists f8[m,2], and poses f8[m,p,3]: one trajectory after the other, each padded with its last pose.
@@ -87,7 +64,10 @@ Description<DwbOptions> DwbOptions::derived() {
 }
 
 Dwb::Dwb(const DwbOptions& options, std::vector<Weighted> critics)
-    : options_(options), critics_(std::move(critics)), all_(options.motion) {
+    : options_(options),
+      critics_(std::move(critics)),
+      all_(options.motion),
+      rotate_(options.rotate_to_path, {options.motion.max_vel_theta, options.motion.acc_lim_theta}) {
   const MotionOptions& motion = options.motion;
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(what);
@@ -113,10 +93,10 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   if (is_new(goal_, path)) {
     goal_ = {end.x, end.y, path.yaw};
     for (const Weighted& each : critics_) each.critic->reset();
-    turning_ = options_.rotate_to_path > 0 && std::abs(off(pose, path)) > options_.rotate_to_path;
+    rotate_.begin(pose, path);
   }
   if (std::isnan(path.yaw) && sim::length({pose.x - end.x, pose.y - end.y}) <= frame.resolution) return Twist{};
-  if (const auto turn = turn_first(pose, path, *it.costmap)) return turn;
+  if (const auto turn = rotate_.command(pose, path, *it.costmap)) return turn;
   path_.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
   if (!path_.empty()) path_.spread(frame);
   const Twist measured{thresholded(it.twist.ahead, options_.min_x_velocity_threshold),
@@ -130,17 +110,6 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   for (const Weighted& it : critics_) it.critic->debrief(scene, command);
   if (!chosen_) return std::nullopt;
   return command;
-}
-
-/// As Nav2's rotation shim does: a controller that drives while it turns would leave the path.
-std::optional<Twist> Dwb::turn_first(Pose pose, const Path& path, const Costmap& costmap) {
-  if (!turning_) return std::nullopt;
-  const double left = off(pose, path);
-  turning_ = std::abs(left) > options_.rotate_to_path / 4 && is_free(costmap, {pose.x, pose.y, pose.yaw + left}, false);
-  if (!turning_) return std::nullopt;
-  const double rate =
-      std::min(options_.motion.max_vel_theta, std::sqrt(options_.motion.acc_lim_theta * std::abs(left)));
-  return Twist{0, std::copysign(rate, left)};
 }
 
 /// Totals of all trajectories, from critics that need only their last poses.

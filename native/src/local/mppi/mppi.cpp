@@ -60,7 +60,10 @@ Description<MppiOptions> MppiOptions::further() {
   using M = MppiOptions;
   return {{"path_spacing", &M::path_spacing, at_least(0, "m"),
            "distance of the points of the path that critics count; 0 = so that as many are within reach as at Nav2's "
-           "highest speed and spacing"}};
+           "highest speed and spacing"},
+          {"rotate_to_path", &M::rotate_to_path, at_least(0),
+           "turn on the spot first where a new path leads off the heading by more than this, radians, as the rotation "
+           "shim of Nav2 does; 0 = never, as MPPI alone; Ackermann steering never does"}};
 }
 
 Description<MppiOptions> MppiOptions::derived() {
@@ -68,7 +71,10 @@ Description<MppiOptions> MppiOptions::derived() {
 }
 
 Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key, std::vector<WeightedCritic> critics)
-    : options_(options), key_(key), critics_(std::move(critics)) {
+    : options_(options),
+      key_(key),
+      critics_(std::move(critics)),
+      rotate_(options.min_turning_r > 0 ? 0 : options.rotate_to_path, {options.wz_max, options.az_max}) {
   const auto require = [](bool holds, const char* what) {
     if (!holds) throw std::invalid_argument(what);
   };
@@ -111,8 +117,17 @@ void Mppi::reset() {
 std::optional<Twist> Mppi::command(const Situation& now, const Extra& extra) {
   fault_ = "";
   scored_ = false;
+  const Point end = now.path.end();
+  if (is_new(goal_, now.path)) {
+    goal_ = {end.x, end.y, now.path.yaw};
+    rotate_.begin(now.pose, now.path);
+  }
+  if (const auto turn = rotate_.command(now.pose, now.path, *now.costmap)) {
+    reset();
+    return last_ = *turn;
+  }
   prepare(now);
-  const double away = sim::length(now.path.end() - Point{now.pose.x, now.pose.y});
+  const double away = sim::length(end - Point{now.pose.x, now.pose.y});
   if (away <= now.path.tolerance / 2 && std::isnan(now.path.yaw)) {
     reset();
     last_ = {};

@@ -7,6 +7,7 @@ from mrpbench_controllers_rotation_shim import RotationShim
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.testing.fixtures.following import NOWHERE, SPRINTER, seen
+from mrpbench_core.testing.fixtures.room import driven
 
 PERIOD = 0.05
 PATH = [(0.0, 0.0), (4.0, 0.0)]
@@ -86,7 +87,9 @@ def test_commands_keep_speeds_and_accelerations():
 @pytest.mark.parametrize(("limit", "ahead", "back"), [(0.25, 0.25, -0.175), (0.75, 0.5, -0.35)])
 def test_a_speed_limit_scales_all_limits_but_never_raises_them(limit, ahead, back):
     for end, speed in ((4.0, ahead), (-4.0, back)):
-        session = Mppi(critics=(PathFollowCritic(), GoalCritic())).start_fleet((SPRINTER,), NOWHERE, PERIOD)
+        session = Mppi(critics=(PathFollowCritic(), GoalCritic()), rotate_to_path=0.0).start_fleet(
+            (SPRINTER,), NOWHERE, PERIOD
+        )
         twist = np.zeros(2)
         for _ in range(30):
             twist = session.command(seen([(0.0, 0.0), (end, 0.0)], twist=tuple(twist), speed=limit))[0]
@@ -119,6 +122,22 @@ def test_it_drives_along_a_free_path_and_keeps_from_obstacles():
     session = Mppi().start_fleet((SPRINTER,), NOWHERE, PERIOD)
     session.command(seen(PATH, ranges=0.6))
     assert session.explain(0)["score"][1].max() > 0
+
+
+@pytest.mark.parametrize(("end", "sign"), [((0.0, 0.4), 1), ((0.0, -0.4), -1)])
+def test_a_robot_turns_to_a_new_path_on_the_spot_and_then_follows_it(end, sign):
+    session = Mppi().start_fleet((SPRINTER,), NOWHERE, PERIOD)
+    path, pose, said = [(0.0, 0.0), end], np.zeros(3), []
+    for step in range(120):
+        twist = session.command(attrs.evolve(seen(path, twist=tuple(said[-1]) if said else (0, 0)), pose=pose[None]))[0]
+        said.append(twist)
+        pose = driven(pose[None], twist[None], PERIOD)[0]
+    turns = np.array(said)[:5]
+    assert (turns[:, 0] == 0).all()
+    assert (turns[:, 1] * sign > 1).all()
+    assert np.hypot(*(pose[:2] - end)) < 0.15
+    alone = Mppi(rotate_to_path=0.0).start_fleet((SPRINTER,), NOWHERE, PERIOD)
+    assert alone.command(seen(path))[0][1] * sign < 1
 
 
 def test_a_nav2_file_is_read():
