@@ -15,7 +15,7 @@ struct MppiOptions {
   double model_dt = 0.05, temperature = 0.3, gamma = 0.015, vx_std = 0.2, wz_std = 0.4;
   double vx_max = 0.5, vx_min = -0.35, wz_max = 1.9, ax_max = 3, ax_min = -3, az_max = 3.5;
   double prune_distance = 2, collision_lookahead_time = 2;
-  bool open_loop = false, regenerate_noises = false, clamp_raw_controls = false;
+  bool open_loop = false, regenerate_noises = false, clamp_raw_controls = false, roll_noises = true;
   double path_spacing = 0, rotate_to_path = 0.4;
   double min_turning_r = 0;
   double period = 0.05;
@@ -56,6 +56,7 @@ class Mppi : public Controller {
   std::vector<mppi::WeightedCritic> critics_;
   bool shift_ = true, drawn_fresh_ = false, scored_ = false;
   std::uint64_t drawn_ = 0;
+  std::size_t rolled_ = 0;
   Twist start_, last_;
   mppi::Batch batch_;
   mppi::Table noise_vx_, noise_wz_, control_vx_, control_wz_;

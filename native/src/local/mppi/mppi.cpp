@@ -61,6 +61,9 @@ Description<MppiOptions> MppiOptions::further() {
   return {{"path_spacing", &M::path_spacing, at_least(0, "m"),
            "distance of the points of the path that critics count; 0 = so that as many are within reach as at Nav2's "
            "highest speed and spacing"},
+          {"roll_noises", &M::roll_noises,
+           "begin one step later in the noise in every period, so that a robot does not stand where the plan and always "
+           "the same noise balance; false = as Nav2 without regenerate_noises"},
           {"rotate_to_path", &M::rotate_to_path, at_least(0),
            "turn on the spot first where a new path leads off the heading by more than this, radians, as the rotation "
            "shim of Nav2 does; 0 = never, as MPPI alone; Ackermann steering never does"}};
@@ -134,6 +137,7 @@ std::optional<Twist> Mppi::command(const Situation& now, const Extra& extra) {
     return last_;
   }
   scored_ = true;
+  if (options_.roll_noises) rolled_ = (rolled_ + 1) % plan_vx_.size();
   for (int attempt = 0; attempt <= options_.retry_attempt_limit; ++attempt) {
     if (!drawn_fresh_ || options_.regenerate_noises) draw();
     drawn_fresh_ = true;
@@ -198,7 +202,8 @@ MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
   begin_plan();
   for (std::size_t t = 0; t < steps; ++t) {
     const float vx = plan_vx_[t], wz = plan_wz_[t];
-    const float *nv = noise_vx_[t], *nw = noise_wz_[t];
+    const std::size_t drawn = (t + rolled_) % steps;
+    const float *nv = noise_vx_[drawn], *nw = noise_wz_[drawn];
     float *cv = control_vx_[t], *cw = control_wz_[t];
     for (std::size_t k = 0; k < samples; ++k) cv[k] = vx + nv[k];
     for (std::size_t k = 0; k < samples; ++k) cw[k] = wz + nw[k];

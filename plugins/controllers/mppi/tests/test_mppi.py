@@ -128,7 +128,7 @@ def test_it_drives_along_a_free_path_and_keeps_from_obstacles():
 def test_a_robot_turns_to_a_new_path_on_the_spot_and_then_follows_it(end, sign):
     session = Mppi().start_fleet((SPRINTER,), NOWHERE, PERIOD)
     path, pose, said = [(0.0, 0.0), end], np.zeros(3), []
-    for step in range(120):
+    for _ in range(120):
         twist = session.command(attrs.evolve(seen(path, twist=tuple(said[-1]) if said else (0, 0)), pose=pose[None]))[0]
         said.append(twist)
         pose = driven(pose[None], twist[None], PERIOD)[0]
