@@ -32,9 +32,9 @@ class Mppi : public Controller {
   std::optional<Twist> command(const Situation& now, const Extra& extra) override;
 
   /// Every fifth sample and third step as `twist` and `pose`, and their `cost`; of all samples the raw `score`
-  /// of each critic, and `total`; the `plan` f8[T,2] of velocities; names of the `critics`; the `reason` why there is no
-  /// command. If there is one, the poses of the plan are `chosen` f8[T+1,3], and `chosen_score` has the mean scores over
-  /// all samples, weighted as the plan weighs them.
+  /// of each critic, and `total`; the `plan` f8[T,2] of velocities; names of the `critics`; the `reason` why there is
+  /// no command. If there is one, the poses of the plan are `chosen` f8[T+1,3], and `chosen_score` has the mean scores
+  /// over all samples, weighted as the plan weighs them.
   Explanation explain() const override;
 
  private:

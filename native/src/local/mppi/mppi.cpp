@@ -58,15 +58,16 @@ Description<MppiOptions> MppiOptions::nav2() {
 
 Description<MppiOptions> MppiOptions::further() {
   using M = MppiOptions;
-  return {{"path_spacing", &M::path_spacing, at_least(0, "m"),
-           "distance of the points of the path that critics count; 0 = so that as many are within reach as at Nav2's "
-           "highest speed and spacing"},
-          {"roll_noises", &M::roll_noises,
-           "begin one step later in the noise in every period, so that a robot does not stand where the plan and always "
-           "the same noise balance; false = as Nav2 without regenerate_noises"},
-          {"rotate_to_path", &M::rotate_to_path, at_least(0),
-           "turn on the spot first where a new path leads off the heading by more than this, radians, as the rotation "
-           "shim of Nav2 does; 0 = never, as MPPI alone; Ackermann steering never does"}};
+  return {
+      {"path_spacing", &M::path_spacing, at_least(0, "m"),
+       "distance of the points of the path that critics count; 0 = so that as many are within reach as at Nav2's "
+       "highest speed and spacing"},
+      {"roll_noises", &M::roll_noises,
+       "begin one step later in the noise in every period, so that a robot does not stand where the plan and always "
+       "the same noise balance; false = as Nav2 without regenerate_noises"},
+      {"rotate_to_path", &M::rotate_to_path, at_least(0),
+       "turn on the spot first where a new path leads off the heading by more than this, radians, as the rotation "
+       "shim of Nav2 does; 0 = never, as MPPI alone; Ackermann steering never does"}};
 }
 
 Description<MppiOptions> MppiOptions::derived() {

@@ -140,6 +140,15 @@ def test_a_robot_turns_to_a_new_path_on_the_spot_and_then_follows_it(end, sign):
     assert alone.command(seen(path))[0][1] * sign < 1
 
 
+def test_a_robot_that_is_held_gets_varying_commands_unless_the_noise_is_always_the_same():
+    def spread(**options):
+        session = Mppi(batch_size=100, **options).start_fleet((SPRINTER,), NOWHERE, PERIOD)
+        said = np.array([session.command(seen(PATH))[0] for _ in range(300)])
+        return np.ptp(said[-20:], axis=0).max()
+
+    assert spread() > 5 * spread(roll_noises=False)
+
+
 def test_a_nav2_file_is_read():
     block = {
         "plugin": Mppi.nav2_plugin,
