@@ -13,8 +13,8 @@ from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.destinations import Places
-from mrpbench_core.engine.execution.facility_manager import ExecutionError
 from mrpbench_core.engine.execution.evaluations import Evaluations
+from mrpbench_core.engine.execution.facility_manager import ExecutionError
 from mrpbench_core.engine.execution.faults import FaultState, draw_faults
 from mrpbench_core.engine.execution.loop import ExecutionLoop
 from mrpbench_core.engine.execution.loop_inputs import ExecutionResult, LoopComponents, LoopInputs
