@@ -1,6 +1,7 @@
 #include "mrpbench_local/fleet.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <limits>
 #include <stdexcept>
@@ -17,7 +18,8 @@ void Fleet::add(const RobotOptions& options, std::unique_ptr<Controller> control
   robots_.push_back(std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), std::move(controller), options}));
 }
 
-/// Call `work(i)` once for every i below `count`, in several threads.
+/// Call `work(i)` once for every i below `count`, in several threads, of which this is one. Each takes the next i, so
+/// that none waits for another whose robots take longer.
 template <class Work>
 void Fleet::share(std::size_t count, Work&& work) const {
   const std::size_t threads = std::min(static_cast<std::size_t>(threads_), count);
@@ -25,18 +27,22 @@ void Fleet::share(std::size_t count, Work&& work) const {
     for (std::size_t i = 0; i < count; ++i) work(i);
     return;
   }
-  std::vector<std::exception_ptr> failures(threads);
+  std::vector<std::exception_ptr> failures(count);
+  std::atomic<std::size_t> next{0};
+  const auto take = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+      } catch (...) {
+        failures[i] = std::current_exception();
+        return;
+      }
+    }
+  };
   {
     std::vector<std::jthread> others;
-    for (std::size_t t = 0; t < threads; ++t) {
-      others.emplace_back([&, t] {
-        try {
-          for (std::size_t i = t; i < count; i += threads) work(i);
-        } catch (...) {
-          failures[t] = std::current_exception();
-        }
-      });
-    }
+    for (std::size_t t = 1; t < threads; ++t) others.emplace_back(take);
+    take();
   }
   for (const auto& it : failures) {
     if (it) std::rethrow_exception(it);
