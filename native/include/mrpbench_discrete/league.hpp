@@ -24,7 +24,8 @@ struct LeagueOptions {
   std::size_t table_bytes = std::size_t{2} << 30;
   /// Whether moves cost more where there is traffic.
   bool guidance = true;
-  /// Robots that have a goal at the same time, at most; none: half as many as there are free cells.
+  /// Robots that have a goal at the same time, at most; none: half as many as there are free cells,
+  /// in 2023 three eighths.
   std::optional<int> active;
   /// 2026: ticks between two calls of the planner.
   int period = 10;

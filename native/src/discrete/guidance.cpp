@@ -8,13 +8,15 @@ namespace {
 
 constexpr float kFading = 0.99F;
 ///< Per step.
-constexpr float kOpposite = 3, kStay = 3;
+constexpr float kOpposite = 10, kStay = 2;
 ///< What one opposite move, or one robot that stays, in each step adds to the cost of a move of 1.
 constexpr float kMost = 25;
 constexpr int kPeriod = 20;
 ///< Steps between two changes of costs, at least.
-constexpr std::size_t kCells = 10'000;
-///< Of tables that are computed again in a step: about a millisecond.
+constexpr std::size_t kCells = 10'000, kCellsOfSmall = 60'000;
+///< Of tables that are computed again in a step: about one and six milliseconds.
+constexpr int kSmall = 5'000;
+///< Free cells of a map on which costs follow the traffic within some steps.
 
 }  // namespace
 
@@ -37,7 +39,7 @@ void Guidance::observe(const std::vector<Pose>& pose, const std::vector<Action>&
 }
 
 void Guidance::update() {
-  if (!tables_.refresh(kCells) || age_ < kPeriod) return;
+  if (!tables_.refresh(grid_.size() < kSmall ? kCellsOfSmall : kCells) || age_ < kPeriod) return;
   age_ = 0;
   tables_.set_costs(costs());
 }

@@ -95,16 +95,32 @@ class Steps final : public League {
     }
   }
 
-  /// Leave goals to the robots that are nearest to theirs.
+  /// Leave goals to as many robots as are active. A robot keeps its turn until it reaches its goal. Next are robots with
+  /// short ways and such that have waited long: two steps of waiting weigh as much as one of the way.
   void limit() {
     if (active_ >= pose_.size()) return;
-    std::vector<std::pair<std::uint32_t, std::size_t>> ways;
+    turns_.resize(pose_.size());
+    std::vector<std::pair<std::int64_t, std::size_t>> waiting;
+    std::size_t active = 0;
     for (std::size_t i = 0; i < pose_.size(); ++i) {
-      if (view_.goal[i] >= 0) ways.push_back({tables_.to(view_.goal[i]).from(pose_[i]), i});
+      const int goal = view_.goal[i];
+      if (goal < 0) continue;
+      const int task = tasks_.queue(static_cast<int>(i)).front();
+      if (turns_[i].task != task) turns_[i] = {task, time_, false};
+      if (turns_[i].active) {
+        ++active;
+        continue;
+      }
+      const std::int64_t way = tables_.to(goal).from(pose_[i]) / tables_.turn();
+      waiting.push_back({2 * way - (time_ - turns_[i].since), i});
     }
-    std::sort(ways.begin(), ways.end());
-    for (std::size_t k = active_; k < ways.size(); ++k)
-      view_.goal[ways[k].second] = view_.next_goal[ways[k].second] = -1;
+    std::sort(waiting.begin(), waiting.end());
+    const std::size_t next = std::min(waiting.size(), may_get(active));
+    for (std::size_t k = 0; k < waiting.size(); ++k) {
+      const std::size_t robot = waiting[k].second;
+      turns_[robot].active = k < next;
+      if (k >= next) view_.goal[robot] = view_.next_goal[robot] = -1;
+    }
   }
 
   /// One step, and the proposal that takes effect with it.
@@ -125,6 +141,13 @@ class Steps final : public League {
   Scheduler scheduler_;
   View view_;
   std::vector<Action> action_;
+  /// Whether a robot may go to the goal of its task, and since when it has that.
+  struct Turn {
+    std::int32_t task = -1;
+    int since = 0;
+    bool active = false;
+  };
+  std::vector<Turn> turns_;
 };
 
 }  // namespace
@@ -160,7 +183,7 @@ League::League(Problem problem, LeagueOptions options)
       planner_(make_planner(options_.planner, options_.seed)) {
   for (const int cell : problem_.start) pose_.push_back({cell, 0});
   if (options_.guidance) guidance_ = std::make_unique<Guidance>(problem_.grid, tables_);
-  active_ = options_.active ? *options_.active : std::max(1, problem_.grid.size() / 2);
+  active_ = options_.active ? *options_.active : std::max(1, problem_.grid.size() * (problem_.season == 2023 ? 3 : 4) / 8);
 }
 
 League::~League() = default;

@@ -86,6 +86,13 @@ def test_no_more_robots_than_asked_for_hold_tasks(season):
     assert most == 7
 
 
+def test_every_robot_gets_its_turn():
+    """Robots without a turn for their goals of 2023 get it before the others have had many."""
+    done = execute(drawn(2023, 4, robots=30), 900, Options(iterations=5, active=7))
+    errands = np.bincount([robot for _, robot, _, done in done.output.events if done], minlength=30)
+    assert errands.min() > 0.25 * errands.mean()
+
+
 def test_with_iterations_outputs_are_equal_on_any_number_of_threads(tmp_path):
     texts = []
     for name, threads in (("a", 1), ("b", 2)):
