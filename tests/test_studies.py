@@ -27,6 +27,10 @@ RUNS_PER_PLANNER = {
     "encounters": 120,
     "people": 400,
     "people_floors": 80,
+    "floor": 80,
+    "floor_grid": 20,
+    "rates": 90,
+    "batches": 80,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {
@@ -44,8 +48,12 @@ PLANNERS = {
     "encounters": 1,
     "people": 1,
     "people_floors": 1,
+    "floor": 1,
+    "floor_grid": 1,
+    "rates": 1,
+    "batches": 1,
 }
-VARIANTS = {"league": 2}
+VARIANTS = {"league": 2, "floor": 4, "floor_grid": 2}
 """Options of one planner that a study compares."""
 
 
