@@ -55,6 +55,7 @@ def config(options: argparse.Namespace) -> dict[str, Any]:
         "assigner": options.assigner,
         "planner": {"plugin": "rolling_horizon", "planner": "pibt"},
         "dispatcher": {"plugin": "adg", "lookahead": options.lookahead},
+        "navigator": {"plugin": "waypoints", "turn_ahead": options.turn_ahead},
         "replanning": {"period": 1, **({"window": options.window} if options.window else {})},
         "simulator": "planar",
         "control_rate": options.control_rate,
@@ -72,6 +73,7 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=600.0, help="simulated")
     parser.add_argument("--window", type=float, default=10.0, help="simulated seconds; 0: plans lead to the goals")
     parser.add_argument("--lookahead", type=int, default=1, help="segments released beyond the one under way")
+    parser.add_argument("--turn-ahead", action="store_true", help="robots that wait turn to the next waypoint")
     parser.add_argument("--assigner", default="identity")
     parser.add_argument("--control-rate", type=float, default=10.0)
     parser.add_argument("--profile", type=int, default=0, metavar="N", help="print the N most expensive functions")

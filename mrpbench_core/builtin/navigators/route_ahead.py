@@ -64,7 +64,8 @@ class RouteAhead:
         end_row = first_corner + end
         self.end[robots] = end_row + 1
         self.end_x[robots], self.end_y[robots] = tables.corners[end_row].T
-        yaw = tables.yaw[first + released]
+        until = first + released
+        yaw = np.where(is_open, tables.yaw[until], tables.waiting_yaw[until])
         self.yaw[robots] = np.where(end == last, yaw, np.nan)
         self.speed[robots] = tables.speed[here]
         uses_lift = is_open & (tables.level[here] != tables.level[goal])

@@ -29,7 +29,7 @@ class RouteFollower:
         self, routes: Sequence[Route], rules: ArrivalRules, clearances: Float, beyond_bends: bool = False
     ) -> None:
         count = len(routes)
-        self._yaw_goal_tolerance = rules.yaw_goal_tolerance
+        self._yaw_goal_tolerance, self._turn_ahead = rules.yaw_goal_tolerance, rules.turn_ahead
         self._progress = RouteProgress(routes, rules, clearances)
         self._ahead = RouteAhead(self._progress, beyond_bends)
         self._beyond_bends = beyond_bends
@@ -47,7 +47,7 @@ class RouteFollower:
         """Continue with routes that begin with the released parts of the old ones, but for `cut` i4[n] segments."""
         self._progress.adopt(routes, cut)
         self.corners = self._progress.tables.corners
-        self._wants_yaw = any(not np.isnan(route.waypoint[:, 2]).all() for route in routes)
+        self._wants_yaw = self._turn_ahead or any(not np.isnan(route.waypoint[:, 2]).all() for route in routes)
         self._refresh(np.arange(len(routes)))
         self._released = np.full(len(routes), -1, np.int32)  # so that the next `update` looks at all robots
 

@@ -28,6 +28,8 @@ class ArrivalRules:
     trans_stopped_velocity: float = np.inf
     """m/s, and below rad/s, up to which a robot stands at the end of its path; inf = it may move."""
     rot_stopped_velocity: float = np.inf
+    turn_ahead: bool = False
+    """Robots that wait turn to the next waypoint."""
 
 
 class RouteTables:
@@ -82,9 +84,13 @@ class RouteTables:
         not reached by passing them."""
         self.yaw: Float = waypoint[:, 2].copy()
         """f8[W] prescribed at each waypoint, NaN = any. A robot that stops at each turns there to the next one."""
+        self.waiting_yaw = self.yaw
+        """f8[W] for a robot that waits at a waypoint, NaN = any."""
+        if rules.stops or rules.turn_ahead:
+            onward = np.arctan2(heading[row, 1], heading[row, 0])  # NaN at the last
+            self.waiting_yaw = np.where(np.isnan(self.yaw), onward, self.yaw)
         if rules.stops:
-            free = np.isnan(self.yaw)
-            self.yaw[free] = np.arctan2(heading[row[free], 1], heading[row[free], 0])  # NaN at the last
+            self.yaw = self.waiting_yaw
 
     def _add_legs(self, clearance: Float, enters_lift: Bool) -> Float:
         """Fill the tables of the corners, given the clearance f8[C] there, and whether bool[C] a robot enters a lift;

@@ -44,6 +44,9 @@ class Waypoints(Navigator):
         "pass",
         help="drive through released waypoints on the way, or stop at each and turn to the next as MRP-Bench did",
     )
+    turn_ahead: bool = option(
+        False, help="a robot that waits turns to the next waypoint, so that it drives off at once; needs room to turn"
+    )
     waypoint_tolerance: float | None = option(
         None,
         help="a waypoint on the way is reached within this distance, or when the robot passes it that close; default: "
@@ -134,6 +137,8 @@ class Waypoints(Navigator):
         """Return options that the others make idle."""
         idle = {}
         values = self.settled()
+        if self.waypoints == "stop":
+            idle["turn_ahead"] = "waypoints is stop, where robots turn to the next one anyway"
         goal, progress = values["goal_checker"], values["progress_checker"]
         of_goal, of_progress = parameters_of(goal), parameters_of(progress)
         for name in ("yaw_goal_tolerance", "trans_stopped_velocity", "rot_stopped_velocity"):
@@ -189,6 +194,7 @@ class Waypoints(Navigator):
             tolerance = _CUTTING if self.path_end == "release" else _KEEPING
         return ArrivalRules(
             stops=self.waypoints == "stop",
+            turn_ahead=self.turn_ahead,
             waypoint_tolerance=min(tolerance, _KEEPING) if self.path_end == "release" else tolerance,
             passing_tolerance=tolerance,
             xy_goal_tolerance=nav2["xy_goal_tolerance"],

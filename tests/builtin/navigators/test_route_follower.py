@@ -77,6 +77,25 @@ def test_nothing_is_reached_nor_cleared_at_the_start_and_nothing_to_drive_withou
     assert follower.path is None
 
 
+def test_a_robot_that_waits_turns_to_the_next_waypoint_if_it_may():
+    rules = Waypoints(turn_ahead=True).arrival_rules
+    for pose, released, turns in (
+        ((0, 0, -1), 0, True),  # at the start
+        ((0.4, 0, 0), 1, True),
+        ((0.4, 0, math.pi / 2), 1, False),  # it faces it
+        ((0.4, 0.8, 0), 3, False),  # at the end any yaw will do
+    ):
+        follower = follow(CORNER, [*along(CORNER[: released + 1]), pose], released=released, rules=rules)
+        assert follower.under_way == turns
+        assert (follower.path is not None) == turns
+        assert not follow(CORNER, [*along(CORNER[: released + 1]), pose], released=released).under_way
+
+
+def test_a_robot_does_not_turn_ahead_while_it_drives():
+    follower = follow(CORNER, [(0.1, 0, 0)], released=1, rules=Waypoints(turn_ahead=True).arrival_rules)
+    assert math.isnan(follower.yaw)
+
+
 def test_waypoints_are_reached_within_the_tolerance_and_only_as_far_as_released():
     assert follow(LINE, along([(0, 0), (0.29, 0)])).reached == 0
     assert follow(LINE, along([(0, 0), (0.31, 0)])).reached == 1

@@ -22,7 +22,7 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("--depth", type=int, choices=(3, 4, 5), default=4, help="actions of an operation of epibt")
     parser.add_argument("--threads", type=_positive, default=1, metavar="N", help="threads of improvement of epibt")
     parser.add_argument("--no-guidance", action="store_false", dest="guidance", help="moves cost the same everywhere")
-    parser.add_argument("--active", type=_positive, metavar="N", help="robots with goals (default: half the cells, 2023: 3/8)")
+    parser.add_argument("--active", type=_positive, metavar="N", help="robots with goals (half the cells, 2023: 3/8)")
     parser.add_argument("--limit", type=_seconds, default=1.0, metavar="S", help="seconds of one answer")
     parser.add_argument("--iterations", type=int, metavar="N", help="rounds of improvement instead of seconds")
     parser.add_argument("--period", type=_positive, default=10, metavar="N", help="ticks between two calls (2026)")
