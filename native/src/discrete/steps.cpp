@@ -95,8 +95,8 @@ class Steps final : public League {
     }
   }
 
-  /// Leave goals to as many robots as are active. A robot keeps its turn until it reaches its goal. Next are robots with
-  /// short ways and such that have waited long: two steps of waiting weigh as much as one of the way.
+  /// Leave goals to as many robots as are active. A robot keeps its turn until it reaches its goal. Next are robots
+  /// with short ways and such that have waited long: two steps of waiting weigh as much as one of the way.
   void limit() {
     if (active_ >= pose_.size()) return;
     turns_.resize(pose_.size());
@@ -183,7 +183,8 @@ League::League(Problem problem, LeagueOptions options)
       planner_(make_planner(options_.planner, options_.seed)) {
   for (const int cell : problem_.start) pose_.push_back({cell, 0});
   if (options_.guidance) guidance_ = std::make_unique<Guidance>(problem_.grid, tables_);
-  active_ = options_.active ? *options_.active : std::max(1, problem_.grid.size() * (problem_.season == 2023 ? 3 : 4) / 8);
+  active_ =
+      options_.active ? *options_.active : std::max(1, problem_.grid.size() * (problem_.season == 2023 ? 3 : 4) / 8);
 }
 
 League::~League() = default;
