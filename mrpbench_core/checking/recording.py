@@ -65,6 +65,8 @@ LAYOUTS: Mapping[str, Layout] = {
     "task_time": Layout("f", "task_time"),
     **{f"task_{name}": Layout("i", "task_time") for name in ("index", "robot", "errand")},
     "task_event": Layout("U", "task_time"),
+    "draw": Layout("iu", "draw"),
+    **{f"draw_{name}": Layout("f", "draw", (ROBOTS,)) for name in ("arrival", "waiting")},
     "event_time": Layout("f", "event_time"),
     "event_kind": Layout("U", "event_time"),
     "event_robot": Layout("i", "event_time"),

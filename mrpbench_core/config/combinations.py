@@ -38,6 +38,8 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
     if config.execution == "schedule_only" and (faults := tuple(config.faults.without_physics())):
         named = [(f"faults.{name}", reason) for name, reason in faults]
         return [_place(root, key).location.error(key, reason) for key, reason in named]
+    if config.delays.draws > 1 and config.execution != "schedule_only":
+        return [_place(root, "delays.draws").location.error("delays.draws", "needs `execution: schedule_only`")]
     if config.simulator is None:
         return [] if config.tasks is None else [_place(root, "tasks").location.error("tasks", "needs a simulator")]
     if isinstance(config.simulator, DiscreteSimulator):

@@ -54,6 +54,12 @@ class Delays:
         "usual speed; the mean is 1. A simulator with physics keeps to the robot's greatest speed",
         validator=validators.ge(0),
     )
+    draws: int = option(
+        1,
+        help="executions of the same plan in one run of `execution: schedule_only`, each with delays of its own; the "
+        "first one is the run, of the others the recording keeps their times (metric `draws`)",
+        validator=validators.ge(1),
+    )
 
     def __bool__(self) -> bool:
         """Tell whether there are any delays."""
@@ -61,11 +67,11 @@ class Delays:
 
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""
-        idle: dict[str, str] = {}
+        idle: dict[str, str] = {} if self.p_delay or self.speed else {"draws": "no delay is drawn"}
         if not self.p_delay:
             stops = ("event_model", "duration_model", "min_delay", "max_delay", "gauss_mean_ratio", "gauss_std_ratio")
             ticks = () if self.worst_case else ("tick",)
-            return dict.fromkeys((*stops, *ticks), "p_delay is 0")
+            return idle | dict.fromkeys((*stops, *ticks), "p_delay is 0")
         if self.duration_model == "uniform":
             idle |= dict.fromkeys(("gauss_mean_ratio", "gauss_std_ratio"), "duration_model is uniform")
         return idle

@@ -22,17 +22,17 @@ _NEVER = (2**62, 2**62)
 
 
 class DelayStream:
-    """The delays of one run."""
+    """The delays of one run, or of one of its `Delays.draws`."""
 
     def __init__(
-        self, settings: Delays, robots: int, seed: int, repeat: int, adversary: Adversary | None = None
+        self, settings: Delays, robots: int, seed: int, repeat: int, adversary: Adversary | None = None, draw: int = 0
     ) -> None:
         self.settings, self._adversary = settings, adversary
         self._speeds = (
-            [stream(seed, repeat, "delays.speed", robot) for robot in range(robots)] if settings.speed else []
+            [stream(seed, repeat, "delays.speed", robot, draw) for robot in range(robots)] if settings.speed else []
         )
         self._factor: Float = np.ones((robots, 0))
-        self._stops = _stops(settings, robots, seed, repeat)
+        self._stops = _stops(settings, robots, seed, repeat, draw)
         self._stop: list[Stop] = [next(own) for own in self._stops]
         """The stop of each robot that is under way or comes next."""
         self._next = min((begin for begin, _ in self._stop), default=_NEVER[0])
@@ -96,14 +96,14 @@ class DelayStream:
         return twist * np.where(self.stopped, 0.0, self.speed(segment))[:, None]
 
 
-def _stops(settings: Delays, robots: int, seed: int, repeat: int) -> list[Iterator[Stop]]:
+def _stops(settings: Delays, robots: int, seed: int, repeat: int, draw: int) -> list[Iterator[Stop]]:
     """The stops of each robot, without end."""
     if not settings.p_delay:
         return [iter(lambda: _NEVER, None) for _ in range(robots)]
     if settings.event_model == "poisson":
-        fleet = _PoissonStops(settings, robots, stream(seed, repeat, "delays.poisson"))
+        fleet = _PoissonStops(settings, robots, stream(seed, repeat, "delays.poisson", draw=draw))
         return [fleet.of(robot) for robot in range(robots)]
-    return [_bernoulli(settings, stream(seed, repeat, "delays.bernoulli", robot)) for robot in range(robots)]
+    return [_bernoulli(settings, stream(seed, repeat, "delays.bernoulli", robot, draw)) for robot in range(robots)]
 
 
 def _bernoulli(settings: Delays, random: np.random.Generator) -> Iterator[Stop]:

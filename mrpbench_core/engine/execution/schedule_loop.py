@@ -27,7 +27,7 @@ from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.standstill import Ending, Standstill
 from mrpbench_core.engine.own import own
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32, frozen_array
-from mrpbench_core.model.execution.motion import Mode, Motion
+from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.problem import Problem
@@ -48,9 +48,18 @@ class ScheduleLoop:
         context: RunContext,
         dispatcher: Dispatcher,
         delays: DelayStream,
-        recorder: Recorder,
+        recorder: Recorder | None = None,
         faults: FaultState | None = None,
     ) -> None:
+        """Begin an execution.
+
+        Args:
+            context: of the run, with a plan.
+            dispatcher: releases the plan.
+            delays: of the robots.
+            recorder: of what happens; without it neither samples nor contacts are found, which is faster.
+            faults: of the robots; none by default.
+        """
         plan = context.result.plan
         assert plan is not None
         self._context = context
@@ -68,6 +77,10 @@ class ScheduleLoop:
         self._cleared: Int = np.zeros(robots, np.int64)
         self._returned = self._orders = Orders(released=np.zeros(robots, "i4"))
         self._radius = context.problem.radius
+        self.arrival: Float = np.full(robots, np.nan)
+        """Simulated seconds f8[n] at which each robot has completed its last move; NaN = it has not."""
+        self.waiting: Float = np.zeros(robots)
+        """Simulated seconds f8[n] in which each robot has completed all that is released, and is not there yet."""
         self._commands = frozen_array(np.zeros((robots, 2)), "f8", 2)
         self._look(moved=np.zeros(robots, bool))
 
@@ -81,7 +94,7 @@ class ScheduleLoop:
         state = self._state(pose, pose)
         while True:
             now, pose = step * self._period, state.pose
-            self._recorder.events((*self._delays.begun(now), *self._faults.update(now)))
+            events = [*self._delays.begun(now), *self._faults.update(now)]
             view = FleetView(
                 revision=0,
                 reached=self._motion.reached,
@@ -94,26 +107,32 @@ class ScheduleLoop:
             returned = self._session.update(now, self._faults.heard(view))
             if returned is not self._returned:  # orders cannot be changed, so these are checked once
                 self._returned, self._orders = returned, self._checks.orders(returned)
-            self._recorder.events(self._delays.attacked(now, self._reached, self._orders.released))
+            events += self._delays.attacked(now, self._reached, self._orders.released)
             self._resources.assign(now, self._orders.requests, self._faults.broken)
             arrived = self._reached >= self._paths.last_move
+            self.arrival[arrived & np.isnan(self.arrival)] = now
             last = bool((arrived | self._faults.lost).all()) or now >= limit_s or self._stands_still(now)
-            sample = Sample(
-                now=now,
-                state=state,
-                orders=self._orders,
-                motion=self._motion,
-                waits_for=self._resources.waits_for(),
-            )
-            self._recorder.sample(step, sample, last)
+            self._record(step, now, state, events, last)
             if last:
-                self._recorder.flush()
                 self.ending = self._ending(arrived, pose)
                 return bool(arrived.all()), now
+            self.waiting[~arrived & (self._reached >= self._orders.released)] += self._period
             self._look(moved=self._advance())
             state = self._state(self._pose(), pose)
             step += 1
-            self._recorder.contacts(step * self._period, state)
+            if self._recorder is not None:
+                self._recorder.contacts(step * self._period, state)
+
+    def _record(self, step: int, now: float, state: State, events: list[Event], last: bool) -> None:
+        """Record the events and the sample of a control period."""
+        if self._recorder is None:
+            return
+        self._recorder.events(events)
+        waits_for = self._resources.waits_for()
+        sample = Sample(now=now, state=state, orders=self._orders, motion=self._motion, waits_for=waits_for)
+        self._recorder.sample(step, sample, last)
+        if last:
+            self._recorder.flush()
 
     def _stands_still(self, now: float) -> bool:
         """Tell whether nothing goes on any more because of faults that do not end."""
@@ -199,9 +218,14 @@ class ScheduleLoop:
     def _state(self, pose: Float, before: Float) -> State:
         """The state at a `pose` f8[n,3], one control period after the one `before`."""
         level = self._paths.level(self._reached)
+        if self._recorder is None:
+            return State(pose=pose, twist=self._commands, level=level, contacts=_NONE)
         moved = pose[:, :2] - before[:, :2]
         twist = np.column_stack([np.hypot(moved[:, 0], moved[:, 1]) / self._period, np.zeros(len(pose))])
         return State(pose=pose, twist=twist, level=level, contacts=_overlaps(pose, level, self._radius))
+
+
+_NONE = frozen_array(np.empty((0, 2)), "i4", 2)
 
 
 def _overlaps(pose: Float, level: Int16, radius: Float) -> Int32:

@@ -101,7 +101,9 @@ def execute_plan(
         replanner = _replanner(inputs, context, router)
         inputs.observers.executing(context=given)
         if config.execution == "schedule_only":
-            result = _follow_schedule(config, context, recorder, faults)
+            result, draws = _follow_schedule(config, context, recorder, faults)
+            if len(draws["draw"]) > 1:
+                sink(draws)
         else:
             tasks = None if stream is None else _tasks(config, context, stream, recorder)
             result = _simulate(inputs, context, given, (poses, levels), crowds, recorder, replanner, faults, tasks)
@@ -141,13 +143,13 @@ def _faults(config: RunConfig, context: RunContext) -> FaultState:
     return FaultState(config.faults, events, robots)
 
 
-def _delays(config: RunConfig, context: RunContext) -> DelayStream:
-    """The delays of the run."""
+def _delays(config: RunConfig, context: RunContext, draw: int = 0) -> DelayStream:
+    """The delays of the run, or of one of its draws."""
     settings, plan = config.delays, context.result.plan
     assert plan is not None
     attack = settings.worst_case * settings.tick
     adversary = Adversary(context.problem, plan, attack) if attack else None
-    return DelayStream(settings, len(context.fleet), config.seed, config.repeat, adversary)
+    return DelayStream(settings, len(context.fleet), config.seed, config.repeat, adversary, draw)
 
 
 def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replanner:
@@ -260,13 +262,26 @@ def _simulate(
     return result
 
 
-def _follow_schedule(config: RunConfig, context: RunContext, recorder: Recorder, faults: FaultState) -> ExecutionResult:
-    """Execute without physics."""
+def _follow_schedule(
+    config: RunConfig, context: RunContext, recorder: Recorder, faults: FaultState
+) -> tuple[ExecutionResult, Chunk]:
+    """Execute without physics; return the first execution, and the times of all draws of the delays."""
     assert config.dispatcher is not None
+    limit = config.limits.execution
     loop = ScheduleLoop(context, config.dispatcher, _delays(config, context), recorder, faults)
-    arrived, simulated_s = loop.run(config.limits.execution)
+    arrived, simulated_s = loop.run(limit)
     unarrived = {} if loop.ending is None else loop.ending.reasons()
-    return ExecutionResult(succeeded=arrived, gave_up=(), simulated_s=simulated_s, unarrived=unarrived)
+    times = [(loop.arrival, loop.waiting)]
+    for draw in range(1, config.delays.draws):
+        other = ScheduleLoop(
+            context, config.dispatcher, _delays(config, context, draw), faults=_faults(config, context)
+        )
+        other.run(limit)
+        times.append((other.arrival, other.waiting))
+    arrival, waiting = (np.stack(column) for column in zip(*times, strict=True))
+    draws = {"draw": np.arange(len(times), dtype=np.int32), "draw_arrival": arrival, "draw_waiting": waiting}
+    result = ExecutionResult(succeeded=arrived, gave_up=(), simulated_s=simulated_s, unarrived=unarrived)
+    return result, draws
 
 
 def _failure(result: ExecutionResult, config: RunConfig, unarrived: Mapping[str, str]) -> RunEnded | None:

@@ -33,6 +33,9 @@
 | `errand_service`, `errand_deadline`, `errand_priority` | f8; f8; i4 | the same |
 | `task_time`, `task_index`, `task_event` | f8; i4; U | see `TASK_EVENTS`; only with `tasks` |
 | `task_robot`, `task_errand` | i4; i4 | -1 = none |
+| `draw` | i4 | number of each draw of the delays, from 0 = this execution; only with `delays.draws` |
+| `draw_arrival` | f8[n] | per draw: simulated seconds at which each robot completed its last move, NaN = never |
+| `draw_waiting` | f8[n] | per draw: seconds in which each robot had made all that was released, and had not arrived |
 | `event_time`, `event_kind`, `event_robot`, `event_detail` | f8; U; i4; U | see `Event` |
 
 Periodic channels are sampled every `1 / recording.rate` seconds, and at the start and the end of the execution.

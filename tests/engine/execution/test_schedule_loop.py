@@ -11,6 +11,7 @@ from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
 from mrpbench_core.builtin.dispatchers.timed import Timed
 from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.checking.recording import check_recording
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.delays import DelayStream
@@ -187,6 +188,55 @@ def test_a_run_is_recorded_and_measured_as_far_as_that_means_something(tmp_path)
     channels = Recording(paths.recording).channels
     assert {"truth", "released", "reached", "cleared", "waits_for"} <= set(channels)
     assert not {"estimate", "odometry", "command"} & set(channels)
+
+
+def test_draws_are_those_of_their_streams_and_the_first_is_the_run_without_them(tmp_path):
+    pytest.importorskip("mrpbench_planners_mapf")
+    late = {"p_delay": 0.05, "max_delay": 8, "speed": 0.2}
+    channels, metrics = {}, {}
+    for draws in (1, 2, 4):
+        (point,) = load_study(STUDY | {"metrics": ["draws"], "delays": late | {"draws": draws}}).runs
+        paths = RunPaths(recording=tmp_path / f"{draws}.zip", exports=tmp_path / "exports")
+        record = execute(point.config, "run", paths, lambda stage, facts: None)
+        assert record.status == "succeeded"
+        recording = Recording(paths.recording)
+        channels[draws] = {name: load() for name, load in recording.channels.items()}
+        metrics[draws] = record.metrics
+        assert not check_recording(channels[draws], recording.context().fleet)
+        recording.close()
+    drawn = {name for name in channels[2] if name.startswith("draw")}
+    assert drawn == {"draw", "draw_arrival", "draw_waiting"}
+    for name, rows in channels[1].items():
+        np.testing.assert_array_equal(channels[4][name], rows)
+    for name in drawn:
+        np.testing.assert_array_equal(channels[4][name][:2], channels[2][name])
+    arrival = channels[4]["draw_arrival"]
+    assert arrival[0].max() == channels[1]["time"][-1]
+    assert len(np.unique(arrival, axis=0)) == 4
+    assert metrics[1]["draws.makespan_mean_s"] is None
+    assert metrics[4]["draws.makespan_mean_s"] == pytest.approx(arrival.max(axis=1).mean())
+
+
+@settings(deadline=None, max_examples=10, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(SEEDS)
+def test_robots_arrive_when_they_do_in_the_recording_and_also_without_one(context_of, seed):
+    problem, plan = random_plan(np.random.default_rng(seed))
+    context, late = context_of(problem, plan), Delays(p_delay=0.05, max_delay=8, speed=0.2)
+    loops = []
+    for recorder in (Recorder(1 / PERIOD, PERIOD, (chunks := []).append), None):
+        loops.append(ScheduleLoop(context, Adg(), DelayStream(late, len(problem), seed, 0, draw=2), recorder))
+        assert loops[-1].run(3000.0)[0]
+    np.testing.assert_array_equal(loops[0].arrival, loops[1].arrival)
+    np.testing.assert_array_equal(loops[0].waiting, loops[1].waiting)
+    reached = np.concatenate([chunk["reached"] for chunk in chunks if "reached" in chunk])
+    time = np.concatenate([chunk["time"] for chunk in chunks if "time" in chunk])
+    last = np.array([route.last_move for route in context.routes])
+    np.testing.assert_array_equal(loops[0].arrival, time[(reached >= last).argmax(axis=0)])
+
+
+def test_draws_mean_nothing_with_physics():
+    with pytest.raises(InputErrors, match=r"delays\.draws: needs `execution: schedule_only`"):
+        load_study(STUDY | {"execution": "simulated", "delays": {"p_delay": 0.1, "draws": 2}})
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from mrpbench_metrics_standard.clearance import Clearance
 from mrpbench_metrics_standard.contact import Contact
 from mrpbench_metrics_standard.deadlock import Deadlock
 from mrpbench_metrics_standard.delay import Delay
+from mrpbench_metrics_standard.draws import Draws
 from mrpbench_metrics_standard.efficiency import Efficiency
 from mrpbench_metrics_standard.execution import Execution
 from mrpbench_metrics_standard.fairness import Fairness
@@ -23,6 +24,7 @@ __all__ = [
     "Contact",
     "Deadlock",
     "Delay",
+    "Draws",
     "Efficiency",
     "Execution",
     "Fairness",
