@@ -11,6 +11,7 @@ from mrpbench_core.api import Column, Metric, Value
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.distribution import mean, percentile
+from mrpbench_metrics_standard.samples import measurable, nulls
 
 _NORMAL = 1.959964
 """97.5th percentile of the standard normal distribution."""
@@ -49,6 +50,8 @@ class Draws(Metric):
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
         """Return all columns; null where no draw ended, and the interval also where only one did."""
+        if not measurable(self, run):
+            return nulls(self)
         arrival, waiting = run.channel("draw_arrival"), run.channel("draw_waiting")
         ended = np.isfinite(arrival).all(axis=1)
         arrival, waiting = arrival[ended], waiting[ended]
