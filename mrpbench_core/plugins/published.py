@@ -14,7 +14,7 @@ _MPPI_CRITICS = (
     *("PathAngleCritic", "PathFollowCritic", "PreferForwardCritic", "TwirlingCritic", "VelocityDeadbandCritic"),
 )
 _METRICS = (
-    *("planning", "execution", "barn", "clearance", "contact", "deadlock", "delay", "efficiency"),
+    *("planning", "execution", "barn", "clearance", "contact", "deadlock", "delay", "draws", "efficiency"),
     *("fairness", "people", "smoothness", "stops", "tasks", "throughput", "tracking", "waiting"),
 )
 _PLANNERS = (
