@@ -45,6 +45,8 @@ class Planner(Component):
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE})
     reads_remaining: ClassVar[bool] = False
     """True if the planner uses `Problem.remaining`, which is otherwise not given."""
+    needs_homes: ClassVar[bool] = False
+    """True if robots without one of the tasks that come over time must go home (`replanning.parking: home`)."""
 
     @abstractmethod
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:

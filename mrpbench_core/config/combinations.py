@@ -62,6 +62,9 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
     if config.tasks is not None and config.planner.assigns:
         reason = "a planner that assigns cannot be called when tasks come over time"
         return [_place(root, "planner").location.error("planner", reason, "switch `assign` off, or choose another one")]
+    if config.tasks is not None and config.planner.needs_homes and config.replanning.parking != "home":
+        reason = f"the planner needs robots without a task at home, not where `{config.replanning.parking}` leaves them"
+        return [_place(root, "replanning.parking").location.error("replanning.parking", reason, "set it to `home`")]
     blind = [entry for entry in config.fleet if not _has_lidar(entry)]
     return [
         _place(root, key).location.error(

@@ -36,6 +36,16 @@ def test_only_the_points_of_a_matrix_that_contradict_themselves_are_refused():
     assert "in localizer=amcl" in str(error)
 
 
+@pytest.mark.parametrize("planner", ["token_passing", {"plugin": "rolling_horizon", "planner": "token_passing"}])
+@pytest.mark.parametrize("replanning", [{}, {"parking": "stay"}, {"interval": 2}])
+def test_token_passing_is_refused_where_robots_without_a_task_do_not_go_home(planner, replanning):
+    study = STUDY | {"planner": planner, "tasks": {"plugin": "poisson", "rate": 2}, "assigner": "token_passing"}
+    with pytest.raises(InputErrors, match=r"replanning.parking: the planner needs robots without a task at home"):
+        load_study(study | {"replanning": replanning})
+    assert load_study(study | {"replanning": replanning | {"parking": "home"}}).runs
+    assert load_study(study | {"planner": "prioritized", "replanning": replanning}).runs
+
+
 @pytest.mark.parametrize(
     ("changes", "note"),
     [

@@ -48,6 +48,11 @@ class RollingHorizon(Planner):
         """What the planner reads."""
         return self.planner.reads_remaining
 
+    @property
+    def needs_homes(self) -> bool:  # type: ignore[override]
+        """What the planner needs."""
+        return self.planner.needs_homes
+
     def skip(self, problem: Problem) -> str | None:
         """Return why the planner cannot be given the new part, or None."""
         return self.planner.skip(self._given(problem))

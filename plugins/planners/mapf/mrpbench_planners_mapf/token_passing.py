@@ -25,7 +25,8 @@ class TokenPassing(Planner):
     """Plans only the robots that have another goal, one after another, each on its earliest path around the paths in
     force of all others (Ma et al., AAMAS 2017). Needs tasks that come over time and are well-formed: each robot starts
     where no errand may be, and between any two starts and places of errands there is a way past robots that rest at the
-    others. Together with the assigner `token_passing` and `replanning.parking: home` it then finishes every task.
+    others. Together with the assigner `token_passing` it then finishes every task. It needs `replanning.parking: home`,
+    because a robot that rests elsewhere may block that way.
 
     Where this fails, as it may without well-formed tasks or while robots make room, `prioritized` also plans robots
     whose paths were kept.
@@ -34,6 +35,7 @@ class TokenPassing(Planner):
     supports: ClassVar[frozenset[Feature]] = Prioritized.supports - WINDOWED
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
     reads_remaining: ClassVar[bool] = True
+    needs_homes: ClassVar[bool] = True
 
     def skip_tasks(self, problem: Problem, places: Int | None) -> str | None:
         """Return why the tasks are not well-formed, or None."""
