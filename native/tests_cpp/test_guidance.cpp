@@ -37,7 +37,7 @@ TEST("opposite traffic and robots that stay make a way longer, the same directio
     guidance.observe({{middle, 2}}, {Action::clockwise});
     guidance.update();
   }
-  CHECK(tables.to(west).from(Pose{east, 2}) > 5 * turn);
+  CHECK(tables.to(west).from(Pose{east, 2}) > 4 * turn);
 }
 
 TEST("tables keep their costs until they are refreshed, a few at a time") {
