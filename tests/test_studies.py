@@ -21,7 +21,7 @@ RUNS_PER_PLANNER = {
     "safe": 216,
     "late_robots": 240,
     "league": 120,
-    "orders": 10,
+    "orders": 12,
     "faults": 80,
     "controllers": 240,
     "encounters": 120,

@@ -15,7 +15,7 @@ Value = float | int | bool | None
 Better = Literal["lower", "higher", "neither"]
 ColumnStage = Literal["planning", "execution"]
 Drawn = Literal["interval", "profile", "cactus"]
-Question = Literal["throughput", "arrival", "duration", "planning", "proximity"]
+Question = Literal["throughput", "service", "queue", "arrival", "duration", "planning", "proximity"]
 
 
 @attrs.frozen
@@ -46,8 +46,9 @@ class Column:
     also a profile and a cactus plot, on a logarithmic axis. The last two are for values above 0 of which less is
     better."""
     answers: Question | None = None
-    """The question at the beginning of a report that it helps to answer: how much gets done, do robots arrive, how long
-    does it take, what does planning cost, how near do robots come? None = a question of its own, if it is shown."""
+    """The question at the beginning of a report that it helps to answer: how much gets done, how long does a task take,
+    how many tasks are open, do robots arrive, how long does it take, what does planning cost, how near do robots come?
+    None = a question of its own, if it is shown."""
     threshold: float | None = None
     """Smallest difference of two means, in `unit`, that matters in practice (smallest effect size of interest;
     D. Lakens, "Equivalence Tests", Social Psychological and Personality Science 8, 2017). Reports call no smaller

@@ -13,6 +13,8 @@ from mrpbench_core.report.reading.runs import Runs
 
 TITLES: dict[str, str] = {
     "throughput": "How much gets done?",
+    "service": "How long does a task take?",
+    "queue": "How many tasks are open?",
     "arrival": "Do the robots arrive?",
     "duration": "How long does it take?",
     "planning": "What does planning cost?",
@@ -20,6 +22,8 @@ TITLES: dict[str, str] = {
 }
 NOUNS: dict[str, str] = {
     "throughput": "throughput",
+    "service": "service time",
+    "queue": "open tasks",
     "arrival": "arrivals",
     "duration": "time",
     "planning": "cost of planning",
@@ -59,6 +63,8 @@ def find_topics(runs: Runs, compared: Sequence[Column]) -> list[Topic]:
         ranking = next((c for c in found if c.stage == "execution"), found[0])
         others = (c for c in found if c is not ranking and (c.stage == ranking.stage or question == "arrival"))
         named = TITLES[question], NOUNS[question]
+        if question == "duration" and any(column.answers == "service" for column in having):
+            named = heading(ranking), ranking.name  # runs with tasks over time end when they are told to
         title, noun = _PLANS_ONLY if question == "arrival" and _never_driven(runs) else named
         topics.append(Topic(title=title, noun=noun, columns=(ranking, *others)))
     own = (column for column in having if column.primary and column.answers is None)

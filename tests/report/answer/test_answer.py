@@ -243,3 +243,32 @@ def test_each_factor_is_answered_for_with_its_exceptions(answer, record):
     lines = list(found.lines(3))
     assert lines[0].startswith("planner, averaged over controller: No noticeable")
     assert any(line.startswith("all combinations: ") for line in lines)
+
+
+LIFELONG = """\
+columns:
+  execution.time_blocked_s: {unit: s, better: lower, description: blocked, primary: true, stage: execution,
+    answers: duration, threshold: 1.0}
+  tasks.per_hour: {unit: 1/h, better: higher, description: done, primary: true, stage: execution, answers: throughput,
+    threshold: 1.0}
+  tasks.service_mean_s: {unit: s, better: lower, description: service time, primary: true, stage: execution,
+    answers: service, threshold: 1.0}
+  tasks.open_mean: {unit: "", better: lower, description: open, primary: true, stage: execution, answers: queue,
+    threshold: 0.1}
+"""
+
+
+def test_tasks_over_time_are_answered_for_first_and_blocked_time_is_not_called_how_long_it_takes(answer, record):
+    def served(planner, seed, service):
+        values = {"per_hour": 120.0 + seed, "service_mean_s": service, "open_mean": service / 30}
+        metrics = {f"tasks.{name}": value for name, value in values.items()}
+        return driven(record, planner, seed, None, metrics=metrics | {"execution.time_blocked_s": 5.0 + seed})
+
+    records = [served("a", seed, 100.0 + seed) for seed in range(8)]
+    records += [served("b", seed, 130.0 + 2 * seed) for seed in range(8)]
+    found = answer(records, LIFELONG)
+    titles = [topic.title for topic in found.whole.topics]
+    assert titles[:3] == ["How much gets done?", "How long does a task take?", "How many tasks are open?"]
+    assert "How long does it take?" not in titles
+    assert relations(topic(found, "How long does a task take?")) == {"a": None, "b": Relation.WORSE}
+    assert "b is noticeably worse in service time and open tasks" in found.whole.headline
