@@ -33,11 +33,11 @@ TEST("opposite traffic and robots that stay make a way longer, the same directio
   }
   CHECK(tables.to(east).from(Pose{west, 0}) > 5 * turn);
   CHECK(tables.to(west).from(Pose{east, 2}) == 4 * turn);
-  for (int step = 0; step < 40; ++step) {
+  for (int step = 0; step < 80; ++step) {
     guidance.observe({{middle, 2}}, {Action::clockwise});
     guidance.update();
   }
-  CHECK(tables.to(west).from(Pose{east, 2}) > 4 * turn);
+  CHECK(tables.to(west).from(Pose{east, 2}) > 5 * turn);
 }
 
 TEST("tables keep their costs until they are refreshed, a few at a time") {
