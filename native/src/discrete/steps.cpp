@@ -24,6 +24,7 @@ class Steps final : public League {
     view_.goal.assign(robots, -1);
     view_.next_goal.assign(robots, -1);
     view_.rest.assign(robots, 0);
+    turns_.resize(robots);
   }
 
   void run_until(int time) override {
@@ -99,7 +100,6 @@ class Steps final : public League {
   /// with short ways and such that have waited long: two steps of waiting weigh as much as one of the way.
   void limit() {
     if (active_ >= pose_.size()) return;
-    turns_.resize(pose_.size());
     std::vector<std::pair<std::int64_t, std::size_t>> waiting;
     std::size_t active = 0;
     for (std::size_t i = 0; i < pose_.size(); ++i) {
@@ -115,7 +115,7 @@ class Steps final : public League {
       waiting.push_back({2 * way - (time_ - turns_[i].since), i});
     }
     std::sort(waiting.begin(), waiting.end());
-    const std::size_t next = std::min(waiting.size(), may_get(active));
+    const std::size_t next = may_get(active);
     for (std::size_t k = 0; k < waiting.size(); ++k) {
       const std::size_t robot = waiting[k].second;
       turns_[robot].active = k < next;

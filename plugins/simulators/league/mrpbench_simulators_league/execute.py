@@ -29,9 +29,8 @@ class Options:
     guidance: bool = True
     """Whether moves cost more where there is traffic."""
     active: int | None = attrs.field(default=None, validator=attrs.validators.optional(attrs.validators.ge(1)))
-    """Robots that have a goal at the same time, at most; None: half as many as there are free cells,
-    in 2023 three eighths.
-    Those without a goal give way."""
+    """Robots that have a goal at the same time, at most; None: half as many as there are free cells, in
+    2023 three eighths. Those without a goal give way."""
     limit: float = attrs.field(default=1.0, validator=attrs.validators.gt(0))
     """Seconds of one answer. A later one costs steps in which all robots wait (2023, 2024), or comes into effect later
     (2026)."""
