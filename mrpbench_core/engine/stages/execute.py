@@ -1,8 +1,9 @@
 """Executes a plan in the simulator, and writes what happens to the recording and the exports."""
 
+import copy
 import math
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 import attrs
 import numpy as np
@@ -143,13 +144,14 @@ def _faults(config: RunConfig, context: RunContext) -> FaultState:
     return FaultState(config.faults, events, robots)
 
 
-def _delays(config: RunConfig, context: RunContext, draw: int = 0) -> DelayStream:
-    """The delays of the run, or of one of its draws."""
+def _delays(config: RunConfig, context: RunContext) -> Iterator[DelayStream]:
+    """The delays of the run, then of its further draws; the same adversary attacks in all of them."""
     settings, plan = config.delays, context.result.plan
     assert plan is not None
     attack = settings.worst_case * settings.tick
     adversary = Adversary(context.problem, plan, attack) if attack else None
-    return DelayStream(settings, len(context.fleet), config.seed, config.repeat, adversary, draw)
+    for draw in range(settings.draws):
+        yield DelayStream(settings, len(context.fleet), config.seed, config.repeat, copy.deepcopy(adversary), draw)
 
 
 def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replanner:
@@ -243,7 +245,7 @@ def _simulate(
                 simulation=simulation,
                 placed=poses,
                 noise=noise,
-                delays=_delays(config, context),
+                delays=next(_delays(config, context)),
                 faults=faults,
                 evaluations=_evaluations(config, context),
                 recorder=recorder,
@@ -268,14 +270,14 @@ def _follow_schedule(
     """Execute without physics; return the first execution, and the times of all draws of the delays."""
     assert config.dispatcher is not None
     limit = config.limits.execution
-    loop = ScheduleLoop(context, config.dispatcher, _delays(config, context), recorder, faults)
+    delays = _delays(config, context)
+    loop = ScheduleLoop(context, config.dispatcher, next(delays), recorder, faults)
     arrived, simulated_s = loop.run(limit)
     unarrived = {} if loop.ending is None else loop.ending.reasons()
     times = [(loop.arrival, loop.waiting)]
-    for draw in range(1, config.delays.draws):
-        other = ScheduleLoop(
-            context, config.dispatcher, _delays(config, context, draw), faults=_faults(config, context)
-        )
+    for drawn in delays:
+        again = FaultState(faults.settings, faults.events, len(context.fleet))
+        other = ScheduleLoop(context, config.dispatcher, drawn, faults=again)
         other.run(limit)
         times.append((other.arrival, other.waiting))
     arrival, waiting = (np.stack(column) for column in zip(*times, strict=True))
