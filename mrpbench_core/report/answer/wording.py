@@ -23,6 +23,7 @@ def sentences(ranking: Ranking) -> list[str]:
         told = [f"{quantity(ranking, first.estimate)} over {_units(ranking, first.estimate.n)}."]
         return [*told, f"Failed runs: {first.failures}."] if first.failures else told
     told = _first(ranking, first, [place for place in others if place.estimate is not None])
+    told += _of_two(ranking, *others) if len(others) == 1 else []
     apart = ranking.having(Relation.WORSE, Relation.BETTER, Relation.UNRATED)
     told += [_apart(ranking, place) for place in apart[:NAMED]]
     if len(apart) > NAMED:
@@ -90,6 +91,14 @@ def _first(ranking: Ranking, first: Place, others: Sequence[Place]) -> list[str]
         found = [place.name for place in unknown if place.relation is kind]
         told += [f"{listed(found)} {_is_or_are(found)} {kind.value} {link} it."] if found else []
     return told
+
+
+def _of_two(ranking: Ranking, place: Place) -> list[str]:
+    """Say how the second of two differs in numbers, where it is not shown to differ noticeably."""
+    found = place.difference
+    if place.relation not in (*_ALIKE, Relation.OPEN) or found is None or not found.has_interval or not found.value:
+        return []
+    return [f"{place.name} has {change(ranking, found)}."]
 
 
 def _apart(ranking: Ranking, place: Place) -> str:

@@ -245,6 +245,16 @@ def test_each_factor_is_answered_for_with_its_exceptions(answer, record):
     assert any(line.startswith("all combinations: ") for line in lines)
 
 
+def test_of_two_that_hardly_differ_the_difference_is_given_with_its_interval(answer, record):
+    records = [driven(record, "a", seed, 100.0 + seed) for seed in range(8)]
+    records += [driven(record, "b", seed, 100.2 + seed + 0.01 * seed) for seed in range(8)]
+    (told,) = (sentence for sentence in topic(answer(records), "How long").sentences if " more " in sentence)
+    value, low, high = map(float, re.findall(r"[0-9.]*[0-9]", told))
+    assert told.startswith("b has ")
+    assert low < value < high
+    assert value == pytest.approx(0.235, abs=0.01)
+
+
 LIFELONG = """\
 columns:
   execution.time_blocked_s: {unit: s, better: lower, description: blocked, primary: true, stage: execution,

@@ -37,6 +37,7 @@ class Tasks(Metric):
             "tasks done per simulated hour, after the option `warm_up`; null if the run is not longer",
             primary=True,
             answers="throughput",
+            threshold=1.0,
             threshold_share=0.02,
         ),
         Column("released", "", "neither", "number of tasks released"),
