@@ -8,6 +8,7 @@ import numpy as np
 from mrpbench_core.model.common.arrays import Bool, Int
 from mrpbench_core.model.planning.plan import Path, Paths
 from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.visits import visited_goals
 
 Faults = Iterator[tuple[int, str]]
 """Robots and what is wrong with their paths; of a robot the first counts."""
@@ -125,16 +126,9 @@ def _of_goals(problem: Problem, segments: Segments) -> Faults:
     end = problem.start.astype(np.int64)
     head = problem.roadmap.edges[moves.edge].reshape(-1, 2)[:, 1]
     end[moves.robot] = head  # of equal robots the last one counts
+    visited = visited_goals(problem, moves.robot, head)
     for robot, (sequence, vertex) in enumerate(zip(problem.goals, end.tolist(), strict=True)):
         if sequence and vertex not in sequence[-1]:
             yield robot, f"ends at vertex {vertex} instead of its goal {' or '.join(map(str, sequence[-1]))}"
-        elif len(sequence) > 1:
-            visited = [int(problem.start[robot]), *head[moves.robot == robot].tolist()]
-            position = 0
-            for visit in visited:
-                while (
-                    position < len(sequence) and visit in sequence[position]
-                ):  # one visit counts for equal goals in a row
-                    position += 1
-            if position < len(sequence):
-                yield robot, f"does not visit goal {position} of its sequence in order"
+        elif visited.get(robot, len(sequence)) < len(sequence):
+            yield robot, f"does not visit goal {visited[robot]} of its sequence in order"

@@ -14,7 +14,7 @@ from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.common.fleet import Fleet, Lidar, RobotModel
 from mrpbench_core.model.planning.assignment import AssignmentProblem
 from mrpbench_core.model.planning.plan import Plan
-from mrpbench_core.model.planning.problem import Feature, Problem, Rules
+from mrpbench_core.model.planning.problem import Feature, GoalSet, Problem, Rules
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.testing.drawing import build, grid, unit_path
@@ -60,7 +60,8 @@ def problems(
         draw: from Hypothesis.
         roadmap: where, by default `grids()`.
         most_robots: fewer where there are fewer vertices.
-        features: of these, `goal_sets`, `footprints` and `following_forbidden` are drawn half of the time.
+        features: of these, `goal_sets`, `goal_sequences`, `footprints` and `following_forbidden` are drawn half of the
+            time.
     """
     chosen = draw(grids() if roadmap is None else roadmap)
     vertices = range(len(chosen.position))
@@ -70,12 +71,17 @@ def problems(
     if Feature.GOAL_SETS in features and draw(st.booleans()):
         goals = [(*goal, draw(st.sampled_from([v for v in vertices if v not in goal] or [*goal]))) for goal in goals]
         goals = [tuple(sorted(set(goal))) for goal in goals]
+    sequences: list[tuple[GoalSet, ...]] = [(goal,) for goal in goals]
+    if Feature.GOAL_SEQUENCES in features and draw(st.booleans()):
+        before = st.lists(st.sampled_from(vertices).map(lambda vertex: (vertex,)), max_size=2)
+        sequences = [(*draw(before), goal) for goal in goals]
     footprints = Feature.FOOTPRINTS in features and draw(st.booleans())
     following = Feature.FOLLOWING_FORBIDDEN in features and draw(st.booleans())
     return build(
         chosen,
         starts,
         goals,
+        goals=tuple(sequences),
         radius=draw(st.sampled_from([0.1, 0.3, 0.45])),
         features={Feature.FOOTPRINTS} if footprints else (),
         rules=Rules(

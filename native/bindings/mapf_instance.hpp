@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -52,6 +53,10 @@ inline std::vector<mapf::Robot> robots_of(const nb::dict& given) {
   const auto rank = arrays.vector<std::int32_t>("rank", count);
   const auto goal = arrays.vector<std::int32_t>("goal");
   const auto goal_first = arrays.bounds("goal_first", count, goal.size());
+  const auto via_goal = arrays.vector<std::int32_t>("via_goal");
+  const auto via_sets = std::max<std::size_t>(arrays.vector<std::int64_t>("via_goal_first").size(), 1) - 1;
+  const auto via_goal_first = arrays.bounds("via_goal_first", via_sets, via_goal.size());
+  const auto via_first = arrays.bounds("via_first", count, via_sets);
   const auto edge = arrays.vector<std::int32_t>("committed_edge");
   const auto enter = arrays.vector<std::int64_t>("committed_enter", edge.size());
   const auto leave = arrays.vector<std::int64_t>("committed_leave", edge.size());
@@ -64,6 +69,10 @@ inline std::vector<mapf::Robot> robots_of(const nb::dict& given) {
     robots[r].ready = tick(ready.data()[r]);
     robots[r].rank = rank.data()[r];
     robots[r].goals.assign(goal.data() + goal_first.data()[r], goal.data() + goal_first.data()[r + 1]);
+    for (auto k = via_first.data()[r]; k < via_first.data()[r + 1]; ++k) {
+      robots[r].via.emplace_back(via_goal.data() + via_goal_first.data()[k],
+                                 via_goal.data() + via_goal_first.data()[k + 1]);
+    }
     for (auto k = committed_first.data()[r]; k < committed_first.data()[r + 1]; ++k) {
       robots[r].committed.push_back({edge.data()[k], tick(enter.data()[k]), tick(leave.data()[k])});
     }

@@ -62,3 +62,22 @@ TEST("robots with the same goals and profile share a table") {
   CHECK(&tables[0] == &tables[1]);
   CHECK(&tables[0] != &tables[2]);
 }
+
+TEST("of robots that visit goals in order, tables hold what is left of the way over them") {
+  Robot it = robot(0, 0);
+  it.via = {{3, 6}, {8}};
+  Robot begun = robot(2, 0);
+  begun.via = {{2}, {8}};
+  const Instance two = instance(grid(3, 3), {it, begun});
+  CHECK(two.beginning(0).visited == 0);
+  CHECK(two.beginning(1).visited == 1);  // it starts at its first goal
+  Limits limits = unlimited();
+  DistanceTables tables(two, limits);
+  CHECK(tables.remaining(0).size() == 3);
+  CHECK(tables[0](0) == 8);  // 0 3 6 8 0, or 0 3 8 0: both take 8
+  CHECK(tables[0](6) == 6);
+  CHECK((*tables.remaining(0)[1])(6) == 6);
+  CHECK((*tables.remaining(0)[2])(6) == 2);
+  CHECK(&tables[1] == tables.remaining(0)[1]);
+  CHECK(tables.least_cost(two, 1) == 6);
+}

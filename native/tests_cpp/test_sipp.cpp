@@ -30,7 +30,7 @@ Outcome search(const Instance& it, const Obstacles& obstacles, int who = 0, cons
   DistanceTables tables(it, limits);
   Sipp sipp(it, limits, statistics);
   Path path;
-  const bool found = sipp.search(who, tables[who], obstacles, path, others);
+  const bool found = sipp.search(who, tables, obstacles, path, others);
   return {found, path};
 }
 

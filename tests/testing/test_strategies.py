@@ -45,5 +45,5 @@ def test_all_features_are_drawn():
         strategies.plans(), lambda drawn: sum(path.arrival > 0 for path in drawn[1].paths) > 1, settings=search
     )
     assert len(plan.paths) >= 2
-    features = frozenset({Feature.GOAL_SETS, Feature.FOOTPRINTS, Feature.FOLLOWING_FORBIDDEN})
+    features = frozenset({Feature.GOAL_SETS, Feature.GOAL_SEQUENCES, Feature.FOOTPRINTS, Feature.FOLLOWING_FORBIDDEN})
     find(strategies.problems(features=features), lambda drawn: drawn.features == features, settings=search)

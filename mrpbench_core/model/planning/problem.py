@@ -28,6 +28,7 @@ class Feature(StrEnum):
     """Some vertices prescribe a yaw. A move that turns on the spot is an edge between vertices at one place."""
     GOAL_SETS = "goal_sets"
     GOAL_SEQUENCES = "goal_sequences"
+    """Some robot has several goals, which it visits in order, or none."""
     SHARED_GOALS = "shared_goals"
     """Robots have the same goal, where not all of them can be at the same time. Only with a horizon."""
     COMMITMENTS = "commitments"

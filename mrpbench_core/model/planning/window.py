@@ -12,6 +12,7 @@ from mrpbench_core.model.planning.occupations import occupations_of, resource_ed
 from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import Moves, moves_of, type2_edges
+from mrpbench_core.model.planning.visits import visited_goals
 
 
 def until(horizon: int, problem: Problem, plan: Plan) -> Plan:
@@ -32,7 +33,7 @@ def until(horizon: int, problem: Problem, plan: Plan) -> Plan:
 
 
 def leads_to_goals(problem: Problem, plan: Plan) -> Bool:
-    """Tell of each robot, bool[n], whether its path ends at a goal of it, or anywhere if it has none."""
+    """Tell of each robot, bool[n], whether its path ends at its last goal after all others, or anywhere without any."""
     return np.ones(len(problem), bool) if problem.horizon is None else ends_at_goals(problem, moves_of(problem, plan))
 
 
@@ -41,7 +42,10 @@ def ends_at_goals(problem: Problem, moves: Moves) -> Bool:
     at = problem.start.copy()
     at[moves.robot] = moves.head  # of equal robots the last one counts
     goals = zip(problem.goals, at.tolist(), strict=True)
-    return np.array([not sequence or vertex in sequence[-1] for sequence, vertex in goals], bool)
+    ends = np.array([not sequence or vertex in sequence[-1] for sequence, vertex in goals], bool)
+    for robot, visited in visited_goals(problem, moves.robot, moves.head).items():
+        ends[robot] &= visited == len(problem.goals[robot])
+    return ends
 
 
 def _first_after(moves: Moves, late: Bool) -> Int:

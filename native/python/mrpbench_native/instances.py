@@ -39,6 +39,8 @@ class Robots(NamedTuple):
     """i4[n]: vertices."""
     goals: Sequence[NDArray[np.int32]]
     """For each robot the vertices at which it may end, i4[g]."""
+    via: Sequence[Sequence[NDArray[np.int32]]] = ()
+    """For each robot the sets of vertices to visit before, in order, each i4[g]; () = none. Solvers with goal sequences."""
     ready: NDArray[np.int64] | None = None
     """i8[n]: ticks before which robots do not leave; None = 0."""
     profile: NDArray[np.int32] | None = None
@@ -95,6 +97,8 @@ def build_instance(
     """
     count = len(robots.start)
     committed = robots.committed or [Segments(*(np.empty(0, kind) for kind in ("i4", "i8", "i8")))] * count
+    via = robots.via or [()] * count
+    visits = [goals for sets in via for goals in sets]
     instance: mapf.Instance = module.Instance(
         roadmap=roadmap._asdict(),
         robots={
@@ -105,6 +109,9 @@ def build_instance(
             "rank": np.zeros(count, "i4") if robots.rank is None else robots.rank,
             "goal_first": _first(map(len, robots.goals)),
             "goal": _joined(robots.goals, "i4"),
+            "via_first": _first(map(len, via)),
+            "via_goal_first": _first(map(len, visits)),
+            "via_goal": _joined(visits, "i4"),
             "committed_first": _first(len(path.edge) for path in committed),
             "committed_edge": _joined([path.edge for path in committed], "i4"),
             "committed_enter": _joined([path.enter for path in committed], "i8"),

@@ -180,7 +180,7 @@ class Pbs {
     }
     present_.clear();
     for (int other = 0; other < robots_; ++other) present_.add(other, node.paths[other]);
-    if (!sipp_.search(robot, tables_[robot], Others(above_, robot), path_, &present_)) return false;
+    if (!sipp_.search(robot, tables_, Others(above_, robot), path_, &present_)) return false;
     if (!node.paths[robot].empty()) node.cost -= arrival(node.paths[robot]);
     node.cost += arrival(path_);
     node.paths[robot] = occupations_.copy(path_);

@@ -67,7 +67,7 @@ class Prioritized {
     for (const int robot : order) {
       ++statistics_.generated;
       const Others others(reservations_, robot);
-      if (!sipp_.search(robot, tables_[robot], others, paths_[robot], nullptr, delays[robot])) return robot;
+      if (!sipp_.search(robot, tables_, others, paths_[robot], nullptr, delays[robot])) return robot;
       ++statistics_.expansions;
       reservations_.add(robot, paths_[robot]);
     }
@@ -82,7 +82,7 @@ class Prioritized {
         for (const int other : order) {
           if (other != robot) reservations_.add(other, paths_[other]);
         }
-        sipp_.search(robot, tables_[robot], Others(reservations_, robot), paths_[robot]);
+        sipp_.search(robot, tables_, Others(reservations_, robot), paths_[robot]);
       }
     } catch (const LimitReached&) {  // the plan stays as it is
     }

@@ -8,6 +8,8 @@ namespace mrpbench::mapf {
 
 namespace {
 
+constexpr std::size_t kMostGoals = 10'000;  // to visit before the last one
+
 [[noreturn]] void refuse(int robot, const std::string& fault) {
   throw std::invalid_argument("robot " + std::to_string(robot) + ": " + fault);
 }
@@ -42,7 +44,7 @@ std::size_t Instance::bytes() const {
 
 Beginning Instance::begin(int robot) const {
   const Robot& it = robots_[robot];
-  Beginning result{{}, it.start, it.ready};
+  Beginning result{{}, it.start, it.ready, visited_at(it.start, it.via, 0)};
   Tick since = 0;
   for (const Segment& segment : it.committed) {
     if (segment.edge < 0) {
@@ -52,6 +54,7 @@ Beginning Instance::begin(int robot) const {
     result.occupied.push_back(at_vertex(result.vertex, since, segment.enter));
     result.occupied.push_back(on_edge(roadmap_.vertex_count() + segment.edge, segment.enter, segment.leave));
     result.vertex = roadmap_.head(segment.edge);
+    result.visited = visited_at(result.vertex, it.via, result.visited);
     result.free_at = since = segment.leave;
   }
   result.occupied.push_back(at_vertex(result.vertex, since, result.free_at));
@@ -87,7 +90,9 @@ void Instance::validate_robot(int robot) const {
   if (!is_vertex(it.start)) refuse(robot, "starts at a vertex that does not exist");
   if (!(it.radius >= 0.0)) refuse(robot, "has no radius");
   if (it.goals.empty()) refuse(robot, "has no goal");
-  if (!std::ranges::all_of(it.goals, is_vertex)) refuse(robot, "has a goal that does not exist");
+  const auto exists = [&](const std::vector<int>& goals) { return std::ranges::all_of(goals, is_vertex); };
+  if (!exists(it.goals) || !std::ranges::all_of(it.via, exists)) refuse(robot, "has a goal that does not exist");
+  if (it.via.size() > kMostGoals) refuse(robot, "has too many goals to visit");
   if (it.ready < 0 || it.ready > kLatestTime) refuse(robot, "becomes ready at an impossible time");
   int vertex = it.start;
   Tick now = 0;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <tuple>
 
 namespace mrpbench::mapf {
 
-DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits)
+DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits,
+                             DistanceTable* then)
     : roadmap_(roadmap), limits_(limits), duration_(roadmap.duration(profile)) {
   limits.charge(static_cast<std::size_t>(roadmap.vertex_count()) * sizeof(Tick));
   for (const Tick duration : duration_) {
@@ -16,26 +18,31 @@ DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<cons
   }
   distance_.assign(roadmap.vertex_count(), kForever);
   for (const int goal : goals) {
-    if (distance_[goal] == 0) continue;
-    distance_[goal] = 0;
-    if (is_uniform()) {
-      level_.push_back(goal);
-    } else {
-      heap_.push_back({0, goal});
-    }
+    const Tick distance = then == nullptr ? 0 : (*then)(goal);
+    if (distance_[goal] == distance) continue;  // known, or there is no way on
+    distance_[goal] = distance;
+    heap_.push_back({distance, goal});
+  }
+  const auto as_far = [&](const Entry& it) { return it.distance == heap_.front().distance; };
+  uniform_ = shortest_ == longest_ && std::ranges::all_of(heap_, as_far);
+  if (uniform_) {
+    for (const Entry& it : heap_) level_.push_back(it.vertex);
+    heap_.clear();
+  } else {
+    std::ranges::make_heap(heap_, std::greater{});
   }
 }
 
 void DistanceTable::advance() {
   limits_.check();
-  if (is_uniform()) {
+  if (uniform_) {
     advance_level();
   } else {
     advance_heap();
   }
 }
 
-/// Where all edges take equally long, vertices are found in the order of their distances.
+/// Where all edges take equally long and all goals are as far, vertices are found in the order of their distances.
 void DistanceTable::advance_level() {
   if (next_ == level_.size()) {
     std::swap(level_, found_);
@@ -82,16 +89,26 @@ void DistanceTable::advance_heap() {
 }
 
 DistanceTables::DistanceTables(const Instance& instance, Limits& limits) {
-  std::map<std::pair<int, std::vector<int>>, int> known;
-  for (const Robot& robot : instance.robots()) {
-    std::vector<int> goals = robot.goals;
+  std::map<std::tuple<int, std::vector<int>, DistanceTable*>, DistanceTable*> known;
+  const auto table = [&](int profile, std::vector<int> goals, DistanceTable* then) {
     std::ranges::sort(goals);
-    const auto [place, is_new] = known.try_emplace({robot.profile, goals}, static_cast<int>(tables_.size()));
+    const auto [place, is_new] = known.try_emplace({profile, goals, then});
     if (is_new) {
       limits.check_clock();
-      tables_.push_back(std::make_unique<DistanceTable>(instance.roadmap(), robot.profile, robot.goals, limits));
+      tables_.push_back(std::make_unique<DistanceTable>(instance.roadmap(), profile, goals, limits, then));
+      place->second = tables_.back().get();
     }
-    of_robot_.push_back(place->second);
+    return place->second;
+  };
+  remaining_.resize(instance.size());
+  for (int robot = 0; robot < instance.size(); ++robot) {
+    const Robot& it = instance.robots()[robot];
+    std::vector<DistanceTable*>& tables = remaining_[robot];
+    tables.push_back(table(it.profile, it.goals, nullptr));
+    for (int set = static_cast<int>(it.via.size()); set-- > instance.beginning(robot).visited;) {
+      tables.push_back(table(it.profile, it.via[set], tables.back()));
+    }
+    std::ranges::reverse(tables);
   }
 }
 

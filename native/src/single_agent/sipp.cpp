@@ -5,23 +5,34 @@
 
 namespace mrpbench::mapf {
 
+namespace {
+
+/// Vertices, once for each number of goals that a robot may have visited.
+int places(const Instance& instance) {
+  std::size_t most = 0;
+  for (const Robot& robot : instance.robots()) most = std::max(most, robot.via.size());
+  return instance.roadmap().vertex_count() * static_cast<int>(most + 1);
+}
+
+}  // namespace
+
 Sipp::Sipp(const Instance& instance, Limits& limits, Statistics& statistics)
     : instance_(instance),
       roadmap_(instance.roadmap()),
       limits_(limits),
       statistics_(statistics),
-      states_(roadmap_.vertex_count(), limits),
+      states_(places(instance), limits),
       departures_(roadmap_.edge_count(), limits) {}
 
-bool Sipp::search(int robot, DistanceTable& distance, const Obstacles& obstacles, Path& path,
+bool Sipp::search(int robot, const DistanceTables& tables, const Obstacles& obstacles, Path& path,
                   const Reservations* others, Tick delay) {
   const Beginning& beginning = instance_.beginning(robot);
-  distance_ = &distance;
+  remaining_ = &tables.remaining(robot);
   begin(robot, obstacles, others);
   least_cost_ = earliest_stay(instance_.robots()[robot]);
-  if (least_cost_ == kForever || distance(beginning.vertex) == kForever) return false;
+  if (least_cost_ == kForever || to_go(beginning.vertex, 0) == kForever) return false;
 
-  const Row row = states_of(beginning.vertex);
+  const Row row = states_of(beginning.vertex, 0);
   for (int state = row.first; state < row.last; ++state) {
     if (states_[state].first > beginning.free_at || states_[state].last < beginning.free_at) continue;
     states_[state].arrival = std::min(states_[state].last, beginning.free_at + delay);
@@ -61,7 +72,7 @@ Tick Sipp::earliest_stay(const Robot& robot) {
   if (instance_.rules().disappear_at_goal) return 0;
   Tick earliest = kForever;
   for (const int goal : robot.goals) {
-    const Row row = states_of(goal);
+    const Row row = states_of(goal, static_cast<int>(remaining_->size()) - 1);
     if (row.size() == 0) continue;
     const State& last = states_[row.last - 1];
     if (last.last == kForever) earliest = std::min(earliest, last.first);
@@ -70,14 +81,14 @@ Tick Sipp::earliest_stay(const Robot& robot) {
 }
 
 /// The states of a vertex, made when it is first touched: the gaps between the blocked half-ticks that hold a tick.
-Sipp::Row Sipp::states_of(int vertex) {
-  return states_.row(vertex, [&](std::vector<State>& states) {
+Sipp::Row Sipp::states_of(int vertex, int visited) {
+  return states_.row(visited * roadmap_.vertex_count() + vertex, [&](std::vector<State>& states) {
     scratch_.clear();
     obstacles_->at_vertex(vertex, scratch_);
     unite(scratch_);
     const auto add = [&](Half first, Half last) {
       const Tick begin = (first + 1) / 2, end = last / 2;
-      if (first <= last && begin <= end) states.push_back({begin, end, kForever, vertex, -1, -1, 0, false});
+      if (first <= last && begin <= end) states.push_back({begin, end, kForever, vertex, -1, -1, 0, static_cast<std::int16_t>(visited), false});
     };
     Half free = 0;
     for (const Range& blocked : scratch_) {
@@ -86,6 +97,12 @@ Sipp::Row Sipp::states_of(int vertex) {
     }
     if (free <= kForeverHalf) add(free, kForeverHalf);
   });
+}
+
+/// How many goals the robot has visited once it is at `vertex`.
+int Sipp::visited_at(int vertex, int visited) const {
+  const int before = instance_.beginning(robot_).visited;
+  return mapf::visited_at(vertex, instance_.robots()[robot_].via, before + visited) - before;
 }
 
 /// The first tick from `departure` on at which the robot may enter `edge`.
@@ -107,8 +124,9 @@ void Sipp::expand(int state) {
   const State from = states_[state];
   for (const int edge : roadmap_.out(from.vertex)) {
     const Tick duration = duration_[edge];
-    if (duration < 0 || (*distance_)(roadmap_.head(edge)) == kForever) continue;
-    const Row row = states_of(roadmap_.head(edge));
+    const int head = roadmap_.head(edge);
+    if (duration < 0 || to_go(head, from.visited) == kForever) continue;
+    const Row row = states_of(head, visited_at(head, from.visited));
     for (int to = row.first; to < row.last; ++to) {
       const Tick safe_from = states_[to].first - duration, safe_until = states_[to].last - duration;
       Tick departure = std::max(from.arrival, safe_from);
@@ -130,18 +148,18 @@ void Sipp::expand(int state) {
 }
 
 /// Conflicts with the others while waiting at `from`, crossing `edge`, and standing at `to`.
-int Sipp::count_conflicts(const State& from, int edge, Tick departure, const State& to) const {
+int Sipp::count_conflicts(const State& from, int edge, Tick departure, const State& to) {
   if (others_ == nullptr) return 0;
   const int element = roadmap_.vertex_count() + edge;
   int number = others_->count(robot_, on_edge(element, departure, to.arrival));
   if (departure > from.arrival) number += others_->count(robot_, {from.vertex, 2 * from.arrival + 1, 2 * departure});
-  const bool parks = !instance_.rules().disappear_at_goal && to.last == kForever && (*distance_)(to.vertex) == 0;
+  const bool parks = !instance_.rules().disappear_at_goal && to.last == kForever && to_go(to.vertex, to.visited) == 0;
   return number + others_->count(robot_, at_vertex(to.vertex, to.arrival, parks ? kForever : to.arrival));
 }
 
 void Sipp::push(int state) {
   ++statistics_.low_level_generated;
-  const Tick h = (*distance_)(states_[state].vertex);
+  const Tick h = to_go(states_[state].vertex, states_[state].visited);
   const Tick arrival = states_[state].arrival;
   open_.push_back({std::max(arrival + h, least_cost_), h, states_[state].conflicts, state});
   std::ranges::push_heap(open_, std::greater{});

@@ -1,6 +1,7 @@
 // The input of a solver: robots on a roadmap, with goals, released prefixes and rules.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,7 @@ struct Robot {
   int start = 0;
   Tick ready = 0;                  // stands at its start at least until then
   std::vector<int> goals;          // reaching any one counts
+  std::vector<std::vector<int>> via;  // goals to visit before, in order: of each set any one counts
   std::vector<Segment> committed;  // the path must begin with these
   int rank = 0;                    // those with lower ranks go first, where a planner has an order
 };
@@ -57,7 +59,16 @@ struct Beginning {
   std::vector<Occupation> occupied;  // the last one is the stay at `vertex`, from arrival to `free_at`
   int vertex;
   Tick free_at;  // earliest next departure
+  int visited = 0;  // leading sets of `Robot::via` that it visits
 };
+
+/// How many leading sets of `via` a robot has visited once it is at `vertex`, if it had visited `visited` before.
+inline int visited_at(int vertex, const std::vector<std::vector<int>>& via, int visited) {
+  while (visited < static_cast<int>(via.size()) && std::ranges::find(via[visited], vertex) != via[visited].end()) {
+    ++visited;
+  }
+  return visited;
+}
 
 class Instance {
  public:

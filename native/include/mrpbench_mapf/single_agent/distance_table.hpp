@@ -14,9 +14,12 @@ namespace mrpbench::mapf {
 
 class DistanceTable {
  public:
-  DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits);
+  /// With `then`, robots go on from the goals as it says.
+  DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits,
+                DistanceTable* then = nullptr);
 
-  /// Ticks from `vertex` to the nearest goal, kForever if there is no way.
+  /// Ticks from `vertex` to the nearest goal, or to the end of the shortest way over the goals; kForever if there is
+  /// none.
   Tick operator()(int vertex) {
     while (distance_[vertex] > final_) advance();
     return distance_[vertex];
@@ -30,7 +33,6 @@ class DistanceTable {
       return distance != other.distance ? distance > other.distance : vertex > other.vertex;
     }
   };
-  bool is_uniform() const { return shortest_ == longest_; }
   void advance();
   void advance_level();
   void advance_heap();
@@ -40,6 +42,7 @@ class DistanceTable {
   std::span<const Tick> duration_;
   Tick shortest_ = kForever;  // least and greatest duration of an edge
   Tick longest_ = 0;
+  bool uniform_;  // vertices are found in the order of their distances
   std::vector<Tick> distance_;
   std::vector<std::int32_t> level_, found_;  // uniform: of one distance, from `next_` on, and of the next one
   std::size_t next_ = 0;
@@ -52,7 +55,10 @@ class DistanceTable {
 class DistanceTables {
  public:
   DistanceTables(const Instance& instance, Limits& limits);
-  DistanceTable& operator[](int robot) { return *tables_[of_robot_[robot]]; }
+  /// What a robot has to go once its beginning is over: over all goals that it has not visited then.
+  DistanceTable& operator[](int robot) { return *remaining(robot).front(); }
+  /// The same, then what it has to go after each of these goals, in order.
+  const std::vector<DistanceTable*>& remaining(int robot) const { return remaining_[robot]; }
   /// Sum of costs if every robot were alone: a lower bound. All of them must be able to reach a goal.
   Cost sum_of_costs(const Instance& instance);
   /// The same for the latest arrival.
@@ -66,7 +72,7 @@ class DistanceTables {
 
  private:
   std::vector<std::unique_ptr<DistanceTable>> tables_;
-  std::vector<int> of_robot_;
+  std::vector<std::vector<DistanceTable*>> remaining_;  // by robot
 };
 
 }  // namespace mrpbench::mapf

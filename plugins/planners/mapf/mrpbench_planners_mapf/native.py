@@ -1,7 +1,7 @@
 """Between the model and the solvers in C++: a problem becomes an instance, an answer becomes a plan."""
 
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import ModuleType
 
 import numpy as np
@@ -66,7 +66,8 @@ def _instance(problem: Problem, module: ModuleType, rank: Int32 | None) -> mapf.
     roadmap = problem.roadmap
     robots = Robots(
         start=problem.start,
-        goals=[np.array(sorted(set(sequence[-1])), "i4") for sequence in problem.goals],
+        goals=[_goals(sequence[-1] if sequence else range(len(roadmap.position))) for sequence in problem.goals],
+        via=[[_goals(goal) for goal in sequence[:-1]] for sequence in problem.goals],
         ready=problem.ready,
         profile=problem.profile,
         radius=problem.radius,
@@ -93,6 +94,10 @@ def _instance(problem: Problem, module: ModuleType, rank: Int32 | None) -> mapf.
         horizon=problem.horizon,
         module=module,
     )
+
+
+def _goals(goal: Iterable[int]) -> Int32:
+    return np.array(sorted(set(goal)), np.int32)
 
 
 def _exclusions(problem: Problem) -> SolverExclusions:

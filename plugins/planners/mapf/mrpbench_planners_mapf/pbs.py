@@ -16,5 +16,5 @@ class Pbs(RobustPlanner):
     robots if each were alone.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED | WINDOWED | {Feature.RESOURCES}
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED | WINDOWED | {Feature.RESOURCES, Feature.GOAL_SEQUENCES}
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.ROBUST, Promise.DETERMINISTIC})

@@ -18,5 +18,5 @@ class Prioritized(RobustPlanner):
     each were alone.
     """
 
-    supports: ClassVar[frozenset[Feature]] = SUPPORTED | WINDOWED | {Feature.RESOURCES}
+    supports: ClassVar[frozenset[Feature]] = SUPPORTED | WINDOWED | {Feature.RESOURCES, Feature.GOAL_SEQUENCES}
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.ROBUST, Promise.DETERMINISTIC})

@@ -32,7 +32,7 @@ class TokenPassing(Planner):
     whose paths were kept.
     """
 
-    supports: ClassVar[frozenset[Feature]] = Prioritized.supports - WINDOWED
+    supports: ClassVar[frozenset[Feature]] = Prioritized.supports - WINDOWED - {Feature.GOAL_SEQUENCES}
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
     reads_remaining: ClassVar[bool] = True
     needs_homes: ClassVar[bool] = True

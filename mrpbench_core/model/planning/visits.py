@@ -1,0 +1,31 @@
+"""Which goals of their sequences robots visit on their way."""
+
+from mrpbench_core.model.common.arrays import Int
+from mrpbench_core.model.planning.problem import GoalSet, Problem
+
+
+def advance(sequence: tuple[GoalSet, ...], visited: int, vertex: int) -> int:
+    """Return how many leading goals a robot has visited once it is at `vertex`, where it had visited so many before.
+
+    One visit counts for equal goals in a row.
+    """
+    while visited < len(sequence) and vertex in sequence[visited]:
+        visited += 1
+    return visited
+
+
+def visited_goals(problem: Problem, robot: Int, head: Int) -> dict[int, int]:
+    """Return how many leading goals of their sequences robots visit, of those with several.
+
+    Args:
+        problem: with their goals and starts.
+        robot: i8[m] the robot of each move, in ascending order, those of a robot in the order of its path.
+        head: i8[m] vertex at the end of each move.
+    """
+    found = {}
+    for index, sequence in enumerate(problem.goals):
+        if len(sequence) > 1:
+            found[index] = 0
+            for vertex in (int(problem.start[index]), *head[robot == index].tolist()):
+                found[index] = advance(sequence, found[index], vertex)
+    return found
