@@ -16,6 +16,7 @@ from mrpbench_core.model.common.arrays import Int, Int32
 from mrpbench_core.model.planning.plan import Budget, Path, Paths, Plan, PlanResult, PlanStatus, waits
 from mrpbench_core.model.planning.problem import Feature, Problem, ends_of
 from mrpbench_core.model.planning.type2_edges import moves_of
+from mrpbench_core.model.planning.visits import left, visited_goals
 from mrpbench_core.model.planning.window import until
 
 
@@ -99,12 +100,16 @@ class RollingHorizonSession(PlannerSession):
 def from_rest(problem: Problem) -> Problem:
     """Return the problem of robots that start where their commitments end, all at the same time."""
     start: Int32 = problem.start.copy()
+    goals = problem.goals
     if problem.commitments:
         moves = moves_of(problem, Plan(paths=problem.commitments))
         start[moves.robot] = moves.head  # of equal robots the last one counts
+        visited = visited_goals(problem, moves.robot, moves.head)
+        goals = tuple(left(sequence, visited.get(robot, 0)) for robot, sequence in enumerate(goals))
     return attrs.evolve(
         problem,
         start=start,
+        goals=goals,
         ready=np.zeros_like(problem.ready),
         since=np.zeros(0, np.int64),
         commitments=(),

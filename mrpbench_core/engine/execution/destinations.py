@@ -20,9 +20,13 @@ STRIDE = 7919
 Parking = Literal["stay", "home"]
 
 
+Errands = tuple[tuple[int, int], ...]
+"""Tasks and numbers of errands of them, in order."""
+
+
 @attrs.frozen
 class Errand:
-    """The next errand of a robot."""
+    """An errand of a robot."""
 
     robot: int
     task: int
@@ -40,8 +44,8 @@ class Destinations:
     """See `Problem.goals`."""
     yaw: Float
     """f8[n] radians wanted there, NaN = any."""
-    errand: tuple[tuple[int, int] | None, ...]
-    """For each robot the task and the number of the errand that its path leads to; None: it makes room."""
+    errands: tuple[Errands, ...]
+    """For each robot the errands that its path leads to; (): it makes room."""
 
 
 def heads(problem: Problem, moves: Moves, released: Int32) -> Int:
@@ -74,12 +78,12 @@ class Places:
             self._kept_free[list(resource.vertices)] = True
 
     def destinations(
-        self, errands: Iterable[Errand], head: Int, attempt: int = 0, stays: Bool | tuple[()] = ()
+        self, errands: Iterable[Sequence[Errand]], head: Int, attempt: int = 0, stays: Bool | tuple[()] = ()
     ) -> Destinations:
         """Return goals for all robots.
 
         Args:
-            errands: at most one per robot, the most important first.
+            errands: of robots that have some, those to go to in order; the most important robots first.
             head: i8[n] vertices at which robots come to rest if nothing more is released.
             attempt: plans in a row that were not found. Then robots that are in the way, in every other attempt all
                 robots without an errand, are sent far enough away: home, or to one place after another. Where robots
@@ -90,18 +94,28 @@ class Places:
         taken = _Taken(self._problem)
         for robot in np.flatnonzero(stays).tolist():
             taken.add(robot, int(head[robot]))
-        chosen: list[tuple[int, int] | None] = [None] * robots
-        yaw = np.full(robots, np.nan)
-        for errand in errands:
-            if self._shared or taken.leaves(errand.robot, errand.vertex):
-                taken.add(errand.robot, errand.vertex)
-                chosen[errand.robot], yaw[errand.robot] = (errand.task, errand.number), errand.yaw
+        chosen: list[Errands] = [()] * robots
         goals: list[tuple[GoalSet, ...]] = [((taken.vertex.get(robot, -1),),) for robot in range(robots)]
+        yaw = np.full(robots, np.nan)
+        for sequence in errands:
+            way = self._with_room(sequence, taken)
+            if way:
+                last = way[-1]
+                taken.add(last.robot, last.vertex)
+                chosen[last.robot] = tuple((errand.task, errand.number) for errand in way)
+                goals[last.robot], yaw[last.robot] = tuple((errand.vertex,) for errand in way), last.yaw
         for robot in [robot for robot in range(robots) if robot not in taken.vertex]:
             goals[robot] = (self._room(robot, int(head[robot]), taken, attempt),)
             if len(goals[robot][0]) == 1:
                 taken.add(robot, goals[robot][0][0])
-        return Destinations(goals=tuple(goals), yaw=yaw, errand=tuple(chosen))
+        return Destinations(goals=tuple(goals), yaw=yaw, errands=tuple(chosen))
+
+    def _with_room(self, errands: Sequence[Errand], taken: "_Taken") -> Sequence[Errand]:
+        """Of a robot's errands, the leading ones at the last of which it may rest."""
+        last = len(errands)
+        while last and not self._shared and not taken.leaves(errands[last - 1].robot, errands[last - 1].vertex):
+            last -= 1
+        return errands[:last]
 
     def _room(self, robot: int, head: int, taken: "_Taken", attempt: int) -> GoalSet:
         """Where a robot without an errand may stand."""

@@ -17,6 +17,7 @@ from mrpbench_core.engine.execution.reactions import Reactions
 from mrpbench_core.engine.execution.recorder import Sample
 from mrpbench_core.engine.execution.replanning import Revision
 from mrpbench_core.engine.execution.standstill import Ending, Standstill
+from mrpbench_core.engine.execution.visits import Visits
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.model.common.arrays import Bool
@@ -76,7 +77,8 @@ class ExecutionLoop:
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
         self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
         sets = Feature.GOAL_SETS in inputs.replanner.supports
-        self._reactions = Reactions(inputs.faults, context.problem, inputs.replanner.yaw, sets)
+        self._visits = Visits(context.problem, plan, inputs.goal_tolerance)
+        self._reactions = Reactions(inputs.faults, robots, inputs.replanner.yaw, sets)
         self._standstill = Standstill(_patience(inputs))
         self._given_routes = given.routes
         self._returned = self._orders = self._given_orders = Orders(released=np.zeros(robots, "i4"))
@@ -149,7 +151,7 @@ class ExecutionLoop:
         if reason := replanner.reason(now, view, wish):
             problem = reactions.restricted(replanner.problem, replanner.plan, released, view.cleared)
             if tasks is None:
-                to = reactions.destinations(problem, replanner.plan, released)
+                to = reactions.destinations(problem, replanner.plan, released, self._visits.remaining)
             else:
                 reactions.asked()
                 to = tasks.destinations(now, reactions.held, problem)
@@ -186,7 +188,8 @@ class ExecutionLoop:
                 self._inputs.recorder.events((Event(stamp=now, kind="replan", detail=new.reason),))
                 self._inputs.recorder.routes(now, self._revision, new.routes, new.plan, new.kept, self._driven.count)
                 if self._inputs.tasks is not None and new.destinations is not None:
-                    self._inputs.tasks.adopt(new.destinations)
+                    self._visits.lead_to(new.problem.goals, self._inputs.tasks.adopt(new.destinations))
+                self._visits.follow(new.problem, new.plan)
                 return True
         self._inputs.replanner.failed(now)
         self._reactions.failed(now)
@@ -209,11 +212,12 @@ class ExecutionLoop:
         """Return the end of the execution, or None if it continues."""
         arrivals = self._arrivals
         self._confirmed = arrivals.update(self._now, self._state, self._motion)
+        self._visits.update(self._state.pose[:, :2], self._state.level, self._motion.reached)
         gave_up = self._motion.mode == ABORTED
         self._inputs.progress(self._now, arrivals.arrived)
         tasks, over = self._inputs.tasks, self._now >= self._inputs.limit_s
         if tasks is not None:
-            tasks.judge(self._now, arrivals.arrived)
+            tasks.judge(self._now, arrivals.arrived, self._visits.count)
             over |= tasks.ended
         else:
             over |= self._all_done(gave_up)
@@ -227,13 +231,13 @@ class ExecutionLoop:
         )
         return ExecutionResult(
             succeeded=bool(
-                (arrivals.arrived & ~self._reactions.astray).all()
+                (arrivals.arrived & self._visits.complete & ~self._reactions.astray).all()
                 if tasks is None
                 else not (gave_up.any() or tasks.unserved)
             ),
             gave_up=causes,
             simulated_s=self._now,
-            contradiction=arrivals.contradiction(),
+            contradiction=arrivals.contradiction() or (self._visits.contradiction() if tasks is None else None),
             unarrived=self._unarrived() if self._inputs.faults and tasks is None else {},
         )
 

@@ -26,18 +26,17 @@ class Reactions:
 
     Args:
         faults: in force.
-        problem: the first problem; gives the goals.
+        robots: their number.
         yaw: f8[n] radians wanted at the goals, NaN = any.
         sets: the planner takes sets of goals, so that robots that cannot reach theirs may make room.
     """
 
-    def __init__(self, faults: FaultState, problem: Problem, yaw: Float, sets: bool) -> None:
-        self._faults, self._goals, self._yaw, self._sets = faults, problem.goals, yaw, sets
+    def __init__(self, faults: FaultState, robots: int, yaw: Float, sets: bool) -> None:
+        self._faults, self._yaw, self._sets = faults, yaw, sets
         self._replans = bool(faults) and faults.settings.reaction != "wait"
         self._gives_up = self._replans and faults.settings.reaction == "give_up"
         self._led_around: tuple[FaultEvent, ...] = ()
         self._not_before, self._wait = 0.0, RETRY_S
-        robots = len(problem)
         self.given_up: Bool = np.zeros(robots, bool)
         """bool[n]: the task of the robot is given up."""
         self.astray: Bool = np.zeros(robots, bool)
@@ -98,20 +97,23 @@ class Reactions:
             duration[profile, closed] = -1
         return attrs.evolve(problem, roadmap=attrs.evolve(roadmap, duration=duration))
 
-    def destinations(self, problem: Problem, plan: Plan, released: Int32) -> Destinations | None:
-        """Return goals for the robots of one batch in a `restricted` problem; None where nobody is told of faults.
+    def destinations(
+        self, problem: Problem, plan: Plan, released: Int32, goals_left: tuple[tuple[GoalSet, ...], ...]
+    ) -> Destinations:
+        """Return goals for the robots of one batch in a `restricted` problem, given what is left of theirs.
 
         A robot that stands or is silent away from its goal, or whose task is given up, stays where it comes to rest. So
         does one that cannot reach its goal, but it may make room if the planner takes sets of goals.
         """
+        nothing = ((),) * len(problem)
         if not self._replans:
-            return None
+            return Destinations(goals=goals_left, yaw=self._yaw, errands=nothing)
         head = heads(problem, moves_of(problem, plan), released)
-        at_goal = [all(here in goal for goal in goals) for here, goals in zip(head.tolist(), self._goals, strict=True)]
+        at_goal = [all(here in goal for goal in goals) for here, goals in zip(head.tolist(), goals_left, strict=True)]
         stays = (self.held & ~np.array(at_goal)) | self.given_up
         cut_off = np.zeros(len(problem), bool)
         goals: list[tuple[GoalSet, ...]] = []
-        for robot, sequence in enumerate(self._goals):
+        for robot, sequence in enumerate(goals_left):
             here = int(head[robot])
             if stays[robot]:
                 goals.append(((here,),))
@@ -123,7 +125,7 @@ class Reactions:
         astray = stays | cut_off
         self._asked = astray, cut_off, self._obstacles()
         yaw = np.where(astray, np.nan, self._yaw)
-        return Destinations(goals=tuple(goals), yaw=yaw, errand=(None,) * len(problem))
+        return Destinations(goals=tuple(goals), yaw=yaw, errands=nothing)
 
     def asked(self) -> None:
         """Note that a plan around the faults in force was asked for."""

@@ -63,6 +63,10 @@ class TaskBoard:
         """Return what a robot does now, or goes to do."""
         return self.jobs[self.queues[robot][0]] if self.queues[robot] else None
 
+    def queue(self, robot: int) -> list[Job]:
+        """Return what a robot does and will do, in order."""
+        return [self.jobs[index] for index in self.queues[robot]]
+
     def begun(self, robot: int) -> Job | None:
         """Return the task that a robot has begun, if any."""
         job = self.current(robot)

@@ -1,12 +1,14 @@
 """The tasks of an execution: takes them from their stream, has them assigned, and judges when they are done.
 
-What a robot has done is judged by its true pose: it rests at the goal of its errand for the service time, while the
-plan in force leads it there.
+What a robot has done is judged by its true pose, while the plan in force leads it there: it rests at the goal of its
+errand for the service time. Planners that support goal sequences plan over several errands, up to one with a service
+time or a wanted yaw, and the robot visits those before the last one without a stop.
 """
 
 import math
 import time
 from collections.abc import Sequence, Set
+from itertools import takewhile
 from typing import Protocol
 
 import numpy as np
@@ -15,7 +17,8 @@ from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.checking.assignment import check_queues
-from mrpbench_core.engine.execution.destinations import Destinations, Errand, Places
+from mrpbench_core.engine.execution.destinations import Destinations, Errand, Errands, Places
+from mrpbench_core.engine.execution.planned_errands import PlannedErrands
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.reactions import reaches
 from mrpbench_core.engine.execution.task_board import Job, TaskBoard, TaskEvent
@@ -24,9 +27,6 @@ from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.planning.assignment import QueueProblem
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.scenario import Task
-
-Errands = tuple[tuple[int, int] | None, ...]
-"""For each robot a task and the number of an errand of it."""
 
 
 class TaskRecorder(Protocol):
@@ -47,6 +47,7 @@ class TaskManager:
         problem: the first problem.
         recorder: receives what happens.
         interval: least simulated seconds between two plans because of tasks.
+        sequences: the planner takes several goals of a robot.
     """
 
     def __init__(
@@ -58,6 +59,7 @@ class TaskManager:
         problem: Problem,
         recorder: TaskRecorder,
         interval: float,
+        sequences: bool = False,
     ) -> None:
         self._stream, self._assigner, self._costs, self._places = stream, assigner, costs, places
         self._roadmap, self._start = problem.roadmap, problem.start
@@ -69,11 +71,10 @@ class TaskManager:
         self._aborted: Bool = np.zeros(len(problem), bool)
         self._unassigned = True
         """Tasks or robots have changed since the last assignment."""
-        self._in_force: Errands = (None,) * len(problem)
-        """Where the paths of robots lead."""
-        self._asked: Errands = self._in_force
-        self._planned: Errands = self._in_force
-        """What robots had to do when a plan was asked for last, and when that in force was."""
+        self._sequences = sequences
+        self._planned = PlannedErrands(len(problem))
+        self._missed: set[int] = set()
+        """Robots that came to rest without having visited all goals of their paths; they stop at the next one."""
         self._held_back = False
         """Some robots were not sent to their errands, so that a plan is found."""
         self._failures = 0
@@ -141,20 +142,39 @@ class TaskManager:
         else:
             self._board.refuse(now, task)
 
-    def judge(self, now: float, arrived: Bool) -> None:
-        """Judge which errands are done; `arrived` bool[n]: the robot truly rests at the end of its path."""
+    def judge(self, now: float, arrived: Bool, visited: Int) -> None:
+        """Judge which errands are done.
+
+        Args:
+            now: simulated seconds.
+            arrived: bool[n]: the robot truly rests at the end of its path.
+            visited: i8[n] goals before the last one that the robot has truly visited, of the plan in force.
+        """
+        for robot in np.flatnonzero(visited > self._planned.gone).tolist():
+            while self._planned.gone[robot] < visited[robot]:
+                errand, job = self._planned.visit(robot), self._board.current(robot)
+                if job is not None and (job.task.index, job.errand) == errand:
+                    self._rest(now, robot, job)
         for robot in self._robots:
             job = self._board.current(robot)
             if job is None:
                 continue
-            if arrived[robot] and self._in_force[robot] == (job.task.index, job.errand):
-                begun = job.begun
-                if self._board.rest(now, robot):
-                    self._unassigned |= self._board.current(robot) is not job
-                self._unassigned |= not begun
+            if arrived[robot] and self._planned.in_force[robot] == ((job.task.index, job.errand),):
+                self._rest(now, robot, job)
+                self._missed.discard(robot)
             else:
                 self._board.leave(robot)
+                if arrived[robot] and len(self._planned.in_force[robot]) > 1:
+                    self._missed.add(robot)
+                    self._planned.drop(robot)
         self._record()
+
+    def _rest(self, now: float, robot: int, job: Job) -> None:
+        """Note that a robot rests at its errand, or visits one without a service time."""
+        begun = job.begun
+        if self._board.rest(now, robot):
+            self._unassigned |= self._board.current(robot) is not job
+        self._unassigned |= not begun
 
     def _record(self, released: Sequence[Task] = ()) -> None:
         if released or self._board.events:
@@ -225,12 +245,13 @@ class TaskManager:
         if now < self._planned_at + self._interval - 1e-9:
             return None
         wanted = self._wanted()
-        if wanted == self._planned and not self._held_back:
+        other = self._planned.others(wanted)
+        if not other and not self._held_back:
             return None
-        new = [robot for robot in self._robots if wanted[robot] not in (None, self._planned[robot])]
+        new = [robot for robot in other if wanted[robot]]
         if new:
             return f"robot {new[0]} has another errand"
-        makes_room = any(ours is not None and path is None for ours, path in zip(wanted, self._in_force, strict=True))
+        makes_room = any(ours and not path for ours, path in zip(wanted, self._planned.in_force, strict=True))
         return "a robot that made room may go on" if makes_room else None
 
     def destinations(self, now: float, held: Bool, restricted: Problem) -> Destinations:
@@ -242,39 +263,52 @@ class TaskManager:
         Robots that rest at their errand come first, then the oldest tasks. After each plan that was not found, half as
         many robots are sent to errands, others each time, until a plan is found.
         """
-        self._planned_at, self._asked = now, self._wanted()
-        jobs = [(robot, job) for robot, job in enumerate(self._current()) if job is not None and not held[robot]]
+        self._planned_at = now
+        self._planned.ask(self._wanted())
+        ways = [self._ahead(robot) for robot in self._robots if not held[robot]]
         if restricted.roadmap is not self._roadmap:
-            jobs = [
-                (robot, job)
-                for robot, job in jobs
-                if reaches(restricted, robot, int(self._head[robot]), (job.vertices[job.errand],))
+            ways = [
+                list(takewhile(lambda it: reaches(restricted, it.robot, int(self._head[it.robot]), (it.vertex,)), way))
+                for way in ways
             ]
-        resting = [entry for entry in jobs if not math.isnan(entry[1].since)]
-        moving = sorted((entry for entry in jobs if math.isnan(entry[1].since)), key=lambda entry: entry[1].task.index)
+        ways = [way for way in ways if way]
+        resting = [way for way in ways if not math.isnan(self._board.jobs[way[0].task].since)]
+        moving = sorted(
+            (way for way in ways if math.isnan(self._board.jobs[way[0].task].since)), key=lambda way: way[0].task
+        )
         if self._failures and moving:
             first = self._failures % len(moving)
-            moving = (moving[first:] + moving[:first])[: max(1, len(moving) >> self._failures)]
-        errands = [
-            Errand(robot, job.task.index, job.errand, job.vertices[job.errand], float(job.task.goals[job.errand, 2]))
-            for robot, job in resting + moving
-        ]
-        return self._places.destinations(errands, self._head, self._failures, held)
+            moving = [way[:1] for way in moving[first:] + moving[:first]][: max(1, len(moving) >> self._failures)]
+        return self._places.destinations(resting + moving, self._head, self._failures, held)
 
-    def adopt(self, destinations: Destinations) -> None:
-        """Note that a plan to these goals is in force."""
-        self._in_force, self._planned = destinations.errand, self._asked
+    def adopt(self, destinations: Destinations) -> Int:
+        """Note that a plan to these goals is in force; return how many of each robot i8[n] are done since then."""
+        self._planned.adopt(destinations.errands, self._is_done)
         self._held_back, self._failures = self._failures > 0, 0
+        return self._planned.gone
 
     def failed(self) -> None:
         """Note that no plan to the last goals takes effect."""
         self._failures += 1
 
-    def _wanted(self) -> Errands:
-        return tuple(None if job is None else (job.task.index, job.errand) for job in self._current())
+    def _wanted(self) -> list[Errands]:
+        return [tuple((errand.task, errand.number) for errand in self._ahead(robot)) for robot in self._robots]
 
-    def _current(self) -> list[Job | None]:
-        return [self._board.current(robot) for robot in self._robots]
+    def _ahead(self, robot: int) -> list[Errand]:
+        """The errands to which a plan leads a robot: the next one and, if it need not rest there, those after it."""
+        ahead: list[Errand] = []
+        for job in self._board.queue(robot):
+            for number in range(job.errand, len(job.vertices)):
+                yaw = float(job.task.goals[number, 2])
+                ahead.append(Errand(robot, job.task.index, number, job.vertices[number], yaw))
+                rests = job.task.service[number] > 0 or not math.isnan(yaw)
+                if rests or not self._sequences or robot in self._missed:
+                    return ahead
+        return ahead
+
+    def _is_done(self, errand: tuple[int, int]) -> bool:
+        job = self._board.jobs.get(errand[0])
+        return job is None or job.errand > errand[1]
 
 
 def _service(job: Job, now: float) -> float:

@@ -207,8 +207,9 @@ def _tasks(config: RunConfig, context: RunContext, stream: TaskStream, recorder:
     supports, windowed = config.planner.supports, config.replanning.window is not None
     sets, shared = Feature.GOAL_SETS in supports, windowed and Feature.SHARED_GOALS in supports
     places = Places(context.problem, costs.labels, config.replanning.parking, sets, shared)
+    sequences = Feature.GOAL_SEQUENCES in supports
     return TaskManager(
-        stream, config.assigner, costs, places, context.problem, recorder, interval=config.replanning.interval
+        stream, config.assigner, costs, places, context.problem, recorder, config.replanning.interval, sequences
     )
 
 

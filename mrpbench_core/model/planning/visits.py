@@ -14,6 +14,11 @@ def advance(sequence: tuple[GoalSet, ...], visited: int, vertex: int) -> int:
     return visited
 
 
+def left(sequence: tuple[GoalSet, ...], visited: int) -> tuple[GoalSet, ...]:
+    """Return what is left of a sequence after so many goals; the last one stays."""
+    return sequence[min(visited, max(len(sequence) - 1, 0)) :]
+
+
 def visited_goals(problem: Problem, robot: Int, head: Int) -> dict[int, int]:
     """Return how many leading goals of their sequences robots visit, of those with several.
 

@@ -11,7 +11,8 @@ from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.engine.execution.destinations import Parking, Places
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.task_manager import TaskManager
-from mrpbench_core.model.common.arrays import Bool, Int
+from mrpbench_core.engine.execution.visits import Visits
+from mrpbench_core.model.common.arrays import Bool, Int, Int32
 from mrpbench_core.model.planning.plan import Budget, Paths, Plan
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.testing.fixtures.room import fleet
@@ -38,13 +39,17 @@ class TaskSteps:
         self.ledger = TaskLedger()
         costs = QueueCosts(assigner.cost, problem.roadmap, fleet(len(problem)))
         places = Places(problem, costs.labels, parking, Feature.GOAL_SETS in planner.supports)
-        self.tasks = TaskManager(stream, assigner, costs, places, problem, self.ledger, interval=0.0)
+        sequences = Feature.GOAL_SEQUENCES in planner.supports
+        self.tasks = TaskManager(stream, assigner, costs, places, problem, self.ledger, 0.0, sequences)
+        self._roadmap, self._visits = problem.roadmap, Visits(problem, Plan(paths=()), 1e-6)
         self._session, self._reads = planner.start(), planner.reads_remaining
         self.at: Int = problem.start.astype(np.int64)
         """i8[n] where each robot is."""
         self._way = self.at[None]
         """i8[k,n] where each robot is in this tick and the next ones, by the plan in force."""
         self._paths: Paths | None = None
+        self._since = 0
+        """The tick at which the plan in force began."""
 
     def step(self, stopped: Bool | None = None, given_up: Bool | None = None, deaf: bool = False) -> None:
         """Let one tick pass.
@@ -64,7 +69,9 @@ class TaskSteps:
         ahead = self._way[1] if len(self._way) > 1 else self.at
         self._check(ahead)
         self.at, self._way, self.tick = ahead, self._way[1:] if len(self._way) > 1 else self._way, self.tick + 1
-        self.tasks.judge(self.tick * self.problem.roadmap.tick, self.at == self._way[-1])
+        self._visits.update(self._roadmap.position[self.at], self._roadmap.level[self.at], self._reached())
+        arrived = (self._way == self._way[-1]).all(axis=0)
+        self.tasks.judge(self.tick * self.problem.roadmap.tick, arrived, self._visits.count)
 
     def _plan(self, now: float, held: Bool, deaf: bool) -> None:
         """Ask for a plan from where robots are; without one, all stay."""
@@ -77,16 +84,24 @@ class TaskSteps:
         if result is None or result.plan is None:
             self._way, self._paths = self.at[None], None
             return self.tasks.failed()
-        self.tasks.adopt(to)
+        self._visits.lead_to(to.goals, self.tasks.adopt(to))
+        self._visits.follow(asked, result.plan)
         self._paths = Paths.of(result.plan.paths)
         self._way, self._since = _ways(asked, result.plan), self.tick
         return None
 
+    def _reached(self) -> Int32:
+        """The segments i4[n] of the plan in force that are over."""
+        robots = len(self.problem)
+        if self._paths is None:
+            return np.zeros(robots, np.int32)
+        over = self._paths.leave <= self.tick - self._since
+        return np.bincount(self._paths.robot[over], minlength=robots).astype(np.int32)
+
     def _rest(self, paths: Paths) -> Paths:
         """What is left of the plan in force, counted from now on."""
         gone = self.tick - self._since
-        size = np.bincount(paths.robot[paths.leave <= gone], minlength=len(paths))
-        rest = paths.part(size, paths.size)
+        rest = paths.part(self._reached(), paths.size)
         return attrs.evolve(rest, enter=np.maximum(rest.enter - gone, 0), leave=rest.leave - gone)
 
     def _check(self, ahead: Int) -> None:

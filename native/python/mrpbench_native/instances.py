@@ -40,7 +40,7 @@ class Robots(NamedTuple):
     goals: Sequence[NDArray[np.int32]]
     """For each robot the vertices at which it may end, i4[g]."""
     via: Sequence[Sequence[NDArray[np.int32]]] = ()
-    """For each robot the sets of vertices to visit before, in order, each i4[g]; () = none. Solvers with goal sequences."""
+    """For each robot the sets of vertices to visit before, in order, each i4[g]; () = none. Not all solvers do."""
     ready: NDArray[np.int64] | None = None
     """i8[n]: ticks before which robots do not leave; None = 0."""
     profile: NDArray[np.int32] | None = None

@@ -88,7 +88,8 @@ Sipp::Row Sipp::states_of(int vertex, int visited) {
     unite(scratch_);
     const auto add = [&](Half first, Half last) {
       const Tick begin = (first + 1) / 2, end = last / 2;
-      if (first <= last && begin <= end) states.push_back({begin, end, kForever, vertex, -1, -1, 0, static_cast<std::int16_t>(visited), false});
+      if (first <= last && begin <= end)
+        states.push_back({begin, end, kForever, vertex, -1, -1, 0, static_cast<std::int16_t>(visited), false});
     };
     Half free = 0;
     for (const Range& blocked : scratch_) {

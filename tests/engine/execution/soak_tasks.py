@@ -20,7 +20,7 @@ from mrpbench_core.testing.execution.task_steps import TaskSteps
 from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 TICKS = 400
-PLANNERS = ("pibt", "prioritized", "token_passing")
+PLANNERS = ("pibt", "prioritized", "pbs", "token_passing")
 FAILURE, REPAIR, GIVES_UP, DEAF = 0.002, 0.05, 0.2, 0.02
 """Probabilities: that a robot fails in a tick, is repaired, gives its task up as it fails; that a plan is missing."""
 

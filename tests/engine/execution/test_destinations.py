@@ -23,26 +23,37 @@ def places(radius, parking="stay", sets=False, starts=(0, 1, 2)):
 )
 def test_robots_can_stand_at_all_goals_at_once(wanted, heads, radius, home):
     errands = [Errand(robot, robot, 0, vertex, np.nan) for robot, vertex in enumerate(wanted)]
-    made = places(radius, "home" if home else "stay").destinations(errands, np.array(heads[:3]))
+    made = places(radius, "home" if home else "stay").destinations([[it] for it in errands], np.array(heads[:3]))
     goals = [goal for ((goal,),) in made.goals]
     assert len(set(goals)) == 3
     for errand in errands:
         first = wanted.index(errand.vertex) == errand.robot
-        assert (made.errand[errand.robot] == (errand.task, 0)) == first, "of those for one place, the first goes there"
+        assert (made.errands[errand.robot] == ((errand.task, 0),)) == first, (
+            "of those for one place, the first goes there"
+        )
         assert made.goals[errand.robot] == ((errand.vertex,),) or not first
 
 
 def test_a_robot_without_an_errand_stays_unless_it_is_in_the_way():
     here = np.array([0, 4, 9])
     assert places(0.2).destinations([], here).goals == (((0,),), ((4,),), ((9,),))
-    away = places(0.2).destinations([Errand(0, 0, 0, 4, np.nan)], here).goals
+    away = places(0.2).destinations([[Errand(0, 0, 0, 4, np.nan)]], here).goals
     assert away[0] == ((4,),)
     assert away[1] != ((4,),)
     assert places(0.2, "home").destinations([], here).goals == (((0,),), ((1,),), ((2,),))
 
 
 def test_a_planner_that_takes_sets_chooses_where_robots_make_room():
-    made = places(0.2, sets=True).destinations([Errand(0, 0, 0, 4, 1.5)], np.array([0, 4, 9]))
+    made = places(0.2, sets=True).destinations([[Errand(0, 0, 0, 4, 1.5)]], np.array([0, 4, 9]))
     assert made.goals[1] == (tuple(vertex for vertex in range(10) if vertex != 4),)
     assert made.yaw[0] == 1.5
     assert np.isnan(made.yaw[1:]).all()
+
+
+def test_a_robot_goes_over_its_errands_to_the_last_at_which_there_is_room():
+    first = [Errand(0, 5, 0, 4, np.nan)]
+    second = [Errand(1, 6, 1, 4, np.nan), Errand(1, 6, 2, 7, np.nan), Errand(1, 8, 0, 4, 1.5)]
+    made = places(0.2).destinations([first, second], np.array([0, 1, 2]))
+    assert made.goals[1] == ((4,), (7,))
+    assert made.errands[:2] == (((5, 0),), ((6, 1), (6, 2)))
+    assert np.isnan(made.yaw[1]), "only the yaw at the end of the path is wanted"

@@ -20,11 +20,11 @@ struct Robot {
   int profile = 0;
   double radius = 0.0;  // metres
   int start = 0;
-  Tick ready = 0;                  // stands at its start at least until then
-  std::vector<int> goals;          // reaching any one counts
+  Tick ready = 0;                     // stands at its start at least until then
+  std::vector<int> goals;             // reaching any one counts
   std::vector<std::vector<int>> via;  // goals to visit before, in order: of each set any one counts
-  std::vector<Segment> committed;  // the path must begin with these
-  int rank = 0;                    // those with lower ranks go first, where a planner has an order
+  std::vector<Segment> committed;     // the path must begin with these
+  int rank = 0;                       // those with lower ranks go first, where a planner has an order
 };
 
 struct Rules {
@@ -58,7 +58,7 @@ struct Resource {
 struct Beginning {
   std::vector<Occupation> occupied;  // the last one is the stay at `vertex`, from arrival to `free_at`
   int vertex;
-  Tick free_at;  // earliest next departure
+  Tick free_at;     // earliest next departure
   int visited = 0;  // leading sets of `Robot::via` that it visits
 };
 

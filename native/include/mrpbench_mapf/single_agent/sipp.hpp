@@ -18,10 +18,11 @@ class Sipp {
   Sipp(const Instance& instance, Limits& limits, Statistics& statistics);
 
   /// Find the path of `robot` with the earliest arrival at its last goal (for good, unless robots disappear there) that
-  /// visits those before in order and avoids `obstacles`. `tables` are what it has to go. Writes `path` and returns true, or false if there is none. Among equally early paths it prefers few
-  /// conflicts with `others`, as the conflict avoidance table of Standley, "Finding optimal solutions to cooperative
-  /// pathfinding problems", AAAI 2010; not strictly the fewest, since a state keeps only its earliest arrival.
-  /// With a `delay` the robot stays at its start that much longer, as far as others let it.
+  /// visits those before in order and avoids `obstacles`. `tables` are what it has to go. Writes `path` and returns
+  /// true, or false if there is none. Among equally early paths it prefers few conflicts with `others`, as the conflict
+  /// avoidance table of Standley, "Finding optimal solutions to cooperative pathfinding problems", AAAI 2010; not
+  /// strictly the fewest, since a state keeps only its earliest arrival. With a `delay` the robot stays at its start
+  /// that much longer, as far as others let it.
   bool search(int robot, const DistanceTables& tables, const Obstacles& obstacles, Path& path,
               const Reservations* others = nullptr, Tick delay = 0);
 

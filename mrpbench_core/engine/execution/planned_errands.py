@@ -1,0 +1,54 @@
+"""The errands to which the paths of robots lead, from when a plan is asked for until the next one is in force."""
+
+from collections.abc import Callable, Sequence
+from itertools import takewhile
+
+import numpy as np
+
+from mrpbench_core.engine.execution.destinations import Errands
+from mrpbench_core.model.common.arrays import Int
+
+
+class PlannedErrands:
+    """Keeps what is ahead of each robot in the plan in force."""
+
+    def __init__(self, robots: int) -> None:
+        self.in_force: list[Errands] = [()] * robots
+        """What the path of each robot leads to, from now on."""
+        self._asked: Sequence[Errands] = self.in_force
+        self._planned: list[Errands] = [()] * robots
+        """What robots had to do when the plan in force was asked for, but for what is done since then."""
+        self.gone: Int = np.zeros(robots, np.int64)
+        """i8[n]: how many errands of the plan in force are not ahead any more."""
+
+    def ask(self, wanted: Sequence[Errands]) -> None:
+        """Note what robots have to do when a plan is asked for."""
+        self._asked = wanted
+
+    def adopt(self, errands: Sequence[Errands], done: Callable[[tuple[int, int]], bool]) -> None:
+        """Note that the paths of a plan lead to these errands, of which some may be `done` since it was asked for."""
+        for robot, way in enumerate(errands):
+            gone = sum(1 for _ in takewhile(done, way))
+            self.gone[robot], self.in_force[robot] = gone, way[gone:]
+            self._planned[robot] = self._asked[robot][gone:]
+
+    def visit(self, robot: int) -> tuple[int, int]:
+        """Note that a robot has been at the next errand of its path, and return that."""
+        errand, *_ = self.in_force[robot]
+        self.in_force[robot] = self.in_force[robot][1:]
+        self.gone[robot] += 1
+        if self._planned[robot][:1] == (errand,):
+            self._planned[robot] = self._planned[robot][1:]
+        return errand
+
+    def drop(self, robot: int) -> None:
+        """Let a robot need another plan."""
+        self._planned[robot] = ()
+
+    def others(self, wanted: Sequence[Errands]) -> list[int]:
+        """Return the robots that had something else to do when the plan in force was asked for.
+
+        What is `wanted` may begin with what was planned, and go on.
+        """
+        both = enumerate(zip(self._planned, wanted, strict=True))
+        return [robot for robot, (old, new) in both if not (new == old or (old and new[: len(old)] == old))]
