@@ -1,7 +1,7 @@
 """Measure the gap between planned and executed time: how well plans predict their execution.
 
-Robots cross the built-in worlds by plans for each model of durations, in the simulator `planar` without noise, with
-each controller. The gap of a run is the sum of the executed arrival times divided by that of the planned ones, minus
+Robots cross the built-in worlds by plans for each model of durations, in a simulator without noise, with each
+controller. The gap of a run is the sum of the executed arrival times divided by that of the planned ones, minus
 one. The last line of a table has the median size of the gaps.
 
 `kinodynamic` assumes the robot's limits; `calibrated` is `kinodynamic` with `speed_share`, `turn_penalty` and
@@ -11,7 +11,7 @@ load of the machine does not matter, except that a planner may time out.
 
 import argparse
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from statistics import median
 from typing import Any
 
@@ -25,8 +25,10 @@ ALONE = range(1000, 1020)
 """Seeds of the drives for the calibration."""
 
 
-def drive(options: argparse.Namespace, roadmap: Mapping[str, Any], controller: str, matrix: Mapping[str, Any]) -> Any:
-    """The records of all runs of a matrix."""
+def drive(
+    options: argparse.Namespace, roadmap: Mapping[str, Any], controller: str, matrix: Mapping[str, Any]
+) -> Iterator[Any]:
+    """Yield the records of all runs of a matrix, each when it ends."""
     study = {
         "name": "gap",
         "world": "office",
@@ -35,13 +37,13 @@ def drive(options: argparse.Namespace, roadmap: Mapping[str, Any], controller: s
         "assigner": "identity",
         "planner": options.planner,
         "controller": controller,
-        "simulator": "planar",
+        "simulator": options.simulator,
         "metrics": ["planning", "throughput"],
         "limits": {"planning": "60 s", "execution": "20 min"},
         "matrix": dict(matrix),
     }
     with tempfile.TemporaryDirectory() as folder:
-        return list(run(study, out=folder))
+        yield from run(study, out=folder)
 
 
 def calibrate(options: argparse.Namespace, controller: str) -> dict[str, Any]:
@@ -93,6 +95,7 @@ def main() -> None:
     parser.add_argument("--robots", nargs="+", type=int, default=ROBOTS)
     parser.add_argument("--controllers", nargs="+", default=CONTROLLERS)
     parser.add_argument("--models", nargs="+", default=MODELS, choices=MODELS)
+    parser.add_argument("--simulator", default="planar", choices=["planar", "pybullet"])
     parser.add_argument("--roadmap", default="lanes", choices=["lanes", "grid"])
     parser.add_argument("--cell-size", type=float, default=0.4, help="of the roadmap, metres")
     parser.add_argument("--speed", type=float, default=0.22, help="of the default robot, m/s")

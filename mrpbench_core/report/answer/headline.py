@@ -44,8 +44,19 @@ def headline(rankings: Sequence[tuple[str, Ranking]], noun: str = "configuration
 
 
 def _undecided(rankings: Sequence[tuple[str, Ranking]], names: str) -> str:
-    if all(place.relation in _ALIKE and place.estimate for _, ranking in rankings for place in ranking.places):
+    alike = [
+        noun
+        for noun, ranking in rankings
+        if all(place.relation in _ALIKE and place.estimate for place in ranking.places)
+    ]
+    left = [noun for noun, _ in rankings if noun not in alike]
+    if not left:
         return f"The {names} do not differ noticeably in any question."
+    if alike:
+        return (
+            f"The {names} do not differ noticeably in {listed(alike)}. The data do not exclude a difference in "
+            f"{listed(left)}: more scenarios may show it."
+        )
     return (
         f"The data show no noticeable difference between the {names}, but do not exclude one either:"
         " more scenarios may show it."

@@ -110,6 +110,14 @@ def test_one_seed_gives_numbers_and_no_claim(answer, record):
     assert "do not exclude one either" in found.whole.headline
 
 
+def test_the_headline_says_which_questions_stay_open(answer, record):
+    records = [driven(record, name, seed, 100.0 + seed) for name in "ab" for seed in range(8)]
+    assert answer(records).whole.headline == (
+        "The 2 configurations do not differ noticeably in time and cost of planning. The data do not exclude a "
+        "difference in arrivals: more scenarios may show it."
+    )
+
+
 def test_every_setting_has_an_answer_and_all_have_one_together(answer, record):
     def entry(planner, robots, seed, duration):
         config = {"scenario": {"plugin": "random", "robots": robots}}
