@@ -39,7 +39,7 @@ def drive(
         "controller": controller,
         "simulator": options.simulator,
         "metrics": ["planning", "throughput"],
-        "limits": {"planning": "60 s", "execution": "20 min"},
+        "limits": {"planning": "60 s", "execution": "60 min"},
         "matrix": dict(matrix),
     }
     with tempfile.TemporaryDirectory() as folder:

@@ -59,7 +59,7 @@ class Session(PlannerSession):
 
 
 def run(folder, **changes):
-    """The record, and the channels of the recording."""
+    """The record, the channels of the recording, and as one more the seconds of a tick."""
     (point,) = load_study({**BASE, **changes}, []).runs
     paths = RunPaths(recording=folder / "run.zip", exports=folder / "exports", picture=None)
     record = execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
@@ -67,6 +67,7 @@ def run(folder, **changes):
         return record, {}
     recording = Recording(paths.recording)
     channels = {name: load() for name, load in recording.channels.items()}
+    channels["tick"] = np.array(recording.first_context().problem.roadmap.tick)
     recording.close()
     return record, channels
 
@@ -80,6 +81,15 @@ def happened(channels, kind):
 @pytest.fixture(scope="module")
 def first(tmp_path_factory):
     return run(tmp_path_factory.mktemp("first"))
+
+
+def test_planned_times_do_not_run_ahead_of_the_clock(first):
+    _, channels = first
+    time, robot = channels["route_time"], channels["route_robot"]
+    begins = np.flatnonzero(np.append(True, (np.diff(time) > 0) | (np.diff(robot) != 0)))
+    reached = begins[time[begins] > 0]  # of each new route, the waypoint at which the robot has been last
+    assert len(reached) > 20
+    assert (channels["route_leave"][reached] * channels["tick"] <= time[reached] + 1e-6).all()
 
 
 def test_tasks_are_done_where_they_are_and_after_their_service(first):

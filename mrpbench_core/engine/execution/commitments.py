@@ -38,8 +38,24 @@ def commitments(problem: Problem, plan: Plan, released: Int32, reached: Int32, r
     follows = np.flatnonzero(kept.segment)
     enter = kept.enter.copy()
     enter[follows] = leave[follows - 1]
-    ends = np.where(kept.size > 0, np.append(leave, 0)[kept.first[1:] - 1], 0)
+    ends = np.where(kept.size > 0, np.append(leave, 0)[kept.first[1:] - 1], problem.begins)
     return attrs.evolve(kept, enter=enter, leave=leave).then(waits(ends, due))
+
+
+def not_ahead(problem: Problem, plan: Plan, reached: Int32, now: int) -> tuple[Problem, Plan]:
+    """Return both with earlier times, such that no segment that was `reached` i4[n] ends after tick `now`.
+
+    Robots that a dispatcher releases by their order are ahead of a plan's times where these are too late, as where all
+    robots come to rest first. One shift of all times keeps every order; paths may begin before tick 0 then.
+    """
+    paths = Paths.of(plan.paths)
+    last = np.flatnonzero(reached)
+    ahead = int((paths.leave[paths.first[last] + reached[last] - 1] - now).max(initial=0))
+    if not ahead:
+        return problem, plan
+    earlier = attrs.evolve(paths, enter=paths.enter - ahead, leave=paths.leave - ahead)
+    changed = attrs.evolve(problem, since=problem.begins - ahead, ready=problem.ready - ahead)
+    return changed, attrs.evolve(plan, paths=earlier)
 
 
 def remaining(plan: Plan, released: Int32, problem: Problem) -> Paths:

@@ -41,7 +41,8 @@ def without(problem: Problem, commitments: Paths, cut: Int32) -> Problem:
     gone = commitments.part(np.zeros_like(cut), cut)
     move = gone.edge >= 0
     start[gone.robot[move]] = problem.roadmap.edges[gone.edge[move]].reshape(-1, 2)[:, 1]  # the last one counts
-    since[gone.robot], ready[cut > 0] = gone.leave, 0
+    since[gone.robot] = gone.leave
+    ready[cut > 0] = since[cut > 0]
     return attrs.evolve(
         problem, start=start, ready=ready, since=since, commitments=commitments.part(cut, commitments.size)
     )

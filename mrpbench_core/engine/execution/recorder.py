@@ -279,7 +279,7 @@ def _after(first: float | np.int32, segments: list[NDArray[Any]], begin: list[in
 def _segments(paths: Paths, kept: Int32) -> dict[str, NDArray[Any]]:
     """The edge that leads to each waypoint and the tick at which its robot comes there, but for the `kept` i4[n] first.
 
-    The first waypoint of a route is where the path begins: no edge leads there.
+    The first waypoint of a route is where the path begins: no edge leads there. Times before tick 0 are recorded as 0.
     """
     begin, at = paths.first[:-1], np.arange(len(paths.edge)) + paths.robot + 1
     edge, leave = np.full(len(paths.edge) + len(paths), -1, np.int32), np.zeros(len(paths.edge) + len(paths), np.int64)
@@ -288,7 +288,7 @@ def _segments(paths: Paths, kept: Int32) -> dict[str, NDArray[Any]]:
     some = paths.size > 0
     leave[starts[some]] = paths.enter[begin[some]]
     new = np.arange(len(edge)) - np.repeat(starts + kept, paths.size + 1) >= 0
-    return {"edge": edge[new], "leave": leave[new]}
+    return {"edge": edge[new], "leave": np.maximum(leave[new], 0)}
 
 
 def _stack(name: str, rows: list[Any]) -> np.ndarray:

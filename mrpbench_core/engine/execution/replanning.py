@@ -7,7 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.config.settings import Replanning, RunConfig
-from mrpbench_core.engine.execution.commitments import commitments, remaining
+from mrpbench_core.engine.execution.commitments import commitments, not_ahead, remaining
 from mrpbench_core.engine.execution.cutting import driven, without
 from mrpbench_core.engine.execution.destinations import Destinations
 from mrpbench_core.engine.execution.routes import Router
@@ -133,14 +133,17 @@ class Replanner:
         tick = self.problem.roadmap.tick
         due = now + self._settings.latency
         ready = math.ceil(now / tick - 1e-9) + self._left(view)
-        prefix = commitments(self.problem, self.plan, released, view.reached, ready, math.ceil(due / tick - 1e-9))
+        problem, plan = self.problem, self.plan
+        if Feature.SINCE in self.supports:
+            problem, plan = not_ahead(problem, plan, view.reached, math.floor(now / tick + 1e-9))
+        prefix = commitments(problem, plan, released, view.reached, ready, math.ceil(due / tick - 1e-9))
         cut: Int32 = np.zeros(len(prefix), np.int32)
         if self._cuts:
-            cut = driven(self.plan, view.reached, view.cleared)
-        problem = without(self.problem, prefix, cut)
+            cut = driven(plan, view.reached, view.cleared)
+        in_force = attrs.evolve(problem, commitments=prefix)
+        problem = without(problem, prefix, cut)
         if self._reads_remaining:
-            in_force = attrs.evolve(self.problem, commitments=prefix)
-            problem = attrs.evolve(problem, remaining=remaining(self.plan, released, in_force))
+            problem = attrs.evolve(problem, remaining=remaining(plan, released, in_force))
         features = self.problem.features | {Feature.COMMITMENTS} | ({Feature.SINCE} if problem.since.any() else set())
         if self._settings.window is not None:
             horizon = max(ends_of(problem)) + math.ceil(self._settings.window / tick - 1e-9)
@@ -155,15 +158,15 @@ class Replanner:
         result, fault, late = self._ask(asked)
         due += late
         self._last, self._not_before = now, due
-        plan = None if fault else result.plan
-        leads = np.ones(len(problem), bool) if plan is None else leads_to_goals(problem, plan)
+        found = None if fault else result.plan
+        leads = np.ones(len(problem), bool) if found is None else leads_to_goals(problem, found)
         router = attrs.evolve(self._router, problem=problem, final_yaw=np.where(leads, yaw, np.nan))
-        routes = () if plan is None else router(plan)
+        routes = () if found is None else router(found)
         self.pending = Revision(
             due=due,
             reason=reason,
             problem=problem,
-            plan=plan,
+            plan=found,
             routes=routes,
             fault=fault or "",
             leads=leads,

@@ -1,9 +1,10 @@
 """The commitments of a new plan. The tests of `adg` show that they never conflict."""
 
+import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.engine.execution.commitments import commitments
+from mrpbench_core.engine.execution.commitments import commitments, not_ahead
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
@@ -39,3 +40,12 @@ def committed(released, reached, ready, due):
 )
 def test_released_segments_keep_their_index_and_take_the_time_they_will_need(now, expected):
     assert committed(*now) == expected
+
+
+def test_all_times_are_earlier_where_a_robot_is_ahead_of_them():
+    two = attrs.evolve(PROBLEM, profile=[0, 0], radius=[0.1, 0.1], start=[0, 0], ready=[0, 0], goals=PROBLEM.goals * 2)
+    plan = Plan(paths=(*PLAN.paths, *PLAN.paths))
+    problem, earlier = not_ahead(two, plan, np.array([1, 3]), 5)
+    assert problem.begins.tolist() == problem.ready.tolist() == [-2, -2]
+    assert [path.leave.tolist() for path in earlier.paths] == [[0, 2, 5], [0, 2, 5]]
+    assert not_ahead(two, plan, np.array([1, 2]), 5) == (two, plan)
