@@ -64,7 +64,7 @@ class Problem:
     ready: Int = array("i8")
     """i8[n] ticks: a robot stays at its start at least until then."""
     since: Int = array("i8", factory=lambda: np.zeros(0, np.int64))
-    """i8[n] ticks: the path of a robot begins then, and it occupies nothing before; may be negative; empty: all begin at 0."""
+    """i8[n] ticks, also below 0: the path of a robot begins then, and it occupies nothing before; empty: all at 0."""
     goals: tuple[tuple[GoalSet, ...], ...]
     """goals[robot] = the goal sets to visit in order; the robot ends at the last. Empty: it may end anywhere."""
     commitments: Sequence[Path] = attrs.field(default=(), converter=flat)
