@@ -32,6 +32,12 @@ class TopicAnswer:
     ranking: Ranking
     sentences: tuple[str, ...]
 
+    @property
+    def line(self) -> str:
+        """The answer as a line of text."""
+        end = "" if self.title.endswith("?") else ":"
+        return f"- {self.title}{end} {' '.join(self.sentences)}"
+
 
 @attrs.frozen(kw_only=True)
 class SettingAnswer:
@@ -58,13 +64,13 @@ class Answer:
         """Yield the answer as lines of text, with at most this number of settings."""
         for effect in self.effects:
             yield f"{effect.name}: {effect.headline}"
-            yield from (f"- {topic.title} {' '.join(topic.sentences)}" for topic in effect.topics)
+            yield from (topic.line for topic in effect.topics)
         for number, part in enumerate([*([self.whole] if self.whole else ()), *self.parts[:parts]]):
             name = part.name or ("all settings together" if self.parts else "")
             name = name or ("all combinations" if self.effects else "")
             yield f"{name}: {part.headline}" if name else part.headline
             for topic in part.topics if number == 0 and not self.effects else ():
-                yield f"- {topic.title} {' '.join(topic.sentences)}"
+                yield topic.line
         if len(self.parts) > parts:
             yield f"… and {len(self.parts) - parts} more in the page and in --json"
 

@@ -290,3 +290,4 @@ def test_tasks_over_time_are_answered_for_first_and_blocked_time_is_not_called_h
     assert "How long does it take?" not in titles
     assert relations(topic(found, "How long does a task take?")) == {"a": None, "b": Relation.WORSE}
     assert "b is noticeably worse in service time and open tasks" in found.whole.headline
+    assert any(line.startswith("- execution.time_blocked_s: ") for line in found.lines(9))
