@@ -1,6 +1,6 @@
 """Which goals of their sequences robots visit on their way."""
 
-from mrpbench_core.model.common.arrays import Int
+from mrpbench_core.model.common.arrays import Int, Int32
 from mrpbench_core.model.planning.problem import GoalSet, Problem
 
 
@@ -19,13 +19,13 @@ def left(sequence: tuple[GoalSet, ...], visited: int) -> tuple[GoalSet, ...]:
     return sequence[min(visited, max(len(sequence) - 1, 0)) :]
 
 
-def visited_goals(problem: Problem, robot: Int, head: Int) -> dict[int, int]:
+def visited_goals(problem: Problem, robot: Int, head: Int | Int32) -> dict[int, int]:
     """Return how many leading goals of their sequences robots visit, of those with several.
 
     Args:
         problem: with their goals and starts.
         robot: i8[m] the robot of each move, in ascending order, those of a robot in the order of its path.
-        head: i8[m] vertex at the end of each move.
+        head: i4[m] or i8[m] vertex at the end of each move.
     """
     found = {}
     for index, sequence in enumerate(problem.goals):
