@@ -1,5 +1,7 @@
 """Which goals of their sequences robots visit on their way."""
 
+import numpy as np
+
 from mrpbench_core.model.common.arrays import Int, Int32
 from mrpbench_core.model.planning.problem import GoalSet, Problem
 
@@ -28,9 +30,10 @@ def visited_goals(problem: Problem, robot: Int, head: Int | Int32) -> dict[int, 
         head: i4[m] or i8[m] vertex at the end of each move.
     """
     found = {}
+    first = np.searchsorted(robot, np.arange(len(problem) + 1)).tolist()
     for index, sequence in enumerate(problem.goals):
         if len(sequence) > 1:
             found[index] = 0
-            for vertex in (int(problem.start[index]), *head[robot == index].tolist()):
+            for vertex in (int(problem.start[index]), *head[first[index] : first[index + 1]].tolist()):
                 found[index] = advance(sequence, found[index], vertex)
     return found
