@@ -18,8 +18,6 @@ from mrpbench_core.model.planning.type2_edges import Moves
 STRIDE = 7919
 """A prime, by which places are taken one after another."""
 Parking = Literal["stay", "home"]
-
-
 Errands = tuple[tuple[int, int], ...]
 """Tasks and numbers of errands of them, in order."""
 

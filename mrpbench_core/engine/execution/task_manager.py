@@ -244,7 +244,7 @@ class TaskManager:
         """Return why a new plan is needed now, or None: some robot's errand is not the one of its path."""
         if now < self._planned_at + self._interval - 1e-9:
             return None
-        wanted = self._wanted()
+        wanted = [_names(self._ahead(robot)) for robot in self._robots]
         other = self._planned.others(wanted)
         if not other and not self._held_back:
             return None
@@ -264,18 +264,19 @@ class TaskManager:
         many robots are sent to errands, others each time, until a plan is found.
         """
         self._planned_at = now
-        self._planned.ask(self._wanted())
-        ways = [self._ahead(robot) for robot in self._robots if not held[robot]]
+        ahead = [self._ahead(robot) for robot in self._robots]
+        self._planned.ask([_names(way) for way in ahead])
+        ways = [way for way, stays in zip(ahead, held.tolist(), strict=True) if not stays]
         if restricted.roadmap is not self._roadmap:
             ways = [
                 list(takewhile(lambda it: reaches(restricted, it.robot, int(self._head[it.robot]), (it.vertex,)), way))
                 for way in ways
             ]
-        ways = [way for way in ways if way]
-        resting = [way for way in ways if not math.isnan(self._board.jobs[way[0].task].since)]
-        moving = sorted(
-            (way for way in ways if math.isnan(self._board.jobs[way[0].task].since)), key=lambda way: way[0].task
-        )
+        resting: list[list[Errand]] = []
+        moving: list[list[Errand]] = []
+        for way in filter(None, ways):
+            (moving if math.isnan(self._board.jobs[way[0].task].since) else resting).append(way)
+        moving.sort(key=lambda way: way[0].task)
         if self._failures and moving:
             first = self._failures % len(moving)
             moving = [way[:1] for way in moving[first:] + moving[:first]][: max(1, len(moving) >> self._failures)]
@@ -290,9 +291,6 @@ class TaskManager:
     def failed(self) -> None:
         """Note that no plan to the last goals takes effect."""
         self._failures += 1
-
-    def _wanted(self) -> list[Errands]:
-        return [tuple((errand.task, errand.number) for errand in self._ahead(robot)) for robot in self._robots]
 
     def _ahead(self, robot: int) -> list[Errand]:
         """The errands to which a plan leads a robot: the next one and, if it need not rest there, those after it."""
@@ -309,6 +307,10 @@ class TaskManager:
     def _is_done(self, errand: tuple[int, int]) -> bool:
         job = self._board.jobs.get(errand[0])
         return job is None or job.errand > errand[1]
+
+
+def _names(way: Sequence[Errand]) -> Errands:
+    return tuple((errand.task, errand.number) for errand in way)
 
 
 def _service(job: Job, now: float) -> float:

@@ -68,11 +68,10 @@ class Visits:
 
     def contradiction(self) -> str | None:
         """Say which goal a robot has not visited, or None."""
-        for robot in self._unfinished():
-            return (
-                f"robot {robot} did not come within {self._tolerance:g} m of goal {self.count[robot]} of its sequence"
-            )
-        return None
+        robot = next(iter(self._unfinished()), None)
+        if robot is None:
+            return None
+        return f"robot {robot} did not come within {self._tolerance:g} m of goal {self.count[robot]} of its sequence"
 
     def _unfinished(self) -> list[int]:
         ahead = zip(self._goals, self.count.tolist(), strict=True)
