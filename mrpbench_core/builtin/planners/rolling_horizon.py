@@ -140,6 +140,6 @@ def after_commitments(problem: Problem, plan: Plan) -> Plan:
     """Return the commitments of a problem, a wait until the last of them ends, and then `plan`."""
     if not problem.commitments:
         return plan
-    begin, new = _rest(problem), Paths.of(plan.paths)
-    later = attrs.evolve(new, enter=new.enter + begin, leave=new.leave + begin)
-    return Plan(paths=Paths.of(problem.commitments).then(waits(np.array(ends_of(problem)), begin), later))
+    begin = _rest(problem)
+    new = Paths.of(plan.paths).later(begin)
+    return Plan(paths=Paths.of(problem.commitments).then(waits(np.array(ends_of(problem)), begin), new))

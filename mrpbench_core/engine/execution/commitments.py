@@ -53,9 +53,8 @@ def not_ahead(problem: Problem, plan: Plan, reached: Int32, now: int) -> tuple[P
     ahead = int((paths.leave[paths.first[last] + reached[last] - 1] - now).max(initial=0))
     if not ahead:
         return problem, plan
-    earlier = attrs.evolve(paths, enter=paths.enter - ahead, leave=paths.leave - ahead)
     changed = attrs.evolve(problem, since=problem.begins - ahead, ready=problem.ready - ahead)
-    return changed, attrs.evolve(plan, paths=earlier)
+    return changed, attrs.evolve(plan, paths=paths.later(-ahead))
 
 
 def remaining(plan: Plan, released: Int32, problem: Problem) -> Paths:
@@ -72,4 +71,4 @@ def remaining(plan: Plan, released: Int32, problem: Problem) -> Paths:
     later = max(later, int((np.maximum(begin, problem.ready)[some] - rest.enter[rest.first[some]]).max(initial=0)))
     enter = begin.copy()
     enter[some] = rest.enter[rest.first[some]] + later
-    return waits(begin, enter).then(attrs.evolve(rest, enter=rest.enter + later, leave=rest.leave + later))
+    return waits(begin, enter).then(rest.later(later))

@@ -107,6 +107,10 @@ class Paths(Sequence[Path]):
         first = np.searchsorted(robot[kept], np.arange(len(self) + 1))
         return Paths(first=first, edge=self.edge[kept], enter=self.enter[kept], leave=self.leave[kept])
 
+    def later(self, ticks: int) -> "Paths":
+        """The paths at other times: all so many ticks later, or earlier if they are negative."""
+        return attrs.evolve(self, enter=self.enter + ticks, leave=self.leave + ticks)
+
     def then(self, *others: "Paths") -> "Paths":
         """Each path, continued by that of the same robot in each of `others`."""
         parts = (self, *others)
