@@ -12,7 +12,7 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.planning.conflicts import TOLERANCE
-from mrpbench_core.model.planning.problem import GoalSet, Problem
+from mrpbench_core.model.planning.problem import Goals, GoalSet, Problem
 from mrpbench_core.model.planning.type2_edges import Moves
 
 STRIDE = 7919
@@ -38,7 +38,7 @@ class Errand:
 class Destinations:
     """The goals of a plan."""
 
-    goals: tuple[tuple[GoalSet, ...], ...]
+    goals: Goals
     """See `Problem.goals`."""
     yaw: Float
     """f8[n] radians wanted there, NaN = any."""

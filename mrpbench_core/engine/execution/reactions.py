@@ -11,7 +11,7 @@ from mrpbench_core.engine.execution.faults import FaultEvent, FaultState, approa
 from mrpbench_core.engine.travel import travel_ticks
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.planning.plan import Plan
-from mrpbench_core.model.planning.problem import GoalSet, Problem
+from mrpbench_core.model.planning.problem import Goals, GoalSet, Problem
 from mrpbench_core.model.planning.roadmap import Resource, Roadmap
 from mrpbench_core.model.planning.type2_edges import moves_of
 
@@ -97,9 +97,7 @@ class Reactions:
             duration[profile, closed] = -1
         return attrs.evolve(problem, roadmap=attrs.evolve(roadmap, duration=duration))
 
-    def destinations(
-        self, problem: Problem, plan: Plan, released: Int32, goals_left: tuple[tuple[GoalSet, ...], ...]
-    ) -> Destinations:
+    def destinations(self, problem: Problem, plan: Plan, released: Int32, goals_left: Goals) -> Destinations:
         """Return goals for the robots of one batch in a `restricted` problem, given what is left of theirs.
 
         A robot that stands or is silent away from its goal, or whose task is given up, stays where it comes to rest. So

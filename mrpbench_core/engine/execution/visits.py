@@ -4,10 +4,9 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32
 from mrpbench_core.model.planning.plan import Plan
-from mrpbench_core.model.planning.problem import GoalSet, Problem
+from mrpbench_core.model.planning.problem import Goals, GoalSet, Problem
 from mrpbench_core.model.planning.visits import advance, left
 
-Goals = tuple[tuple[GoalSet, ...], ...]
 NEVER = np.iinfo(np.int32).max
 
 

@@ -10,7 +10,7 @@ from mrpbench_core.engine.stages.costs import cost_matrix
 from mrpbench_core.engine.stages.prepare import RunInstance, summary
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
-from mrpbench_core.model.planning.problem import Feature, GoalSet, Problem, features_of
+from mrpbench_core.model.planning.problem import Feature, Goals, Problem, features_of
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.runs.status import RunStatus, Stage
 
@@ -57,9 +57,7 @@ def standing_problem(instance: RunInstance) -> Problem:
     return problem
 
 
-def problem_with_features(
-    roadmap: Roadmap, fleet: Fleet, start: np.ndarray, goals: tuple[tuple[GoalSet, ...], ...]
-) -> Problem:
+def problem_with_features(roadmap: Roadmap, fleet: Fleet, start: np.ndarray, goals: Goals) -> Problem:
     """The problem of driving `fleet` from vertices `start` i4[n] to `goals`, with the features it needs.
 
     Footprints matter where discs of the fleet's radii do not fit on the roadmap side by side: on every roadmap that is
@@ -88,7 +86,7 @@ def _can_be_assigned(instance: RunInstance) -> bool:
     return not check_travel(cost_matrix("roadmap", instance.roadmap, instance.fleet, instance.scenario))
 
 
-def candidate_goals(instance: RunInstance) -> tuple[tuple[GoalSet, ...], ...]:
+def candidate_goals(instance: RunInstance) -> Goals:
     """For every robot the goals of all tasks, of which it may take any that no other takes.
 
     Raises:

@@ -12,6 +12,8 @@ from mrpbench_core.model.planning.roadmap import Roadmap
 
 GoalSet = tuple[int, ...]
 """Roadmap vertices; a robot reaches the set by reaching any of them."""
+Goals = tuple[tuple[GoalSet, ...], ...]
+"""For each robot the goal sets to visit in order."""
 
 
 class Feature(StrEnum):
@@ -65,7 +67,7 @@ class Problem:
     """i8[n] ticks: a robot stays at its start at least until then."""
     since: Int = array("i8", factory=lambda: np.zeros(0, np.int64))
     """i8[n] ticks, also below 0: the path of a robot begins then, and it occupies nothing before; empty: all at 0."""
-    goals: tuple[tuple[GoalSet, ...], ...]
+    goals: Goals
     """goals[robot] = the goal sets to visit in order; the robot ends at the last. Empty: it may end anywhere."""
     commitments: Sequence[Path] = attrs.field(default=(), converter=flat)
     """Released prefixes, one per robot (possibly empty), with which a new plan must begin; () = none."""

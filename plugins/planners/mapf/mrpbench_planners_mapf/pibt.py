@@ -7,7 +7,7 @@ import numpy as np
 from mrpbench_core.api.planner import PlannerSession, Promise
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.plan import Budget, PlanResult
-from mrpbench_core.model.planning.problem import Feature, GoalSet, Problem
+from mrpbench_core.model.planning.problem import Feature, Goals, Problem
 from mrpbench_planners_mapf.configurations import ConfigurationPlanner
 from mrpbench_planners_mapf.recipe import WINDOWED, native_planner
 
@@ -39,7 +39,7 @@ class PibtSession(PlannerSession):
 
     def __init__(self, planner: Pibt) -> None:
         self._planner = planner
-        self._goals: tuple[tuple[GoalSet, ...], ...] = ()
+        self._goals: Goals = ()
         self._under_way: Int = np.zeros(0, np.int64)
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
