@@ -187,7 +187,7 @@ class ExecutionLoop:
                 self._facility_manager.adopt(new.problem, new.plan)
                 self._inputs.recorder.events((Event(stamp=now, kind="replan", detail=new.reason),))
                 self._inputs.recorder.routes(now, self._revision, new.routes, new.plan, new.kept, self._driven.count)
-                if self._inputs.tasks is not None and new.destinations is not None:
+                if self._inputs.tasks is not None:
                     self._visits.lead_to(new.problem.goals, self._inputs.tasks.adopt(new.destinations))
                 self._visits.follow(new.problem, new.plan)
                 return True

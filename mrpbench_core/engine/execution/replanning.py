@@ -45,8 +45,8 @@ class Revision:
     """i4[n] leading segments of the plan before that are left out."""
     kept: Int32
     """i4[n] leading waypoints of its routes that are those of the routes before."""
-    destinations: Destinations | None = None
-    """Where it leads, if that is not where the plan before led."""
+    destinations: Destinations
+    """Where it leads."""
 
 
 class Replanner:
@@ -121,12 +121,12 @@ class Replanner:
         reason: str,
         view: FleetView,
         released: Int32,
-        to: Destinations | None = None,
-        roadmap: Roadmap | None = None,
+        to: Destinations,
+        roadmap: Roadmap,
     ) -> None:
-        """Ask for a plan that begins with what is `released` i4[n], and leads `to` new destinations if there are some.
+        """Ask for a plan that begins with what is `released` i4[n], and leads `to` its destinations.
 
-        The planner gets `roadmap` instead of the problem's, if it may not use all of that.
+        The planner gets `roadmap` instead of the problem's, since it may not always use all of that.
 
         It takes effect after the latency, and later if the planner exceeds its budget of wall time.
         """
@@ -144,23 +144,17 @@ class Replanner:
         problem = without(problem, prefix, cut)
         if self._reads_remaining:
             problem = attrs.evolve(problem, remaining=remaining(plan, released, in_force))
-        features = self.problem.features | {Feature.COMMITMENTS} | ({Feature.SINCE} if problem.since.any() else set())
         if self._settings.window is not None:
             horizon = max(ends_of(problem)) + math.ceil(self._settings.window / tick - 1e-9)
-            problem, features = attrs.evolve(problem, horizon=horizon), features | {Feature.HORIZON}
-        problem = attrs.evolve(problem, features=features)
-        yaw = self._router.final_yaw
-        if to is not None:
-            problem = attrs.evolve(problem, goals=to.goals)
-            problem = attrs.evolve(problem, features=features_of(problem) | (features & {Feature.FOOTPRINTS}))
-            yaw = to.yaw
-        asked = problem if roadmap is None else attrs.evolve(problem, roadmap=roadmap)
-        result, fault, late = self._ask(asked)
+            problem = attrs.evolve(problem, horizon=horizon)
+        problem = attrs.evolve(problem, goals=to.goals)
+        problem = attrs.evolve(problem, features=features_of(problem) | (self.problem.features & {Feature.FOOTPRINTS}))
+        result, fault, late = self._ask(attrs.evolve(problem, roadmap=roadmap))
         due += late
         self._last, self._not_before = now, due
         found = None if fault else result.plan
         leads = np.ones(len(problem), bool) if found is None else leads_to_goals(problem, found)
-        router = attrs.evolve(self._router, problem=problem, final_yaw=np.where(leads, yaw, np.nan))
+        router = attrs.evolve(self._router, problem=problem, final_yaw=np.where(leads, to.yaw, np.nan))
         routes = () if found is None else router(found)
         self.pending = Revision(
             due=due,

@@ -5,6 +5,7 @@ import pytest
 
 from mrpbench_core.config.settings import Replanning
 from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.execution.destinations import Destinations
 from mrpbench_core.engine.execution.replanning import RETRY_S, Replanner
 from mrpbench_core.engine.execution.routes import Router
 from mrpbench_core.engine.pipeline import execute
@@ -76,6 +77,13 @@ def replans(run_context, ask=None, **settings):
     return Replanner(Replanning(**settings), ask or (lambda _: (run_context.result, None, 0.0)), router, problem, plan)
 
 
+def request(asked, now, reason):
+    """Ask for a plan to the goals of the first one, with nothing released."""
+    problem = asked.problem
+    to = Destinations(goals=problem.goals, yaw=asked.yaw, errands=((),) * len(problem))
+    asked.request(now, reason, view([0, 0]), np.zeros(2, np.int32), to, problem.roadmap)
+
+
 def test_a_plan_is_kept_unless_the_configuration_says_otherwise(run_context):
     assert replans(run_context).reason(1e6, view([0, 0]), None) is None
 
@@ -97,7 +105,7 @@ def test_a_period_calls_for_new_plans_again_and_again(run_context):
     asked = replans(run_context, period=4.0)
     assert asked.reason(3.9, view([0, 0]), None) is None
     assert asked.reason(4.0, view([0, 0]), None) == "4 s have passed"
-    asked.request(4.0, "4 s have passed", view([0, 0]), np.zeros(2, np.int32))
+    request(asked, 4.0, "4 s have passed")
     asked.take_due(4.0)
     assert asked.reason(7.9, view([0, 0]), None) is None
     assert asked.reason(8.0, view([0, 0]), None) is not None
@@ -105,7 +113,7 @@ def test_a_period_calls_for_new_plans_again_and_again(run_context):
 
 def test_a_new_plan_takes_effect_after_the_latency(run_context):
     asked = replans(run_context, delay=1.0, latency=2.0)
-    asked.request(10.0, "late", view([0, 0]), np.zeros(2, np.int32))
+    request(asked, 10.0, "late")
     assert asked.take_due(11.9) is None
     revision = asked.take_due(12.0)
     assert revision.plan is run_context.result.plan
@@ -118,7 +126,7 @@ def test_a_new_plan_takes_effect_after_the_latency(run_context):
 def test_after_a_failure_the_next_try_waits(run_context):
     nothing = PlanResult(status=PlanStatus.TIMEOUT)
     asked = replans(run_context, lambda _: (nothing, "the planner ended with timeout", 0.0))
-    asked.request(10.0, "late", view([0, 0]), np.zeros(2, np.int32))
+    request(asked, 10.0, "late")
     assert asked.take_due(10.0).plan is None
     asked.failed(10.0)
     assert asked.reason(10.0 + RETRY_S / 2, view([0, 0]), "at the horizon") is None
