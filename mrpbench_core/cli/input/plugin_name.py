@@ -5,7 +5,7 @@ from pathlib import Path
 from mrpbench_core.api import KINDS
 from mrpbench_core.api.component import Component
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.suggestions import suggest
+from mrpbench_core.files.suggestions import did_you_mean, suggest
 from mrpbench_core.plugins.installed import Provider, installed, load, providers
 from mrpbench_core.plugins.kinds import HOOKS, kind_of, singular
 from mrpbench_core.plugins.local import is_local, load_local
@@ -38,7 +38,7 @@ def resolve(name: str) -> tuple[type[Component], str]:
         )
     if not kinds:
         known = {provider.name for provider in offers}
-        hint = remedy(name.partition("@")[0]) or suggest(name, known, "`mrpbench plugins` lists what is installed:")
+        hint = remedy(name.partition("@")[0]) or did_you_mean(name, known, "`mrpbench plugins` lists what is installed")
         raise InputError(f"no plugin is called {name!r}", hint=hint)
     (found,) = kinds
     return KINDS.get(found) or _own_kind(found, name), name
@@ -56,7 +56,8 @@ def hook_named(name: str) -> Provider | None:
     hooks = [provider for provider in providers(HOOKS) if owner in ("", provider.distribution)]
     found = next((provider for provider in hooks if provider.name == wanted), None)
     if asked and found is None:
-        hint = suggest(rest, {provider.name for provider in hooks}, "`mrpbench plugins hook` lists what is installed:")
+        known = sorted({provider.name for provider in hooks})
+        hint = suggest(rest, known, "`mrpbench plugins hook` lists what is installed:")
         raise InputError(f"no hook is called {rest!r}", hint=hint)
     others = any(provider.name == wanted for provider in installed() if provider.group != HOOKS)
     return found if asked or not others else None
