@@ -27,8 +27,8 @@ TEST("samples are those of Nav2: evenly spaced, with an exact zero between the s
 TEST("there are 419 trajectories, none of which stands still") {
   MotionOptions motion;
   motion.max_vel_x = motion.max_speed_xy = 0.22;
-  Trajectories all(motion);
-  all.generate({}, {}, 1e9);
+  Trajectories all;
+  all.generate(motion, {}, {}, 1e9);
   CHECK(all.size() == 419);
   CHECK(all.twist(0).ahead == 0 && all.twist(0).turn == -1);
   for (std::size_t i = 0; i < all.size(); ++i) CHECK(all.twist(i).ahead != 0 || all.twist(i).turn != 0);
@@ -36,9 +36,9 @@ TEST("there are 419 trajectories, none of which stands still") {
 
 TEST("last poses are the same as by walking, from any state") {
   MotionOptions motion;
-  Trajectories all(motion);
+  Trajectories all;
   for (const Twist current : {Twist{0, 0}, Twist{0.2, -0.7}, Twist{0.11, 0.9}}) {
-    all.generate({1, 2, 0.7}, current, 1e9);
+    all.generate(motion, {1, 2, 0.7}, current, 1e9);
     for (std::size_t i = 0; i < all.size(); ++i) {
       Pose last;
       int poses = 0;
@@ -58,8 +58,8 @@ TEST("last poses are the same as by walking, from any state") {
 TEST("the length of a straight trajectory at full speed is speed times duration") {
   MotionOptions motion;
   motion.max_vel_x = motion.max_speed_xy = 0.2;
-  Trajectories all(motion);
-  all.generate({}, {0.2, 0}, 1e9);
+  Trajectories all;
+  all.generate(motion, {}, {0.2, 0}, 1e9);
   bool found = false;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all.twist(i).ahead != 0.2 || all.twist(i).turn != 0) continue;
@@ -70,8 +70,9 @@ TEST("the length of a straight trajectory at full speed is speed times duration"
 }
 
 TEST("a limit of speed holds for all samples") {
-  Trajectories all{MotionOptions{}};
-  all.generate({}, {0.2, 0}, 0.1);
+  const MotionOptions motion;
+  Trajectories all;
+  all.generate(motion, {}, {0.2, 0}, 0.1);
   for (std::size_t i = 0; i < all.size(); ++i) CHECK(all.twist(i).ahead <= 0.1);
 }
 

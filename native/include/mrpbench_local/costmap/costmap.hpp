@@ -63,7 +63,7 @@ class Costmap {
   /// Tell whether the robot's centre may be at a point, whose cell is `c`. Nav2 forbids cells of the cost `kInscribed`.
   /// Some of them are farther than the inscribed radius from the points that beams hit: these are free here. And a
   /// robot that was closer at the last update may drive where it comes no closer, so that it can leave.
-  bool is_free(Cell c, Point p) const { return at(c) < kInscribed || (at(c) == kInscribed && clearance(p) >= room_); }
+  bool is_free(Cell c, Point p) const { return at(c) < kInscribed || (at(c) == kInscribed && keeps_room(p)); }
   const std::vector<std::uint8_t>& costs() const { return cost_; }
   /// Mark the cells (of this frame) through which outlines of the static map pass.
   void draw_walls(std::vector<std::uint8_t>& cells) const;
@@ -71,9 +71,14 @@ class Costmap {
  private:
   void roll(Pose pose);
   void trace();
+  void clear_beams(Cell start);
+  void mark_hits();
   void clear_footprint(Pose pose);
   void mark(Cell c, Point p);
-  double clearance(Point p) const;
+  template <class Visit>
+  bool each_nearby(Point p, Visit&& visit) const;
+  /// Tell whether a point is at least as far from what beams hit as the robot was at the last update.
+  bool keeps_room(Point p) const;
   void inflate();
 
   CostmapOptions options_;
@@ -82,13 +87,13 @@ class Costmap {
   Frame frame_;
   Point centre_;
   bool known_ = false;
-  std::vector<std::uint8_t> marks_, spare_, cost_;
+  std::vector<std::uint8_t> marks_, cost_;
   /// Where in a marked cell beams ended on average since it was marked, in cells from its lower left corner.
   struct Hit {
     float x = 0.5f, y = 0.5f;
     std::uint32_t beams = 0;
   };
-  std::vector<Hit> hits_, spare_hits_;
+  std::vector<Hit> hits_;
   /// Metres that the robot keeps from what beams hit.
   double room_ = 0;
   struct {
@@ -101,9 +106,7 @@ class Costmap {
   int reach_ = 0;
   std::size_t stamp_width_ = 0;
   std::vector<std::uint8_t> stamp_;
-  /// The costs with room for stamps all around.
-  std::vector<std::uint8_t> margined_;
-  std::vector<Point> corners_, beam_;
+  std::vector<Point> corners_;
 };
 
 /// Nav2's formula: cost at `distance` metres from something lethal.

@@ -49,29 +49,53 @@ struct Frame {
   std::size_t index(Cell c) const {
     return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c.x);
   }
+  /// The difference of the indices of two cells that are so far from each other.
+  std::ptrdiff_t step(Cell by) const { return static_cast<std::ptrdiff_t>(by.y) * width + by.x; }
   Point centre(Cell c) const { return {(c.x + origin.x + 0.5) * resolution, (c.y + origin.y + 0.5) * resolution}; }
   std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
-/// Calls `visit(cell)` for the cells of a line from `a` to `b`, both included (J. E. Bresenham, "Algorithm for computer
-/// control of a digital plotter", IBM Systems Journal 4, 1965); ends early when `visit` returns false.
+/// The steps of a line from one cell to another: how many along its longer side, and of these how many also along the
+/// shorter one (J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Systems Journal 4, 1965).
+struct Line {
+  Line(Cell a, Cell b) {
+    const int dx = std::abs(b.x - a.x), dy = std::abs(b.y - a.y);
+    const int sx = a.x < b.x ? 1 : -1, sy = a.y < b.y ? 1 : -1;
+    const bool steep = dy > dx;
+    longer = steep ? dy : dx;
+    shorter = steep ? dx : dy;
+    along = steep ? Cell{0, sy} : Cell{sx, 0};
+    diagonal = {sx, sy};
+  }
+
+  /// Calls `visit()` at each cell, both ends included, and `step(aside)` between two of them; ends early when `visit`
+  /// returns false.
+  template <class Visit, class Step>
+  bool walk(Visit&& visit, Step&& step) const {
+    int error = longer / 2;
+    for (int i = 0;; ++i) {
+      if (!visit()) return false;
+      if (i == longer) return true;
+      error += shorter;
+      const bool aside = error >= longer;
+      error -= aside ? longer : 0;
+      step(aside);
+    }
+  }
+
+  int longer, shorter;
+  Cell along, diagonal;
+};
+
+/// Calls `visit(cell)` for the cells of a line from `a` to `b`, both included; ends early when `visit` returns false.
 template <class Visit>
 bool line(Cell a, Cell b, Visit&& visit) {
-  const int dx = std::abs(b.x - a.x), dy = std::abs(b.y - a.y);
-  const int sx = a.x < b.x ? 1 : -1, sy = a.y < b.y ? 1 : -1;
-  const bool steep = dy > dx;
-  const int longer = steep ? dy : dx, shorter = steep ? dx : dy;
-  const Cell along = steep ? Cell{0, sy} : Cell{sx, 0}, diagonal{sx, sy};
-  int error = longer / 2;
-  for (int i = 0;; ++i) {
-    if (!visit(a)) return false;
-    if (i == longer) return true;
-    error += shorter;
-    const bool aside = error >= longer;
-    error -= aside ? longer : 0;
-    a.x += aside ? diagonal.x : along.x;
-    a.y += aside ? diagonal.y : along.y;
-  }
+  const Line way(a, b);
+  return way.walk([&] { return visit(a); },
+                  [&](bool aside) {
+                    a.x += aside ? way.diagonal.x : way.along.x;
+                    a.y += aside ? way.diagonal.y : way.along.y;
+                  });
 }
 
 }  // namespace mrpbench::local

@@ -41,8 +41,9 @@ class Critic {
   virtual void reset() {}
   /// Prepare for a scene.
   virtual void prepare(const Scene&) {}
-  /// Raw scores of all trajectories, lower is better, and why some are illegal; `why` comes full of `kLegal`.
-  virtual void score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) = 0;
+  /// Raw scores of all trajectories, lower is better, and why some are illegal; `why` comes full of `kLegal`. Tells
+  /// whether some are.
+  virtual bool score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) = 0;
   /// Check one pose of a trajectory; called only for trajectories that could win.
   virtual Reason check(const Scene&, Pose) { return kLegal; }
   /// Record the command that was chosen.

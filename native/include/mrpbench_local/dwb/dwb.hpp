@@ -22,6 +22,7 @@ struct DwbOptions {
 
 class Dwb : public Controller {
  public:
+  struct Buffers;
   struct Weighted {
     std::string name;
     double scale = 1;
@@ -39,21 +40,26 @@ class Dwb : public Controller {
   Explanation explain() const override;
 
  private:
-  void score(const Scene& scene, const Extra& extra);
-  bool passes(const Scene& scene, std::size_t i);
-  std::optional<std::size_t> best(const Scene& scene);
+  /// The state from which trajectories are sampled, and a further limit of speed.
+  struct Sampled {
+    Pose pose;
+    Twist twist;
+    double fastest = 0;
+  };
+
+  void score(const Scene& scene, Buffers& its, const Extra& extra);
+  bool passes(const Scene& scene, const Trajectories& all, std::size_t i);
+  std::optional<std::size_t> best(const Scene& scene, Buffers& its);
 
   DwbOptions options_;
   std::vector<Weighted> critics_;
-  Trajectories all_;
-  PathGrid path_;
+  Sampled sampled_;
   std::optional<Pose> goal_;
   RotateToPath rotate_;
   std::optional<std::size_t> chosen_;
   std::vector<double> raw_, total_, scale_, added_;
-  std::vector<Reason> why_, fault_;
+  std::vector<Reason> why_;
   std::vector<int> dropped_;
-  std::vector<std::size_t> order_;
 };
 
 }  // namespace mrpbench::local

@@ -4,10 +4,11 @@
 #pragma once
 
 #include <algorithm>
-#include <map>
+#include <deque>
 #include <vector>
 
 #include "mrpbench_local/costmap/grid.hpp"
+#include "mrpbench_local/dwb/turns.hpp"
 #include "mrpbench_options/options.hpp"
 
 namespace mrpbench::local {
@@ -25,12 +26,6 @@ struct MotionOptions {
   static Description<MotionOptions> description();
 };
 
-/// `speed` after `dt` on its way to `target`; `deceleration` is negative.
-inline double project(double speed, double acceleration, double deceleration, double dt, double target) {
-  if (speed < target) return std::min(target, speed + acceleration * dt);
-  return std::max(target, speed + deceleration * dt);
-}
-
 /// From lowest to highest, in Nav2's order, with one exact zero where they cross it.
 std::vector<double> samples(double current, double lowest, double highest, double acceleration, double deceleration,
                             double time, int count);
@@ -39,13 +34,11 @@ std::vector<double> samples(double current, double lowest, double highest, doubl
 /// only by `walk`.
 class Trajectories {
  public:
-  explicit Trajectories(const MotionOptions& options) : options_(options) {}
-
-  /// Sample and roll out; `fastest` is a further limit of speed.
-  void generate(Pose start, Twist current, double fastest);
+  /// Sample and roll out; `fastest` is a further limit of speed. The options are used until the next call.
+  void generate(const MotionOptions& options, Pose start, Twist current, double fastest);
 
   std::size_t size() const { return size_; }
-  Twist twist(std::size_t i) const { return twist_[i]; }
+  Twist twist(std::size_t i) const { return {ahead_[i], turn_[i]}; }
   /// The last pose.
   Pose end(std::size_t i) const { return {end_x_[i], end_y_[i], end_yaw_[i]}; }
   /// Unit vector along the last pose's heading.
@@ -55,63 +48,63 @@ class Trajectories {
   /// Calls `visit(pose)` for every pose of a trajectory in order, start included, until it returns false.
   template <class Visit>
   bool walk(std::size_t i, Visit&& visit) const {
-    const Twist wanted = twist_[i];
+    const Twist wanted = twist(i);
     const int count = steps(wanted);
-    const double dt = options_.sim_time / count;
+    const double dt = options_->sim_time / count;
     Pose pose = start_;
-    Twist twist = options_.limited ? wanted : current_;
+    Twist now = options_->limited ? wanted : current_;
     if (!visit(pose)) return false;
     for (int k = 0; k < count; ++k) {
-      twist = next(twist, wanted, dt);
-      pose.x += twist.ahead * std::cos(pose.yaw) * dt;
-      pose.y += twist.ahead * std::sin(pose.yaw) * dt;
-      pose.yaw += twist.turn * dt;
+      now = {project(now.ahead, options_->acc_lim_x, options_->decel_lim_x, dt, wanted.ahead),
+             project(now.turn, options_->acc_lim_theta, options_->decel_lim_theta, dt, wanted.turn)};
+      pose.x += now.ahead * std::cos(pose.yaw) * dt;
+      pose.y += now.ahead * std::sin(pose.yaw) * dt;
+      pose.yaw += now.turn * dt;
       if (!visit(pose)) return false;
     }
-    return !options_.include_last_point || visit(pose);
+    return !options_->include_last_point || visit(pose);
   }
 
   /// The pose at `time` seconds after the start, or the last one.
   Pose at(std::size_t i, double time) const;
 
+  /// The cells of a frame, perhaps outside of it, of the points `distance` metres ahead of the last poses. Tells
+  /// whether all are inside.
+  bool cells_ahead(const Frame& frame, double distance, std::vector<int>& x, std::vector<int>& y) const;
+
  private:
-  /// Headings along a turn of so many steps: unit vectors before each step, and their sums.
-  struct Turn {
-    int count = 0;
-    std::vector<Point> sum;
-    Point last;
-    double yaw = 0;
-  };
-
-  Twist next(Twist twist, Twist wanted, double dt) const {
-    return {project(twist.ahead, options_.acc_lim_x, options_.decel_lim_x, dt, wanted.ahead),
-            project(twist.turn, options_.acc_lim_theta, options_.decel_lim_theta, dt, wanted.turn)};
-  }
-  void turn(double rate, int count, Turn& result) const;
-  void roll_out(Twist wanted, const Turn& turn);
-
-  MotionOptions options_;
+  const MotionOptions* options_ = nullptr;
   Pose start_;
-  Point ahead_;  // unit vector along the start's heading
   Twist current_;
   std::size_t size_ = 0;
-  std::vector<Twist> twist_;
-  std::vector<double> end_x_, end_y_, end_yaw_, heading_x_, heading_y_;
-  std::vector<Turn> turns_;
-  Turn own_;
+  std::vector<double> ahead_, turn_, end_x_, end_y_, end_yaw_, heading_x_, heading_y_;
+  Turns turns_;
+  std::vector<int> least_;  // steps of each turn rate alone
 };
 
-/// The cells that hold the ends of trajectories, perhaps outside of the frame; computed once for all critics.
+/// The cells that hold the ends of trajectories; computed once for all critics.
 class EndCells {
  public:
-  EndCells(const Frame& frame, const Trajectories& all) : frame_(frame), all_(all) {}
+  struct Cells {
+    double distance = 0;
+    std::vector<int> x, y;
+    bool inside = true;
+  };
+
+  /// Begin anew for other trajectories.
+  void begin(const Frame& frame, const Trajectories& all) {
+    frame_ = &frame;
+    all_ = &all;
+    count_ = 0;
+  }
   /// Of the points `distance` metres ahead of the last poses.
-  const std::vector<Cell>& ahead(double distance);
+  const Cells& ahead(double distance);
 
  private:
-  const Frame& frame_;
-  const Trajectories& all_;
-  std::map<double, std::vector<Cell>> found_;
+  const Frame* frame_ = nullptr;
+  const Trajectories* all_ = nullptr;
+  std::deque<Cells> found_;
+  std::size_t count_ = 0;
 };
 
 }  // namespace mrpbench::local

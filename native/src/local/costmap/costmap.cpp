@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <cstring>
-#include <numbers>
 #include <stdexcept>
 
 #include "mrpbench_local/costmap/footprint.hpp"
+#include "mrpbench_local/costmap/update_buffers.hpp"
 #include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local {
 
 namespace {
 
-/// Bytes that are compared at once.
-constexpr std::size_t kBlock = 16;
+/// Costs that are compared at once.
+constexpr std::size_t kBlock = 32;
+using Block = std::uint8_t __attribute__((vector_size(kBlock)));
 
 CostmapOptions sound(CostmapOptions options) {
   const auto require = [](bool holds, const char* what) {
@@ -55,15 +56,23 @@ void traverse(Point a, Point b, double resolution, Visit&& visit) {
   }
 }
 
-/// The first lethal cell of a row from `x` on, or its width.
-std::size_t next_lethal(const std::uint8_t* row, std::size_t x, std::size_t width) {
-  const void* const found = std::memchr(row + x, kLethal, width - x);
-  return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - row) : width;
+/// The first lethal one of `count` cells from `i` on, or their number.
+std::size_t next_lethal(const std::uint8_t* cells, std::size_t i, std::size_t count) {
+  const void* const found = std::memchr(cells + i, kLethal, count - i);
+  return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - cells) : count;
 }
 
 /// Raise each of `count` costs to another.
 void raise(std::uint8_t* to, const std::uint8_t* from, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) to[i] = std::max(to[i], from[i]);
+  std::size_t i = 0;
+  for (; i + kBlock <= count; i += kBlock) {
+    Block cost, other;
+    std::memcpy(&cost, to + i, kBlock);
+    std::memcpy(&other, from + i, kBlock);
+    cost = cost > other ? cost : other;
+    std::memcpy(to + i, &cost, kBlock);
+  }
+  for (; i < count; ++i) to[i] = std::max(to[i], from[i]);
 }
 
 }  // namespace
@@ -80,9 +89,8 @@ Costmap::Costmap(CostmapOptions options, std::shared_ptr<const StaticMap> walls)
   frame_.width = static_cast<int>(std::lround(options_.width / options_.resolution));
   frame_.height = static_cast<int>(std::lround(options_.height / options_.resolution));
   marks_.assign(frame_.size(), kFree);
-  cost_ = spare_ = marks_;
+  cost_ = marks_;
   hits_.resize(frame_.size());
-  spare_hits_ = hits_;
   room_ = inscribed_;
   reach_ = static_cast<int>(std::floor(options_.inflation_radius / options_.resolution));
   const auto side = static_cast<std::size_t>(2 * reach_ + 1);
@@ -121,27 +129,32 @@ void Costmap::update(Pose pose) {
   cost_ = marks_;
   if (options_.static_layer) draw_walls(cost_);
   if (options_.inflation_layer && reach_ > 0) inflate();
-  room_ = clearance(centre_);
+  room_ = inscribed_;
+  each_nearby(centre_, [&](double distance) { return room_ = std::min(room_, distance), true; });
   known_ = true;
 }
 
-/// Metres from a point to the nearest one that beams hit, or to the centre of the nearest wall's cell, but not more
-/// than the inscribed radius.
-double Costmap::clearance(Point p) const {
-  double nearest = inscribed_;
+/// Calls `visit(metres)` with the distance from a point to each one nearby that beams hit, and to the centre of the
+/// cell of each wall nearby, until it returns false. All within the inscribed radius are nearby.
+template <class Visit>
+bool Costmap::each_nearby(Point p, Visit&& visit) const {
   const Point reach{inscribed_, inscribed_};
   const Cell low = frame_.cell(p - reach), high = frame_.cell(p + reach);
-  for (int y = std::max(0, low.y); y <= std::min(frame_.height - 1, high.y); ++y) {
-    for (int x = std::max(0, low.x); x <= std::min(frame_.width - 1, high.x); ++x) {
-      const Cell c{x, y};
-      const std::size_t i = frame_.index(c);
-      if (cost_[i] != kLethal) continue;
+  const int left = std::max(0, low.x), right = std::min(frame_.width - 1, high.x);
+  for (int y = std::max(0, low.y); left <= right && y <= std::min(frame_.height - 1, high.y); ++y) {
+    const std::size_t end = frame_.index({right, y}) + 1;
+    for (std::size_t i = frame_.index({left, y}); (i = next_lethal(cost_.data(), i, end)) < end; ++i) {
+      const Cell c{right + 1 - static_cast<int>(end - i), y};
       const Hit hit = marks_[i] == kLethal ? hits_[i] : Hit{};
       const Point corner = frame_.centre(c) - Point{0.5, 0.5} * frame_.resolution;
-      nearest = std::min(nearest, sim::length(corner + Point{hit.x, hit.y} * frame_.resolution - p));
+      if (!visit(sim::length(corner + Point{hit.x, hit.y} * frame_.resolution - p))) return false;
     }
   }
-  return nearest;
+  return true;
+}
+
+bool Costmap::keeps_room(Point p) const {
+  return each_nearby(p, [&](double distance) { return distance >= room_; });
 }
 
 /// Move the frame with the robot by whole cells; marks that stay inside are kept.
@@ -151,17 +164,22 @@ void Costmap::roll(Pose pose) {
   const Cell origin{robot.x - frame_.width / 2, robot.y - frame_.height / 2};
   const int dx = origin.x - frame_.origin.x, dy = origin.y - frame_.origin.y;
   if (dx == 0 && dy == 0) return;
-  std::fill(spare_.begin(), spare_.end(), kFree);
+  frame_.origin = origin;
+  std::vector<std::uint8_t>& before = UpdateBuffers::of_thread().marks;
+  std::vector<std::size_t>& lethal = UpdateBuffers::of_thread().lethal;
+  before = marks_;
+  std::fill(marks_.begin(), marks_.end(), kFree);
   const int left = std::max(0, -dx), right = std::min(frame_.width, frame_.width - dx);
   for (int y = std::max(0, -dy); left < right && y < std::min(frame_.height, frame_.height - dy); ++y) {
-    const auto from = marks_.begin() + static_cast<std::ptrdiff_t>(frame_.index({left + dx, y + dy}));
-    const auto to = static_cast<std::ptrdiff_t>(frame_.index({left, y}));
-    std::copy_n(from, right - left, spare_.begin() + to);
-    std::copy_n(hits_.begin() + (from - marks_.begin()), right - left, spare_hits_.begin() + to);
+    const auto from = before.begin() + static_cast<std::ptrdiff_t>(frame_.index({left + dx, y + dy}));
+    std::copy_n(from, right - left, marks_.begin() + static_cast<std::ptrdiff_t>(frame_.index({left, y})));
   }
-  marks_.swap(spare_);
-  hits_.swap(spare_hits_);
-  frame_.origin = origin;
+  lethal.clear();
+  for (std::size_t i = 0; (i = next_lethal(marks_.data(), i, marks_.size())) < marks_.size(); ++i) lethal.push_back(i);
+  // In the order in which no hit is written over before it is moved.
+  const std::ptrdiff_t by = frame_.step({dx, dy});
+  if (by < 0) std::reverse(lethal.begin(), lethal.end());
+  for (const std::size_t i : lethal) hits_[i] = hits_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + by)];
 }
 
 /// Clear the cells along the beams, then mark the cells in which they end.
@@ -174,50 +192,54 @@ void Costmap::trace() {
   const Point origin{pose.x + cosine * mount.x - sine * mount.y, pose.y + sine * mount.x + cosine * mount.y};
   const Cell start = frame_.cell(origin);
   if (!frame_.holds(start)) return;
-  const std::size_t beams = scan_.ranges.size();
-  if (beam_.size() != beams) {
-    beam_.clear();
-    for (std::size_t i = 0; i < beams; ++i) {
-      const double angle = static_cast<double>(i) * 2 * std::numbers::pi / static_cast<double>(beams);
-      beam_.push_back({std::cos(angle), std::sin(angle)});
-    }
+  UpdateBuffers& its = UpdateBuffers::of_thread();
+  its.beams.aim(scan_.ranges.size(), origin, pose.yaw);
+  its.lengths.resize(scan_.ranges.size());
+  its.ends.resize(scan_.ranges.size());
+  if (options_.clearing) clear_beams(start);
+  if (options_.marking) mark_hits();
+}
+
+void Costmap::clear_beams(Cell start) {
+  UpdateBuffers& its = UpdateBuffers::of_thread();
+  const double unseen = options_.inf_is_valid ? scan_.sensor.range : -1;
+  for (std::size_t i = 0; i < its.lengths.size(); ++i) {
+    const double range = std::isfinite(scan_.ranges[i]) ? scan_.ranges[i] : unseen;
+    its.lengths[i] = std::min(range, options_.raytrace_max_range);
   }
-  const double left = frame_.origin.x * frame_.resolution, bottom = frame_.origin.y * frame_.resolution;
-  const double right = left + frame_.width * frame_.resolution, top = bottom + frame_.height * frame_.resolution;
+  its.beams.clip(frame_, its.lengths);
+  its.beams.end_cells(frame_, its.lengths, its.ends);
   const double hidden = options_.raytrace_min_range / frame_.resolution;
-  const auto direction = [&](std::size_t i) {
-    return Point{beam_[i].x * cosine - beam_[i].y * sine, beam_[i].x * sine + beam_[i].y * cosine};
-  };
-  Cell cleared = start;  // neighbouring beams often end in one cell
-  for (std::size_t i = 0; options_.clearing && i < beams; ++i) {
-    double range = scan_.ranges[i];
-    if (!std::isfinite(range)) {
-      if (!options_.inf_is_valid) continue;
-      range = scan_.sensor.range;
-    }
-    range = std::min(range, options_.raytrace_max_range);
-    const Point ahead = direction(i);
-    // Up to the last cell within the frame.
-    if (ahead.x > 0) range = std::min(range, (right - origin.x) / ahead.x);
-    if (ahead.x < 0) range = std::min(range, (left - origin.x) / ahead.x);
-    if (ahead.y > 0) range = std::min(range, (top - origin.y) / ahead.y);
-    if (ahead.y < 0) range = std::min(range, (bottom - origin.y) / ahead.y);
-    Cell end = frame_.cell(origin + ahead * range);
-    end = {std::clamp(end.x, 0, frame_.width - 1), std::clamp(end.y, 0, frame_.height - 1)};
-    if (i > 0 && end == cleared) continue;
+  Cell cleared{-1, -1};  // neighbouring beams often end in one cell
+  for (std::size_t i = 0; i < its.ends.size(); ++i) {
+    if (its.lengths[i] < 0) continue;
+    const Cell end{std::clamp(its.ends[i].x, 0, frame_.width - 1), std::clamp(its.ends[i].y, 0, frame_.height - 1)};
+    if (end == cleared) continue;
     cleared = end;
-    line(start, end, [&](Cell c) {
-      const double x = c.x - start.x, y = c.y - start.y;
-      if (hidden <= 0 || x * x + y * y >= hidden * hidden) marks_[frame_.index(c)] = kFree;
-      return true;
-    });
+    if (hidden > 0) {
+      line(start, end, [&](Cell c) {
+        const double x = c.x - start.x, y = c.y - start.y;
+        if (x * x + y * y >= hidden * hidden) marks_[frame_.index(c)] = kFree;
+        return true;
+      });
+    } else {
+      const Line way(start, end);
+      std::uint8_t* at = &marks_[frame_.index(start)];
+      const std::ptrdiff_t along = frame_.step(way.along), diagonal = frame_.step(way.diagonal);
+      way.walk([&] { return *at = kFree, true; }, [&](bool aside) { at += aside ? diagonal : along; });
+    }
   }
-  for (std::size_t i = 0; options_.marking && i < beams; ++i) {
+}
+
+void Costmap::mark_hits() {
+  UpdateBuffers& its = UpdateBuffers::of_thread();
+  for (std::size_t i = 0; i < its.lengths.size(); ++i) {
     const double range = scan_.ranges[i];
-    if (!(range >= options_.obstacle_min_range && range < options_.obstacle_max_range)) continue;
-    const Point end = origin + direction(i) * range;
-    const Cell hit = frame_.cell(end);
-    if (frame_.holds(hit)) mark(hit, end);
+    its.lengths[i] = range >= options_.obstacle_min_range && range < options_.obstacle_max_range ? range : -1;
+  }
+  its.beams.end_cells(frame_, its.lengths, its.ends);
+  for (std::size_t i = 0; i < its.ends.size(); ++i) {
+    if (its.lengths[i] >= 0 && frame_.holds(its.ends[i])) mark(its.ends[i], its.beams.end(i, its.lengths[i]));
   }
 }
 
@@ -276,7 +298,8 @@ void Costmap::draw_walls(std::vector<std::uint8_t>& cells) const {
 MRPBENCH_WIDE void Costmap::inflate() {
   const auto width = static_cast<std::size_t>(frame_.width), height = static_cast<std::size_t>(frame_.height);
   const auto reach = static_cast<std::size_t>(reach_), stride = width + 2 * reach + kBlock, side = 2 * reach + 1;
-  margined_.assign(stride * (height + 2 * reach), kFree);
+  std::vector<std::uint8_t>& margined = UpdateBuffers::of_thread().margined;
+  margined.assign(stride * (height + 2 * reach), kFree);
   const auto lethal = [&](std::size_t x, std::size_t y) { return cost_[y * width + x] == kLethal; };
   for (std::size_t y = 0; y < height; ++y) {
     for (std::size_t x = 0; (x = next_lethal(&cost_[y * width], x, width)) < width; ++x) {
@@ -284,12 +307,12 @@ MRPBENCH_WIDE void Costmap::inflate() {
                           (y == 0 || lethal(x, y - 1)) && (y + 1 == height || lethal(x, y + 1));
       if (buried) continue;
       for (std::size_t row = 0; row < side; ++row) {
-        raise(&margined_[(y + row) * stride + x], &stamp_[row * stamp_width_], stamp_width_);
+        raise(&margined[(y + row) * stride + x], &stamp_[row * stamp_width_], stamp_width_);
       }
     }
   }
   for (std::size_t y = 0; y < height; ++y) {
-    raise(&cost_[y * width], &margined_[(y + reach) * stride + reach], width);
+    raise(&cost_[y * width], &margined[(y + reach) * stride + reach], width);
   }
 }
 

@@ -28,15 +28,17 @@ class Obstacle : public Critic {
   using Options = ObstacleOptions;
   explicit Obstacle(const Options& options) : sum_(options.sum_scores) {}
 
-  void score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
+  bool score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
     if (sum_) {
       for (std::size_t i = 0; i < all.size(); ++i) raw[i] = sum(scene, all, i);
     } else {
       score_.ends(scene, all, raw);
     }
+    if (std::ranges::none_of(raw, [](double score) { return score < 0; })) return false;
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (raw[i] < 0) why[i] = reason(raw[i]);
     }
+    return true;
   }
 
   Reason check(const Scene& scene, Pose pose) override {
@@ -63,22 +65,22 @@ class Obstacle : public Critic {
 
 struct Centre {
   double operator()(const Costmap& costmap, Pose pose) const {
-    const Point p{pose.x, pose.y};
-    return at(costmap, costmap.frame().cell(p), p);
+    return at(costmap, costmap.frame().cell({pose.x, pose.y}), pose);
   }
 
   void ends(const Scene& scene, const Trajectories& all, std::span<double> raw) const {
-    const std::vector<Cell>& cells = scene.ends->ahead(0);
+    const EndCells::Cells& cells = scene.ends->ahead(0);
+    const Costmap& costmap = *scene.costmap;
     for (std::size_t i = 0; i < raw.size(); ++i) {
-      const Pose end = all.end(i);
-      raw[i] = at(*scene.costmap, cells[i], {end.x, end.y});
+      const Cell c{cells.x[i], cells.y[i]};
+      raw[i] = cells.inside && costmap.at(c) < kInscribed ? costmap.at(c) : at(costmap, c, all.end(i));
     }
   }
 
  private:
-  static double at(const Costmap& costmap, Cell c, Point p) {
+  static double at(const Costmap& costmap, Cell c, Pose pose) {
     if (!costmap.frame().holds(c)) return kOff;
-    return costmap.is_free(c, p) ? costmap.at(c) : kHit;
+    return costmap.is_free(c, {pose.x, pose.y}) ? costmap.at(c) : kHit;
   }
 };
 

@@ -1,4 +1,5 @@
 // A robot that has reversed must keep its direction for a while before it may reverse again.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -57,12 +58,14 @@ class Oscillation : public Critic {
     turn_.reset();
   }
 
-  void score(const Scene&, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
+  bool score(const Scene&, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
+    std::ranges::fill(raw, 0);
+    if (!ahead_.reversed() && !turn_.reversed()) return false;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      raw[i] = 0;
       const Twist twist = all.twist(i);
       if (ahead_.forbids(twist.ahead) || turn_.forbids(twist.turn)) why[i] = "Trajectory is oscillating.";
     }
+    return true;
   }
 
   void debrief(const Scene& scene, Twist chosen) override {

@@ -1,5 +1,6 @@
 // The distance from the end of a trajectory to the path, or to the end of its part within the costmap, counted in cells
 // along rows and columns. The two alignment critics measure it at a point ahead of the robot.
+#include <algorithm>
 #include <cmath>
 
 #include "mrpbench_local/dwb/critics.hpp"
@@ -61,21 +62,30 @@ class Distance : public Critic {
     return scene.costmap->frame().resolution * kHalf;
   }
 
-  void score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
+  bool score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
     const Frame& frame = scene.costmap->frame();
-    if (scene.path->empty()) {
-      for (std::size_t i = 0; i < all.size(); ++i) fail(i, raw, why, frame);
-      return;
-    }
-    const std::vector<Cell>& ends = scene.ends->ahead(nose_);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (aggregation_ == Aggregation::last) {
-        raw[i] = cells(scene, ends[i]);
-      } else {
-        raw[i] = aggregate(aggregation_, all, i, [&](Pose pose) { return cells(scene, nose_cell(frame, pose)); });
+    if (scene.path->empty()) return fail(raw, why, frame);
+    bool inside = false;
+    if (aggregation_ == Aggregation::last) {
+      const EndCells::Cells& ends = scene.ends->ahead(nose_);
+      inside = ends.inside;
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const Cell c{ends.x[i], ends.y[i]};
+        raw[i] = inside || frame.holds(c) ? cells(scene, c) : -1;
       }
+    } else {
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        raw[i] = aggregate(aggregation_, all, i, [&](Pose pose) {
+          const Cell c = nose_cell(frame, pose);
+          return frame.holds(c) ? cells(scene, c) : -1;
+        });
+      }
+    }
+    if (inside) return false;
+    for (std::size_t i = 0; i < all.size(); ++i) {
       if (raw[i] < 0) why[i] = kOffGrid;
     }
+    return true;
   }
 
   Reason check(const Scene& scene, Pose pose) override {
@@ -89,18 +99,17 @@ class Distance : public Critic {
     return frame.cell({pose.x + nose_ * std::cos(pose.yaw), pose.y + nose_ * std::sin(pose.yaw)});
   }
 
-  /// Negative outside of the map.
+  /// Of a cell of the frame.
   double cells(const Scene& scene, Cell c) const {
-    const Frame& frame = scene.costmap->frame();
-    if (!frame.holds(c)) return -1;
-    if constexpr (to_path) return scene.path->distance(frame, c);
+    if constexpr (to_path) return scene.path->distance(scene.costmap->frame(), c);
     return std::abs(c.x - goal_.x) + std::abs(c.y - goal_.y);
   }
 
   /// If no part of the path is on the map, all cells have the same distance.
-  void fail(std::size_t i, std::span<double> raw, std::span<Reason> why, const Frame& frame) const {
-    raw[i] = static_cast<double>(frame.size() + 1);
-    if (nose_ == 0) why[i] = kUnreachable;
+  bool fail(std::span<double> raw, std::span<Reason> why, const Frame& frame) const {
+    std::ranges::fill(raw, static_cast<double>(frame.size() + 1));
+    if (nose_ == 0) std::ranges::fill(why, kUnreachable);
+    return nose_ == 0;
   }
 
   double nose_;

@@ -24,13 +24,14 @@ class PreferForward : public Critic {
   using Options = PreferForwardOptions;
   explicit PreferForward(const Options& options) : options_(options) {}
 
-  void score(const Scene&, const Trajectories& all, std::span<double> raw, std::span<Reason>) override {
+  bool score(const Scene&, const Trajectories& all, std::span<double> raw, std::span<Reason>) override {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Twist twist = all.twist(i);
       const double rate = std::abs(twist.turn);
       const bool creeps = twist.ahead < 0 || (twist.ahead < options_.strafe_x && rate < options_.strafe_theta);
       raw[i] = creeps ? options_.penalty : rate * options_.theta_scale;
     }
+    return false;
   }
 
  private:
@@ -44,8 +45,9 @@ class Twirling : public Critic {
   };
   explicit Twirling(const Options&) {}
 
-  void score(const Scene&, const Trajectories& all, std::span<double> raw, std::span<Reason>) override {
+  bool score(const Scene&, const Trajectories& all, std::span<double> raw, std::span<Reason>) override {
     for (std::size_t i = 0; i < all.size(); ++i) raw[i] = std::abs(all.twist(i).turn);
+    return false;
   }
 };
 

@@ -1,4 +1,5 @@
 // Near the goal a robot first slows down; once it is slow, it only turns to the yaw of the goal.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -39,11 +40,11 @@ class RotateToGoal : public Critic {
     rotating_ = rotating_ || (in_window_ && std::abs(scene.twist.ahead) <= options_.trans_stopped_velocity);
   }
 
-  void score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
+  bool score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
+    std::ranges::fill(raw, 0);
+    if (!in_window_) return false;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const double speed = all.twist(i).ahead;
-      raw[i] = 0;
-      if (!in_window_) continue;
       if (rotating_) {
         if (speed != 0) {
           why[i] = "Nonrotation command near goal.";
@@ -56,6 +57,7 @@ class RotateToGoal : public Critic {
         raw[i] = speed * speed * options_.slowing_factor + off(scene, all, i);
       }
     }
+    return true;
   }
 
  private:

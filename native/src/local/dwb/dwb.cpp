@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mrpbench_local/wide.hpp"
+
 namespace mrpbench::local {
 
 namespace {
@@ -32,7 +34,23 @@ Samples samples_of(const Trajectories& all) {
   return found;
 }
 
+MRPBENCH_WIDE void add_scaled(std::size_t count, const double* raw, double scale, double* total) {
+  for (std::size_t i = 0; i < count; ++i) total[i] += raw[i] * scale;
+}
+
 }  // namespace
+
+/// What one command needs, shared by the robots that a thread controls one after the other, so that it stays in its
+/// cache.
+struct Dwb::Buffers {
+  Trajectories all;
+  PathGrid path;
+  EndCells ends;
+  std::vector<Reason> fault;
+  std::vector<std::size_t> order;
+
+  static Buffers& of_thread();
+};
 
 Description<DwbOptions> DwbOptions::nav2() {
   Description<DwbOptions> rows;
@@ -66,7 +84,6 @@ Description<DwbOptions> DwbOptions::derived() {
 Dwb::Dwb(const DwbOptions& options, std::vector<Weighted> critics)
     : options_(options),
       critics_(std::move(critics)),
-      all_(options.motion),
       rotate_(options.rotate_to_path, {options.motion.max_vel_theta, options.motion.acc_lim_theta}) {
   const MotionOptions& motion = options.motion;
   const auto require = [](bool holds, const char* what) {
@@ -97,29 +114,36 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   }
   if (std::isnan(path.yaw) && sim::length({pose.x - end.x, pose.y - end.y}) <= frame.resolution) return Twist{};
   if (const auto turn = rotate_.command(pose, path, *it.costmap)) return turn;
-  path_.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
-  if (!path_.empty()) path_.spread(frame);
+  Buffers& its = Buffers::of_thread();
+  its.path.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
+  if (!its.path.empty()) its.path.spread(frame);
   const Twist measured{thresholded(it.twist.ahead, options_.min_x_velocity_threshold),
                        thresholded(it.twist.turn, options_.min_theta_velocity_threshold)};
-  all_.generate(pose, measured, path.speed);
-  EndCells ends(frame, all_);
-  const Scene scene{it.now, pose, measured, *goal_, path.tolerance, it.costmap, &path_, &ends};
-  score(scene, extra);
-  chosen_ = best(scene);
-  const Twist command = chosen_ ? all_.twist(*chosen_) : Twist{};
+  sampled_ = {pose, measured, path.speed};
+  its.all.generate(options_.motion, pose, measured, path.speed);
+  its.ends.begin(frame, its.all);
+  const Scene scene{it.now, pose, measured, *goal_, path.tolerance, it.costmap, &its.path, &its.ends};
+  score(scene, its, extra);
+  chosen_ = best(scene, its);
+  const Twist command = chosen_ ? its.all.twist(*chosen_) : Twist{};
   for (const Weighted& it : critics_) it.critic->debrief(scene, command);
   if (!chosen_) return std::nullopt;
   return command;
 }
 
+Dwb::Buffers& Dwb::Buffers::of_thread() {
+  thread_local Buffers buffers;
+  return buffers;
+}
+
 /// Totals of all trajectories, from critics that need only their last poses.
-void Dwb::score(const Scene& scene, const Extra& extra) {
-  const std::size_t count = all_.size();
+void Dwb::score(const Scene& scene, Buffers& its, const Extra& extra) {
+  const std::size_t count = its.all.size();
   total_.assign(count, 0);
   why_.assign(count, kLegal);
   dropped_.assign(count, -1);
   raw_.resize(count * critics_.size());
-  fault_.assign(count, kLegal);
+  its.fault.assign(count, kLegal);
   scale_.assign(critics_.size(), 0);
   for (std::size_t c = 0; c < critics_.size(); ++c) {
     const Weighted& it = critics_[c];
@@ -127,29 +151,29 @@ void Dwb::score(const Scene& scene, const Extra& extra) {
     const std::span<double> raw(&raw_[c * count], count);
     const double scale = scale_[c] = it.scale * it.critic->weight(scene);
     if (scale == 0) {
-      std::fill(raw.begin(), raw.end(), 0);
+      std::ranges::fill(raw, 0);
       continue;
     }
-    it.critic->score(scene, all_, raw, fault_);
-    for (std::size_t i = 0; i < count; ++i) total_[i] += raw[i] * scale;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!fault_[i]) continue;
+    const bool faulty = it.critic->score(scene, its.all, raw, its.fault);
+    add_scaled(count, raw.data(), scale, total_.data());
+    for (std::size_t i = 0; faulty && i < count; ++i) {
+      if (!its.fault[i]) continue;
       if (!why_[i]) {
-        why_[i] = fault_[i];
+        why_[i] = its.fault[i];
         dropped_[i] = static_cast<int>(c);
       }
-      fault_[i] = kLegal;
+      its.fault[i] = kLegal;
     }
   }
   if (!extra) return;
   added_.assign(count, 0);
-  extra(samples_of(all_), added_);
+  extra(samples_of(its.all), added_);
   for (std::size_t i = 0; i < count; ++i) total_[i] += added_[i];
 }
 
 /// Check all poses of a trajectory.
-bool Dwb::passes(const Scene& scene, std::size_t i) {
-  return all_.walk(i, [&](Pose pose) {
+bool Dwb::passes(const Scene& scene, const Trajectories& all, std::size_t i) {
+  return all.walk(i, [&](Pose pose) {
     for (std::size_t c = 0; c < critics_.size(); ++c) {
       const Weighted& it = critics_[c];
       if (it.scale == 0) continue;
@@ -164,37 +188,40 @@ bool Dwb::passes(const Scene& scene, std::size_t i) {
 
 /// The trajectory with the lowest total, of equal ones the first. Trajectories that cannot win by their totals are not
 /// checked pose by pose: DWB's short-circuit evaluation, applied to whole trajectories.
-std::optional<std::size_t> Dwb::best(const Scene& scene) {
-  order_.clear();
-  std::size_t first = 0;
+std::optional<std::size_t> Dwb::best(const Scene& scene, Buffers& its) {
+  for (std::size_t i = 0; !options_.short_circuit && i < its.all.size(); ++i) {
+    if (!why_[i] && std::isfinite(total_[i])) passes(scene, its.all, i);
+  }
+  std::optional<std::size_t> first;
   double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < all_.size(); ++i) {
-    if (why_[i] || !(total_[i] < std::numeric_limits<double>::infinity())) continue;
-    if (!options_.short_circuit && !passes(scene, i)) continue;
-    order_.push_back(i);
-    if (total_[i] >= lowest) continue;
+  for (std::size_t i = 0; i < its.all.size(); ++i) {
+    if (!(total_[i] < lowest) || why_[i]) continue;
     lowest = total_[i];
     first = i;
   }
-  if (order_.empty()) return std::nullopt;
-  if (passes(scene, first)) return first;
+  if (!first || passes(scene, its.all, *first)) return first;
+  its.order.clear();
+  for (std::size_t i = 0; i < its.all.size(); ++i) {
+    if (!why_[i] && total_[i] < std::numeric_limits<double>::infinity()) its.order.push_back(i);
+  }
   const auto worse = [&](std::size_t a, std::size_t b) {
     return total_[a] != total_[b] ? total_[a] > total_[b] : a > b;
   };
-  std::make_heap(order_.begin(), order_.end(), worse);
-  for (;;) {
-    std::pop_heap(order_.begin(), order_.end(), worse);
-    order_.pop_back();
-    if (order_.empty()) return std::nullopt;
-    if (passes(scene, order_.front())) return order_.front();
+  std::ranges::make_heap(its.order, worse);
+  for (; !its.order.empty(); its.order.pop_back()) {
+    if (passes(scene, its.all, its.order.front())) return its.order.front();
+    std::ranges::pop_heap(its.order, worse);
   }
+  return std::nullopt;
 }
 
 Explanation Dwb::explain() const {
   const std::size_t count = total_.size();
   Explanation found;
   if (count == 0) return found;
-  Samples samples = samples_of(all_);
+  Trajectories all;
+  all.generate(options_.motion, sampled_.pose, sampled_.twist, sampled_.fastest);
+  Samples samples = samples_of(all);
   found.arrays = {{"twist", std::move(samples.twist)},
                   {"pose", std::move(samples.pose)},
                   {"score", {raw_, {critics_.size(), count}}},

@@ -1,9 +1,28 @@
 #include "mrpbench_local/dwb/trajectories.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
+#include "mrpbench_local/wide.hpp"
+
 namespace mrpbench::local {
+
+namespace {
+
+MRPBENCH_WIDE bool find_cells(std::size_t count, const double* end_x, const double* end_y, const double* heading_x,
+                              const double* heading_y, double distance, Frame frame, int* x, int* y) {
+  unsigned outside = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Cell c = frame.cell(Point{end_x[i], end_y[i]} + Point{heading_x[i], heading_y[i]} * distance);
+    x[i] = c.x;
+    y[i] = c.y;
+    outside |= frame.holds(c) ? 0u : 1u;
+  }
+  return outside == 0;
+}
+
+}  // namespace
 
 Description<MotionOptions> MotionOptions::description() {
   using M = MotionOptions;
@@ -50,94 +69,61 @@ std::vector<double> samples(double current, double lowest, double highest, doubl
 }
 
 int Trajectories::steps(Twist twist) const {
-  const double speed = std::abs(twist.ahead), rate = std::abs(twist.turn), time = options_.sim_time;
-  const double wanted = options_.discretize_by_time ? time / options_.time_granularity
-                                                    : std::max(speed * time / options_.linear_granularity,
-                                                               rate * time / options_.angular_granularity);
+  const double speed = std::abs(twist.ahead), rate = std::abs(twist.turn), time = options_->sim_time;
+  const double wanted = options_->discretize_by_time ? time / options_->time_granularity
+                                                     : std::max(speed * time / options_->linear_granularity,
+                                                                rate * time / options_->angular_granularity);
   return std::max(1, -whole_below(-wanted));
 }
 
-void Trajectories::generate(Pose start, Twist current, double fastest) {
+void Trajectories::generate(const MotionOptions& options, Pose start, Twist current, double fastest) {
+  options_ = &options;
   start_ = start;
-  ahead_ = {std::cos(start.yaw), std::sin(start.yaw)};
   current_ = current;
-  const double time = options_.limited ? options_.period : options_.sim_time;
-  const double highest = std::max(options_.min_vel_x, std::min(options_.max_vel_x, fastest));
-  const auto ahead = samples(current.ahead, options_.min_vel_x, highest, options_.acc_lim_x, options_.decel_lim_x, time,
-                             options_.vx_samples);
-  const auto turns = samples(current.turn, -options_.max_vel_theta, options_.max_vel_theta, options_.acc_lim_theta,
-                             options_.decel_lim_theta, time, options_.vtheta_samples);
+  const double time = options.limited ? options.period : options.sim_time;
+  const double highest = std::max(options.min_vel_x, std::min(options.max_vel_x, fastest));
+  const auto speeds = samples(current.ahead, options.min_vel_x, highest, options.acc_lim_x, options.decel_lim_x, time,
+                              options.vx_samples);
+  const auto rates = samples(current.turn, -options.max_vel_theta, options.max_vel_theta, options.acc_lim_theta,
+                             options.decel_lim_theta, time, options.vtheta_samples);
+  const std::array columns{&ahead_, &turn_, &end_x_, &end_y_, &end_yaw_, &heading_x_, &heading_y_};
+  for (auto* it : columns) it->resize(speeds.size() * rates.size() + Turns::kBlock);
+  turns_.begin(start.yaw, options.limited ? std::nullopt : std::optional(current.turn), rates);
+  least_.resize(rates.size());
+  for (std::size_t i = 0; i < rates.size(); ++i) least_[i] = steps({0, rates[i]});
   size_ = 0;
-  twist_.resize(ahead.size() * turns.size());
-  for (auto* it : {&end_x_, &end_y_, &end_yaw_, &heading_x_, &heading_y_}) it->resize(twist_.size());
-  // Nearly all samples of one turn rate have the same number of steps, so they share headings.
-  turns_.resize(turns.size());
-  for (std::size_t i = 0; i < turns.size(); ++i) turn(turns[i], steps({0, turns[i]}), turns_[i]);
   const double slack = std::numeric_limits<float>::epsilon();
-  for (const double v : ahead) {
+  for (const double v : speeds) {
     const double speed = std::abs(v);
-    if (options_.max_speed_xy >= 0 && speed * speed > options_.max_speed_xy * options_.max_speed_xy + slack) continue;
-    const int least = steps({v, 0});
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-      const double w = turns[i];
-      if (speed < options_.min_speed_xy && std::abs(w) < options_.min_speed_theta) continue;
-      if (v == 0 && w == 0) continue;
-      const bool shared = least <= turns_[i].count;
-      if (!shared) turn(w, least, own_);
-      roll_out({v, w}, shared ? turns_[i] : own_);
+    if (options.max_speed_xy >= 0 && speed * speed > options.max_speed_xy * options.max_speed_xy + slack) continue;
+    turns_.step(least_, steps({v, 0}), options.sim_time, {options.acc_lim_theta, options.decel_lim_theta});
+    double *const x = &end_x_[size_], *const y = &end_y_[size_];
+    turns_.drive(options.limited ? v : current.ahead, v, {options.acc_lim_x, options.decel_lim_x}, x, y);
+    for (std::size_t i = 0; i < rates.size(); ++i) {
+      x[i] += start.x;
+      y[i] += start.y;
+    }
+    std::fill_n(&ahead_[size_], rates.size(), v);
+    std::ranges::copy(rates, &turn_[size_]);
+    std::copy_n(turns_.yaw(), rates.size(), &end_yaw_[size_]);
+    std::copy_n(turns_.heading_x(), rates.size(), &heading_x_[size_]);
+    std::copy_n(turns_.heading_y(), rates.size(), &heading_y_[size_]);
+    const std::size_t last = size_ + rates.size();
+    if (speed > 0 && speed >= options.min_speed_xy) {
+      size_ = last;
+      continue;
+    }
+    for (std::size_t i = size_; i < last; ++i) {
+      if (v == 0 && turn_[i] == 0) continue;
+      if (speed < options.min_speed_xy && std::abs(turn_[i]) < options.min_speed_theta) continue;
+      for (auto* it : columns) (*it)[size_] = (*it)[i];
+      ++size_;
     }
   }
 }
 
-/// Once the wanted turn rate is reached, each heading is the last one turned by the same angle.
-void Trajectories::turn(double rate, int count, Turn& result) const {
-  const double dt = options_.sim_time / count;
-  double yaw = start_.yaw, now = options_.limited ? rate : current_.turn;
-  Point heading = ahead_, sum;
-  result.count = count;
-  result.sum.resize(static_cast<std::size_t>(count) + 1);
-  result.sum[0] = sum;
-  int k = 0;
-  for (; k < count && now != rate; ++k) {
-    now = project(now, options_.acc_lim_theta, options_.decel_lim_theta, dt, rate);
-    sum = sum + heading;
-    result.sum[static_cast<std::size_t>(k) + 1] = sum;
-    yaw += now * dt;
-    heading = {std::cos(yaw), std::sin(yaw)};
-  }
-  const Point by{std::cos(rate * dt), std::sin(rate * dt)};
-  for (; k < count; ++k) {
-    sum = sum + heading;
-    result.sum[static_cast<std::size_t>(k) + 1] = sum;
-    yaw += rate * dt;
-    heading = {heading.x * by.x - heading.y * by.y, heading.x * by.y + heading.y * by.x};
-  }
-  result.last = heading;
-  result.yaw = yaw;
-}
-
-void Trajectories::roll_out(Twist wanted, const Turn& turn) {
-  const auto count = static_cast<std::size_t>(turn.count);
-  const double dt = options_.sim_time / turn.count;
-  double speed = options_.limited ? wanted.ahead : current_.ahead;
-  Point moved;
-  std::size_t k = 0;
-  for (; k < count && speed != wanted.ahead; ++k) {
-    speed = project(speed, options_.acc_lim_x, options_.decel_lim_x, dt, wanted.ahead);
-    moved = moved + (turn.sum[k + 1] - turn.sum[k]) * speed;
-  }
-  moved = moved + (turn.sum[count] - turn.sum[k]) * wanted.ahead;
-  twist_[size_] = wanted;
-  end_x_[size_] = start_.x + moved.x * dt;
-  end_y_[size_] = start_.y + moved.y * dt;
-  end_yaw_[size_] = turn.yaw;
-  heading_x_[size_] = turn.last.x;
-  heading_y_[size_] = turn.last.y;
-  ++size_;
-}
-
 Pose Trajectories::at(std::size_t i, double time) const {
-  const double dt = options_.sim_time / steps(twist_[i]);
+  const double dt = options_->sim_time / steps(twist(i));
   Pose found = end(i);
   double now = -dt;
   walk(i, [&](Pose pose) {
@@ -149,15 +135,22 @@ Pose Trajectories::at(std::size_t i, double time) const {
   return found;
 }
 
-const std::vector<Cell>& EndCells::ahead(double distance) {
-  std::vector<Cell>& found = found_[distance];
-  if (!found.empty()) return found;
-  found.resize(all_.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const Pose end = all_.end(i);
-    found[i] = frame_.cell(Point{end.x, end.y} + all_.heading(i) * distance);
+bool Trajectories::cells_ahead(const Frame& frame, double distance, std::vector<int>& x, std::vector<int>& y) const {
+  x.resize(size_);
+  y.resize(size_);
+  return find_cells(size_, end_x_.data(), end_y_.data(), heading_x_.data(), heading_y_.data(), distance, frame,
+                    x.data(), y.data());
+}
+
+const EndCells::Cells& EndCells::ahead(double distance) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    if (found_[i].distance == distance) return found_[i];
   }
-  return found;
+  if (count_ == found_.size()) found_.emplace_back();
+  Cells& cells = found_[count_++];
+  cells.distance = distance;
+  cells.inside = all_->cells_ahead(*frame_, distance, cells.x, cells.y);
+  return cells;
 }
 
 }  // namespace mrpbench::local
