@@ -16,12 +16,34 @@ struct Table {
   std::vector<float> values;
 
   void resize(std::size_t rows, std::size_t columns) {
+    if (rows == steps && columns == samples) return;
     steps = rows;
     samples = columns;
     values.assign(rows * columns, 0.0f);
   }
   float* operator[](std::size_t t) { return values.data() + t * samples; }
   const float* operator[](std::size_t t) const { return values.data() + t * samples; }
+};
+
+/// The samples: velocities as drawn, velocities within the limits of acceleration, and poses.
+struct Tables {
+  Table control_vx, control_wz, vx, wz, x, y, yaw;
+
+  void resize(std::size_t steps, std::size_t samples) {
+    for (Table* it : {&control_vx, &control_wz, &vx, &wz, &x, &y, &yaw}) it->resize(steps, samples);
+  }
+};
+
+/// Lends the tables of a thread for a while, so that the robots that it controls share them and they stay in its cache.
+class Lent {
+ public:
+  Lent(Tables& to, std::size_t steps, std::size_t samples);
+  ~Lent();
+  Lent(const Lent&) = delete;
+  Lent& operator=(const Lent&) = delete;
+
+ private:
+  Tables& to_;
 };
 
 /// The highest speeds now, and the shape of turns.
@@ -42,10 +64,9 @@ struct LocalPath {
 };
 
 /// The input of critics. Poses are in the frame of the robot at the start of the period.
-struct Batch {
+struct Batch : Tables {
   float dt = 0.05f;
   Limits limits;
-  Table vx, wz, x, y, yaw;
   LocalPath path;
   /// Yaw at the end of the path; nothing = any.
   std::optional<float> goal_yaw;

@@ -41,6 +41,7 @@ class Mppi : public Controller {
   void draw();
   void reset();
   void prepare(const Situation& now);
+  void sample(mppi::Batch& batch, const std::vector<float>& plan_vx, const std::vector<float>& plan_wz) const;
   bool improve(const Extra& extra);
   void begin_plan();
   bool score(const Extra& extra);
@@ -49,7 +50,6 @@ class Mppi : public Controller {
   bool is_safe() const;
   std::vector<double> mean_scores() const;
   Twist send();
-  Samples trajectories(std::size_t every, std::size_t step) const;
 
   MppiOptions options_;
   RandomKey key_;
@@ -59,8 +59,10 @@ class Mppi : public Controller {
   std::size_t rolled_ = 0;
   Twist start_, last_;
   mppi::Batch batch_;
-  mppi::Table noise_vx_, noise_wz_, control_vx_, control_wz_;
+  mppi::Table noise_vx_, noise_wz_;
   std::vector<float> plan_vx_, plan_wz_, total_, raw_, weight_, added_;
+  /// The plan around which samples were drawn last.
+  std::vector<float> centre_vx_, centre_wz_;
   std::array<float, 4> past_vx_{}, past_wz_{};
   std::optional<Pose> goal_;
   RotateToPath rotate_;

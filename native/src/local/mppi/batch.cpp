@@ -2,10 +2,26 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local::mppi {
+
+namespace {
+
+thread_local Tables of_thread;
+
+}  // namespace
+
+Lent::Lent(Tables& to, std::size_t steps, std::size_t samples) : to_(to) {
+  std::swap(to_, of_thread);
+  to_.resize(steps, samples);
+}
+
+Lent::~Lent() {
+  std::swap(to_, of_thread);
+}
 
 Pose Batch::in_map(float px, float py, float heading) const {
   const double cosine = std::cos(robot.yaw), sine = std::sin(robot.yaw);

@@ -1,10 +1,12 @@
 // Critics that keep samples away from obstacles.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "mrpbench_local/costmap/collision.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
 #include "mrpbench_local/mppi/critic.hpp"
+#include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local::mppi {
 
@@ -28,15 +30,20 @@ class Lookup {
     near_ = outline_ ? inflated_cost(farthest, map_.inscribed(), map_.options().cost_scaling_factor) : kInscribed;
   }
 
-  /// The cost under a place, or `kOff`.
-  int at(float px, float py) const {
-    const float u = cosine_ * px - sine_ * py + x_, v = sine_ * px + cosine_ * py + y_;
-    const int column = static_cast<int>(u), row = static_cast<int>(v);
-    const Frame& frame = map_.frame();
-    if (u < 0 || v < 0 || column >= frame.width || row >= frame.height) return kOff;
-    return map_.costs()[static_cast<std::size_t>(row) * static_cast<std::size_t>(frame.width) +
-                        static_cast<std::size_t>(column)];
+  /// The indices of the cells that hold places, -1 outside of the map.
+  MRPBENCH_WIDE void find(std::span<const float> px, const float* py, std::int32_t* index) const {
+    const float cosine = cosine_, sine = sine_, left = x_, bottom = y_;
+    const std::int32_t width = map_.frame().width, height = map_.frame().height;
+    for (std::size_t k = 0; k < px.size(); ++k) {
+      const float u = cosine * px[k] - sine * py[k] + left, v = sine * px[k] + cosine * py[k] + bottom;
+      const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
+      const bool outside = (u < 0) | (v < 0) | (column >= width) | (row >= height);
+      index[k] = outside ? -1 : row * width + column;
+    }
   }
+
+  /// The cost of a cell, or `kOff`.
+  int at(std::int32_t index) const { return index < 0 ? kOff : map_.costs()[static_cast<std::size_t>(index)]; }
 
   /// Tell whether the robot collides at a pose, under which the cost is `cost`.
   bool collides(int cost, float px, float py, float yaw) {
@@ -67,13 +74,14 @@ class Lookup {
 template <class Score>
 bool sweep(const Batch& batch, Lookup& costs, std::size_t step, double collision, std::span<float> raw, Score&& score) {
   std::vector<char> collides(raw.size(), 0);
+  std::vector<std::int32_t> cells(raw.size());
   std::size_t left = raw.size();
   for (std::size_t t = 0; t < batch.steps(); t += step) {
     const float *x = batch.x[t], *y = batch.y[t], *yaw = batch.yaw[t];
+    costs.find({x, raw.size()}, y, cells.data());
     for (std::size_t k = 0; k < raw.size(); ++k) {
-      if (collides[k]) continue;
-      const int cost = costs.at(x[k], y[k]);
-      if (cost == 0) continue;
+      const int cost = costs.at(cells[k]);
+      if (cost == 0 || collides[k]) continue;
       if (costs.collides(cost, x[k], y[k], yaw[k])) {
         collides[k] = 1;
         raw[k] = static_cast<float>(collision);

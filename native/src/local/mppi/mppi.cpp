@@ -26,6 +26,23 @@ float clamped(double value, double low, double high) {
   return static_cast<float>(std::clamp(value, low, high));
 }
 
+/// Twists f8[m,p,2] and poses f8[m,p,3] of every so many samples and steps.
+Samples trajectories(const Batch& batch, std::size_t every, std::size_t step) {
+  Samples found;
+  std::size_t rows = 0, columns = 0;
+  for (std::size_t k = 0; k < batch.samples(); k += every, ++rows) {
+    columns = 0;
+    for (std::size_t t = 0; t < batch.steps(); t += step, ++columns) {
+      const Pose pose = batch.in_map(batch.x[t][k], batch.y[t][k], batch.yaw[t][k]);
+      found.twist.values.insert(found.twist.values.end(), {batch.vx[t][k], batch.wz[t][k]});
+      found.pose.values.insert(found.pose.values.end(), {pose.x, pose.y, pose.yaw});
+    }
+  }
+  found.twist.shape = {rows, columns, 2};
+  found.pose.shape = {rows, columns, 3};
+  return found;
+}
+
 }  // namespace
 
 Description<MppiOptions> MppiOptions::nav2() {
@@ -88,10 +105,7 @@ Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key,
   shift_ = std::abs(options.period - options.model_dt) < 1e-9;
   const auto steps = static_cast<std::size_t>(options.time_steps),
              samples = static_cast<std::size_t>(options.batch_size);
-  for (Table* it : {&noise_vx_, &noise_wz_, &control_vx_, &control_wz_, &batch_.vx, &batch_.wz, &batch_.x, &batch_.y,
-                    &batch_.yaw}) {
-    it->resize(steps, samples);
-  }
+  for (Table* it : {&noise_vx_, &noise_wz_}) it->resize(steps, samples);
   batch_.dt = static_cast<float>(options.model_dt);
   batch_.by_radius = robot.by_radius;
   plan_vx_.assign(steps, 0);
@@ -138,6 +152,7 @@ std::optional<Twist> Mppi::command(const Situation& now, const Extra& extra) {
     return last_;
   }
   scored_ = true;
+  const Lent lent(batch_, plan_vx_.size(), total_.size());
   if (options_.roll_noises) rolled_ = (rolled_ + 1) % plan_vx_.size();
   for (int attempt = 0; attempt <= options_.retry_attempt_limit; ++attempt) {
     if (!drawn_fresh_ || options_.regenerate_noises) draw();
@@ -195,37 +210,46 @@ void Mppi::prepare(const Situation& now) {
   }
 }
 
+/// Draw the samples around a plan.
+MRPBENCH_WIDE void Mppi::sample(Batch& batch, const std::vector<float>& plan_vx,
+                                const std::vector<float>& plan_wz) const {
+  const std::size_t steps = batch.steps(), samples = batch.samples();
+  const MppiOptions& it = options_;
+  for (std::size_t t = 0; t < steps; ++t) {
+    const float vx = plan_vx[t], wz = plan_wz[t];
+    const std::size_t drawn = (t + rolled_) % steps;
+    const float *nv = noise_vx_[drawn], *nw = noise_wz_[drawn];
+    float *cv = batch.control_vx[t], *cw = batch.control_wz[t];
+    for (std::size_t k = 0; k < samples; ++k) cv[k] = vx + nv[k];
+    for (std::size_t k = 0; k < samples; ++k) cw[k] = wz + nw[k];
+  }
+  const float dt = batch.dt;
+  const Change change{static_cast<float>(it.ax_max) * dt, static_cast<float>(-it.ax_min) * dt,
+                      static_cast<float>(it.az_max) * dt};
+  limit(batch.control_vx, batch.control_wz, static_cast<float>(start_.ahead), static_cast<float>(start_.turn), change,
+        batch.vx, batch.wz);
+  if (it.clamp_raw_controls) {
+    const auto second = static_cast<std::ptrdiff_t>(samples);
+    std::copy(batch.vx.values.begin() + second, batch.vx.values.end(), batch.control_vx.values.begin());
+    std::copy(batch.wz.values.begin() + second, batch.wz.values.end(), batch.control_wz.values.begin());
+  }
+  roll_out(batch.vx, batch.wz, dt, batch.x, batch.y, batch.yaw);
+}
+
 /// One update of the plan. Returns false if every sample collides.
 MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
   const std::size_t steps = batch_.steps(), samples = batch_.samples();
   const MppiOptions& it = options_;
-  const auto ahead = static_cast<float>(start_.ahead), turn = static_cast<float>(start_.turn);
   begin_plan();
-  for (std::size_t t = 0; t < steps; ++t) {
-    const float vx = plan_vx_[t], wz = plan_wz_[t];
-    const std::size_t drawn = (t + rolled_) % steps;
-    const float *nv = noise_vx_[drawn], *nw = noise_wz_[drawn];
-    float *cv = control_vx_[t], *cw = control_wz_[t];
-    for (std::size_t k = 0; k < samples; ++k) cv[k] = vx + nv[k];
-    for (std::size_t k = 0; k < samples; ++k) cw[k] = wz + nw[k];
-  }
-  const float dt = batch_.dt;
-  const Change change{static_cast<float>(it.ax_max) * dt, static_cast<float>(-it.ax_min) * dt,
-                      static_cast<float>(it.az_max) * dt};
-  limit(control_vx_, control_wz_, ahead, turn, change, batch_.vx, batch_.wz);
-  if (it.clamp_raw_controls) {
-    std::copy(batch_.vx.values.begin() + static_cast<std::ptrdiff_t>(samples), batch_.vx.values.end(),
-              control_vx_.values.begin());
-    std::copy(batch_.wz.values.begin() + static_cast<std::ptrdiff_t>(samples), batch_.wz.values.end(),
-              control_wz_.values.begin());
-  }
-  roll_out(batch_.vx, batch_.wz, dt, batch_.x, batch_.y, batch_.yaw);
+  centre_vx_ = plan_vx_;
+  centre_wz_ = plan_wz_;
+  sample(batch_, plan_vx_, plan_wz_);
   batch_.find_furthest();
   if (!score(extra)) return false;
   for (std::size_t t = 0; t < steps; ++t) {
     const float on_vx = plan_vx_[t] * static_cast<float>(it.gamma / (it.vx_std * it.vx_std));
     const float on_wz = plan_wz_[t] * static_cast<float>(it.gamma / (it.wz_std * it.wz_std));
-    const float *cv = control_vx_[t], *cw = control_wz_[t];
+    const float *cv = batch_.control_vx[t], *cw = batch_.control_wz[t];
     const float vx = plan_vx_[t], wz = plan_wz_[t];
     for (std::size_t k = 0; k < samples; ++k) total_[k] += on_vx * (cv[k] - vx) + on_wz * (cw[k] - wz);
   }
@@ -236,8 +260,8 @@ MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
   for (std::size_t k = 0; k < samples; ++k) weight_[k] = std::exp((total_[k] - least) * sharpness);
   const float per = 1 / sum(weight_.data(), samples);
   for (std::size_t t = 0; t < steps; ++t) {
-    plan_vx_[t] = weighted_sum(weight_.data(), control_vx_[t], samples) * per;
-    plan_wz_[t] = weighted_sum(weight_.data(), control_wz_[t], samples) * per;
+    plan_vx_[t] = weighted_sum(weight_.data(), batch_.control_vx[t], samples) * per;
+    plan_wz_[t] = weighted_sum(weight_.data(), batch_.control_wz[t], samples) * per;
   }
   smooth(plan_vx_, past_vx_, it.sgf_order);
   smooth(plan_wz_, past_wz_, it.sgf_order);
@@ -275,7 +299,7 @@ bool Mppi::score(const Extra& extra) {
   }
   if (!extra) return true;
   std::vector<double> added(samples, 0.0);
-  extra(trajectories(1, 1), added);
+  extra(trajectories(batch_, 1, 1), added);
   added_.assign(added.begin(), added.end());
   for (std::size_t k = 0; k < samples; ++k) total_[k] += added_[k];
   return true;
@@ -303,7 +327,7 @@ bool Mppi::is_safe() const {
 
 /// What each critic, and then those of the caller if there are some, contributes to the mean total of the plan.
 std::vector<double> Mppi::mean_scores() const {
-  const std::size_t samples = batch_.samples();
+  const std::size_t samples = total_.size();
   const float per = 1 / sum(weight_.data(), samples);
   std::vector<double> found;
   std::vector<float> scores(samples);
@@ -329,38 +353,25 @@ Twist Mppi::send() {
   return sent;
 }
 
-Samples Mppi::trajectories(std::size_t every, std::size_t step) const {
-  Samples found;
-  std::size_t rows = 0, columns = 0;
-  for (std::size_t k = 0; k < batch_.samples(); k += every, ++rows) {
-    columns = 0;
-    for (std::size_t t = 0; t < batch_.steps(); t += step, ++columns) {
-      const Pose pose = batch_.in_map(batch_.x[t][k], batch_.y[t][k], batch_.yaw[t][k]);
-      found.twist.values.insert(found.twist.values.end(), {batch_.vx[t][k], batch_.wz[t][k]});
-      found.pose.values.insert(found.pose.values.end(), {pose.x, pose.y, pose.yaw});
-    }
-  }
-  found.twist.shape = {rows, columns, 2};
-  found.pose.shape = {rows, columns, 3};
-  return found;
-}
-
 Explanation Mppi::explain() const {
   Explanation found;
   found.words["reason"] = {fault_};
   if (!scored_) return found;
   constexpr std::size_t every = 5;
-  Samples samples = trajectories(every, 3);
+  Batch batch = batch_;
+  const Lent lent(batch, plan_vx_.size(), total_.size());
+  sample(batch, centre_vx_, centre_wz_);
+  Samples samples = trajectories(batch, every, 3);
   found.arrays = {{"twist", std::move(samples.twist)},
                   {"pose", std::move(samples.pose)},
-                  {"score", {{raw_.begin(), raw_.end()}, {critics_.size(), batch_.samples()}}},
-                  {"total", {{total_.begin(), total_.end()}, {batch_.samples()}}}};
+                  {"score", {{raw_.begin(), raw_.end()}, {critics_.size(), total_.size()}}},
+                  {"total", {{total_.begin(), total_.end()}, {total_.size()}}}};
   Array& plan = found.arrays["plan"];
   for (std::size_t t = 0; t < plan_vx_.size(); ++t) plan.values.insert(plan.values.end(), {plan_vx_[t], plan_wz_[t]});
   plan.shape = {plan_vx_.size(), 2};
   for (const WeightedCritic& it : critics_) found.words["critics"].push_back(it.name);
   Array& cost = found.arrays["cost"];
-  for (std::size_t k = 0; k < batch_.samples(); k += every) cost.values.push_back(total_[k]);
+  for (std::size_t k = 0; k < total_.size(); k += every) cost.values.push_back(total_[k]);
   cost.shape = {cost.values.size()};
   if (*fault_) return found;
   Array& chosen = found.arrays["chosen"];

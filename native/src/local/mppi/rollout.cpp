@@ -49,29 +49,32 @@ MRPBENCH_WIDE void limit(const Table& wanted_vx, const Table& wanted_wz, float v
   }
 }
 
-MRPBENCH_WIDE void roll_out(const Table& vx, const Table& wz, float dt, Table& x, Table& y, Table& yaw) {
+namespace {
+
+/// One number of each sample. No two rows overlap, or loops over so many would not be compiled to vectors.
+using Row = float* __restrict;
+using ConstRow = const float* __restrict;
+
+MRPBENCH_WIDE void move(std::size_t count, float dt, ConstRow vx, ConstRow wz, ConstRow sine, ConstRow cosine,
+                        ConstRow from_x, ConstRow from_y, ConstRow from_yaw, Row x, Row y, Row yaw) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const float step = vx[k] * dt;
+    x[k] = from_x[k] + step * cosine[k];
+    y[k] = from_y[k] + step * sine[k];
+    yaw[k] = from_yaw[k] + wz[k] * dt;
+  }
+}
+
+}  // namespace
+
+void roll_out(const Table& vx, const Table& wz, float dt, Table& x, Table& y, Table& yaw) {
   const std::size_t count = vx.samples;
   std::vector<float> sine(count, 0.0f), cosine(count, 1.0f);
+  const std::vector<float> start(count, 0.0f);
   for (std::size_t t = 0; t < vx.steps; ++t) {
-    const float *v = vx[t], *w = wz[t];
-    const float *before_x = t > 0 ? x[t - 1] : nullptr, *before_y = t > 0 ? y[t - 1] : nullptr;
-    const float* before_yaw = t > 0 ? yaw[t - 1] : nullptr;
-    float *now_x = x[t], *now_y = y[t], *now_yaw = yaw[t];
-    if (t == 0) {
-      for (std::size_t k = 0; k < count; ++k) {
-        now_x[k] = v[k] * dt;
-        now_y[k] = 0;
-        now_yaw[k] = w[k] * dt;
-      }
-      continue;
-    }
-    sine_cosine(before_yaw, sine.data(), cosine.data(), count);
-    for (std::size_t k = 0; k < count; ++k) {
-      const float step = v[k] * dt;
-      now_x[k] = before_x[k] + step * cosine[k];
-      now_y[k] = before_y[k] + step * sine[k];
-      now_yaw[k] = before_yaw[k] + w[k] * dt;
-    }
+    if (t > 0) sine_cosine(yaw[t - 1], sine.data(), cosine.data(), count);
+    move(count, dt, vx[t], wz[t], sine.data(), cosine.data(), t > 0 ? x[t - 1] : start.data(),
+         t > 0 ? y[t - 1] : start.data(), t > 0 ? yaw[t - 1] : start.data(), x[t], y[t], yaw[t]);
   }
 }
 
