@@ -28,6 +28,15 @@ class DispatcherSession(ABC):
             DispatchError: the new plan cannot be released safely from here. The session continues with the old one.
         """
 
+    def copied(self) -> "DispatcherSession | None":
+        """Return a session that goes on from here as this one does, neither of them disturbing the other; None = it
+        cannot.
+
+        Many executions of one plan begin with copies, where that takes less time than to start anew. A copy may share
+        what never changes.
+        """
+        return None
+
 
 class Dispatcher(Component):
     """Decides how far along its path each robot may go now."""

@@ -16,10 +16,18 @@ from mrpbench_core.model.planning.problem import Problem
 class Adg(OrderKeepingDispatcher):
     """Releases each move once the moves that precede it in the plan are out of its way."""
 
-    def start(self, problem: Problem, plan: Plan) -> OrderKeepingSession:
+    def start(self, problem: Problem, plan: Plan) -> "AdgSession":
         """Begin to release a plan.
 
         Raises:
             DispatchError: as `OrderKeepingSession.adopt`.
         """
-        return OrderKeepingSession(self, problem, plan)
+        return AdgSession(self, problem, plan)
+
+
+class AdgSession(OrderKeepingSession):
+    """Releases one plan after another, each in its own order."""
+
+    def copied(self) -> "AdgSession":
+        """Return a session that goes on from here by itself."""
+        return self._copied()

@@ -25,6 +25,7 @@ from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.execution.routes import Router, start_poses
+from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.execution.worst_case import Adversary
@@ -272,13 +273,14 @@ def _follow_schedule(
     assert config.dispatcher is not None
     limit = config.limits.execution
     delays = _delays(config, context)
-    loop = ScheduleLoop(context, config.dispatcher, next(delays), recorder, faults)
+    schedule = Schedule(context, config.dispatcher)
+    loop = ScheduleLoop(schedule, next(delays), recorder, faults)
     arrived, simulated_s = loop.run(limit)
     unarrived = {} if loop.ending is None else loop.ending.reasons()
     times = [(loop.arrival, loop.waiting)]
     for drawn in delays:
         again = FaultState(faults.settings, faults.events, len(context.fleet))
-        other = ScheduleLoop(context, config.dispatcher, drawn, faults=again)
+        other = ScheduleLoop(schedule, drawn, faults=again)
         other.run(limit)
         times.append((other.arrival, other.waiting))
     arrival, waiting = (np.stack(column) for column in zip(*times, strict=True))

@@ -1,5 +1,7 @@
 """The suites catch faults of dispatchers: each plugin here has one and fails its check."""
 
+import copy
+
 import numpy as np
 
 from mrpbench_core.api import (
@@ -74,3 +76,16 @@ def test_a_dispatcher_that_says_it_keeps_robots_apart():
 
 def test_a_dispatcher_that_ignores_mutexes_need_not_keep_robots_apart():
     assert set(failed_checks(suite_for(session()))) == {"refuses plans through doors or requests the doors"}
+
+
+def test_a_dispatcher_whose_copies_share_what_changes():
+    def update(self, now, view):
+        self.calls[0] += 1
+        return Orders(released=np.minimum(self.length, self.calls[0]))
+
+    def adopt(self, problem, plan, cut=None):
+        Session.adopt(self, problem, plan)
+        self.calls = [0]
+
+    found = failed_checks(suite_for(session(update=update, adopt=adopt, copied=copy.copy)))
+    assert "a copy returns other orders.released" in found["copies go on as their sessions do"]

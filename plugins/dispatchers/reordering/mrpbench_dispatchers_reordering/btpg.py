@@ -16,7 +16,7 @@ from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_dispatchers_reordering.bidirectional import open_groups
 from mrpbench_dispatchers_reordering.switching import SwitchingDispatcher, SwitchingSession
-from mrpbench_dispatchers_reordering.visits import NONE
+from mrpbench_dispatchers_reordering.visits import NONE, Pairs
 
 
 @attrs.frozen(kw_only=True)
@@ -57,6 +57,12 @@ class BtpgSession(SwitchingSession):
         moves = np.concatenate([self.visits.begin[visit] for visit in self.pairs])
         self._of_move = _Lists(moves, np.concatenate([count, count]))
         self._of_group = _Lists(self.group, count)
+
+    def copied(self) -> "BtpgSession":
+        """Return a session that goes on from here by itself."""
+        found = self._copied()
+        found.pairs = Pairs(*(column.copy() for column in self.pairs))
+        return found
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Release the moves that wait for nothing, or only for robots that come later to places with an open order."""
