@@ -178,6 +178,11 @@ class DependencyGraph:
         unmet = counts > np.array(self._met)[rows]
         return list(zip(keys[unmet].tolist(), groups[unmet].tolist(), strict=True))
 
+    def dependencies(self) -> Int:
+        """Those that are not met, i8[k,3]: the row and the number of segments, and the group that waits."""
+        unmet = [(*divmod(key, self._stride), group) for key, groups in self._waiting.items() for group in groups]
+        return np.array(unmet, np.int64).reshape(-1, 3)
+
     def update(self, counts: Int, robots: Int) -> None:
         """Meet the dependencies on `robots` i8[k], given the counts i8[2,n] of leading segments, and release moves."""
         ready = []

@@ -7,6 +7,7 @@ Delays therefore cause neither collisions nor deadlocks.
 
 import attrs
 
+from mrpbench_core.dispatching.fixed_order import FixedOrder
 from mrpbench_core.dispatching.order_keeping import OrderKeepingDispatcher, OrderKeepingSession
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -31,3 +32,9 @@ class AdgSession(OrderKeepingSession):
     def copied(self) -> "AdgSession":
         """Return a session that goes on from here by itself."""
         return self._copied()
+
+    def repeated(self, executions: int) -> FixedOrder | None:
+        """Return a session that goes on from here in so many executions, unless the plan needs more than an order."""
+        if self.graph.requests or self.options.speed_profiles:
+            return None
+        return FixedOrder(self.graph, self.released, self.options.lookahead, executions)

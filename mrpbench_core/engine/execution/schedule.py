@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.api.dispatcher import Dispatcher, DispatcherSession
+from mrpbench_core.api.dispatcher import Dispatcher, DispatcherSession, RepeatedSession
 from mrpbench_core.engine.contract_checks import ContractChecks
 from mrpbench_core.engine.execution.scheduled_paths import ScheduledPaths
 from mrpbench_core.engine.own import own
@@ -32,6 +32,11 @@ class Schedule:
         session = self._ready or self._start()
         self._ready = session.copied()
         return session
+
+    def repeated(self, executions: int) -> RepeatedSession | None:
+        """A session for so many executions at once, where the dispatcher can make one."""
+        self._ready = self._ready or self._start()
+        return self._ready.repeated(executions)
 
     def checks(self) -> ContractChecks:
         """Checks of what the session of one execution returns."""
