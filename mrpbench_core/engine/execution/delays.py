@@ -9,13 +9,12 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from mrpbench_core.config.delays import Delays
-from mrpbench_core.engine.execution.stops import Stop, stops
+from mrpbench_core.engine.execution.stops import NEVER, Stop, stops
 from mrpbench_core.engine.execution.worst_case import Adversary
 from mrpbench_core.engine.seeds import streams
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution.motion import Event
 
-_NEVER = 2**62
 _AT_ONCE = 64
 """Segments whose speeds are drawn at once."""
 
@@ -29,20 +28,19 @@ class DrawnDelays:
         self._speeds = streams(seed, repeat, "delays.speed", robots, draws) if settings.speed else []
         self._factor: Float = np.ones((count, 0))
         self._stops = stops(settings, robots, seed, repeat, draws) if settings.p_delay else []
-        self._begin: Int = np.full(count, _NEVER)
+        self._begin: Int = np.full(count, NEVER)
         """The tick i8[k] in which each robot's next stop begins."""
-        self._end: list[int] = [_NEVER] * count
-        """The tick in which that stop ends."""
-        for robot in range(len(self._stops)):
-            self._draw(robot)
-        self._next = int(self._begin.min(initial=_NEVER))
+        self._end: Int = np.full(count, NEVER)
+        """The tick i8[k] in which that stop ends."""
+        self._draw(np.arange(len(self._stops)))
+        self._next = int(self._begin.min(initial=NEVER))
         self._until: Int = np.full(count, -1)
         self._tick = -1
 
     def stops(self, robot: int) -> Iterator[Stop]:
         """The stops of a robot, in order, without end; use this or `begun`, not both."""
         if self._stops:
-            yield int(self._begin[robot]), self._end[robot]
+            yield int(self._begin[robot]), int(self._end[robot])
             yield from self._stops[robot]
 
     def begun(self, now: float) -> list[tuple[int, int, int]]:
@@ -50,18 +48,23 @@ class DrawnDelays:
         tick = math.floor(now / self.settings.tick + 1e-9)
         found: list[tuple[int, int, int]] = []
         while self._next <= tick:
-            for robot in np.flatnonzero(self._begin <= tick).tolist():
-                found.append((int(self._begin[robot]), robot, self._end[robot]))
-                self._until[robot] = self._end[robot]
-                self._draw(robot)
+            robots = np.flatnonzero(self._begin <= tick)
+            begin, end = self._begin[robots], self._end[robots]
+            found += zip(begin.tolist(), robots.tolist(), end.tolist(), strict=True)
+            self._until[robots] = end
+            self._draw(robots)
             self._next = int(self._begin.min())
         self._tick = tick
         return sorted(found)
 
-    def _draw(self, robot: int) -> None:
-        """Draw the next stop of a robot."""
-        begin, self._end[robot] = next(self._stops[robot])
-        self._begin[robot] = min(begin, _NEVER)
+    def forget(self, robots: Int) -> None:
+        """Draw no further stops of `robots` i8[j]."""
+        self._begin[robots] = NEVER
+
+    def _draw(self, robots: Int) -> None:
+        """Draw the next stops of `robots` i8[j]."""
+        drawn = np.array([next(self._stops[robot]) for robot in robots.tolist()], np.int64).reshape(-1, 2)
+        self._begin[robots], self._end[robots] = drawn.T
 
     @property
     def stopped(self) -> Bool:

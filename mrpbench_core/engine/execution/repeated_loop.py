@@ -62,6 +62,7 @@ class RepeatedLoop:
             released = orders.released.reshape(-1)
             came = moved[~self._arrived[moved] & (self._reached[moved] >= self._last[moved])]
             self._arrived[came], self._arrival[came] = True, now
+            self._delays.forget(came)
             if self._arrived.all() or now >= limit_s:
                 return self._arrival.reshape(self._shape), self._waiting.reshape(self._shape)
             np.add(self._waiting, self._period, out=self._waiting, where=~self._arrived & (self._reached >= released))

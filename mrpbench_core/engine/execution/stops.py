@@ -15,6 +15,8 @@ from mrpbench_core.engine.seeds import streams
 
 Stop = tuple[int, int]
 """A robot stops from the beginning of the first tick to the beginning of the second one."""
+NEVER = 2**62
+"""A tick that no execution has; no stop begins later."""
 
 
 def stops(settings: Delays, robots: int, seed: int, repeat: int, draws: Sequence[int]) -> list[Iterator[Stop]]:
@@ -35,9 +37,9 @@ def stops(settings: Delays, robots: int, seed: int, repeat: int, draws: Sequence
 
 def _bernoulli(settings: Delays, random: np.random.Generator) -> Iterator[Stop]:
     """A robot that does not stop begins to in each tick with probability p, so the ticks until then are geometric."""
-    length, end = _length(settings, random), 0
+    length, geometric, p_delay, end = _length(settings, random), random.geometric, settings.p_delay, 0
     while True:
-        begin = end + int(random.geometric(settings.p_delay)) - 1
+        begin = min(end + int(geometric(p_delay)) - 1, NEVER)
         end = begin + length()
         yield begin, end
 
