@@ -27,21 +27,21 @@ class DrawnDelays:
         self.settings = settings
         self._speeds = streams(seed, repeat, "delays.speed", robots, draws) if settings.speed else []
         self._factor: Float = np.ones((count, 0))
-        self._stops = stops(settings, robots, seed, repeat, draws) if settings.p_delay else []
+        self._stops = stops(settings, robots, seed, repeat, draws) if settings.p_delay else None
         self._begin: Int = np.full(count, NEVER)
         """The tick i8[k] in which each robot's next stop begins."""
         self._end: Int = np.full(count, NEVER)
         """The tick i8[k] in which that stop ends."""
-        self._draw(np.arange(len(self._stops)))
+        self._draw(np.arange(count))
         self._next = int(self._begin.min(initial=NEVER))
         self._until: Int = np.full(count, -1)
         self._tick = -1
 
     def stops(self, robot: int) -> Iterator[Stop]:
         """The stops of a robot, in order, without end; use this or `begun`, not both."""
-        if self._stops:
+        while self._stops is not None:
             yield int(self._begin[robot]), int(self._end[robot])
-            yield from self._stops[robot]
+            self._draw(np.array([robot]))
 
     def begun(self, now: float) -> list[tuple[int, int, int]]:
         """The stops that began since the last call, as (tick, robot, tick of the end), sorted; times increase."""
@@ -63,8 +63,9 @@ class DrawnDelays:
 
     def _draw(self, robots: Int) -> None:
         """Draw the next stops of `robots` i8[j]."""
-        drawn = np.array([next(self._stops[robot]) for robot in robots.tolist()], np.int64).reshape(-1, 2)
-        self._begin[robots], self._end[robots] = drawn.T
+        if self._stops is not None:
+            drawn = np.array(self._stops.following(robots.tolist()), np.int64).reshape(-1, 2)
+            self._begin[robots], self._end[robots] = drawn.T
 
     @property
     def stopped(self) -> Bool:
