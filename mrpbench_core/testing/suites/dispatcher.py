@@ -10,13 +10,13 @@ from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSe
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.engine.own import difference
 from mrpbench_core.model.common.arrays import Int32
-from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.execution.orders import FleetView, Orders, RepeatedOrders
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.testing.drawing import problem
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
-from mrpbench_core.testing.execution.drain import drain
+from mrpbench_core.testing.execution.drain import MOST_STEPS, drain
 from mrpbench_core.testing.execution.resource_manager import ResourceManager
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.instances.named import BAY, CONVOY, CROSSING
@@ -128,6 +128,27 @@ class DispatcherConformance(ComponentConformance):
                     different = difference(copied.update(now, view), orders, "orders")
                     require(not different, f"{name}: a copy returns other {different} than the session at {now} s")
 
+    def test_many_executions_at_once_are_those_of_each_session(self) -> None:
+        for name, (asked, plan) in plans().items():
+            executors = [delayed(asked, plan, seed) for seed in SEEDS]
+            together = self.make().start(asked, plan).repeated(len(executors))
+            if together is None:
+                continue
+            sessions = [self.make().start(asked, plan) for _ in executors]
+            for step in range(MOST_STEPS):
+                now, views = step * asked.roadmap.tick, [executor.view() for executor in executors]
+                seen = np.array([[view.reached for view in views], [view.cleared for view in views]], np.int64)
+                given = together.update(now, seen)
+                for execution, (session, executor) in enumerate(zip(sessions, executors, strict=True)):
+                    alone = session.update(now, views[execution])
+                    require(np.array_equal(given.released[execution], alone.released), f"{name}: releases other moves")
+                    require(
+                        in_step(given, execution) == set(map(frozenset, alone.in_step)), f"{name}: keeps others in step"
+                    )
+                    executor.step(step, alone.released)
+                if all(executor.done for executor in executors):
+                    break
+
     def check_resource(self, kind: str) -> None:
         """Release plans through a resource under delays, unless the dispatcher refuses them."""
         asked, plan = through_resource(kind)
@@ -185,6 +206,13 @@ def run(
         drain(session, executor, manager)
     except Fault as fault:
         raise Fault(f"{name}: {fault}") from None
+
+
+def in_step(orders: RepeatedOrders, execution: int) -> set[frozenset[tuple[int, int]]]:
+    """The groups that rotate in one execution, as in `Orders`."""
+    rows = orders.in_step[orders.in_step[:, 1] == execution].tolist()
+    groups = {row[0] for row in rows}
+    return {frozenset((robot, segment) for group, _, robot, segment in rows if group == each) for each in groups}
 
 
 def delayed(asked: Problem, plan: Plan, seed: int) -> DelayedExecutor:

@@ -7,9 +7,10 @@ import numpy as np
 from mrpbench_core.api import (
     Dispatcher,
     DispatcherSession,
+    RepeatedSession,
 )
 from mrpbench_core.builtin.dispatchers.adg import Adg
-from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.orders import Orders, RepeatedOrders
 from mrpbench_core.testing import DispatcherConformance, failed_checks, suite_for
 from mrpbench_core.testing.variant import variant
 
@@ -76,6 +77,22 @@ def test_a_dispatcher_that_says_it_keeps_robots_apart():
 
 def test_a_dispatcher_that_ignores_mutexes_need_not_keep_robots_apart():
     assert set(failed_checks(suite_for(session()))) == {"refuses plans through doors or requests the doors"}
+
+
+def test_a_dispatcher_that_releases_more_in_many_executions():
+    class Everything(RepeatedSession):
+        def __init__(self, executions, length):
+            self.orders = RepeatedOrders(released=np.tile(length, (executions, 1)))
+
+        def update(self, now, seen):
+            return self.orders
+
+    def update(self, now, view):
+        return Orders(released=np.minimum(self.length, view.reached + 1))
+
+    changes = {"repeated": lambda self, executions: Everything(executions, self.length), "update": update}
+    found = failed_checks(suite_for(session(**changes)))
+    assert "releases other moves" in found["many executions at once are those of each session"]
 
 
 def test_a_dispatcher_whose_copies_share_what_changes():
