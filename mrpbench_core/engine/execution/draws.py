@@ -12,8 +12,8 @@ from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.worst_case import Adversary
 from mrpbench_core.model.common.arrays import Float
 
-_AT_ONCE = 8192
-"""Robots of all executions at once; arrays of more do not fit into the caches of a processor."""
+_AT_ONCE = 1 << 14
+"""Robots of all executions at once; with more of them, an execution takes no less time (`benchmarks/draws.py`)."""
 
 
 class Draws:
