@@ -5,7 +5,7 @@ from mrpbench_core.api.component import Component, option
 from mrpbench_core.api.controller import Controller, ControllerSession, FleetControllerSession, FleetOfOne
 from mrpbench_core.api.crowd import Crowd, CrowdSession, CrowdView, Mover, Movers
 from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimulator
-from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession
+from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession, RepeatedSession
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.api.exporter import Exporter, ExporterSession
 from mrpbench_core.api.hooks import hookimpl
@@ -82,6 +82,7 @@ __all__ = [
     "Promise",
     "Recovery",
     "RecoverySession",
+    "RepeatedSession",
     "RoadmapBuilder",
     "ScenarioSource",
     "Signal",

@@ -4,8 +4,8 @@ from abc import ABC, abstractmethod
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.model.common.arrays import Int32
-from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.common.arrays import Int, Int32
+from mrpbench_core.model.execution.orders import FleetView, Orders, RepeatedOrders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 
@@ -26,6 +26,36 @@ class DispatcherSession(ABC):
 
         Raises:
             DispatchError: the new plan cannot be released safely from here. The session continues with the old one.
+        """
+
+    def copied(self) -> "DispatcherSession | None":
+        """Return a session that goes on from here as this one does, neither of them disturbing the other; None = it
+        cannot.
+
+        Many executions of one plan begin with copies, where that takes less time than to start anew. A copy may share
+        what never changes.
+        """
+        return None
+
+    def repeated(self, executions: int) -> "RepeatedSession | None":  # noqa: ARG002 - for those that can
+        """Return a session that goes on from here, as copies would, in so many executions at once; None = it cannot, or
+        the plan needs doors, lifts or mutexes, or limits of speed.
+        """
+        return None
+
+
+class RepeatedSession(ABC):
+    """Releases one plan in d executions, all of which go on by the same clock."""
+
+    @abstractmethod
+    def update(self, now: float, seen: Int) -> RepeatedOrders:
+        """Return for each execution what `DispatcherSession.update` would return.
+
+        Called every control period.
+
+        Args:
+            now: simulated seconds.
+            seen: i8[2,d,n] number of leading segments that each robot has reached, and has cleared; see `FleetView`.
         """
 
 

@@ -3,6 +3,8 @@
 Terms are those of Hönig et al., "Persistent and Robust Execution of MAPF Schedules in Warehouses", RA-L 2019.
 """
 
+import copy
+
 import numpy as np
 
 from mrpbench_core.api.dispatcher import DispatchError
@@ -78,6 +80,15 @@ class DependencyGraph:
         for robot in range(len(problem)):
             self._advance(robot)
 
+    def copied(self) -> "DependencyGraph":
+        """A graph that goes on from here by itself."""
+        found = copy.copy(self)
+        found.requests = self.requests.copied()
+        found.unmet, found._met, found.frontier = self.unmet.copy(), self._met.copy(), self.frontier.copy()
+        found._waiting = self._waiting.copy()  # its lists never change
+        found.rotating, found.released = self.rotating.copy(), self.released.copy()
+        return found
+
     def _dependencies(self, order: Type2Edges) -> Int:
         """The key of the row and count, and the waiting group, of every dependency of an order, as one number i8[k]."""
         apart = self.group_of_moves[order.before] != self.group_of_moves[order.after]
@@ -126,10 +137,10 @@ class DependencyGraph:
                 raise DispatchError(f"robot {self.robot[move]} is already on its way where another is to pass first")
         self.order = order
         for key, group in removed:
-            self._waiting[key].remove(group)
+            self._waiting[key] = [other for other in self._waiting[key] if other != group]
             self.unmet[group] -= 1
         for key, group in added:
-            self._waiting.setdefault(key, []).append(group)
+            self._waiting[key] = [*self._waiting.get(key, ()), group]
             self.unmet[group] += 1
         self.rotating = [rotation for first, rotation in self.rotations.items() if not self.unmet[first]]
         groups = {group for _, group in removed + added}
@@ -166,6 +177,11 @@ class DependencyGraph:
         rows, counts = np.divmod(keys, self._stride)
         unmet = counts > np.array(self._met)[rows]
         return list(zip(keys[unmet].tolist(), groups[unmet].tolist(), strict=True))
+
+    def dependencies(self) -> Int:
+        """Those that are not met, i8[k,3]: the row and the number of segments, and the group that waits."""
+        unmet = [(*divmod(key, self._stride), group) for key, groups in self._waiting.items() for group in groups]
+        return np.array(unmet, np.int64).reshape(-1, 3)
 
     def update(self, counts: Int, robots: Int) -> None:
         """Meet the dependencies on `robots` i8[k], given the counts i8[2,n] of leading segments, and release moves."""

@@ -1,6 +1,8 @@
 """Dispatchers that release each move once the moves that precede it in some order are out of its way."""
 
+import copy
 from collections.abc import Mapping
+from typing import Self
 
 import attrs
 import numpy as np
@@ -92,6 +94,13 @@ class OrderKeepingSession(DispatcherSession):
         self._profiles_due = -np.inf
         self._free = graph.released.copy()
         self._begin_to_release(committed)
+
+    def _copied(self) -> Self:
+        """A copy for `DispatcherSession.copied`; a derived class copies what else it changes in place."""
+        found = copy.copy(self)
+        found.graph = self.graph.copied()
+        found._profiles = self._profiles and self._profiles.of(found.graph)
+        return found
 
     def retime(self, moves: Moves, chosen: Bool) -> None:
         """Release the plan from now on in the order that its moves have at other times.

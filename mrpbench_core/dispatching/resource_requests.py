@@ -1,5 +1,6 @@
 """Requests for doors, lifts and mutexes, and the moves that must not begin before they are granted."""
 
+import copy
 from collections.abc import Iterable
 
 from mrpbench_core.model.common.arrays import Int
@@ -33,6 +34,12 @@ class ResourceRequests:
             own.sort(key=lambda occupation: occupation.first, reverse=True)  # the next is the last
         self._open: list[ResourceOccupation] = []
         """The longest requested first."""
+
+    def copied(self) -> "ResourceRequests":
+        """Requests that go on from here by themselves."""
+        found = copy.copy(self)
+        found._coming, found._open = [own.copy() for own in self._coming], self._open.copy()
+        return found
 
     def __bool__(self) -> bool:
         """Tell whether any robot needs a resource, now or later."""

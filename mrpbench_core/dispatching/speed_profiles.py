@@ -10,6 +10,7 @@ Times are *late times*: without the time that the robot needs for the moves on t
 speeds that moves, turns and limits allow differ from move to move, and what a profile spreads evenly is the delay.
 """
 
+import copy
 from typing import NamedTuple
 
 import numpy as np
@@ -72,6 +73,12 @@ class SpeedProfiles:
         """Seconds f8[m] from the beginning of each move until its robot has left room for any other at its start."""
         self._stride = int(moves.segment.max(initial=0)) + 2
         self._place = moves.robot * self._stride + moves.segment
+
+    def of(self, graph: DependencyGraph) -> "SpeedProfiles":
+        """The same for a copy of the graph."""
+        found = copy.copy(self)
+        found._graph = graph
+        return found
 
     def speed(self, seen: Int, position: Float) -> Float:
         """The speed f8[n] m/s that each robot should not exceed now, inf = any.

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.engine.own import own
-from mrpbench_core.model.common.arrays import Int32
+from mrpbench_core.model.common.arrays import Int, Int32
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
-from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.orders import Orders, RepeatedOrders
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.scenario import Scenario
 from mrpbench_core.plugins.kinds import kind_of
@@ -42,6 +42,8 @@ class ContractChecks:
         self._robots, self._movers = len(length), movers
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
+        self._least: Int = np.zeros((1, self._robots), np.int64)
+        """What `repeated` orders must release at least."""
         self._limits_speed: bool | None = None
         """Whether the dispatcher limits speeds."""
 
@@ -114,6 +116,22 @@ class ContractChecks:
             _refuse(kind, "speeds at some times and none at others")
         self._limits_speed = bool(len(orders.speed))
         self._released = orders.released
+        return orders
+
+    def repeated(self, orders: RepeatedOrders, executions: int) -> RepeatedOrders:
+        """Check the orders for several executions that a dispatcher returns."""
+        kind = "the dispatcher"
+        _require_class(kind, orders, RepeatedOrders)
+        orders = own(orders)
+        released, in_step = orders.released, orders.in_step
+        if released.shape != (executions, self._robots):
+            _refuse(kind, f"released of shape {released.shape} for {executions} executions of {self._robots} robots")
+        self._no_robot(kind, "released less than before", np.any(released < self._least, axis=0))
+        self._no_robot(kind, "released more segments than there are", np.any(released > self.length, axis=0))
+        limits = len(in_step), executions, self._robots, self.length.max(initial=0)
+        if len(in_step) and (in_step.min() < 0 or (in_step.max(axis=0) >= limits).any()):
+            _refuse(kind, "a group of robots, executions or segments that do not exist")
+        self._least = released
         return orders
 
     def motion(self, motion: Motion) -> Motion:

@@ -44,7 +44,10 @@ def test_every_listed_command_has_help(mrpbench, command):
         (["report", "nowhere"], "nowhere: is no results folder"),
         (["export", "nowhere:ab", "--to", "rosbag2"], "nowhere: is no results folder"),
         (["plugins", "show", "exmple"], "no plugin is called 'exmple' (did you mean 'example'?)"),
-        (["plugins", "show", "teleport"], "no plugin is called 'teleport' (`mrpbench plugins` lists what is installed)"),
+        (
+            ["plugins", "show", "teleport"],
+            "no plugin is called 'teleport' (`mrpbench plugins` lists what is installed)",
+        ),
         (["plugins", "wheel"], "no plugin has the kind 'wheel'"),
         (["init", "a/b"], "'a/b' is not a name"),
     ],

@@ -18,21 +18,18 @@ from collections.abc import Mapping, Sequence, Set
 
 import numpy as np
 
-from mrpbench_core.api.dispatcher import Dispatcher
 from mrpbench_core.config.faults import Faults
-from mrpbench_core.engine.contract_checks import ContractChecks
 from mrpbench_core.engine.execution.delays import DelayStream
-from mrpbench_core.engine.execution.faults import FaultEvent, FaultState, approaches
+from mrpbench_core.engine.execution.faults import FaultState
 from mrpbench_core.engine.execution.recorder import Recorder, Sample
+from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.standstill import Ending, Standstill
-from mrpbench_core.engine.own import own
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32, frozen_array
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Resource
-from mrpbench_core.model.runs.run import RunContext
 
 
 class ScheduleLoop:
@@ -40,13 +37,12 @@ class ScheduleLoop:
 
     Raises:
         BrokenContractError: the dispatcher returned what its contract rules out.
-        DispatchError: the dispatcher refuses the plan.
+        DispatchError: the dispatcher refuses the plan, if it starts anew.
     """
 
     def __init__(
         self,
-        context: RunContext,
-        dispatcher: Dispatcher,
+        schedule: Schedule,
         delays: DelayStream,
         recorder: Recorder | None = None,
         faults: FaultState | None = None,
@@ -54,21 +50,17 @@ class ScheduleLoop:
         """Begin an execution.
 
         Args:
-            context: of the run, with a plan.
-            dispatcher: releases the plan.
+            schedule: the plan, and who releases it.
             delays: of the robots.
             recorder: of what happens; without it neither samples nor contacts are found, which is faster.
             faults: of the robots; none by default.
         """
-        plan = context.result.plan
-        assert plan is not None
-        self._context = context
+        context = schedule.context
+        self._schedule = schedule
         self._faults = faults or FaultState(Faults(), (), len(context.problem))
         self._standstill = Standstill(self._faults.settings.patience)
         self._period, self._delays, self._recorder = context.period, delays, recorder
-        self._session = dispatcher.start(own(context.problem), own(plan))
-        self._checks = ContractChecks(np.array([len(path) for path in plan.paths], np.int64))
-        self._paths = _Paths(context)
+        self._session, self._checks, self._paths = schedule.session(), schedule.checks(), schedule.paths
         self._resources = _Resources(context.problem)
         robots = len(context.problem)
         self._reached: Int = np.zeros(robots, np.int64)
@@ -145,11 +137,10 @@ class ScheduleLoop:
         """The fleet at the end, if there are faults."""
         if not self._faults:
             return None
-        assert self._context.result.plan is not None
         return Ending(
-            problem=self._context.problem,
-            plan=self._context.result.plan,
-            names=self._context.fleet.names,
+            problem=self._schedule.context.problem,
+            plan=self._schedule.plan,
+            names=self._schedule.context.fleet.names,
             faults=self._faults,
             orders=self._orders,
             motion=self._motion,
@@ -240,94 +231,6 @@ def _overlaps(pose: Float, level: Int16, radius: Float) -> Int32:
     x, y = pose[one, 0] - pose[other, 0], pose[one, 1] - pose[other, 1]
     touch = (np.hypot(x, y) - radius[one] - radius[other] < -1e-6) & (level[one] == level[other])
     return np.sort(np.column_stack([one[touch], other[touch]]), axis=1).astype(np.int32)
-
-
-class _Paths:
-    """The segments of all paths, one path after another, each with one more entry for its end."""
-
-    def __init__(self, context: RunContext) -> None:
-        problem, plan = context.problem, context.result.plan
-        assert plan is not None
-        sizes = [len(path) + 1 for path in plan.paths]
-        self._first = np.cumsum([0, *sizes[:-1]]).astype(np.int64)
-        self.last_move: Int = np.array([route.last_move for route in context.routes], np.int64)
-        self._point = np.concatenate([route.waypoint[:, :2] for route in context.routes]).reshape(-1, 2)
-        self._level = np.concatenate([route.level for route in context.routes]).astype(np.int16)
-        durations, settled, clearing, paces = [], [], [], []
-        reach = problem.radius + problem.radius.max(initial=0.0)
-        for robot, (path, route) in enumerate(zip(plan.paths, context.routes, strict=True)):
-            is_move = path.edge >= 0
-            own_ticks = problem.duration(robot)[path.edge] if len(path) else np.empty(0, np.int32)
-            duration = np.where(is_move, own_ticks, 0) * problem.roadmap.tick
-            length = np.hypot(*np.diff(route.waypoint[:, :2], axis=0).T)
-            paces.append(np.append(np.where(length > 0, duration / np.maximum(length, 1e-9), np.inf), np.inf))
-            share = np.minimum(1.0, reach[robot] / np.maximum(length, 1e-9))
-            durations.append(np.append(duration, 0.0))
-            clearing.append(np.append(duration * share, np.inf))
-            settled.append(np.maximum.accumulate(np.append(0, np.where(is_move, np.arange(1, len(path) + 1), 0))))
-        self._duration = np.concatenate(durations) if durations else np.empty(0)
-        self._clearing, self._settled = np.concatenate(clearing), np.concatenate(settled)
-        self._pace: Float = np.concatenate(paces)
-        ahead = np.diff(self._point, axis=0, append=self._point[-1:])
-        ahead[self._first[1:] - 1] = 0.0
-        self._ahead = ahead
-        self._blocked: dict[FaultEvent, Int] = {}
-        """The segments, of all robots one after another, that lead to a blocked place."""
-        starts = context.scenario.start[:, 2]
-        self._yaw = _yaws(ahead, self._first, np.where(np.isnan(starts), 0.0, starts))
-
-    def duration(self, segment: Int) -> Float:
-        """Planned seconds f8[n] of each robot's `segment` i8[n], 0 for waits and ends."""
-        found: Float = self._duration[self._first + segment]
-        return found
-
-    def pace(self, segment: Int) -> Float:
-        """Planned seconds per metre f8[n] of each robot's `segment` i8[n], inf for turns, waits and ends."""
-        found: Float = self._pace[self._first + segment]
-        return found
-
-    def clearing(self, segment: Int) -> Float:
-        """Planned seconds f8[n] after which a robot has cleared the start of its `segment` i8[n]."""
-        found: Float = self._clearing[self._first + segment]
-        return found
-
-    def settled(self, segment: Int) -> Int:
-        """The segments i8[n] that a robot at the beginning of its `segment` has cleared: all before the last waits."""
-        found: Int = self._settled[self._first + segment]
-        return found
-
-    def level(self, segment: Int) -> Int16:
-        """The level i2[n] of each robot."""
-        found: Int16 = self._level[self._first + segment]
-        return found
-
-    def before(self, blockage: FaultEvent, segment: Int, under_way: Bool, radius: Float) -> Int:
-        """The first segment i8[n] of each robot, after the one `under_way`, that leads it to a blocked place."""
-        if blockage not in self._blocked:
-            owner = np.repeat(np.arange(len(self._first)), np.diff(np.append(self._first, len(self._point))))
-            place, reach = np.array(blockage.place), radius[owner] + blockage.radius
-            blocked = approaches(place, self._point, self._point + self._ahead, reach)
-            rows = np.flatnonzero(blocked & (self._level == blockage.level))
-            self._blocked[blockage] = np.append(rows, np.iinfo(np.int64).max)
-        rows = self._blocked[blockage]
-        found: Int = rows[np.searchsorted(rows, self._first + segment + under_way)] - self._first
-        return found
-
-    def pose(self, segment: Int, done: Float) -> Float:
-        """The pose f8[n,3] of each robot that has made `done` f8[n] planned seconds of its `segment`."""
-        at = self._first + segment
-        share = done / np.maximum(self._duration[at], 1e-9)
-        return np.column_stack([self._point[at] + share[:, None] * self._ahead[at], self._yaw[at]])
-
-
-def _yaws(ahead: Float, first: Int, start: Float) -> Float:
-    """The yaw f8[s] of each segment: along it, or as before where the robot does not move."""
-    yaw = np.where((ahead != 0).any(axis=1), np.arctan2(ahead[:, 1], ahead[:, 0]), np.nan)
-    begins = yaw[first]
-    yaw[first] = np.where(np.isnan(begins), start, begins)
-    known = np.maximum.accumulate(np.where(np.isnan(yaw), 0, np.arange(len(yaw))))
-    held: Float = yaw[known]
-    return held
 
 
 class _Resources:

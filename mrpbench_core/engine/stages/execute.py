@@ -1,9 +1,8 @@
 """Executes a plan in the simulator, and writes what happens to the recording and the exports."""
 
-import copy
 import math
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 import attrs
 import numpy as np
@@ -12,8 +11,8 @@ from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution.crowds import Crowds
-from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.destinations import Places
+from mrpbench_core.engine.execution.draws import Draws
 from mrpbench_core.engine.execution.evaluations import Evaluations
 from mrpbench_core.engine.execution.facility_manager import ExecutionError
 from mrpbench_core.engine.execution.faults import FaultState, draw_faults
@@ -25,6 +24,7 @@ from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.execution.routes import Router, start_poses
+from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.execution.worst_case import Adversary
@@ -144,14 +144,13 @@ def _faults(config: RunConfig, context: RunContext) -> FaultState:
     return FaultState(config.faults, events, robots)
 
 
-def _delays(config: RunConfig, context: RunContext) -> Iterator[DelayStream]:
-    """The delays of the run, then of its further draws; the same adversary attacks in all of them."""
+def _draws(config: RunConfig, context: RunContext) -> Draws:
+    """The delays of the run, and of its further draws."""
     settings, plan = config.delays, context.result.plan
     assert plan is not None
     attack = settings.worst_case * settings.tick
     adversary = Adversary(context.problem, plan, attack) if attack else None
-    for draw in range(settings.draws):
-        yield DelayStream(settings, len(context.fleet), config.seed, config.repeat, copy.deepcopy(adversary), draw)
+    return Draws(settings, len(context.fleet), (config.seed, config.repeat), adversary)
 
 
 def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replanner:
@@ -246,7 +245,7 @@ def _simulate(
                 simulation=simulation,
                 placed=poses,
                 noise=noise,
-                delays=next(_delays(config, context)),
+                delays=_draws(config, context).stream(),
                 faults=faults,
                 evaluations=_evaluations(config, context),
                 recorder=recorder,
@@ -271,20 +270,16 @@ def _follow_schedule(
     """Execute without physics; return the first execution, and the times of all draws of the delays."""
     assert config.dispatcher is not None
     limit = config.limits.execution
-    delays = _delays(config, context)
-    loop = ScheduleLoop(context, config.dispatcher, next(delays), recorder, faults)
+    draws = _draws(config, context)
+    schedule = Schedule(context, config.dispatcher)
+    loop = ScheduleLoop(schedule, draws.stream(), recorder, faults)
     arrived, simulated_s = loop.run(limit)
     unarrived = {} if loop.ending is None else loop.ending.reasons()
-    times = [(loop.arrival, loop.waiting)]
-    for drawn in delays:
-        again = FaultState(faults.settings, faults.events, len(context.fleet))
-        other = ScheduleLoop(context, config.dispatcher, drawn, faults=again)
-        other.run(limit)
-        times.append((other.arrival, other.waiting))
-    arrival, waiting = (np.stack(column) for column in zip(*times, strict=True))
-    draws = {"draw": np.arange(len(times), dtype=np.int32), "draw_arrival": arrival, "draw_waiting": waiting}
+    times = [(loop.arrival[None], loop.waiting[None]), *draws.execute(schedule, faults, limit)]
+    arrival, waiting = (np.concatenate(column) for column in zip(*times, strict=True))
+    rows = {"draw": np.arange(len(arrival), dtype=np.int32), "draw_arrival": arrival, "draw_waiting": waiting}
     result = ExecutionResult(succeeded=arrived, gave_up=(), simulated_s=simulated_s, unarrived=unarrived)
-    return result, draws
+    return result, rows
 
 
 def _failure(result: ExecutionResult, config: RunConfig, unarrived: Mapping[str, str]) -> RunEnded | None:

@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.model.common.arrays import Byte, Float, Int16, Int32, array
+from mrpbench_core.model.common.arrays import Byte, Float, Int, Int16, Int32, array
 
 
 @attrs.frozen(kw_only=True)
@@ -41,3 +41,14 @@ class Orders:
     speed: Float = array("f8", factory=lambda: np.zeros(0))
     """f8[n] m/s: upper limit of each robot now, inf = none; empty: there are no limits in the whole execution. No rule
     depends on it: a robot that ignores it only drives on to where it has to wait."""
+
+
+@attrs.frozen(kw_only=True)
+class RepeatedOrders:
+    """The orders for d executions of one plan; see `Orders`. There are neither requests nor limits of speed."""
+
+    released: Int = array("i8")
+    """i8[d,n]: number of leading path segments each robot may complete; never decreases."""
+    in_step: Int = array("i8", 4, factory=lambda: np.empty((0, 4), np.int64))
+    """i8[k,4]: number of a group that rotates in one execution, the execution, robot and segment of one of its members;
+    groups are numbered from 0 without gaps."""

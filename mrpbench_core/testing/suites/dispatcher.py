@@ -8,12 +8,15 @@ import numpy as np
 
 from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession
 from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.engine.own import difference
+from mrpbench_core.model.common.arrays import Int32
+from mrpbench_core.model.execution.orders import FleetView, Orders, RepeatedOrders
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.testing.drawing import problem
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
-from mrpbench_core.testing.execution.drain import drain
+from mrpbench_core.testing.execution.drain import MOST_STEPS, drain
 from mrpbench_core.testing.execution.resource_manager import ResourceManager
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.instances.named import BAY, CONVOY, CROSSING
@@ -21,6 +24,8 @@ from mrpbench_core.testing.instances.roadmaps import path_through
 from mrpbench_core.testing.suites.component import ComponentConformance
 
 SEEDS = range(12)
+EVERY = 6
+"""Calls from one copy of a session to the next."""
 DRAWN = {
     "a crossing": (CROSSING, ["dd", ".rr"]),
     "a corridor with a bay": (BAY, ["rrrr", "lu.dlll"]),
@@ -114,6 +119,36 @@ class DispatcherConformance(ComponentConformance):
         after = other.update(0.0, idle.view()).released
         require(np.array_equal(before, after), "a session releases more because another session has gone on")
 
+    def test_copies_go_on_as_their_sessions_do(self) -> None:
+        for name, (asked, plan) in plans().items():
+            watched = Watched(self.make().start(asked, plan))
+            run(name, watched, delayed(asked, plan, 0))
+            for number, copied in watched.copies.items():
+                for now, view, orders in watched.calls[number:]:
+                    different = difference(copied.update(now, view), orders, "orders")
+                    require(not different, f"{name}: a copy returns other {different} than the session at {now} s")
+
+    def test_many_executions_at_once_are_those_of_each_session(self) -> None:
+        for name, (asked, plan) in plans().items():
+            executors = [delayed(asked, plan, seed) for seed in SEEDS]
+            together = self.make().start(asked, plan).repeated(len(executors))
+            if together is None:
+                continue
+            sessions = [self.make().start(asked, plan) for _ in executors]
+            for step in range(MOST_STEPS):
+                now, views = step * asked.roadmap.tick, [executor.view() for executor in executors]
+                seen = np.array([[view.reached for view in views], [view.cleared for view in views]], np.int64)
+                given = together.update(now, seen)
+                for execution, (session, executor) in enumerate(zip(sessions, executors, strict=True)):
+                    alone = session.update(now, views[execution])
+                    require(np.array_equal(given.released[execution], alone.released), f"{name}: releases other moves")
+                    require(
+                        in_step(given, execution) == set(map(frozenset, alone.in_step)), f"{name}: keeps others in step"
+                    )
+                    executor.step(step, alone.released)
+                if all(executor.done for executor in executors):
+                    break
+
     def check_resource(self, kind: str) -> None:
         """Release plans through a resource under delays, unless the dispatcher refuses them."""
         asked, plan = through_resource(kind)
@@ -141,6 +176,28 @@ class DispatcherConformance(ComponentConformance):
             raise Skip("it does not claim to keep robots apart: it accepts plans with conflicts")
 
 
+class Watched(DispatcherSession):
+    """A session that keeps what it is asked and answers, and copies of itself if it can make them."""
+
+    def __init__(self, session: DispatcherSession) -> None:
+        self._session = session
+        self.calls: list[tuple[float, FleetView, Orders]] = []
+        self.copies: dict[int, DispatcherSession] = {}
+        """As they were before the call of that number."""
+
+    def update(self, now: float, view: FleetView) -> Orders:
+        """Ask the session."""
+        number = len(self.calls)
+        if number % EVERY == 0 and (copied := self._session.copied()) is not None:
+            self.copies[number] = copied
+        self.calls.append((now, view, self._session.update(now, view)))
+        return self.calls[-1][2]
+
+    def adopt(self, problem: Problem, plan: Plan, cut: Int32 | None = None) -> None:
+        """Ask the session."""
+        self._session.adopt(problem, plan, cut)
+
+
 def run(
     name: str, session: DispatcherSession, executor: DelayedExecutor, manager: ResourceManager | None = None
 ) -> None:
@@ -149,6 +206,13 @@ def run(
         drain(session, executor, manager)
     except Fault as fault:
         raise Fault(f"{name}: {fault}") from None
+
+
+def in_step(orders: RepeatedOrders, execution: int) -> set[frozenset[tuple[int, int]]]:
+    """The groups that rotate in one execution, as in `Orders`."""
+    rows = orders.in_step[orders.in_step[:, 1] == execution].tolist()
+    groups = {row[0] for row in rows}
+    return {frozenset((robot, segment) for group, _, robot, segment in rows if group == each) for each in groups}
 
 
 def delayed(asked: Problem, plan: Plan, seed: int) -> DelayedExecutor:

@@ -19,6 +19,7 @@ from mrpbench_core.config.delays import Delays
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.routes import Router
+from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.worst_case import Adversary
 from mrpbench_core.model.planning.plan import Budget
@@ -81,7 +82,7 @@ def arrives(problem, plan, dispatcher, delays, seed, period):
     )
     adversary = Adversary(problem, plan, delays.worst_case * delays.tick) if delays.worst_case else None
     stream = DelayStream(delays, robots, seed, 0, adversary)
-    arrived, _ = ScheduleLoop(context, dispatcher, stream, Recorder(0.01, period, chunks.append)).run(LIMIT)
+    arrived, _ = ScheduleLoop(Schedule(context, dispatcher), stream, Recorder(0.01, period, chunks.append)).run(LIMIT)
     return arrived, any(len(chunk.get("contact", ())) for chunk in chunks)
 
 

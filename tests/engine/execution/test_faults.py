@@ -17,6 +17,7 @@ from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.faults import FaultState, approaches, draw_faults
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.routes import Router
+from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.files.errors import InputError
@@ -162,7 +163,7 @@ def finished(run_context, problem, plan, faults, seed):
     events = draw_faults(faults, robots, problem.roadmap, names, 3000.0, seed, 0)
     state = FaultState(faults, events, robots)
     loop = ScheduleLoop(
-        context, Adg(), DelayStream(Delays(), robots, 0, 0), Recorder(1, PERIOD, lambda chunk: None), state
+        Schedule(context, Adg()), DelayStream(Delays(), robots, 0, 0), Recorder(1, PERIOD, lambda chunk: None), state
     )
     arrived, seconds = loop.run(3000.0)
     return arrived, seconds, loop.ending

@@ -16,7 +16,7 @@ from mrpbench_core.config.delays import Delays
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.recorder import Recorder
-from mrpbench_core.engine.execution.routes import Router
+from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.files.errors import InputErrors
@@ -32,22 +32,6 @@ PERIOD = 0.25
 
 
 @pytest.fixture
-def context_of(run_context):
-    """Make the context of a plan."""
-
-    def make(problem, plan):
-        robots = len(problem)
-        router = Router(problem, np.full(robots, np.nan), np.full(len(problem.roadmap.edges), np.inf))
-        start = np.column_stack([problem.roadmap.position[problem.start], np.zeros(robots)])
-        scenario = attrs.evolve(run_context.scenario, start=start, start_level=np.zeros(robots))
-        result = attrs.evolve(run_context.result, plan=plan)
-        changes = {"problem": problem, "result": result, "scenario": scenario, "period": PERIOD}
-        return attrs.evolve(run_context, routes=router(plan), **changes)
-
-    return make
-
-
-@pytest.fixture
 def straight():
     """A robot that goes ten cells along a row."""
     grid = two_way_grid(1, 11)
@@ -60,7 +44,7 @@ def executed(context, dispatcher, delays=None, limit=3000.0):
     chunks = []
     recorder = Recorder(1 / PERIOD, PERIOD, chunks.append)
     stream = DelayStream(delays or Delays(), len(context.problem), 3, 0)
-    arrived, seconds = ScheduleLoop(context, dispatcher, stream, recorder).run(limit)
+    arrived, seconds = ScheduleLoop(Schedule(context, dispatcher), stream, recorder).run(limit)
     names = {name for chunk in chunks for name in chunk}
     return arrived, seconds, {name: np.concatenate([c[name] for c in chunks if name in c]) for name in names}
 
@@ -224,7 +208,7 @@ def test_robots_arrive_when_they_do_in_the_recording_and_also_without_one(contex
     context, late = context_of(problem, plan), Delays(p_delay=0.05, max_delay=8, speed=0.2)
     loops = []
     for recorder in (Recorder(1 / PERIOD, PERIOD, (chunks := []).append), None):
-        loops.append(ScheduleLoop(context, Adg(), DelayStream(late, len(problem), seed, 0, draw=2), recorder))
+        loops.append(ScheduleLoop(Schedule(context, Adg()), DelayStream(late, len(problem), seed, 0, draw=2), recorder))
         assert loops[-1].run(3000.0)[0]
     np.testing.assert_array_equal(loops[0].arrival, loops[1].arrival)
     np.testing.assert_array_equal(loops[0].waiting, loops[1].waiting)

@@ -1,13 +1,16 @@
 """The suites catch faults of dispatchers: each plugin here has one and fails its check."""
 
+import copy
+
 import numpy as np
 
 from mrpbench_core.api import (
     Dispatcher,
     DispatcherSession,
+    RepeatedSession,
 )
 from mrpbench_core.builtin.dispatchers.adg import Adg
-from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.execution.orders import Orders, RepeatedOrders
 from mrpbench_core.testing import DispatcherConformance, failed_checks, suite_for
 from mrpbench_core.testing.variant import variant
 
@@ -74,3 +77,32 @@ def test_a_dispatcher_that_says_it_keeps_robots_apart():
 
 def test_a_dispatcher_that_ignores_mutexes_need_not_keep_robots_apart():
     assert set(failed_checks(suite_for(session()))) == {"refuses plans through doors or requests the doors"}
+
+
+def test_a_dispatcher_that_releases_more_in_many_executions():
+    class Everything(RepeatedSession):
+        def __init__(self, executions, length):
+            self.orders = RepeatedOrders(released=np.tile(length, (executions, 1)))
+
+        def update(self, now, seen):
+            return self.orders
+
+    def update(self, now, view):
+        return Orders(released=np.minimum(self.length, view.reached + 1))
+
+    changes = {"repeated": lambda self, executions: Everything(executions, self.length), "update": update}
+    found = failed_checks(suite_for(session(**changes)))
+    assert "releases other moves" in found["many executions at once are those of each session"]
+
+
+def test_a_dispatcher_whose_copies_share_what_changes():
+    def update(self, now, view):
+        self.calls[0] += 1
+        return Orders(released=np.minimum(self.length, self.calls[0]))
+
+    def adopt(self, problem, plan, cut=None):
+        Session.adopt(self, problem, plan)
+        self.calls = [0]
+
+    found = failed_checks(suite_for(session(update=update, adopt=adopt, copied=copy.copy)))
+    assert "a copy returns other orders.released" in found["copies go on as their sessions do"]

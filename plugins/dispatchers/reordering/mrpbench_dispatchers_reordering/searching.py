@@ -64,6 +64,10 @@ class SearchingSession(SwitchingSession):
         self.lateness = self.progress.driven
         """Seconds f8[n] by which robots were late then."""
 
+    def copied(self) -> "SearchingSession":
+        """Return a session that goes on from here by itself."""
+        return self._copied()
+
     def update(self, now: float, view: FleetView) -> Orders:
         """Change the order if robots are late and that helps; release the moves that no longer wait for anything."""
         self.observe(now, view)

@@ -1,5 +1,8 @@
 """What dispatchers share that switch the order of two robots at places where both orders are possible."""
 
+import copy
+from typing import Self
+
 import attrs
 import numpy as np
 
@@ -58,6 +61,11 @@ class SwitchingSession(OrderKeepingSession):
         self.visits = visits_of(problem, self.moves)
         self.conflicts = Conflicts(problem)
         self.progress.use(problem, self.moves, cut)
+
+    def _copied(self) -> Self:
+        found = super()._copied()
+        found.progress = copy.copy(self.progress)
+        return found
 
     def observe(self, now: float, view: FleetView) -> None:
         """Take note of the progress of the robots."""

@@ -1,0 +1,116 @@
+"""Many executions at once take the times, bit for bit, that each of them takes alone."""
+
+import copy
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from mrpbench_core.api import DispatchError, DispatcherSession, RepeatedSession
+from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.builtin.dispatchers.adg import Adg
+from mrpbench_core.config.delays import Delays
+from mrpbench_core.engine.execution.delays import DelayStream, DrawnDelays
+from mrpbench_core.engine.execution.repeated_loop import RepeatedLoop
+from mrpbench_core.engine.execution.schedule import Schedule
+from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
+from mrpbench_core.engine.execution.worst_case import Adversary
+from mrpbench_core.model.execution.orders import RepeatedOrders
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.testing.drawing import build
+from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources
+from mrpbench_core.testing.instances.roadmaps import path_through, two_way_grid
+
+DELAYS = st.builds(
+    Delays,
+    p_delay=st.sampled_from([0.0, 0.01, 0.1, 0.4]),
+    max_delay=st.integers(1, 9),
+    event_model=st.sampled_from(["bernoulli", "poisson"]),
+    duration_model=st.sampled_from(["uniform", "gaussian"]),
+    tick=st.sampled_from([0.5, 0.7, 1.0]),
+    speed=st.sampled_from([0.0, 0.3]),
+    worst_case=st.sampled_from([0, 5]),
+)
+DISPATCHERS = st.builds(Adg, lookahead=st.sampled_from([1, 2, 8]), group_margin=st.just(0.0))
+
+
+def alone(schedule, delays, seed, draw, limit, adversary):
+    """Arrival and waiting of one execution."""
+    stream = DelayStream(delays, len(schedule.context.problem), seed, 0, copy.deepcopy(adversary), draw)
+    loop = ScheduleLoop(schedule, stream)
+    loop.run(limit)
+    return loop.arrival, loop.waiting
+
+
+def require_equal(schedule, delays, seed, executions, limit):
+    """Compare executions at once with each of them alone."""
+    problem, attack = schedule.context.problem, delays.worst_case * delays.tick
+    adversary = Adversary(problem, schedule.plan, attack) if attack else None
+    session = schedule.repeated(executions)
+    draws = range(1, executions + 1)
+    drawn = DrawnDelays(delays, len(problem), seed, 0, draws)
+    adversaries = [copy.deepcopy(adversary) for _ in draws] if adversary else []
+    found = RepeatedLoop(schedule, session, drawn, adversaries).run(limit)
+    each = [alone(schedule, delays, seed, draw, limit, adversary) for draw in draws]
+    for ours, theirs in zip(found, zip(*each, strict=True), strict=True):
+        assert ours.tobytes() == np.stack(theirs).tobytes()
+
+
+@settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.integers(0, 2**32 - 1), DELAYS, DISPATCHERS, st.integers(1, 4), st.sampled_from([9.0, 3000.0]))
+def test_executions_at_once_are_those_of_each_draw(context_of, seed, delays, dispatcher, executions, limit):
+    problem, plan = random_plan(np.random.default_rng(seed))
+    try:
+        schedule = Schedule(context_of(problem, plan), dispatcher)
+    except DispatchError:
+        return
+    require_equal(schedule, delays, seed, executions, limit)
+
+
+@settings(deadline=None, max_examples=20, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.integers(0, 2**32 - 1), DELAYS, DISPATCHERS)
+def test_rotations_at_once_are_those_of_each_draw(context_of, seed, delays, dispatcher):
+    grid = two_way_grid(2, 3)
+    routes = [(2, 1, 4), (4, 4, 3), (3, 3, 0), (0, 0, 1)]
+    problem = build(grid, [route[0] for route in routes], [()] * 4)
+    problem = attrs.evolve(problem, goals=tuple(((route[-1],),) for route in routes))
+    plan = Plan(paths=tuple(path_through(grid, route) for route in routes))
+    schedule = Schedule(context_of(problem, plan), dispatcher)
+    require_equal(schedule, delays, seed, 3, 3000.0)
+
+
+def test_plans_that_need_resources_or_profiles_of_speed_are_executed_one_by_one():
+    random = np.random.default_rng(0)
+    plans = [random_plan_with_resources(random) for _ in range(20)]
+    sessions = [Adg().start(*plan) for plan in plans]
+    assert any(session.graph.requests for session in sessions)
+    for session in sessions:
+        assert (session.repeated(2) is None) == bool(session.graph.requests)
+    assert Adg(speed_profiles=True).start(*random_plan(random)).repeated(2) is None
+    assert DispatcherSession.repeated(sessions[0], 2) is None
+
+
+@pytest.mark.parametrize(
+    ("released", "in_step", "what"),
+    [
+        (lambda now, n: np.zeros((1, n)), [], "released of shape"),
+        (lambda now, n: np.full((2, n), -1), [], "released less than before"),
+        (lambda now, n: np.full((2, n), 1 - int(now > 0)), [], "released less than before"),
+        (lambda now, n: np.full((2, n), 999), [], "released more segments than there are"),
+        (lambda now, n: np.zeros((2, n)), [(0, 2, 0, 0)], "that do not exist"),
+        (lambda now, n: np.zeros((2, n)), [(1, 0, 0, 0)], "that do not exist"),
+    ],
+)
+def test_orders_that_break_the_contract_end_the_run(context_of, released, in_step, what):
+    class Breaking(RepeatedSession):
+        def update(self, now, seen):
+            return RepeatedOrders(released=released(now, seen.shape[2]), in_step=in_step)
+
+    plans = (random_plan(np.random.default_rng(seed)) for seed in range(99))
+    problem, plan = next(found for found in plans if min(map(len, found[1].paths)) > 1)
+    schedule = Schedule(context_of(problem, plan), Adg(group_margin=0.0))
+    loop = RepeatedLoop(schedule, Breaking(), DrawnDelays(Delays(), len(problem), 0, 0, (1, 2)))
+    with pytest.raises(BrokenContractError, match=what):
+        loop.run(99.0)
