@@ -17,6 +17,7 @@ from typing import Any
 
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths
 
@@ -87,7 +88,10 @@ def executed(world: str, robots: int, dispatcher: str, draws: int, profile: cPro
 
     with tempfile.TemporaryDirectory() as name:
         paths = RunPaths(recording=Path(name) / "run.zip", exports=Path(name) / "exports")
-        record = execute(point.config, "draws", paths, announce)
+        try:
+            record = execute(point.config, "draws", paths, announce)
+        except InputError as error:
+            raise SystemExit(f"{world}, {robots} robots, {dispatcher}: {error}") from None
     if record.status != RunStatus.SUCCEEDED:
         raise SystemExit(f"{world}, {robots} robots, {dispatcher}: {record.status}: {record.error}")
     return times[Stage.EXPORT] - times[Stage.EXECUTION]
