@@ -22,7 +22,7 @@ MRPBENCH_WIDE void clip_axis(std::size_t count, const double* along, double from
                              double* lengths) {
   for (std::size_t i = 0; i < count; ++i) {
     const double limit = ((along[i] > 0 ? high : low) - from) / along[i];
-    lengths[i] = (along[i] != 0) & (limit < lengths[i]) ? limit : lengths[i];
+    lengths[i] = ((along[i] != 0) & (limit < lengths[i])) ? limit : lengths[i];
   }
 }
 
