@@ -135,13 +135,11 @@ class RepeatedLoop:
 
     def _clear(self, robots: Int) -> None:
         """Take note of what `robots` have cleared."""
-        reached, done = self._reached[robots], self._done[robots]
-        at = self._first[robots] + reached
-        on_way = (done >= self._paths.clearings[at]) & (done > 0)
-        cleared = np.where(on_way, reached + 1, self._paths.settlements[at])
+        reached = self._reached[robots]
+        cleared = self._paths.cleared(self._first[robots] + reached, reached, self._done[robots])
         self._cleared[robots] = np.maximum(self._cleared[robots], cleared)
 
     def _durations(self, robots: Int) -> Float:
         """Planned seconds of the present segment of each of `robots`."""
-        found: Float = self._paths.durations[self._first[robots] + self._reached[robots]]
+        found: Float = self._paths.duration[self._first[robots] + self._reached[robots]]
         return found

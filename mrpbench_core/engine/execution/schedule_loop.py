@@ -155,7 +155,7 @@ class ScheduleLoop:
         """Relative speed f8[n] of each robot on its segment."""
         relative = self._delays.speed(self._reached) * self._faults.speed
         if len(self._orders.speed):
-            relative = np.minimum(relative, self._orders.speed * self._paths.pace(self._reached))
+            relative = np.minimum(relative, self._orders.speed * self._paths.pace[self._paths.rows(self._reached)])
         return relative
 
     def _advance(self) -> Bool:
@@ -163,10 +163,10 @@ class ScheduleLoop:
         released = self._faults.received(self._orders.released).astype(np.int64)
         for blockage in self._faults.blockages:
             released = np.minimum(released, self._paths.before(blockage, self._reached, self._done > 0, self._radius))
-        duration = self._paths.duration(self._reached)
+        duration = self._paths.duration[self._paths.rows(self._reached)]
         while (waits := (self._reached < released) & (duration == 0)).any():
             self._reached[waits] += 1
-            duration = self._paths.duration(self._reached)
+            duration = self._paths.duration[self._paths.rows(self._reached)]
         left = np.where(self._delays.stopped | self._faults.stopped, 0.0, self._period)
         speed = self._speed()
         moved = np.zeros(len(left), bool)
@@ -187,14 +187,13 @@ class ScheduleLoop:
             left = np.where(ends, np.maximum(left - needed, 0.0), np.where(going, 0.0, left))
             self._reached += ends
             self._done[ends] = 0.0
-            duration = self._paths.duration(self._reached)
+            duration = self._paths.duration[self._paths.rows(self._reached)]
             speed = np.where(ends, self._speed(), speed)
         return moved
 
     def _look(self, moved: Bool) -> None:
         """What the dispatcher and the recording are told of the robots' progress."""
-        on_way = self._done >= self._paths.clearing(self._reached)
-        cleared = np.where(on_way & (self._done > 0), self._reached + 1, self._paths.settled(self._reached))
+        cleared = self._paths.cleared(self._paths.rows(self._reached), self._reached, self._done)
         self._cleared = np.maximum(self._cleared, cleared)
         self._motion = Motion(
             twist=self._commands,
@@ -208,7 +207,7 @@ class ScheduleLoop:
 
     def _state(self, pose: Float, before: Float) -> State:
         """The state at a `pose` f8[n,3], one control period after the one `before`."""
-        level = self._paths.level(self._reached)
+        level = self._paths.level[self._paths.rows(self._reached)]
         if self._recorder is None:
             return State(pose=pose, twist=self._commands, level=level, contacts=_NONE)
         moved = pose[:, :2] - before[:, :2]

@@ -18,7 +18,8 @@ class ScheduledPaths:
         """The row i8[n] of the tables at which the path of each robot begins."""
         self.last_move: Int = np.array([route.last_move for route in context.routes], np.int64)
         self._point = np.concatenate([route.waypoint[:, :2] for route in context.routes]).reshape(-1, 2)
-        self._level = np.concatenate([route.level for route in context.routes]).astype(np.int16)
+        self.level: Int16 = np.concatenate([route.level for route in context.routes]).astype(np.int16)
+        """The level i2[s] of each segment."""
         durations, settled, clearing, paces = [], [], [], []
         reach = problem.radius + problem.radius.max(initial=0.0)
         for robot, (path, route) in enumerate(zip(plan.paths, context.routes, strict=True)):
@@ -31,13 +32,14 @@ class ScheduledPaths:
             durations.append(np.append(duration, 0.0))
             clearing.append(np.append(duration * share, np.inf))
             settled.append(np.maximum.accumulate(np.append(0, np.where(is_move, np.arange(1, len(path) + 1), 0))))
-        self.durations: Float = np.concatenate(durations)
+        self.duration: Float = np.concatenate(durations)
         """Planned seconds f8[s] of each segment, 0 for waits and ends."""
-        self.clearings: Float = np.concatenate(clearing)
+        self._clearing: Float = np.concatenate(clearing)
         """Planned seconds f8[s] after which a robot has cleared the start of each segment."""
-        self.settlements: Int = np.concatenate(settled)
+        self._settled: Int = np.concatenate(settled)
         """The segments i8[s] of its path that a robot at the beginning of each segment has cleared."""
-        self._pace: Float = np.concatenate(paces)
+        self.pace: Float = np.concatenate(paces)
+        """Planned seconds per metre f8[s] of each segment, inf for turns, waits and ends."""
         ahead = np.diff(self._point, axis=0, append=self._point[-1:])
         ahead[self.first[1:] - 1] = 0.0
         self._ahead = ahead
@@ -46,30 +48,21 @@ class ScheduledPaths:
         starts = context.scenario.start[:, 2]
         self._yaw = _yaws(ahead, self.first, np.where(np.isnan(starts), 0.0, starts))
 
-    def duration(self, segment: Int) -> Float:
-        """Planned seconds f8[n] of each robot's `segment` i8[n], 0 for waits and ends."""
-        found: Float = self.durations[self.first + segment]
+    def rows(self, segment: Int) -> Int:
+        """The rows i8[n] of the tables for each robot's `segment` i8[n]."""
+        found: Int = self.first + segment
         return found
 
-    def pace(self, segment: Int) -> Float:
-        """Planned seconds per metre f8[n] of each robot's `segment` i8[n], inf for turns, waits and ends."""
-        found: Float = self._pace[self.first + segment]
-        return found
+    def cleared(self, row: Int, segment: Int, done: Float) -> Int:
+        """The number i8[k] of segments that each robot has cleared.
 
-    def clearing(self, segment: Int) -> Float:
-        """Planned seconds f8[n] after which a robot has cleared the start of its `segment` i8[n]."""
-        found: Float = self.clearings[self.first + segment]
-        return found
-
-    def settled(self, segment: Int) -> Int:
-        """The segments i8[n] that a robot at the beginning of its `segment` has cleared: all before the last waits."""
-        found: Int = self.settlements[self.first + segment]
-        return found
-
-    def level(self, segment: Int) -> Int16:
-        """The level i2[n] of each robot."""
-        found: Int16 = self._level[self.first + segment]
-        return found
+        Args:
+            row: i8[k] of the tables, of the segment of each robot.
+            segment: i8[k] that each robot is on.
+            done: f8[k] planned seconds that each robot has made of it.
+        """
+        on_way = (done >= self._clearing[row]) & (done > 0)
+        return np.where(on_way, segment + 1, self._settled[row])
 
     def before(self, blockage: FaultEvent, segment: Int, under_way: Bool, radius: Float) -> Int:
         """The first segment i8[n] of each robot, after the one `under_way`, that leads it to a blocked place."""
@@ -77,16 +70,16 @@ class ScheduledPaths:
             owner = np.repeat(np.arange(len(self.first)), np.diff(np.append(self.first, len(self._point))))
             place, reach = np.array(blockage.place), radius[owner] + blockage.radius
             blocked = approaches(place, self._point, self._point + self._ahead, reach)
-            rows = np.flatnonzero(blocked & (self._level == blockage.level))
+            rows = np.flatnonzero(blocked & (self.level == blockage.level))
             self._blocked[blockage] = np.append(rows, np.iinfo(np.int64).max)
         rows = self._blocked[blockage]
-        found: Int = rows[np.searchsorted(rows, self.first + segment + under_way)] - self.first
+        found: Int = rows[np.searchsorted(rows, self.rows(segment) + under_way)] - self.first
         return found
 
     def pose(self, segment: Int, done: Float) -> Float:
         """The pose f8[n,3] of each robot that has made `done` f8[n] planned seconds of its `segment`."""
-        at = self.first + segment
-        share = done / np.maximum(self.durations[at], 1e-9)
+        at = self.rows(segment)
+        share = done / np.maximum(self.duration[at], 1e-9)
         return np.column_stack([self._point[at] + share[:, None] * self._ahead[at], self._yaw[at]])
 
 
