@@ -42,7 +42,7 @@ class Critic {
   /// Prepare for a scene.
   virtual void prepare(const Scene&) {}
   /// Raw scores of all trajectories, lower is better, and why some are illegal; `why` comes full of `kLegal`. Tells
-  /// whether some are.
+  /// whether some may be.
   virtual bool score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) = 0;
   /// Check one pose of a trajectory; called only for trajectories that could win.
   virtual Reason check(const Scene&, Pose) { return kLegal; }

@@ -41,7 +41,7 @@ class Mppi : public Controller {
   void draw();
   void reset();
   void prepare(const Situation& now);
-  void sample(mppi::Batch& batch, const std::vector<float>& plan_vx, const std::vector<float>& plan_wz) const;
+  void sample(mppi::Batch& batch) const;
   bool improve(const Extra& extra);
   void begin_plan();
   bool score(const Extra& extra);

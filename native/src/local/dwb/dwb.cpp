@@ -189,8 +189,9 @@ bool Dwb::passes(const Scene& scene, const Trajectories& all, std::size_t i) {
 /// The trajectory with the lowest total, of equal ones the first. Trajectories that cannot win by their totals are not
 /// checked pose by pose: DWB's short-circuit evaluation, applied to whole trajectories.
 std::optional<std::size_t> Dwb::best(const Scene& scene, Buffers& its) {
+  const auto may_win = [&](std::size_t i) { return !why_[i] && total_[i] < std::numeric_limits<double>::infinity(); };
   for (std::size_t i = 0; !options_.short_circuit && i < its.all.size(); ++i) {
-    if (!why_[i] && std::isfinite(total_[i])) passes(scene, its.all, i);
+    if (may_win(i)) passes(scene, its.all, i);
   }
   std::optional<std::size_t> first;
   double lowest = std::numeric_limits<double>::infinity();
@@ -202,7 +203,7 @@ std::optional<std::size_t> Dwb::best(const Scene& scene, Buffers& its) {
   if (!first || passes(scene, its.all, *first)) return first;
   its.order.clear();
   for (std::size_t i = 0; i < its.all.size(); ++i) {
-    if (!why_[i] && total_[i] < std::numeric_limits<double>::infinity()) its.order.push_back(i);
+    if (may_win(i)) its.order.push_back(i);
   }
   const auto worse = [&](std::size_t a, std::size_t b) {
     return total_[a] != total_[b] ? total_[a] > total_[b] : a > b;

@@ -210,13 +210,12 @@ void Mppi::prepare(const Situation& now) {
   }
 }
 
-/// Draw the samples around a plan.
-MRPBENCH_WIDE void Mppi::sample(Batch& batch, const std::vector<float>& plan_vx,
-                                const std::vector<float>& plan_wz) const {
+/// Draw the samples around the plan that is their centre.
+MRPBENCH_WIDE void Mppi::sample(Batch& batch) const {
   const std::size_t steps = batch.steps(), samples = batch.samples();
   const MppiOptions& it = options_;
   for (std::size_t t = 0; t < steps; ++t) {
-    const float vx = plan_vx[t], wz = plan_wz[t];
+    const float vx = centre_vx_[t], wz = centre_wz_[t];
     const std::size_t drawn = (t + rolled_) % steps;
     const float *nv = noise_vx_[drawn], *nw = noise_wz_[drawn];
     float *cv = batch.control_vx[t], *cw = batch.control_wz[t];
@@ -243,7 +242,7 @@ MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
   begin_plan();
   centre_vx_ = plan_vx_;
   centre_wz_ = plan_wz_;
-  sample(batch_, plan_vx_, plan_wz_);
+  sample(batch_);
   batch_.find_furthest();
   if (!score(extra)) return false;
   for (std::size_t t = 0; t < steps; ++t) {
@@ -360,7 +359,7 @@ Explanation Mppi::explain() const {
   constexpr std::size_t every = 5;
   Batch batch = batch_;
   const Lent lent(batch, plan_vx_.size(), total_.size());
-  sample(batch, centre_vx_, centre_wz_);
+  sample(batch);
   Samples samples = trajectories(batch, every, 3);
   found.arrays = {{"twist", std::move(samples.twist)},
                   {"pose", std::move(samples.pose)},
