@@ -71,5 +71,5 @@ def _legend(axes: Any, planned: bool, driven: bool, goals: bool, people: bool) -
         *([Line2D([], [], label="people", markerfacecolor="white", **person)] if people else []),
     ]
     axes.legend(
-        handles=entries, loc="lower right", bbox_to_anchor=(1, 1), ncols=len(entries), frameon=False, borderpad=0
+        handles=entries, loc="lower left", bbox_to_anchor=(0, 1), ncols=len(entries), frameon=False, borderpad=0
     )

@@ -10,10 +10,12 @@ from mrpbench_core.model.worlds.solids import segments
 from mrpbench_core.model.worlds.world import World
 from mrpbench_core.report.pictures.style import DPI, NAME, PIXELS
 
-MARGINS = (84, 20, 60, 44)
+MARGINS = (84, 20, 60, 70)
 """Left, right, bottom, top, pixels."""
-LEAST = 250
-"""Pixels of the shorter side of the map."""
+LEAST = (590, 250)
+"""Pixels of width and height; the width holds the legend."""
+TITLE = 16
+"""Points between map and title, where the legend is."""
 
 
 def bounds(world: World, truth: Float | None, level: int) -> tuple[Float, Float]:
@@ -43,12 +45,12 @@ def layout(size: Float) -> tuple[tuple[float, float], tuple[float, float, float,
 
 def set_axes(axes: Any, title: str, low: Float, high: Float) -> None:
     """Set scale, labels and title of the map from corner `low` to corner `high`, metres."""
-    axes.set_aspect("equal")
+    axes.set_aspect("equal", anchor="W")
     axes.set_xlim(low[0], high[0])
     axes.set_ylim(low[1], high[1])
     axes.set_xlabel("x [m]", color=NAME)
     axes.set_ylabel("y [m]", color=NAME)
-    axes.set_title(title, fontsize=9, loc="left", color=NAME)
+    axes.set_title(title, fontsize=9, loc="left", color=NAME, pad=TITLE)
     axes.tick_params(length=2, color=NAME, labelcolor=NAME)
     for spine in axes.spines.values():
         spine.set_visible(False)

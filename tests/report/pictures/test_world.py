@@ -11,10 +11,12 @@ from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.world import Door, Lane, Level, Obstacle, Vertex, World
-from mrpbench_core.report.pictures.style import PIXELS
-from mrpbench_core.report.pictures.world import draw_world
+from mrpbench_core.report.pictures.paths import draw_paths
+from mrpbench_core.report.pictures.style import PIXELS, own_style
+from mrpbench_core.report.pictures.world import draw_world, world_figure
 
 pytest.importorskip("matplotlib")
+from matplotlib.text import Text
 
 
 def pixels(file):
@@ -53,6 +55,21 @@ def test_a_run_shows_robots_in_their_colours(tmp_path, robot_model):
     assert has(image, "#44aa99")
     assert not has(image, "#009e73"), "there is no third robot"
     assert has(image, "#e8f0f6"), "the roadmap is shaded"
+
+
+def test_title_and_legend_of_a_narrow_world_are_on_the_sheet_and_do_not_overlap():
+    world = World(name="narrow", levels=(Level(name="a level", walls=[[0, 0, 0, 20], [2, 0, 2, 20]]),))
+    truth = np.array([[[1, 1, 0]], [[1, 19, 0]]], float)
+    with own_style():
+        figure, axes = world_figure(world, truth=truth)
+        draw_paths(axes, None, [truth[:, 0, :2]], truth, people=True)
+    figure.draw_without_rendering()
+    title = next(text for text in axes.findobj(Text) if text.get_text().startswith("narrow")).get_window_extent()
+    legend = axes.get_legend().get_window_extent()
+    assert not title.overlaps(legend)
+    for box in (title, legend):
+        assert figure.bbox.contains(box.x0, box.y0)
+        assert figure.bbox.contains(box.x1, box.y1)
 
 
 @pytest.mark.parametrize("part", ["routes", "truth"])
