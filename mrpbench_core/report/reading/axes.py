@@ -5,7 +5,7 @@ from typing import Any
 
 from mrpbench_core.config.settings import EXECUTION, NOT_IDENTIFYING
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.suggestions import suggest
+from mrpbench_core.files.suggestions import did_you_mean, suggest
 from mrpbench_core.store.results import flatten
 
 SAMPLES = ("seed", "repeat")
@@ -33,7 +33,9 @@ def find_axes(configs: Sequence[dict[str, Any]], by: Sequence[str] | None = None
         known = {part for entry in flat for key in entry for part in _with_blocks(key)}
         for name in by:
             if name not in known:
-                raise InputError(f"--by: no run has the option {name!r}", hint=suggest(name, sorted(known)))
+                full = next((key for key in sorted(known) if key.endswith(f".{name}")), name)
+                hint = did_you_mean(full, sorted(known)) or suggest(name, _varying(flat), "options that vary:")
+                raise InputError(f"--by: no run has the option {name!r}", hint=hint)
     varying = [key for key in _varying(flat) if by is None or _is_below(key, by)]
     kept = _without_implied(varying, flat)
     return _without_shared([{key: entry[key] for key in kept if key in entry} for entry in flat])

@@ -41,8 +41,13 @@ def test_rows_can_be_made_by_some_options_only():
     configs = [config(CBS, scenario={"robots": 5}), config(ECBS, scenario={"robots": 9})]
     assert find_axes(configs, ["planner"]) == [{"planner.plugin": "cbs"}, {"planner.plugin": "ecbs"}]
     assert find_axes(configs, ["scenario.robots"]) == [{"scenario.robots": 5}, {"scenario.robots": 9}]
-    with pytest.raises(InputError, match="did you mean 'planner'"):
-        find_axes(configs, ["planer"])
+    for name, hint in (
+        ("planer", "did you mean 'planner'"),
+        ("robots", "did you mean 'scenario.robots'"),
+        ("zzz", r"\(options that vary: planner.plugin, scenario.robots\)"),
+    ):
+        with pytest.raises(InputError, match=hint):
+            find_axes(configs, [name])
 
 
 def test_blocks_in_lists_show_the_options_in_which_blocks_of_a_name_differ():
