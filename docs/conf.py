@@ -51,7 +51,7 @@ PAGES_OF_FILES = {
     "native/README.md": "native.md",
     "plugins/README.md": "standard-plugins.md",
 }
-"""Files outside this folder that pages of `project/` include, and these pages."""
+"""Files outside this folder that pages include, and these pages, seen from `project/`."""
 
 
 def lead_links_to_pages(folder: str, page: str, content: list[str]) -> None:
@@ -78,9 +78,10 @@ def read_page(_app: Sphinx, page: str, content: list[str]) -> None:
     lead_links_to_pages(folder, folder, content)
 
 
-def read_included(_app: Sphinx, path: Path, _page: str, content: list[str]) -> None:
-    """Lead the links of a file that a page of `project/` includes."""
-    lead_links_to_pages(posixpath.dirname(posixpath.normpath(posixpath.join("docs", path))), "docs/project", content)
+def read_included(_app: Sphinx, path: Path, page: str, content: list[str]) -> None:
+    """Lead the links of a file that a page includes."""
+    folder = posixpath.dirname(posixpath.normpath(posixpath.join("docs", path)))
+    lead_links_to_pages(folder, posixpath.dirname(f"docs/{page}"), content)
 
 
 def setup(app: Sphinx) -> None:
