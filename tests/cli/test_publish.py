@@ -65,13 +65,16 @@ class Refuse(Dispatcher):
 """
 
 
-def test_a_site_passes_over_recordings_of_runs_that_did_not_move(mrpbench, caplog):
+def test_reports_and_sites_say_nothing_of_recordings_of_runs_that_did_not_move(mrpbench, caplog):
     Path("refuse.py").write_text(REFUSING)
     settings = ["simulator=kinematic", "dispatcher=./refuse.py:Refuse", "recording.keep=all", "seed=0"]
     mrpbench("run", "tiny.yaml", *settings)
+    assert mrpbench("report", "results/tiny")[0] == 0
+    assert "execution aborted: no</figcaption>" in Path("results/tiny/report.html").read_text()
     assert mrpbench("publish", "results/tiny", "--out", "tiny.zip")[0] == 0
     assert mrpbench("verify", "tiny.zip", "--trust-sources", "--out", "tiny.zip.verdict.json")[0] == 0
     code, output, _ = mrpbench("site", "tiny.zip", "--out", "public")
     assert code == 0
     assert output.endswith(".zip: verified, no run repeated\n")
-    assert "the recording holds no poses" in caplog.text
+    assert not caplog.text
+    assert not list(Path("public/replays").glob("*.html"))

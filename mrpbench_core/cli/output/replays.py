@@ -21,6 +21,7 @@ from mrpbench_core.plugins.local import is_local
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.report.reading.columns import Columns, describe_columns
 from mrpbench_core.report.replay.facts import numbers_of
+from mrpbench_core.report.replay.motion import has_poses
 from mrpbench_core.report.replay.page import template, write_page
 from mrpbench_core.report.replay.pair import pair_template, write_pair
 from mrpbench_core.report.report import Report
@@ -113,10 +114,12 @@ def make_replays(report: Report, page: Path, most: int, first: Sequence[int] = (
 
 
 def try_write_replay(results: Results, run_id: str, page: Path) -> bool:
-    """Write the replay of a recorded run; False, with a warning, if the recording is damaged or ends before motion."""
+    """Write the replay of a recorded run; False if it ends before motion, or, with a warning, if it is damaged."""
     try:
         recording = results.recording(run_id)
         try:
+            if not has_poses(recording):
+                return False
             write_replay(recording, results, results[run_id], page)
         finally:
             recording.close()

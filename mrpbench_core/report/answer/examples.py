@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Iterator
 from itertools import islice
+from textwrap import shorten
 
 import attrs
 import numpy as np
@@ -18,6 +19,8 @@ SETTINGS = 2
 """Settings of which runs are chosen."""
 TRIED = 40
 """Runs of which the recordings are looked for, for each choice."""
+REASON = 80
+"""Characters of the message of a failed run."""
 
 
 @attrs.frozen(kw_only=True)
@@ -84,7 +87,8 @@ def _failed(report: Report, part: SettingAnswer, counted: Int) -> Iterator[Examp
         if kind == RunStatus.SUCCEEDED or kind in LEFT_OUT:
             continue
         for run in islice(_recorded(report, counted[statuses == kind]), 1):
-            words = kind.replace("_", " ")
+            reason = shorten(report.runs.message[run], REASON, placeholder="…")
+            words = ": ".join(filter(None, (kind.replace("_", " "), reason)))
             yield Example(run=run, label="failed", text=f"{_name(part, run)}, {_seed(report, run)}: {words}")
             return
 

@@ -14,7 +14,7 @@ from mrpbench_core.store.recording import Recording
 def read_movers(recording: Recording, level: int) -> Float:
     """Return poses f8[T,m,3] of all movers in metres and radians, NaN where they are not on the level."""
     if "mover" not in recording.channels:
-        return np.empty((len(recording.channel("time")), 0, 3))
+        return np.empty((len(recording.channel("time")) if "time" in recording.channels else 0, 0, 3))
     here = recording.channel("mover_level") == level
     return np.where(here[..., None], recording.channel("mover")[..., :3], np.nan)
 

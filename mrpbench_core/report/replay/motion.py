@@ -13,6 +13,13 @@ ASTRAY = 0.02
 """Metres; estimates that never differ from the truth by more are not packed."""
 COUNTS = {"reached": None, "released": None, "mode": None, "level": 0}
 """Channels of integers, and a value without information: a channel with this value only is not packed."""
+POSES = ("truth", "estimate")
+"""Channels of poses, the first of which is shown."""
+
+
+def has_poses(recording: Recording) -> bool:
+    """Whether there is something to show; a run that ended before its execution has nothing."""
+    return any(name in recording.channels for name in POSES) and len(recording.channel("time")) > 0
 
 
 def read_poses(recording: Recording) -> tuple[Float, Float]:
@@ -21,10 +28,10 @@ def read_poses(recording: Recording) -> tuple[Float, Float]:
     Raises:
         InputError: the recording holds no samples.
     """
-    name = next((name for name in ("truth", "estimate") if name in recording.channels), None)
-    if name is None or not len(times := recording.channel("time")):
+    if not has_poses(recording):
         raise InputError("the recording holds no poses", hint="a run that ended before its execution cannot be shown")
-    return times, recording.channel(name)
+    name = next(name for name in POSES if name in recording.channels)
+    return recording.channel("time"), recording.channel(name)
 
 
 def read_levels(recording: Recording) -> tuple[Float, dict[int, Float]]:
