@@ -179,7 +179,7 @@ class Waypoints(Navigator):
             detours=Detours(follower, controllers, detours),
             recoveries=RecoveryManager(fleet.robots, recoveries, controllers, follower),
             rotations=Rotations(follower, fleet.robots, period, nav2["movement_time_allowance"]),
-            xy_goal_tolerance=rules.xy_goal_tolerance,
+            xy_goal_tolerance=min(rules.xy_goal_tolerance, rules.waypoint_tolerance),  # paths also end at waypoints
             fleet=fleet,
             world=world,
         )

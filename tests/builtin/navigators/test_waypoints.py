@@ -54,6 +54,15 @@ def observe(pose, scans=()):
     )
 
 
+@pytest.mark.parametrize(("given", "told"), [({"xy_goal_tolerance": 0.25}, 0.1), ({"waypoint_tolerance": 0.05}, 0.05)])
+def test_controllers_are_told_the_lesser_tolerance_since_paths_also_end_at_waypoints(given, told):
+    controller = _Recording()
+    fleet = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
+    session = Waypoints(**given).start(fleet, World(name="w", levels=()), ROUTES, controller, 0.05, 0)
+    session.step(0.0, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[1, 1]))
+    assert {seen.tolerance for one in controller.sessions for seen in one.seen} == {told}
+
+
 def test_a_robot_under_way_gets_its_controllers_command_and_one_that_waits_stands(fleet):
     session, controllers = fleet
     motion = session.step(0.0, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
