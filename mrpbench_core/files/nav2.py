@@ -35,6 +35,12 @@ class Nav2Block:
     def __contains__(self, name: str) -> bool:
         return name in self._values
 
+    def rename(self, names: Mapping[str, str]) -> None:
+        """Give parameters that older releases of Nav2 call otherwise the names of today, unless both are given."""
+        for old, new in names.items():
+            if old in self._values and new not in self._values:
+                self._values[new] = self._values.pop(old)
+
     def take(self, name: str, kind: type, default: Any = None) -> Any:
         """Return a parameter as `kind` (bool, int, float, str or tuple), or `default` if it is not given.
 

@@ -4,6 +4,7 @@ Park and Kuipers, "A smooth control law for graceful motion of differential whee
 ICRA 2011.
 """
 
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import attrs
@@ -27,14 +28,17 @@ class Graceful(LocalController):
     ignored: ClassVar[tuple[str, ...]] = (
         *("transform_tolerance", "max_robot_pose_search_dist", "min_lookahead", "use_sim_time"),
     )
+    renamed: ClassVar[Mapping[str, str]] = {
+        "lambda": "lambda_",  # a keyword of Python
+        "motion_target_dist": "max_lookahead",
+        "initial_rotation_min_angle": "initial_rotation_tolerance",
+    }
 
     def settled(self, block: Nav2Block | None) -> dict[str, Any]:
-        """Return the values of the options of Nav2, which calls `lambda_` without the underscore."""
+        """Return the values of the options of Nav2."""
         values = super().settled(block)
-        if block is not None:
-            given = block.take("lambda", float)
-            own = attrs.asdict(self, recurse=False)["lambda_"]
-            values["lambda_"] = values["lambda_"] if given is None or own is not None else given
+        if block is not None and not block.take("final_rotation", bool, True):  # of humble
+            raise block.error("must be true, robots take the yaw of their goal", "final_rotation")
         return values
 
     def limits(self, values: dict[str, Any], robot: RobotModel, period: float) -> dict[str, Any]:

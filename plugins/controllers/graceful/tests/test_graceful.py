@@ -112,5 +112,11 @@ def test_a_nav2_file_is_read():
     block = {"plugin": Graceful.nav2_plugin, "k_phi": 3.0, "lambda": 3.0, "v_linear_max": 0.4, "min_lookahead": 0.25}
     values = Graceful(FollowPath=block).settings(SPRINTER, 0.05).values
     assert (values["k_phi"], values["v_linear_max"], values["lambda_"]) == (3.0, 0.4, 3.0)
+    assert Graceful(lambda_=2.5, FollowPath=block).settings(SPRINTER, 0.05).values["lambda_"] == 2.5
+    humble = {"motion_target_dist": 0.6, "initial_rotation_min_angle": 0.5, "final_rotation": True}
+    values = Graceful(FollowPath=humble).settings(SPRINTER, 0.05).values
+    assert (values["max_lookahead"], values["initial_rotation_tolerance"]) == (0.6, 0.5)
+    with pytest.raises(InputError, match="final_rotation: must be true"):
+        Graceful(FollowPath={"final_rotation": False})
     with pytest.raises(InputError, match="unknown parameter 'k_phy'"):
         Graceful(FollowPath={"k_phy": 0.5})

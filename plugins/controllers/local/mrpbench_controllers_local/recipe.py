@@ -35,6 +35,8 @@ class LocalController(Controller):
     """Its name in Nav2 parameter files."""
     ignored: ClassVar[tuple[str, ...]] = ()
     """Parameters of Nav2 without effect here: of topics, sideways motion and transforms."""
+    renamed: ClassVar[Mapping[str, str]] = {}
+    """Names of options in Nav2 parameter files, where these or those of older releases differ."""
 
     nav2: Path | None = option(
         None, help="a Nav2 parameter file: its blocks FollowPath and local_costmap; options given here win"
@@ -65,6 +67,8 @@ class LocalController(Controller):
         Raises:
             InputError: a value in the block is not supported.
         """
+        if block is not None:
+            block.rename(self.renamed)
         values = settle(self, block)
         if block is not None:
             key, plugin = "plugin", block.take("plugin", str, self.nav2_plugin)

@@ -3,6 +3,7 @@
 Macenski, Singh, Martin and Gines, "Regulated pure pursuit for robot path tracking", Autonomous Robots 47, 2023.
 """
 
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import attrs
@@ -11,7 +12,6 @@ from mrpbench_native.local import controller_options
 
 from mrpbench_core.api.described import described
 from mrpbench_core.api.nav2 import as_parameter
-from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.fleet import RobotModel
 
 
@@ -27,13 +27,7 @@ class Rpp(LocalController):
         *("transform_tolerance", "max_robot_pose_search_dist", "stateful", "use_cancel_deceleration"),
         *("cancel_deceleration", "use_interpolation"),
     )
-
-    def settled(self, block: Nav2Block | None) -> dict[str, Any]:
-        """Return the values of the options of Nav2; older ones say `desired_linear_vel`."""
-        values = super().settled(block)
-        if block is not None and attrs.asdict(self, recurse=False)["max_linear_vel"] is None:
-            values["max_linear_vel"] = block.take("desired_linear_vel", float, values["max_linear_vel"])
-        return values
+    renamed: ClassVar[Mapping[str, str]] = {"desired_linear_vel": "max_linear_vel"}
 
     def limits(self, values: dict[str, Any], robot: RobotModel, period: float) -> dict[str, Any]:
         """Return the values within the limits of a robot."""
