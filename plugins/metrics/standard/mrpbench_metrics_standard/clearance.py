@@ -11,7 +11,7 @@ from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.model.worlds.solids import segments
 from mrpbench_metrics_standard.distribution import percentile
-from mrpbench_metrics_standard.progress import arrival_times, under_way
+from mrpbench_metrics_standard.progress import under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
 from mrpbench_metrics_standard.surroundings import robot_gaps, solid_distances
 
@@ -57,9 +57,9 @@ class Clearance(Metric):
         """Return all columns; null where no level of a robot has another robot, or anything solid."""
         if not measurable(self, run):
             return nulls(self)
-        context, time, level = run.context, run.channel("time"), run.channel("level")
+        context, level = run.context, run.channel("level")
         position, radii = run.channel("truth")[..., :2], context.fleet.radii
-        going = under_way(time, arrival_times(time, run.channel("reached"), context.routes))
+        going = under_way(run)
         walls = [np.empty(0)]
         for index in range(len(context.world.levels)):
             here = going & (level == index)

@@ -10,7 +10,7 @@ import numpy as np
 from mrpbench_core.api import Column, Metric, Value, option
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.periods import periods
-from mrpbench_metrics_standard.progress import arrival_times, blocked_intervals, progress, under_way
+from mrpbench_metrics_standard.progress import blocked_intervals, progress, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 _POSITIVE = attrs.validators.gt(0)
@@ -49,10 +49,9 @@ class Deadlock(Metric):
         if not measurable(self, run):
             return nulls(self)
         time, reached, routes = run.channel("time"), run.channel("reached"), run.context.routes
-        arrival = arrival_times(time, reached, routes)
         along = progress(run.channel("truth"), reached, routes)
-        going = under_way(time, arrival)
-        blocked = blocked_intervals(time, along, arrival, self.window, self.distance)
+        going = under_way(run)
+        blocked = blocked_intervals(time, along, going, self.window, self.distance)
         # Interval k ends at sample k; there is none before the first.
         stuck = np.stack([going.any(axis=1) & (blocked | ~going).all(axis=1)], axis=1)[1:]
         _, first, after = periods(stuck)

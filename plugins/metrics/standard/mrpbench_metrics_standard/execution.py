@@ -15,7 +15,7 @@ from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.contacts import episodes
 from mrpbench_metrics_standard.original import COLUMNS, measure_as_original
-from mrpbench_metrics_standard.progress import arrival_times, blocked_times, progress
+from mrpbench_metrics_standard.progress import arrival_times, blocked_times, progress, under_way
 from mrpbench_metrics_standard.proximity import closest
 
 _POSITIVE = attrs.validators.gt(0)
@@ -30,7 +30,8 @@ class Execution(Metric):
     waits after that move do not count. After replanning, the path is that of the last plan, which begins with all that
     was driven before. A robot that has arrived, and that a new plan lets wait, therefore stays arrived. A robot that a
     new plan sends away from its goal, to make way, arrives when it is back for the last time, as costs of paths count
-    in multi-agent path finding (Stern et al., SoCS 2019). All metrics use this definition.
+    in multi-agent path finding (Stern et al., SoCS 2019). All metrics use this definition. Where tasks keep coming,
+    no robot arrives: what counts arrivals is null, and the time before a robot arrives is that in which it has a task.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
@@ -166,16 +167,15 @@ class Execution(Metric):
 
     def _progress(self, run: FinishedRun, time: Float, truth: Float) -> dict[str, Value]:
         reached, routes = run.channel("reached"), run.context.routes
-        arrival = arrival_times(time, reached, routes)
-        complete = bool(np.isfinite(arrival).all())
-        values: dict[str, Value] = {
-            "success": complete,
-            "duration_s": float(arrival.max(initial=time[0]) - time[0]) if complete else None,
-            "goals_reached": int(np.isfinite(arrival).sum()),
-        }
+        values: dict[str, Value] = {}
+        if not run.has("task_time"):
+            arrival = arrival_times(time, reached, routes)
+            complete = bool(np.isfinite(arrival).all())
+            values["success"], values["goals_reached"] = complete, int(np.isfinite(arrival).sum())
+            values["duration_s"] = float(arrival.max(initial=time[0]) - time[0]) if complete else None
         if run.has("path"):
             along = progress(truth, reached, routes)
-            blocked = blocked_times(time, along, arrival, self.blocked_window, self.blocked_distance)
+            blocked = blocked_times(time, along, under_way(run), self.blocked_window, self.blocked_distance)
             values["time_blocked_s"] = math.fsum(blocked)
             values["time_blocked_max_s"] = float(blocked.max(initial=0.0))
         return values

@@ -6,6 +6,8 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.runs.run import FinishedRun
+from mrpbench_metrics_standard.occupied import occupied
 
 
 def arrival_times(time: Float, reached: Int32, routes: Sequence[Route]) -> Float:
@@ -17,9 +19,12 @@ def arrival_times(time: Float, reached: Int32, routes: Sequence[Route]) -> Float
     return np.where(done.any(axis=0), time[done.argmax(axis=0)], np.nan)
 
 
-def under_way(time: Float, arrival: Float) -> Bool:
-    """bool[T,n]: whether a robot has not arrived yet at a sample."""
-    return ~(time[:, None] >= arrival)  # stays true where the arrival is NaN
+def under_way(run: FinishedRun) -> Bool:
+    """bool[T,n]: whether a robot has not arrived yet at a sample; where tasks keep coming, whether it has a task."""
+    if run.has("task_time"):
+        return occupied(run)
+    time = run.channel("time")
+    return ~(time[:, None] >= arrival_times(time, run.channel("reached"), run.context.routes))  # true where NaN
 
 
 def moves_among(segments: Int32, routes: Sequence[Route]) -> Int:
@@ -46,22 +51,22 @@ def progress(truth: Float, reached: Int32, routes: Sequence[Route]) -> Float:
     return along
 
 
-def blocked_intervals(time: Float, along: Float, arrival: Float, window: float, distance: float) -> Bool:
+def blocked_intervals(time: Float, along: Float, going: Bool, window: float, distance: float) -> Bool:
     """bool[T,n]: whether the time since the previous sample counts as blocked for a robot.
 
-    It does if, at the sample, the robot has not arrived, `window` seconds have passed since the start, and it has
+    It does if, at the sample, the robot is under way, `window` seconds have passed since the start, and it has
     advanced less than `distance` metres in the last `window` seconds. Positions between samples are interpolated.
     """
     before = np.empty(along.shape)
     for robot in range(along.shape[1]):
         before[:, robot] = np.interp(time - window, time, along[:, robot])
     old_enough = time - time[0] >= window - 1e-9
-    blocked: Bool = old_enough[:, None] & under_way(time, arrival) & (along - before < distance)
+    blocked: Bool = old_enough[:, None] & going & (along - before < distance)
     return blocked
 
 
-def blocked_times(time: Float, along: Float, arrival: Float, window: float, distance: float) -> Float:
+def blocked_times(time: Float, along: Float, going: Bool, window: float, distance: float) -> Float:
     """Seconds f8[n] for which each robot is blocked."""
     spent = np.diff(time, prepend=time[0])
-    blocked = blocked_intervals(time, along, arrival, window, distance)
+    blocked = blocked_intervals(time, along, going, window, distance)
     return np.array([spent[own].sum() for own in blocked.T], float)

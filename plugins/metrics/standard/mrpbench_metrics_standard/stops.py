@@ -12,7 +12,7 @@ from mrpbench_core.model.common.arrays import Bool
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.motion import steps, turns
 from mrpbench_metrics_standard.periods import periods
-from mrpbench_metrics_standard.progress import arrival_times, moves_among, under_way
+from mrpbench_metrics_standard.progress import moves_among, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 _POSITIVE = attrs.validators.gt(0)
@@ -59,7 +59,7 @@ class Stops(Metric):
         time, truth, reached = run.channel("time"), run.channel("truth"), run.channel("reached")
         spent = np.diff(time)[:, None]
         still = (steps(truth) < self.speed * spent) & (turns(truth) < self.turn_rate * spent)
-        going = under_way(time, arrival_times(time, reached, run.context.routes))[:-1]
+        going = under_way(run)[:-1]
         standing: Bool = still & going
         moved = np.logical_or.accumulate(going & ~still, axis=0)
         _, first, after = periods(standing & moved)

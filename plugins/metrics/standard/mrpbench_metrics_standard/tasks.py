@@ -17,6 +17,7 @@ from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.distribution import mean, percentile
 from mrpbench_metrics_standard.fairness import JAIN, jain
+from mrpbench_metrics_standard.occupied import occupied_periods
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 
@@ -121,6 +122,7 @@ class Tasks(Metric):
         measured = end - begin - self.warm_up
         robots = len(run.context.fleet)
         by = run.channel("task_robot")[event == "done"]
+        _, since, until = occupied_periods(run).T
         return {
             "per_hour": 3600 * int((done[finished] > begin + self.warm_up).sum()) / measured if measured > 0 else None,
             "released": count,
@@ -136,7 +138,7 @@ class Tasks(Metric):
             "open_growth": _growth(release[wanted], left[wanted], begin + self.warm_up),
             "tardiness_mean_s": mean(late),
             "late": int((late > 0).sum()) if due.any() else None,
-            "utilisation": _busy(run, end) / (robots * (end - begin)) if end > begin else None,
+            "utilisation": math.fsum(until - since) / (robots * (end - begin)) if end > begin else None,
             **_distances(run),
             "jain": jain(np.bincount(by, minlength=robots).astype(float)) if len(by) else None,
         }
@@ -185,20 +187,3 @@ def _distances(run: FinishedRun) -> dict[str, Value]:
         loaded.append(driven[-1, robot] - loads[task])
     total = math.fsum(loaded)
     return {"loaded_m": total, "empty_m": math.fsum(driven[-1]) - total}
-
-
-def _busy(run: FinishedRun, end: float) -> float:
-    """Seconds in which robots have at least one task, summed over robots."""
-    open_tasks = np.zeros(len(run.context.fleet), np.int64)
-    since = np.zeros(len(open_tasks))
-    busy: list[float] = []
-    change = {"assigned": 1, "withdrawn": -1, "done": -1}
-    channels = (run.channel(f"task_{name}").tolist() for name in ("time", "event", "robot"))
-    for time, event, robot in zip(*channels, strict=True):
-        step = change.get(event, 0)
-        if step == 1 and not open_tasks[robot]:
-            since[robot] = time
-        if step == -1 and open_tasks[robot] == 1:
-            busy.append(time - since[robot])
-        open_tasks[robot] += step or 0
-    return math.fsum([*busy, *(end - since[open_tasks > 0])])

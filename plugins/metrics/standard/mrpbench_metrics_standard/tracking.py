@@ -11,7 +11,7 @@ from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.distribution import mean, percentile
-from mrpbench_metrics_standard.progress import arrival_times, under_way
+from mrpbench_metrics_standard.progress import under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 _SCOPE = (
@@ -40,9 +40,9 @@ class Tracking(Metric):
         """Return all columns; null where every robot had arrived from the start."""
         if not measurable(self, run):
             return nulls(self)
-        time, truth, reached = run.channel("time"), run.channel("truth"), run.channel("reached")
+        truth, reached = run.channel("truth"), run.channel("reached")
         routes, released = run.context.routes, run.channel("released")
-        going = under_way(time, arrival_times(time, reached, routes))
+        going = under_way(run)
         errors = [np.empty(0)]
         for robot, route in enumerate(routes):
             rows = going[:, robot]

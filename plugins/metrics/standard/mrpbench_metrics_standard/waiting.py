@@ -14,7 +14,7 @@ from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.model.runs.waits import NEEDED, Reason, explain_waits
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_metrics_standard.motion import steps
-from mrpbench_metrics_standard.progress import arrival_times, under_way
+from mrpbench_metrics_standard.progress import under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 DOING = frozenset({"facility"})
@@ -111,8 +111,7 @@ def _by_cause(run: FinishedRun, spent: Float) -> dict[str, Value]:
     waits = explain_waits(first, run.channels, read_plans(first, run.channels))
     if waits is None:
         return dict.fromkeys(CAUSES)
-    arrival = arrival_times(run.channel("time"), run.channel("reached"), run.context.routes)
-    lost = np.where(under_way(run.channel("time"), arrival)[:-1], spent, 0.0)
+    lost = np.where(under_way(run)[:-1], spent, 0.0)
     reason = waits.reason[:-1]
     return {name: math.fsum(lost[np.isin(reason, reasons)]) for name, (_, reasons) in CAUSES.items()}
 

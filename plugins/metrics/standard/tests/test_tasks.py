@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from mrpbench_metrics_standard import Tasks
+from mrpbench_metrics_standard import Execution, Tasks
 
 
 @pytest.fixture
@@ -54,6 +54,17 @@ def test_tasks_are_measured_as_counted_by_hand(served):
     assert (values["late"], values["tardiness_mean_s"]) == (2, pytest.approx((5 + 0 + 20) / 3))
     assert values["utilisation"] == pytest.approx((20 + 30 + 70) / 200)
     assert values["jain"] == pytest.approx(0.5)
+
+
+def test_a_robot_without_a_task_is_not_blocked_and_no_robot_arrives(executed):
+    """Of 10 s at one place, a robot has a task from 2 s to 7 s; the other one has it all the time."""
+    time = np.arange(0, 11.0)
+    run = executed(time, [[(0, 0)] * 11, [(0, 4)] * 11], [[0] * 11] * 2, [[(0, 0), (5, 0)], [(0, 4), (5, 4)]])
+    columns = {"time": [0, 2, 7.0], "event": ["assigned", "assigned", "done"], "robot": [1, 0, 0]}
+    channels = {f"task_{name}": (lambda rows=rows: np.array(rows)) for name, rows in columns.items()}
+    values = Execution(blocked_window=1.0).measure(attrs.evolve(run, channels={**run.channels, **channels}))
+    assert values["time_blocked_s"] == pytest.approx((7 - 2) + 10)
+    assert [values[name] for name in ("success", "duration_s", "goals_reached")] == [None] * 3
 
 
 def test_distances_are_split_by_what_robots_carry(executed):
