@@ -24,6 +24,8 @@ class PathGrid {
   bool empty() const { return cells_.empty(); }
   /// The point to drive to: the last one of the local plan, or beyond the end of the path while the robot is not there.
   Point goal() const { return goal_; }
+  /// Metres to the end of the path, infinite where the local plan does not hold it.
+  double left() const { return left_; }
   /// The cells of the plan without its last pose.
   Cell before_end() const { return cells_[cells_.size() > 1 ? cells_.size() - 2 : 0]; }
   const std::vector<Cell>& cells() const { return cells_; }
@@ -37,6 +39,7 @@ class PathGrid {
 
  private:
   Point goal_;
+  double left_ = 0;
   std::vector<Cell> cells_, beyond_;
   std::vector<Point> points_;
   std::vector<std::int16_t> distance_, away_;

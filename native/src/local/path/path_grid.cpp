@@ -1,6 +1,7 @@
 #include "mrpbench_local/path/path_grid.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "mrpbench_local/wide.hpp"
 
@@ -18,6 +19,7 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
   beyond_.clear();
   points_.clear();
   goal_ = first;
+  left_ = std::numeric_limits<double>::infinity();
   const double extent = std::max(frame.width, frame.height) * frame.resolution / 2;
   const double limit = pruning.shorten ? std::min(extent, pruning.prune_distance) : extent;
   // Poses one cell apart, from the first one that is near enough.
@@ -54,6 +56,7 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
     }
     from = to;
   }
+  left_ = way;
 }
 
 /// Along rows first, for each of the few cells of the path, then along columns.
