@@ -107,7 +107,7 @@ def test_each_robot_of_a_mixed_fleet_drives_by_its_own_limits_and_footprint():
 @pytest.mark.parametrize("yaw", [math.nan, 0.0])
 @pytest.mark.parametrize("robot", [BURGER, WAFFLE, AGV, attrs.evolve(BURGER, acceleration=0.1)])
 def test_a_robot_brakes_where_its_path_ends_and_not_long_before(robot, yaw):
-    """From rest to rest over 1 m takes 1 m / v + v / a; the tolerance is 0.1 m, and Nav2's samples are a tenth slower."""
+    """From rest to rest, 1 m takes 1 m / v + v / a; the tolerance is 0.1 m, and samples are up to a tenth slower."""
     session = Dwb().start_fleet((robot,), NOWHERE, PERIOD)
     pose, twist, arrived = np.zeros((1, 3)), np.zeros((1, 2)), None
     most = np.array([robot.acceleration, robot.turn_acceleration]) * PERIOD

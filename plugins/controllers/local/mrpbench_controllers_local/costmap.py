@@ -17,8 +17,8 @@ from mrpbench_core.model.common.fleet import RobotModel
 Layer = Literal["obstacle_layer", "voxel_layer", "static_layer", "inflation_layer"]
 Polygon = tuple[tuple[float, float], ...]
 _NOT_AS_NAV2 = "inf_is_valid"
-"""The parameter whose default is true unless a Nav2 file is read. With Nav2's, false, marks of robots that drove on stay
-where no wall is in range behind them."""
+"""The parameter whose default is true unless a Nav2 file is read. With Nav2's, false, marks of robots that drove on
+stay where no wall is in range behind them."""
 
 
 @attrs.frozen(kw_only=True, slots=False)
