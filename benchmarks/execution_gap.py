@@ -5,8 +5,8 @@ controller. The gap of a run is the sum of the executed arrival times divided by
 one. The last line of a table has the median size of the gaps.
 
 `kinodynamic` assumes the robot's limits; `calibrated` is `kinodynamic` with `speed_share`, `turn_penalty` and
-`stop_penalty` fitted by least squares to other drives: of one robot alone, in the office. Times are simulated, so the
-load of the machine does not matter, except that a planner may time out.
+`stop_penalty` fitted to other drives, as `mrpbench calibrate` does: of one robot alone, in the office. Times are
+simulated, so the load of the machine does not matter, except that a planner may time out.
 """
 
 import argparse
@@ -15,9 +15,9 @@ from collections.abc import Iterator, Mapping
 from statistics import median
 from typing import Any
 
-import numpy as np
-
 from mrpbench_core import run
+from mrpbench_core.builtin.roadmaps.calibration import calibrate, drive_of
+from mrpbench_core.store.results import Results
 
 WORLDS, ROBOTS = ["office", "warehouse", "airport"], [5, 10, 20, 50]
 CONTROLLERS, MODELS = ["pure_pursuit", "dwb"], ["constant", "kinodynamic", "calibrated"]
@@ -27,8 +27,8 @@ ALONE = range(1000, 1020)
 
 def drive(
     options: argparse.Namespace, roadmap: Mapping[str, Any], controller: str, matrix: Mapping[str, Any]
-) -> Iterator[Any]:
-    """Yield the records of all runs of a matrix, each when it ends."""
+) -> Iterator[tuple[Results, Any]]:
+    """Yield the records of all runs of a matrix, with the results that hold them."""
     study = {
         "name": "gap",
         "world": "office",
@@ -43,39 +43,29 @@ def drive(
         "matrix": dict(matrix),
     }
     with tempfile.TemporaryDirectory() as folder:
-        yield from run(study, out=folder)
+        results = run(study, out=folder)
+        for record in results:
+            yield results, record
 
 
-def calibrate(options: argparse.Namespace, controller: str) -> dict[str, Any]:
+def calibrated(options: argparse.Namespace, controller: str) -> dict[str, Any]:
     """The options of the roadmap with which it predicts the drives of one robot best."""
     kinodynamic = {"duration_model": "kinodynamic"}
-    rows, executed = [], []
-    for record in drive(options, kinodynamic, controller, {"seed": list(ALONE)}):
-        metrics = record["metrics"]
-        if record["status"] != "succeeded" or not metrics["planning.distance_m"]:
-            continue
-        driving = metrics["planning.distance_m"] / options.speed
-        edges = round(metrics["planning.distance_m"] / options.cell_size)
-        turns = metrics["planning.moves"] - edges - 1
-        rows.append((driving, turns, 1.0, metrics["planning.sum_of_costs"] - driving))
-        executed.append(metrics["throughput.service_mean_s"])
-    table = np.array(rows)
-    slower, turn, stop = np.linalg.lstsq(table[:, :3], np.array(executed) - table[:, 3], rcond=None)[0].tolist()
-    found = {
-        "speed_share": round(min(1.0, 1 / slower), 3),
-        "turn_penalty": round(turn, 2),
-        "stop_penalty": round(stop, 2),
-    }
+    drives = []
+    for results, record in drive(options, kinodynamic, controller, {"seed": list(ALONE)}):
+        recording = results.recording(record["run_id"])
+        drives.append(drive_of(recording.first_context(), recording.channel("time"), recording.channel("reached")))
+    found = calibrate(drives)
     print(f"{controller}: {found}", flush=True)
-    return kinodynamic | found
+    return kinodynamic | found.options
 
 
 def measure(options: argparse.Namespace, model: str, controller: str) -> list[float]:
     """Print the rows of a controller; return the gaps in percent."""
-    roadmap = calibrate(options, controller) if model == "calibrated" else {"duration_model": model}
+    roadmap = calibrated(options, controller) if model == "calibrated" else {"duration_model": model}
     matrix = {"world": options.worlds, "scenario.robots": options.robots, "seed": list(range(options.seeds))}
     gaps = []
-    for record in drive(options, roadmap, controller, matrix):
+    for _, record in drive(options, roadmap, controller, matrix):
         robots = record["config"]["scenario"]["robots"]
         print(f"| {record['config']['world']['plugin']} | {controller} | {robots} | {record['seed']} |", end="")
         if record["status"] != "succeeded":
@@ -97,8 +87,6 @@ def main() -> None:
     parser.add_argument("--models", nargs="+", default=MODELS, choices=MODELS)
     parser.add_argument("--simulator", default="planar", choices=["planar", "pybullet"])
     parser.add_argument("--roadmap", default="lanes", choices=["lanes", "grid"])
-    parser.add_argument("--cell-size", type=float, default=0.4, help="of the roadmap, metres")
-    parser.add_argument("--speed", type=float, default=0.22, help="of the default robot, m/s")
     parser.add_argument("--planner", default="pbs")
     parser.add_argument("--seeds", type=int, default=3)
     options = parser.parse_args()

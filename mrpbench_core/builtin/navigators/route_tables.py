@@ -84,6 +84,7 @@ class RouteTables:
         not reached by passing them."""
         self.yaw: Float = waypoint[:, 2].copy()
         """f8[W] prescribed at each waypoint, NaN = any. A robot that stops at each turns there to the next one."""
+        self.yaw[self.first + self.goal] = self.yaw[self.first + self.last]  # where it rests, not as it drives there
         self.waiting_yaw = self.yaw
         """f8[W] for a robot that waits at a waypoint, NaN = any."""
         if rules.stops or rules.turn_ahead:

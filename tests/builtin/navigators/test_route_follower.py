@@ -200,6 +200,15 @@ def test_the_goal_has_a_yaw_when_the_route_prescribes_one():
     assert follower.path is None
 
 
+def test_a_robot_arrives_with_the_yaw_with_which_it_rests_and_not_with_that_of_its_last_move():
+    for rests_with, arrives in ((math.nan, True), (1.5, True), (0.0, False)):
+        waypoint = np.array([(x, y, 0.0) for x, y in LINE] + [(*LINE[-1], rests_with)])
+        follower = Follower(attrs.evolve(route([*LINE, LINE[-1]]), waypoint=waypoint), RULES, CLEARANCE)
+        for x, y, _ in along([LINE[0], LINE[-1]]):
+            follower.update(x, y, 1.5, 0.2, len(LINE))
+        assert (follower.reached == len(LINE)) == arrives
+
+
 def test_the_yaw_of_the_goal_is_not_to_be_taken_at_a_bend_before_it():
     follower = follow(CORNER, along([(0, 0), (0.2, 0)]), yaw=1.5)
     assert math.isnan(follower.yaw)

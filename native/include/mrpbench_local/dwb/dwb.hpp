@@ -47,6 +47,7 @@ class Dwb : public Controller {
     double fastest = 0;
   };
 
+  double speed_to_stop(double left, double cell) const;
   void score(const Scene& scene, Buffers& its, const Extra& extra);
   bool passes(const Scene& scene, const Trajectories& all, std::size_t i);
   std::optional<std::size_t> best(const Scene& scene, Buffers& its);

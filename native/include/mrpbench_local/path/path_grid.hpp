@@ -12,7 +12,7 @@ namespace mrpbench::local {
 struct Pruning {
   double prune_distance = 1;
   bool shorten = true;
-  /// Without it a robot with its front beyond the end would be off the path.
+  /// Without it a robot with its front beyond the end would be off the path, and robots would brake long before it.
   double beyond_end = 0.35;
 };
 
@@ -22,9 +22,10 @@ class PathGrid {
   void take(const Frame& frame, Point robot, Point first, std::span<const Point> rest, const Pruning& pruning);
 
   bool empty() const { return cells_.empty(); }
-  /// The last pose of the local plan, and the cell in which the plan ends on the map.
-  Point last() const { return last_; }
-  Cell end() const { return cells_.back(); }
+  /// The point to drive to: the last one of the local plan, or beyond the end of the path while the robot is not there.
+  Point goal() const { return goal_; }
+  /// Metres to the end of the path, infinite where the local plan does not hold it.
+  double left() const { return left_; }
   /// The cells of the plan without its last pose.
   Cell before_end() const { return cells_[cells_.size() > 1 ? cells_.size() - 2 : 0]; }
   const std::vector<Cell>& cells() const { return cells_; }
@@ -37,7 +38,8 @@ class PathGrid {
   void spread(const Frame& frame);
 
  private:
-  Point last_;
+  Point goal_;
+  double left_ = 0;
   std::vector<Cell> cells_, beyond_;
   std::vector<Point> points_;
   std::vector<std::int16_t> distance_, away_;

@@ -46,14 +46,14 @@ class Distance : public Critic {
 
   void prepare(const Scene& scene) override {
     if (scene.path->empty()) return;
-    goal_ = scene.path->end();
     const Frame& frame = scene.costmap->frame();
+    goal_ = frame.cell(scene.path->goal());
     const Point away{scene.goal.x - scene.pose.x, scene.goal.y - scene.pose.y};
     near_goal_ = nose_ > 0 && sim::length(away) <= nose_;
     if (to_path || nose_ == 0) return;
     // The end is shifted towards the goal, as the poses are.
     const double yaw = std::atan2(away.y, away.x);
-    const Cell shifted = frame.cell(scene.path->last() + Point{std::cos(yaw), std::sin(yaw)} * nose_);
+    const Cell shifted = frame.cell(scene.path->goal() + Point{std::cos(yaw), std::sin(yaw)} * nose_);
     goal_ = frame.holds(shifted) ? shifted : scene.path->before_end();
   }
 

@@ -119,8 +119,8 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   if (!its.path.empty()) its.path.spread(frame);
   const Twist measured{thresholded(it.twist.ahead, options_.min_x_velocity_threshold),
                        thresholded(it.twist.turn, options_.min_theta_velocity_threshold)};
-  sampled_ = {pose, measured, path.speed};
-  its.all.generate(options_.motion, pose, measured, path.speed);
+  sampled_ = {pose, measured, std::min(path.speed, speed_to_stop(its.path.left(), frame.resolution))};
+  its.all.generate(options_.motion, pose, measured, sampled_.fastest);
   its.ends.begin(frame, its.all);
   const Scene scene{it.now, pose, measured, *goal_, path.tolerance, it.costmap, &its.path, &its.ends};
   score(scene, its, extra);
@@ -129,6 +129,11 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   for (const Weighted& it : critics_) it.critic->debrief(scene, command);
   if (!chosen_) return std::nullopt;
   return command;
+}
+
+/// The speed from which a robot can still brake at half a cell before the end of its path, `left` metres ahead.
+double Dwb::speed_to_stop(double left, double cell) const {
+  return std::sqrt(-2 * options_.motion.decel_lim_x * (std::max(left, cell) - cell / 2));
 }
 
 Dwb::Buffers& Dwb::Buffers::of_thread() {

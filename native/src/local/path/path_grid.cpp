@@ -1,6 +1,7 @@
 #include "mrpbench_local/path/path_grid.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "mrpbench_local/wide.hpp"
 
@@ -17,7 +18,8 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
   cells_.clear();
   beyond_.clear();
   points_.clear();
-  last_ = first;
+  goal_ = first;
+  left_ = std::numeric_limits<double>::infinity();
   const double extent = std::max(frame.width, frame.height) * frame.resolution / 2;
   const double limit = pruning.shorten ? std::min(extent, pruning.prune_distance) : extent;
   // Poses one cell apart, from the first one that is near enough.
@@ -29,26 +31,32 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
       cells_.push_back(c);
       points_.push_back(p);
     }
-    last_ = points_.back() = p;
+    goal_ = points_.back() = p;
     return true;
   };
   if (!add(first)) return;
   Point from = first;
+  double way = 0;
   for (const Point& to : rest) {
     const Point along = to - from;
-    const int count = std::max(1, static_cast<int>(std::ceil(sim::length(along) / frame.resolution)));
+    const double length = sim::length(along);
+    const int count = std::max(1, static_cast<int>(std::ceil(length / frame.resolution)));
+    way += length;
     for (int i = 1; i <= count; ++i) {
       if (!add(i == count ? to : from + along * (static_cast<double>(i) / count))) return;
     }
-    if (&to == &rest.back() && sim::length(along) > 0) {
-      const Point ahead = along * (1 / sim::length(along));
+    if (&to == &rest.back() && length > 0) {
+      const Point ahead = along * (1 / length);
       for (double far = frame.resolution; far <= pruning.beyond_end; far += frame.resolution) {
-        const Cell c = frame.cell(to + ahead * far);
-        if (frame.holds(c)) beyond_.push_back(c);
+        const Point p = to + ahead * far;
+        if (!frame.holds(frame.cell(p))) break;
+        beyond_.push_back(frame.cell(p));
+        if (way > frame.resolution) goal_ = p;
       }
     }
     from = to;
   }
+  left_ = way;
 }
 
 /// Along rows first, for each of the few cells of the path, then along columns.

@@ -137,6 +137,17 @@ def test_options_win_over_the_file(tmp_path):
     assert critics == (BaseObstacle(),)
 
 
+def test_beams_without_a_return_clear_cells_unless_a_nav2_file_leaves_that_to_nav2(tmp_path):
+    def clears(text=None, given=None):
+        file = None if text is None else write(tmp_path, text)
+        costmap = LocalCostmap(inf_is_valid=given)
+        return bool(Dwb(nav2=file, local_costmap=costmap).settings(BURGER, 0.05).values["inf_is_valid"])
+
+    valid = FILE.replace("topic: /scan", "inf_is_valid: True")
+    assert [clears(), clears(given=False), clears(FILE), clears(FILE, given=True)] == [True, False, False, True]
+    assert [clears(valid), clears(valid, given=False)] == [True, False]
+
+
 def test_a_block_can_be_pasted():
     pasted = Dwb(FollowPath={"plugin": "dwb_core::DWBLocalPlanner", "sim_time": 1.2, "critics": ["BaseObstacle"]})
     values, _, critics = pasted.settings(BURGER, 0.05)

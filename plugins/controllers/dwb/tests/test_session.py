@@ -104,6 +104,25 @@ def test_each_robot_of_a_mixed_fleet_drives_by_its_own_limits_and_footprint():
         assert robot.radius * 0.98 < radius < robot.radius + 0.012
 
 
+@pytest.mark.parametrize("yaw", [math.nan, 0.0])
+@pytest.mark.parametrize("robot", [BURGER, WAFFLE, AGV, attrs.evolve(BURGER, acceleration=0.1)])
+def test_a_robot_brakes_where_its_path_ends_and_not_long_before(robot, yaw):
+    """From rest to rest, 1 m takes 1 m / v + v / a; the tolerance is 0.1 m, and samples are up to a tenth slower."""
+    session = Dwb().start_fleet((robot,), NOWHERE, PERIOD)
+    pose, twist, arrived = np.zeros((1, 3)), np.zeros((1, 2)), None
+    most = np.array([robot.acceleration, robot.turn_acceleration]) * PERIOD
+    for period in range(400):
+        path = np.array([[(min(pose[0, 0], 1.0), 0.0), (1.0, 0.0)]])
+        wanted = session.command(attrs.evolve(look(period * PERIOD, pose, twist, path), yaw=np.array([yaw])))
+        twist = twist + np.clip(wanted - twist, -most, most)
+        pose = driven(pose, twist, PERIOD)
+        assert pose[0, 0] < 1.0
+        if arrived is None and pose[0, 0] >= 0.9:
+            arrived = period * PERIOD
+    assert twist[0, 0] == 0
+    assert arrived < 1.15 * (1.0 / robot.max_speed + robot.max_speed / robot.acceleration)
+
+
 @attrs.frozen(kw_only=True)
 class Leftward(Critic):
     answer: str = "left"

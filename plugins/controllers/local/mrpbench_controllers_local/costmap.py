@@ -8,7 +8,7 @@ import numpy as np
 from attrs.validators import deep_iterable, gt, in_
 from mrpbench_native.local import robot_options
 
-from mrpbench_core.api.described import described
+from mrpbench_core.api.described import DescribedOption, described
 from mrpbench_core.api.nav2 import as_parameter, parameter, settle
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.arrays import Float
@@ -16,6 +16,9 @@ from mrpbench_core.model.common.fleet import RobotModel
 
 Layer = Literal["obstacle_layer", "voxel_layer", "static_layer", "inflation_layer"]
 Polygon = tuple[tuple[float, float], ...]
+_NOT_AS_NAV2 = "inf_is_valid"
+"""The parameter whose default is true unless a Nav2 file is read. With Nav2's, false, marks of robots that drove on
+stay where no wall is in range behind them."""
 
 
 @attrs.frozen(kw_only=True, slots=False)
@@ -24,8 +27,15 @@ class InflationLayer:
     """The decrease of costs around obstacles (Nav2: the inflation layer)."""
 
 
+def _of_observation(row: DescribedOption) -> tuple[Any, Any]:
+    kind, field = as_parameter(row)
+    if row.name == _NOT_AS_NAV2:
+        field = parameter(True, help=f"{row.help}; in a Nav2 file false unless it is set")
+    return kind, field
+
+
 @attrs.frozen(kw_only=True, slots=False)
-@described(robot_options("observation"), as_parameter)
+@described(robot_options("observation"), _of_observation)
 class ObservationSource:
     """Marking and clearing of cells by scans (Nav2: an observation source)."""
 
@@ -77,6 +87,8 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
                 elif kind in ("obstacle_layer", "voxel_layer"):
                     for source in block.take(f"{name}.observation_sources", str, "").split():
                         observation = settle(self, block, f"{name}.{source}.", of=ObservationSource)
+                        if given[_NOT_AS_NAV2] is None:
+                            observation[_NOT_AS_NAV2] = block.take(f"{name}.{source}.{_NOT_AS_NAV2}", bool, False)
                         if block.take(f"{name}.{source}.observation_persistence", float, 0.0):
                             raise block.error(
                                 "must be 0.0, only the newest scan marks cells",
