@@ -72,10 +72,12 @@ class BtpgSession(SwitchingSession):
         limit = self.options.group_limit
         self.pairs = self.conflicts.pairs(self.visits, np.arange(len(self.visits.robot) if limit else 0))
         self.group = open_groups(self.graph, self.visits, self.pairs, limit)
-        count = np.arange(len(self.group))
-        moves = np.concatenate([self.visits.begin[visit] for visit in self.pairs])
-        self._of_move = _Lists(moves, np.concatenate([count, count]), len(self.moves.robot))
-        self._of_group = _Lists(self.group, count, int(self.group.max(initial=NONE)) + 1)
+        first, second = self.pairs
+        is_open = np.flatnonzero(self.group != NONE)
+        moves = self.visits.begin[np.concatenate([second, first[is_open]])]
+        self._of_move = _Lists(moves, np.append(np.arange(len(second)), is_open), len(self.moves.robot))
+        """The pairs in which a visit that begins with a move is the second one, now or when it is switched."""
+        self._of_group = _Lists(self.group[is_open], is_open, int(self.group.max(initial=NONE)) + 1)
         self._considered: Mapping[int, list[int]] = {}
         """The groups with which robots could go before others, when that was considered last."""
         self._lateness: Float = np.zeros(len(problem))
