@@ -71,7 +71,7 @@ explore: install ## run the property tests with examples that `make test` does n
 soak: install ## compare with brute force, execute drawn plans, do a million events of tasks, disturb studies, look for robots that stand, let people meet robots (four hours)
 	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1
 	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
-	$(BIN)/python tests/engine/execution/soak_executions.py 20000 1
+	$(BIN)/python tests/engine/execution/soak_executions.py 1000000 1
 	$(BIN)/python tests/engine/execution/soak_tasks.py 1000000 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 2

@@ -56,6 +56,14 @@ def cycles(moves: Moves, order: Type2Edges, chosen: Bool | None = None) -> list[
     return strong_components(before.tolist(), after.tolist())
 
 
+def cycle_of_moves(moves: Moves, order: Type2Edges) -> Int:
+    """The first move i8[m] of the group of `cycles` that each move is part of, -1 for the others."""
+    found: Int = np.full(len(moves.robot), -1)
+    for group in cycles(moves, order):
+        found[list(group)] = group[0]
+    return found
+
+
 def _suspects(moves: Moves, order: Type2Edges, along: Int) -> tuple[Int, Int]:
     """The arcs, also those from the moves `along` paths to the next ones, that can be part of a cycle.
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_dispatchers_reordering import Sadg
-from mrpbench_dispatchers_reordering.searching import sum_of_arrivals
+from mrpbench_dispatchers_reordering.alternative_graph import sum_of_arrivals
 from mrpbench_native.mapf import open_orders, reorder
 
 from mrpbench_core.testing.instances.switchable import Switchable, read_situation

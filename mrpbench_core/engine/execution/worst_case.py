@@ -18,7 +18,7 @@ from collections import defaultdict
 
 import numpy as np
 
-from mrpbench_core.checking.strong_components import strong_components
+from mrpbench_core.dispatching.rotations import cycle_of_moves
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution.motion import Event
 from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
@@ -88,17 +88,13 @@ class _Graph:
         count, self._robots = len(moves.robot), len(problem)
         self._duration, clearing = _durations(problem, moves)
         along = np.flatnonzero(moves.robot[1:] == moves.robot[:-1])
-        components = strong_components(
-            [*order.before.tolist(), *along.tolist()], [*order.after.tolist(), *(along + 1).tolist()]
-        )
         self.group: Int = np.arange(count)
-        cyclic = np.full(count, -1)
-        for component in components:
-            members = list(component)
-            cyclic[members] = members[0]
-            inside = (cyclic[order.before] == members[0]) & (cyclic[order.after] == members[0])
+        cyclic = cycle_of_moves(moves, order)
+        for first in np.unique(cyclic[cyclic >= 0]).tolist():
+            members = np.flatnonzero(cyclic == first)
+            inside = (cyclic[order.before] == first) & (cyclic[order.after] == first)
             if len(np.unique(moves.robot[members])) == len(members) and not order.completed[inside].any():
-                self.group[members] = members[0]
+                self.group[members] = first
         # A cycle that is no rotation has no order that can be kept.
         kept = (cyclic[order.before] < 0) | (cyclic[order.before] != cyclic[order.after])
         before, after = order.before[kept], order.after[kept]

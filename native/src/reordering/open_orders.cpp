@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 #include <stdexcept>
+#include <unordered_map>
 
 #include "reordering/arc_index.hpp"
 
@@ -180,6 +181,46 @@ class OpenOrders {
   std::int32_t search_ = 0;
 };
 
+/// The indices of all pairs of alternative arcs between those robots that have one of the first `limit` groups.
+///
+/// Each two robots have a group with the least value of all their pairs, so these are among the `limit` two robots of
+/// the least value. Of equal values, those of the lower robots come first, as in `Decisions`.
+std::vector<std::int32_t> near_pairs(const AlternativeGraph& graph, std::span<const std::int64_t> begin,
+                                     std::int64_t limit) {
+  struct Robots {
+    std::int64_t least;
+    std::uint64_t key;
+  };
+  std::vector<std::uint64_t> robot(graph.events());
+  for (int r = 0; r < graph.robots(); ++r) {
+    std::fill(robot.begin() + graph.first[r], robot.begin() + graph.first[r + 1], static_cast<std::uint64_t>(r));
+  }
+  std::vector<Robots> found;
+  std::vector<std::int32_t> place_of(begin.size());
+  std::unordered_map<std::uint64_t, std::int32_t> place;
+  for (std::size_t k = 0; k < begin.size(); ++k) {
+    const Arc& arc = graph.alternatives[k].planned;
+    const auto [low, high] = std::minmax(robot[arc.before], robot[arc.after]);
+    const std::uint64_t key = low << 32 | high;
+    const auto [at, is_new] = place.try_emplace(key, static_cast<std::int32_t>(found.size()));
+    if (is_new) found.push_back({begin[k], key});
+    place_of[k] = at->second;
+    found[at->second].least = std::min(found[at->second].least, begin[k]);
+  }
+  std::vector<std::int32_t> order(found.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto count = static_cast<std::size_t>(std::min<std::int64_t>(limit, static_cast<std::int64_t>(order.size())));
+  std::ranges::nth_element(order, order.begin() + static_cast<std::ptrdiff_t>(count), {},
+                           [&](std::int32_t at) { return std::pair(found[at].least, found[at].key); });
+  std::vector<char> is_near(found.size());
+  for (std::size_t k = 0; k < count; ++k) is_near[order[k]] = true;
+  std::vector<std::int32_t> near;
+  for (std::size_t k = 0; k < begin.size(); ++k) {
+    if (is_near[place_of[k]]) near.push_back(static_cast<std::int32_t>(k));
+  }
+  return near;
+}
+
 }  // namespace
 
 std::vector<std::int32_t> open_orders(const AlternativeGraph& graph, std::span<const std::int32_t> together,
@@ -190,7 +231,23 @@ std::vector<std::int32_t> open_orders(const AlternativeGraph& graph, std::span<c
     throw std::invalid_argument("together names an event for each event");
   }
   if (begin.size() != graph.alternatives.size()) throw std::invalid_argument("begin has one value for each pair");
-  return OpenOrders(graph, together).run(begin, limit);
+  const std::vector<std::int32_t> near = near_pairs(graph, begin, limit);
+  AlternativeGraph tried{.first = graph.first, .duration = graph.duration, .fixed = graph.fixed, .alternatives = {}};
+  std::vector<std::int64_t> begin_of_tried;
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < begin.size(); ++k) {
+    if (next < near.size() && near[next] == static_cast<std::int32_t>(k)) {
+      tried.alternatives.push_back(graph.alternatives[k]);
+      begin_of_tried.push_back(begin[k]);
+      ++next;
+    } else {
+      tried.fixed.push_back(graph.alternatives[k].planned);  // they keep their order
+    }
+  }
+  const std::vector<std::int32_t> group = OpenOrders(tried, together).run(begin_of_tried, limit);
+  std::vector<std::int32_t> found(begin.size(), -1);
+  for (std::size_t k = 0; k < near.size(); ++k) found[near[k]] = group[k];
+  return found;
 }
 
 }  // namespace mrpbench::mapf

@@ -14,14 +14,20 @@ pytest.importorskip("mrpbench_planners_mapf")
 SOAK, TASKS = (runpy.run_path(str(Path(__file__).with_name(f"soak_{it}.py"))) for it in ("executions", "tasks"))
 
 
-def test_all_robots_arrive_in_the_first_executions(capsys):
-    assert SOAK["run"](24, 1) == 0
+@pytest.fixture
+def few(monkeypatch):
+    monkeypatch.setitem(SOAK["run"].__globals__, "DRAWS", {"at once": 20, "copied": 2, "slow": 1})
+
+
+def test_all_robots_arrive_in_the_first_executions(few, capsys):
+    assert SOAK["run"](200, 1) == 0
     printed = capsys.readouterr().out
-    assert "adg: drained" in printed
+    assert "adg, at once" in printed
+    assert "new plans" in printed
     assert "before situation" in printed
 
 
-def test_robots_that_never_go_and_robots_that_meet_are_noticed(monkeypatch, capsys):
+def test_robots_that_never_go_and_robots_that_meet_are_noticed(few, monkeypatch, capsys):
     class Holding(TimedSession):
         def update(self, now, view):
             return attrs.evolve(super().update(now, view), released=view.reached * 0)
@@ -38,7 +44,7 @@ def test_robots_that_never_go_and_robots_that_meet_are_noticed(monkeypatch, caps
     printed = capsys.readouterr().out
     assert "held" in printed
     assert "robots do not arrive" in printed
-    assert "robots meet" in printed
+    assert "conflict: robot" in printed
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@ vertex behind it, and completes it. A pair of visits gives an arc from the end o
 beginning of the other one. Times are in milliseconds.
 """
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -51,6 +52,17 @@ class AlternativeGraph(NamedTuple):
         time = earliest(arrays["first"], arrays["duration"], np.concatenate([arrays["fixed"], chosen]))
         found: Int = self.moves[np.argsort(time[self.begin], kind="stable")]
         return found
+
+
+def sum_of_arrivals(arrays: Mapping[str, Int32], switched: Bool) -> int:
+    """The sum of the times in ms at which robots complete their moves, given which alternatives bool[k] are switched.
+
+    Raises:
+        ValueError: the order has a cycle.
+    """
+    chosen = np.where(switched[:, None], arrays["switched"], arrays["planned"])
+    time = earliest(arrays["first"], arrays["duration"], np.concatenate([arrays["fixed"], chosen]))
+    return int(time[arrays["first"][1:] - 1].sum())
 
 
 def alternative_graph(

@@ -17,7 +17,8 @@ from mrpbench_core.files.extras import pip
 from mrpbench_core.model.common.arrays import Bool, Int32
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_dispatchers_reordering.searching import SearchingDispatcher, SearchingSession, sum_of_arrivals
+from mrpbench_dispatchers_reordering.alternative_graph import sum_of_arrivals
+from mrpbench_dispatchers_reordering.searching import SearchingDispatcher, SearchingSession
 
 
 @attrs.frozen(kw_only=True)

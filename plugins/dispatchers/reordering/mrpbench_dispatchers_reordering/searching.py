@@ -6,7 +6,6 @@ from collections.abc import Mapping
 
 import attrs
 import numpy as np
-from mrpbench_native.mapf import earliest
 
 from mrpbench_core.api import option
 from mrpbench_core.model.common.arrays import Bool, Int32
@@ -88,14 +87,3 @@ class SearchingSession(SwitchingSession):
         found = self.options.search(graph.arrays)
         if found is not None and found[1] >= self.options.gain * MILLISECONDS:
             self.put_next(graph.order(found[0]))
-
-
-def sum_of_arrivals(arrays: Mapping[str, Int32], switched: Bool) -> int:
-    """The sum of the times in ms at which robots complete their moves, given which alternatives bool[k] are switched.
-
-    Raises:
-        ValueError: the order has a cycle.
-    """
-    chosen = np.where(switched[:, None], arrays["switched"], arrays["planned"])
-    time = earliest(arrays["first"], arrays["duration"], np.concatenate([arrays["fixed"], chosen]))
-    return int(time[arrays["first"][1:] - 1].sum())

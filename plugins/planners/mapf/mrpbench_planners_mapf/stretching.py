@@ -22,12 +22,12 @@ Waits do not help robots that rotate, nor before moves that are committed: where
 import attrs
 import numpy as np
 
-from mrpbench_core.checking.strong_components import strong_components
+from mrpbench_core.dispatching.rotations import cycle_of_moves
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Feature, Problem
-from mrpbench_core.model.planning.type2_edges import moves_of, type2_edges
+from mrpbench_core.model.planning.type2_edges import Type2Edges, moves_of, type2_edges
 
 ROUNDS = 50
 """Later moves meet more delays, so margins are found again after each shift, at most so often."""
@@ -77,7 +77,7 @@ class _Orders:
         along = np.flatnonzero(moves.robot[1:] == moves.robot[:-1])
         self._one = np.concatenate([along, self.before])
         self._other = np.concatenate([along + 1, self.after])
-        self.fixed = self._committed(problem) | self._cyclic()
+        self.fixed = self._committed(problem) | self._cyclic(edges)
 
     def _committed(self, problem: Problem) -> Bool:
         """The edges bool[e] whose later move is committed."""
@@ -85,12 +85,9 @@ class _Orders:
         committed: Bool = self.moves.segment[self.after] < kept[self.moves.robot[self.after]]
         return committed
 
-    def _cyclic(self) -> Bool:
+    def _cyclic(self, edges: Type2Edges) -> Bool:
         """The edges bool[e] that are part of a cycle, whose moves are shifted together."""
-        components = strong_components(self._one.tolist(), self._other.tolist())
-        number = np.full(len(self.moves.robot), -1)
-        for index, component in enumerate(components):
-            number[list(component)] = index
+        number = cycle_of_moves(self.moves, edges)
         cyclic: Bool = (number[self.before] >= 0) & (number[self.before] == number[self.after])
         return cyclic
 
