@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.checking.recording import LARGEST, check_channel
+from mrpbench_core.checking.tasks import task_fault
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.planning.plan import Path
@@ -151,8 +152,8 @@ def _scenario(scenario: Scenario, robots: int, levels: int) -> Iterator[str]:
     yield from _finite("scenario.start", scenario.start[:, :2])
     yield from _indices("scenario.start_level", scenario.start_level, levels)
     for task in scenario.tasks:
-        if not len(task.goals) or not task.levels.shape == task.service.shape == (len(task.goals),):
-            yield "a task: the numbers of goals, levels and service times do not agree"
+        if (fault := task_fault(task)) is not None:
+            yield f"a task {fault}"
         yield from _finite("a task: its service times", task.service)
         yield from _finite("a task: its goals", task.goals[:, :2])
         yield from _indices("a task: a level", task.levels, levels)

@@ -58,7 +58,7 @@ LAYOUTS: Mapping[str, Layout] = {
     "route_waypoint": Layout("f", "route_time", (3,)),
     "route_speed": Layout("f", "route_time"),
     "errand_time": Layout("f", "errand_time"),
-    **{f"errand_{name}": Layout("iu", "errand_time") for name in ("task", "level")},
+    **{f"errand_{name}": Layout("iu", "errand_time") for name in ("task", "number", "level")},
     "errand_goal": Layout("f", "errand_time", (3,)),
     **{f"errand_{name}": Layout("f", "errand_time") for name in ("service", "deadline")},
     "errand_priority": Layout("i", "errand_time"),
@@ -77,7 +77,7 @@ _LEAST_ROBOT = {
     **dict.fromkeys(("event_robot", "task_robot"), -1),
 }
 """The least index in channels that name robots; -1 = none."""
-OPTIONAL = frozenset({"route_segment", "route_edge", "route_leave"})
+OPTIONAL = frozenset({"route_segment", "route_edge", "route_leave", "errand_number"})
 """Channels that older recordings lack beside the others with their time axis."""
 LARGEST = 1e9
 """Bound of positions (metres), angles, speeds and times (seconds)."""

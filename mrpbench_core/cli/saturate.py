@@ -21,6 +21,7 @@ from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.report.estimation.saturation import TOLERANCE, Growth, growth, next_rate, saturation
 from mrpbench_core.report.reading.axes import NO_AXES, find_axes, name_axes
 
@@ -56,6 +57,8 @@ class Search:
     label: str
     first: float
     tried: dict[float, Growth] = attrs.field(factory=dict)
+    failed: dict[float, int] = attrs.field(factory=dict)
+    """Runs that did not succeed, by rate; their growth counts too."""
     fault: str | None = None
 
     def next(self, resolution: float) -> float | None:
@@ -80,6 +83,13 @@ class Search:
                 return
             shares[record["seed"]].append(share)
         self.tried[rate] = growth([sum(values) / len(values) for values in shares.values()])
+        self.failed[rate] = sum(record["status"] != RunStatus.SUCCEEDED for record in records)
+
+    def row(self, rate: float) -> list[str]:
+        """What was found at a rate."""
+        found = self.tried[rate]
+        failed = f"{self.failed[rate]} failed" if self.failed[rate] else ""
+        return [f"{rate:.4g}", f"{found.mean:.3f}", f"{found.low:.3f}", f"{found.high:.3f}", found.verdict, failed]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -97,8 +107,17 @@ def run(arguments: argparse.Namespace) -> int:
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs with SIGTERM
         with redirect_stdout(sys.stderr) if arguments.json else nullcontext():
             while wanted := _wanted(searches, arguments.resolution):
+                for rate, keys in wanted.items():
+                    print(f"trying {rate:.4g} {UNITS[option]}: {'; '.join(searches[key].label for key in keys)}")
                 options = StudyOptions(overrides=overrides, out=out, workers=arguments.workers, progress=Printed())
                 _try(files[0], options, option, searches, wanted, slots)
+                for rate, keys in wanted.items():
+                    for search in (searches[key] for key in keys if rate in searches[key].tried):
+                        _, mean, low, high, verdict, failed = search.row(rate)
+                        runs = f" ({failed})" if failed else ""
+                        print(
+                            f"{search.label}: growth {mean} [{low}, {high}] at {rate:.4g}: {verdict}{runs}", flush=True
+                        )
     _print(list(searches.values()), UNITS[option], out, arguments.json)
     return int(any(None in search.interval for search in searches.values()))
 
@@ -145,7 +164,7 @@ def _searches(study: StudyRuns, option: str) -> dict[str, Search]:
     labels = map(name_axes, find_axes([json.loads(key) for key in points]))
     starts = (float(found[0].canonical["tasks"][option]) for found in points.values())
     return {
-        key: Search(label, start if option == "rate" else 1 / start)
+        key: Search(label or study.name, start if option == "rate" else 1 / start)
         for key, label, start in zip(points, labels, starts, strict=True)
     }
 
@@ -189,17 +208,17 @@ def _print(searches: Sequence[Search], unit: str, out: Path, as_json: bool) -> N
         rows = [attrs.asdict(search) | {"interval": search.interval} for search in searches]
         for row, search in zip(rows, searches, strict=True):
             row["tried"] = [
-                {"rate": rate, **attrs.asdict(found), "verdict": found.verdict} for rate, found in search.tried.items()
+                {"rate": rate, **attrs.asdict(found), "verdict": found.verdict, "failed": search.failed[rate]}
+                for rate, found in search.tried.items()
             ]
+            del row["failed"]
         print_json({"unit": unit, "tolerance": TOLERANCE, "out": str(out), "combinations": rows})
         return
     for search in searches:
-        table = [
-            [f"{rate:.4g}", f"{found.mean:.3f}", f"{found.low:.3f}", f"{found.high:.3f}", found.verdict]
-            for rate, found in sorted(search.tried.items())
-        ]
         print()
-        print_table([unit, "growth", "low", "high", "queues"], table, search.label)
+        table = [search.row(rate) for rate in sorted(search.tried)]
+        columns = [unit, "growth", "low", "high", "queues", *(["runs"] if any(search.failed.values()) else [])]
+        print_table(columns, [row[: len(columns)] for row in table], search.label)
         low, high = ("–" if end is None else f"{end:.4g}" for end in search.interval)
         print(f"saturation rate: {low} to {high} {unit}" + (f"; stopped: {search.fault}" if search.fault else ""))
     print(f"\ngrowth: share of the tasks that piles up, with one-sided 95 % limits; runs are in {out}")

@@ -24,7 +24,7 @@ from mrpbench_core.engine.stages.execute import execute_plan
 from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.measure import measure, measure_recording
 from mrpbench_core.engine.stages.plan import LATE_S, STATUS, budget_of, call_planner
-from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance, require_free_doorways
+from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance, goal_yaws, require_free_doorways
 from mrpbench_core.engine.stages.problem_building import build_problem, standing_problem
 from mrpbench_core.engine.stages.tasks import places_of, start_stream
 from mrpbench_core.files.printing import printable
@@ -79,7 +79,7 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
         assigned = None if config.planner.assigns else assign(config, instance, inputs.announce, inputs.timing)
         if assigned is not None and config.scenario.gives_goals:
             record.reassigned = sum(task != robot for robot, task in enumerate(assigned))
-        problem = build_problem(instance, assigned, config.assigner)
+        problem = build_problem(instance, assigned, config.assigner, Feature.GOAL_SETS in config.planner.supports)
         result, failure = _plan(inputs, problem, record)
     if assigned is None:
         assigned = (-1,) * len(problem) if result.plan is None else tasks_of_plan(instance, problem, result.plan)
@@ -166,7 +166,11 @@ def _unsolved(config: RunConfig, result: PlanResult, timing: Mapping[str, Any]) 
 
 def router_of(config: RunConfig, instance: RunInstance, assigned: tuple[int, ...], problem: Problem) -> Router:
     """Return what turns plans of a problem into routes."""
-    yaw = np.array([instance.scenario.tasks[task].goals[-1, 2] if task >= 0 else np.nan for task in assigned])
+    yaw = np.full(len(assigned), np.nan)
+    for robot, task in enumerate(assigned):
+        if task >= 0:
+            yaws = goal_yaws(instance.roadmap, instance.scenario.tasks[task])[-1]
+            yaw[robot] = yaws[problem.goals[robot][-1][0]]  # of several, all are equal
     return Router(problem, yaw, speed_limits(instance.world, instance.roadmap), config.plan_filter)
 
 

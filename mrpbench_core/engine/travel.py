@@ -6,7 +6,7 @@ are whole ticks, vertices are settled bucket by bucket, here for several searche
 
 import heapq
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -28,6 +28,18 @@ def travel_ticks(roadmap: Roadmap, profile: int, targets: Sequence[int], sources
         batch = np.asarray(targets[begin : begin + together], np.int64)
         ticks[begin : begin + len(batch)] = _search(roadmap, profile, batch)[:, np.asarray(sources, np.int64)]
     return ticks
+
+
+def through(first: Float, legs: Iterable[Float]) -> Float:
+    """Least sums f8[a,z] of ways that pass one place of each set, in order.
+
+    Args:
+        first: f8[a,p] from some places to those of the first set.
+        legs: f8[p,q] from the places of each set to those of the next; the last set has z.
+    """
+    for leg in legs:
+        first = (first[:, :, None] + leg[None]).min(axis=1)
+    return first
 
 
 def _search(roadmap: Roadmap, profile: int, targets: Int) -> Float:

@@ -6,6 +6,7 @@ robots:                       # start of each robot in metres; yaw in radians, a
   - {name: "puffin", x: 1.5, y: 2.0, yaw: 0.0}
 tasks:                        # the assigner `identity` assigns task i to robot i
   - {name: "dugong", goals: [{x: 3.0, y: 4.5}]}
+  - {goals: [{x: 1.0, y: 1.5}, [{x: 0.5, y: 4.5}, {x: 2.5, y: 4.5}]]}  # the second errand is done at either place
 ```
 `level` (index into the world's levels) is absent when 0, and so is what says nothing of `release` (simulated seconds),
 `service` (seconds at each goal, one number or a list), `deadline` (simulated seconds), `priority` and names.
@@ -34,8 +35,9 @@ def write_scenario(path: Path, scenario: Scenario) -> None:
         lines.append(f"  - {{{_name(name)}{_place(pose, level)}}}")
     lines.append("tasks:" if scenario.tasks else "tasks: []")
     for task in scenario.tasks:
-        goals = ", ".join(f"{{{_place(pose, level)}}}" for pose, level in zip(task.goals, task.levels, strict=True))
-        lines.append(f"  - {{{_name(task.name)}{_times(task)}goals: [{goals}]}}")
+        places = [f"{{{_place(pose, level)}}}" for pose, level in zip(task.goals, task.levels, strict=True)]
+        goals = [one[0] if len(one) == 1 else f"[{', '.join(one)}]" for one in task.by_errand(places)]
+        lines.append(f"  - {{{_name(task.name)}{_times(task)}goals: [{', '.join(goals)}]}}")
     path.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 

@@ -2,12 +2,13 @@
 
 ```csv
 release,errands,service,deadline,priority,name
-0,returns;pick_station_1,5,,,
+0,returns;dock_2|dock_3,5,,,
 12.5,3.0 4.5;1.5 2.0 1;dock_1,2;0;8,120,1,urgent
 ```
-Only the column `errands` is required: places in order, separated by `;`. A place is the name of a vertex of the world,
-or x y (metres), then level (index, 0 if absent), then yaw (radians, any if absent), separated by spaces. `service`
-(seconds) is one number for all errands, or one for each. `release` and `deadline` are simulated seconds. Empty cells
+Only the column `errands` is required: places in order, separated by `;`. An errand with several places, split by `|`,
+is done at any of them. A place is the name of a vertex of the world, or x y (metres), then level (index, 0 if absent),
+then yaw (radians, any if absent), separated by spaces. `service` (seconds) is one number for all errands, or one for
+each. `release` and `deadline` are simulated seconds. Empty cells
 stand for 0, and no deadline.
 """
 
@@ -84,21 +85,28 @@ class TaskReader:
         """Return a task."""
         mapping = self.mapping(steps, KEYS, {"goals"})
         goals = (*steps, "goals")
-        places = [self._goal((*goals, index)) for index in range(self.length(goals))]
-        if not places:
+        errands = [self._errand((*goals, index)) for index in range(self.length(goals))]
+        if not errands:
             raise self.document.error("a task needs a goal", goals)
         priority = mapping.get("priority", 0)
         if type(priority) is not int or abs(priority) >= 2**31:
             raise self.document.error("must be a whole number", (*steps, "priority"))
         return Task(
-            goals=np.array([pose for pose, _ in places]),
-            levels=np.array([level for _, level in places], np.int16),
+            **_places(errands),
             name=self.text(mapping, steps),
             release=self._seconds((*steps, "release")) if "release" in mapping else 0.0,
-            service=self._service((*steps, "service"), len(places)) if "service" in mapping else np.zeros(len(places)),
+            service=self._service((*steps, "service"), len(errands), mapping),
             deadline=self._seconds((*steps, "deadline")) if "deadline" in mapping else math.inf,
             priority=priority,
         )
+
+    def _errand(self, steps: Steps) -> list[Place]:
+        """Places of an errand: one, or a list of which any will do."""
+        if not isinstance(self.at(steps), list):
+            return [self._goal(steps)]
+        if not self.length(steps):
+            raise self.document.error("an errand needs a place", steps)
+        return [self._goal((*steps, index)) for index in range(self.length(steps))]
 
     def _goal(self, steps: Steps) -> Place:
         value = self.at(steps)
@@ -110,7 +118,9 @@ class TaskReader:
         self.mapping(steps, {"x", "y", "yaw", "level"}, {"x", "y"})
         return self.place(steps)
 
-    def _service(self, steps: Steps, errands: int) -> np.ndarray:
+    def _service(self, steps: Steps, errands: int, mapping: Mapping[str, Any]) -> np.ndarray:
+        if "service" not in mapping:
+            return np.zeros(errands)
         if not isinstance(self.at(steps), list):
             return np.full(errands, self._seconds(steps))
         if self.length(steps) != errands:
@@ -170,6 +180,15 @@ class TaskReader:
         return value
 
 
+def _places(errands: Sequence[Sequence[Place]]) -> dict[str, Any]:
+    """The fields of a task that say where its errands are."""
+    return {
+        "goals": np.array([pose for places in errands for pose, _ in places]),
+        "errand": np.repeat(np.arange(len(errands)), [len(places) for places in errands]),
+        "levels": np.array([level for places in errands for _, level in places], np.int16),
+    }
+
+
 def _read_table(path: Path, find: Find) -> list[FiledTask]:
     """Read a CSV table."""
     rows = csv.reader(read_text(path).splitlines(), strict=True)
@@ -196,19 +215,21 @@ class _Row:
         self._cells = dict(zip(columns, (cell.strip() for cell in cells), strict=True))
 
     def read(self, find: Find) -> FiledTask:
-        places = [self._place(word.strip(), find) for word in self._cells["errands"].split(";")]
+        errands = [
+            [self._place(word.strip(), find) for word in words.split("|")]
+            for words in self._cells["errands"].split(";")
+        ]
         service = [self._seconds("service", word) for word in self._cells.get("service", "").split(";")]
-        if len(service) not in (1, len(places)):
-            raise self._error(f"service: has {len(service)} times instead of 1 or {len(places)}")
+        if len(service) not in (1, len(errands)):
+            raise self._error(f"service: has {len(service)} times instead of 1 or {len(errands)}")
         priority = self._number("priority", self._cells.get("priority", ""), 0.0)
         if priority != int(priority) or abs(priority) >= 2**31:
             raise self._error(f"priority: {self._cells['priority']!r} is no whole number")
         task = Task(
-            goals=np.array([pose for pose, _ in places]),
-            levels=np.array([level for _, level in places], np.int16),
+            **_places(errands),
             name=self._cells.get("name", ""),
             release=self._seconds("release", self._cells.get("release", "")),
-            service=np.resize(service, len(places)),
+            service=np.resize(service, len(errands)),
             deadline=self._seconds("deadline", self._cells.get("deadline", ""), math.inf),
             priority=int(priority),
         )
@@ -216,7 +237,7 @@ class _Row:
 
     def _place(self, word: str, find: Find) -> Place:
         if not word:
-            raise self._error("errands: a place is empty", "places are separated by ';'")
+            raise self._error("errands: a place is empty", "errands are separated by ';', places of one errand by '|'")
         try:
             x, y, *others = map(float, word.split())
         except ValueError:

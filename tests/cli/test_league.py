@@ -43,3 +43,43 @@ def test_a_malformed_output_gives_one_line(files, capsys):
 def test_the_problem_has_to_be_named(files, capsys):
     assert main(["analyze", files()[0]]) == 2
     assert "needs --scenario PROBLEM.json" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"actualPaths": [""]}, "actualPaths: robot 0 has 0 steps, which is not the makespan 3\n"),
+        ({"actualPaths": ["F"]}, "actualPaths: robot 0 has 1 step, which is not the makespan 3\n"),
+        ({"makespan": 0}, "actualPaths: robot 0 has 3 steps, which is not the makespan 0\n"),
+    ],
+)
+def test_motion_of_another_length_is_named(files, capsys, changes, message):
+    assert main(["analyze", *files(**changes)]) == 1
+    assert message in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("[" * 100_000, "is no JSON: nested too deeply"),
+        (
+            '{"teamSize": ' + "9" * 5000 + "}",
+            "is no JSON: Exceeds the limit (4300 digits) for integer string conversion",
+        ),
+        ('{"teamSize": [' + "1," * 5000 + "1]}", "teamSize: should be a whole number from 1 to 2147483647, is [1, 1"),
+        ('{"teamSize": 1, "makespan": 3}', "has no 'actualPaths'"),
+    ],
+)
+def test_any_text_gives_one_short_line(files, tmp_path, capsys, text, message):
+    words = files()
+    (tmp_path / "output.json").write_text(text)
+    assert main(["analyze", *words]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert message in line
+    assert len(line) < 400
+
+
+def test_paths_that_would_fill_the_memory_are_refused(files, monkeypatch, capsys):
+    monkeypatch.setattr("mrpbench_core.files.lorr.output.MOST", 2)
+    assert main(["analyze", *files()]) == 2
+    assert "actualPaths: more than 2 actions, if all robots had as many as the longest path" in capsys.readouterr().err

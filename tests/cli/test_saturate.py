@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from mrpbench_core.cli.saturate import Search
+
 STUDY = """\
 name: shuttle
 world: {plugin: movingai, file: two.map, cell_size: 0.5}
@@ -43,6 +45,9 @@ def test_the_interval_holds_the_rate_of_a_robot_that_is_always_busy(shuttle):
         for line in file.read_text().splitlines()
     ]
     assert len(records) == 3 * len(found["tried"])
+    assert all(rate["failed"] == 0 for rate in found["tried"])
+    assert "trying 0.25 1/scale: shuttle\n" in errors
+    assert "shuttle: growth " in errors
     busy = [record for record in records if record["config"]["tasks"]["scale"] == 1 / high]
     capacity = sum(record["metrics"]["tasks.per_hour"] for record in busy) / len(busy) / 1200
     assert capacity < 3 / 2  # an errand takes 2 s, without driving
@@ -67,3 +72,11 @@ def test_mistakes_are_one_line(shuttle, words, message):
     assert code == 2
     assert message in errors
     assert len(errors.splitlines()) == 1
+
+
+def test_runs_that_did_not_succeed_are_counted():
+    search = Search("all", 8.0)
+    ends = enumerate(["succeeded", "execution_aborted"])
+    metrics = {"tasks.open_growth": 0.0}
+    search.judge(8.0, [{"run_id": "a", "seed": seed, "status": status, "metrics": metrics} for seed, status in ends])
+    assert search.row(8.0) == ["8", "0.000", "0.000", "0.000", "bounded", "1 failed"]

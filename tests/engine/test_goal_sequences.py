@@ -94,6 +94,34 @@ def test_a_planner_that_takes_one_goal_is_not_asked_for_several(tmp_path):
     assert "goal_sequences" in record["error"]["message"]
 
 
+EITHER = """\
+mrpbench_scenario: 1
+robots: [{x: 1.5, y: 0.5}, {x: 2.5, y: 1.5}]
+tasks:
+  - goals: [[{x: 0.5, y: 0.5, yaw: 1.5}, {x: 4.5, y: 0.5}]]
+  - goals: [{x: 0.5, y: 0.5}]
+"""
+
+
+@pytest.mark.parametrize("planner", ["cbs", "pibt"])
+def test_a_robot_of_a_batch_goes_to_the_place_that_is_left(tmp_path, planner):
+    record, pose = run(tmp_path, EITHER, planner=planner)
+    assert record["status"] == "succeeded", record
+    assert np.hypot(*(pose[-1, 0, :2] - (4.5, 0.5))) < 0.25
+    assert np.hypot(*(pose[-1, 1, :2] - (0.5, 0.5))) < 0.25
+    record, _ = run(tmp_path, EITHER.replace("4.5", "0.5"), planner=planner)
+    assert record["status"] == "scenario_infeasible"
+    assert "robots 0 and 1 share the goal" in record["error"]["message"]
+
+
+@pytest.mark.parametrize("planner", ["cbs", "pibt"])
+def test_the_yaw_is_the_one_of_the_place(tmp_path, planner):
+    nearer = EITHER.replace("goals: [{x: 0.5, y: 0.5}]", "goals: [{x: 5.5, y: 1.5}]")
+    _, pose = run(tmp_path, nearer, planner=planner)
+    assert np.hypot(*(pose[-1, 0, :2] - (0.5, 0.5))) < 0.25
+    assert abs(pose[-1, 0, 2] - 1.5) < 0.3
+
+
 def test_a_robot_that_has_not_been_at_a_goal_has_not_arrived(tmp_path):
     back = "mrpbench_scenario: 1\nrobots: [{x: 0.5, y: 0.5}]\ntasks: [{goals: [{x: 4.5, y: 1.5}, {x: 0.5, y: 0.5}]}]\n"
     record, _ = run(tmp_path, back, navigator="./claiming.py:Claiming", dispatcher="all_at_once")

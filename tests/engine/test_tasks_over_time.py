@@ -201,9 +201,44 @@ def test_a_task_of_a_file_takes_a_robot_to_another_floor(tmp_path):
     assert channels["level"][-1].tolist() == [1]
 
 
+ROOM = ["type octile", "height 3", "width 7", "map", ".......", ".@.@.@.", "......."]
+DOCKS = {"0.5": "0.5 0.5", "3.5": "3.5 0.5", "6.5": "6.5 0.5"}
+
+
+@pytest.mark.parametrize(
+    ("planner", "replanning"),
+    [("pbs", {}), ("pibt", {}), ("pibt", {"period": 2, "window": 10}), ("prioritized", {"period": 2, "window": 10})],
+)
+def test_three_robots_use_three_docks_at_once_where_any_will_do(tmp_path, planner, replanning):
+    (tmp_path / "room.map").write_text("\n".join([*ROOM, ""]))
+    any_dock = "|".join(DOCKS.values())
+    (tmp_path / "tasks.csv").write_text("release,errands,service\n" + f"0,{any_dock},30\n" * 3)
+    starts = "".join(f"- {{x: {x}, y: 2.5}}\n" for x in (2.5, 3.5, 4.5))
+    (tmp_path / "starts.yaml").write_text(f"mrpbench_scenario: 1\nrobots:\n{starts}tasks: []\n")
+    record, channels = run(
+        tmp_path,
+        world={"plugin": "movingai", "file": f"{tmp_path}/room.map"},
+        roadmap="grid",
+        scenario={"plugin": "file", "file": f"{tmp_path}/starts.yaml"},
+        tasks={"plugin": "file", "file": f"{tmp_path}/tasks.csv"},
+        planner={"plugin": "rolling_horizon", "planner": planner},
+        replanning=replanning,
+        limits={"execution": 120, "iterations": 5},
+    )
+    assert record["status"] == "succeeded", record
+    done = happened(channels, "done")
+    places = set()
+    for time, _, robot in done:
+        x, y = channels["truth"][int(np.searchsorted(channels["time"], time)) - 1, robot, :2]
+        places.add(min(DOCKS.values(), key=lambda it: np.hypot(*(np.array(it.split(), float) - (x, y)))))
+        assert min(np.hypot(*(np.array(it.split(), float) - (x, y))) for it in DOCKS.values()) <= 0.75
+    assert len(done) == len(places) == 3, "each robot has a dock of its own"
+    assert max(time for time, *_ in done) < 90, "none waited for the service of another"
+    assert channels["errand_number"].tolist() == [0] * 9
+
+
 def test_token_passing_does_well_formed_tasks_and_refuses_others(tmp_path):
-    rows = ["type octile", "height 3", "width 7", "map", ".......", ".@.@.@.", "......."]
-    (tmp_path / "room.map").write_text("\n".join([*rows, ""]))
+    (tmp_path / "room.map").write_text("\n".join([*ROOM, ""]))
     (tmp_path / "tasks.csv").write_text("release,errands\n0,2.5 1.5;4.5 1.5\n0,4.5 1.5;2.5 1.5\n1,2.5 1.5\n")
 
     def started(second):

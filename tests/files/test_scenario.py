@@ -19,16 +19,18 @@ NAME = st.text(st.characters(exclude_categories=["Cs"]), max_size=8) | st.sample
 LEVEL = st.integers(0, 3)
 PLACES = st.lists(st.tuples(POSE, LEVEL), min_size=1, max_size=3)
 TASK = st.builds(
-    lambda places, name, release, service, deadline, priority: Task(
+    lambda places, apart, name, release, service, deadline, priority: Task(
         goals=[pose for pose, _ in places],
+        errand=(errand := np.cumsum([0, *apart[1 : len(places)]])),
         levels=[level for _, level in places],
         name=name,
         release=release,
-        service=service[: len(places)],
+        service=service[: errand[-1] + 1],
         deadline=deadline,
         priority=priority,
     ),
     PLACES,
+    st.lists(st.booleans(), min_size=3, max_size=3),
     NAME,
     st.floats(0, 1e6),
     st.lists(st.floats(0, 1e3), min_size=3, max_size=3),
@@ -90,7 +92,7 @@ def test_a_file_written_by_hand_is_understood(tmp_path):
         ("x: 1,", "x: .inf,", ":3:23: must be a finite number"),
         ("x: 1, ", "", ":3:5: lacks 'x'"),
         ("name: puffin", "name: 7", ":3:12: must be text (put it in quotes)"),
-        ("{x: 0.0, y: 0.0, level: 1}", "[0, 0]", ":5:14: must be a mapping with x, y"),
+        ("{x: 0.0, y: 0.0, level: 1}", "[0, 0]", ":5:15: must be a mapping with x, y"),
         ("level: 1", "level: -1", ":5:38: must be the index of a level, from 0"),
         ("release: 2", "release: -2", ":5:76: must not be negative"),
         ("[{x: 0.0, y: 0.0, level: 1}, {x: 3, y: 4, yaw: 1.5}]", "[]", ":5:13: a task needs a goal"),

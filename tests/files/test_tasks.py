@@ -40,6 +40,36 @@ def test_a_table_is_understood(tmp_path):
     assert (second.task.deadline, second.task.priority, second.task.name) == (120, -1, "urgent, large")
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("tasks.csv", "errands,service\nreturns| 3 4 1 |5 6;lift lobby,2\n"),
+        (
+            "tasks.yaml",
+            "tasks:\n- goals: [[returns, {x: 3, y: 4, level: 1}, {x: 5, y: 6}], lift lobby]\n  service: 2\n",
+        ),
+    ],
+)
+def test_an_errand_may_have_several_places(tmp_path, name, text):
+    path = tmp_path / name
+    path.write_text(text)
+    (only,) = read_tasks(path, find)
+    assert only.task.goals[:, :2].tolist() == [[1, 2], [3, 4], [5, 6], [3, 4]]
+    assert only.task.errand.tolist() == [0, 0, 0, 1]
+    assert only.task.levels.tolist() == [0, 1, 0, 1]
+    assert only.task.service.tolist() == [2, 2]
+
+
+def test_an_errand_without_a_place_is_located(tmp_path):
+    path = tmp_path / "tasks.yaml"
+    path.write_text("tasks:\n- goals: [returns, []]\n")
+    with pytest.raises(InputError, match=r"tasks.yaml:2:20: an errand needs a place"):
+        read_tasks(path, find)
+    path.write_text("tasks:\n- goals: [[returns, [returns]]]\n")
+    with pytest.raises(InputError, match=r"tasks.yaml:2:21: must be a mapping with x, y"):
+        read_tasks(path, find)
+
+
 @pytest.mark.parametrize("name", ["tasks.json", "tasks.yaml"])
 def test_json_is_understood_with_names_and_places_in_metres(tmp_path, name):
     path = tmp_path / name
@@ -61,7 +91,13 @@ def test_json_is_understood_with_names_and_places_in_metres(tmp_path, name):
         ("errands", "errand", ":1: unknown column 'errand' (did you mean 'errands'?)"),
         ("release", "errands", ":1: the first line must name the column 'errands', and each column once"),
         ("returns", "return", ":2: errands: no vertex 'return' (names are returns, lift lobby)"),
-        ("returns;", ";", ":2: errands: a place is empty (places are separated by ';')"),
+        ("returns;", ";", ":2: errands: a place is empty (errands are separated by ';', places of one errand by '|')"),
+        (
+            "returns;",
+            "returns|;",
+            ":2: errands: a place is empty (errands are separated by ';', places of one errand by '|')",
+        ),
+        ("returns", "returns|docks", ":2: errands: no vertex 'docks' (names are returns, lift lobby)"),
         ("12.5", "-1", ":2: release: must not be negative"),
         ("12.5", "soon", ":2: release: 'soon' is no finite number"),
         (",5,", ",5;5;5,", ":2: service: has 3 times instead of 1 or 2"),

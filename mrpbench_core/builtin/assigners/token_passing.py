@@ -10,12 +10,14 @@ import numpy as np
 from mrpbench_core.api.component import option
 from mrpbench_core.builtin.assigners.greedy import Greedy
 from mrpbench_core.model.planning.assignment import QueueProblem, Queues
+from mrpbench_core.model.planning.problem import GoalSet
 
 
 @attrs.frozen(kw_only=True)
 class TokenPassing(Greedy):
-    """Free robots choose one after another: each takes the task whose first errand is nearest, of those with no place
-    to which another robot is on its way. The planner `token_passing` then finishes all tasks if they are well-formed.
+    """Free robots choose one after another: each takes the task whose first errand is nearest, of those whose errands
+    are at places to which no other robot is on its way. The planner `token_passing` then finishes all tasks if they are
+    well-formed.
 
     Unlike in the paper, robots rest at every errand, so that pickups of others count as deliveries do, and swaps
     compare ways without other robots. Tasks of a batch are assigned as by `greedy`.
@@ -60,7 +62,7 @@ class _Token:
             holder = self.task.index(task) if task in self.task else -1
             if holder >= 0 and not (self._swaps and reaches[task] < self._soonest[holder, task]):
                 continue
-            if set(self._places(task)) & self._wanted({robot, holder}):
+            if not _all_free(self._errands(task), self._wanted({robot, holder})):
                 continue
             self.task[robot] = task
             if holder >= 0:
@@ -68,12 +70,19 @@ class _Token:
                 self.choose(holder)
             return
 
-    def _places(self, task: int) -> tuple[int, ...]:
-        """Vertices of the errands of a task."""
+    def _errands(self, task: int) -> tuple[GoalSet, ...]:
         return self._problem.errands[task] if self._problem.errands else ()
 
     def _wanted(self, without: set[int]) -> set[int]:
-        """The vertices that robots, `without` some, still go to."""
+        """The vertices that robots, `without` some, still go to: one for each errand, which no other robot needs."""
         begun = (it for robot, it in enumerate(self._problem.ahead) if robot not in without)
-        chosen = (self._places(task) for robot, task in enumerate(self.task) if task >= 0 and robot not in without)
-        return {vertex for places in (*begun, *chosen) for vertex in places}
+        chosen = (self._errands(task) for robot, task in enumerate(self.task) if task >= 0 and robot not in without)
+        wanted = set[int]()
+        for errands in (*begun, *chosen):
+            wanted |= {next((it for it in places if it not in wanted), places[0]) for places in errands}
+        return wanted
+
+
+def _all_free(errands: tuple[GoalSet, ...], wanted: set[int]) -> bool:
+    """Tell whether each errand has a place that is not `wanted`."""
+    return all(set(places) - wanted for places in errands)

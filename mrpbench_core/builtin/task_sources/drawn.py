@@ -1,6 +1,7 @@
 """Tasks whose errands are drawn at random places, each from a random stream of its own."""
 
 from abc import abstractmethod
+from itertools import islice
 
 import attrs
 import numpy as np
@@ -42,8 +43,8 @@ class DrawnTasks(TaskSource):
     )
 
     @abstractmethod
-    def places(self, world: World, roadmap: Roadmap) -> tuple[Places, ...]:
-        """Return the places from which each errand is drawn, in the order of the errands.
+    def places(self, world: World, roadmap: Roadmap) -> tuple[tuple[Places, int], ...]:
+        """Return the places from which each errand is drawn, and how many are, in the order of the errands.
 
         Raises:
             InputError: there are too few.
@@ -57,13 +58,18 @@ class AnyPlace(DrawnTasks):
     """
 
     errands: int = option(1, help="places that each task visits, in order", validator=attrs.validators.ge(1))
+    places_per_errand: int = option(
+        1, help="places drawn for each errand, which is done at any of them", validator=attrs.validators.ge(1)
+    )
 
-    def places(self, world: World, roadmap: Roadmap) -> tuple[Places, ...]:
+    def places(self, world: World, roadmap: Roadmap) -> tuple[tuple[Places, int], ...]:
         """Return the same places for each errand."""
         found = usable_places(world, roadmap)
-        if len(found) < min(2, self.errands):
-            raise InputError(f"tasks: world {world.name} has {len(found)} places that all robots can reach")
-        return (found,) * self.errands
+        needed = min(2, self.errands) * self.places_per_errand
+        if len(found) < needed:
+            lack = f" and needs {needed}" if needed > 2 else ""
+            raise InputError(f"tasks: world {world.name} has {len(found)} places that all robots can reach{lack}")
+        return ((found, self.places_per_errand),) * self.errands
 
 
 @attrs.frozen
@@ -71,29 +77,33 @@ class Drawing:
     """Draws the tasks of one seed."""
 
     source: DrawnTasks
-    choices: tuple[Places, ...]
-    """The places from which each errand is drawn."""
+    choices: tuple[tuple[Places, int], ...]
+    """The places from which each errand is drawn, and how many are."""
     seed: int
 
     @property
     def places(self) -> tuple[Float, Int16]:
         """Positions f8[k,2] and levels i2[k] of all places."""
-        return np.concatenate([it.position for it in self.choices]), np.concatenate([it.level for it in self.choices])
+        return np.concatenate([it.position for it, _ in self.choices]), np.concatenate(
+            [it.level for it, _ in self.choices]
+        )
 
     def task(self, index: int, release: float) -> Task:
-        """Return task `index`, released at `release` seconds; no errand is at the place of the one before."""
-        random = stream(self.seed, ERRANDS, index).random(len(self.choices))
-        pose, levels, names = np.full((len(self.choices), 3), np.nan), [], []
-        before = -1
-        for errand, (places, share) in enumerate(zip(self.choices, random.tolist(), strict=True)):
-            open_to = np.flatnonzero(places.vertex != before)
-            chosen = int(open_to[int(share * len(open_to))])
-            before = int(places.vertex[chosen])
-            pose[errand, :2] = places.position[chosen]
-            levels.append(int(places.level[chosen]))
-            names.append(places.names[chosen] if places.names else "")
+        """Return task `index`, released at `release` seconds; no errand is at a place of the one before."""
+        sizes = [size for _, size in self.choices]
+        shares = iter(stream(self.seed, ERRANDS, index).random(sum(sizes)).tolist())
+        positions, levels, names = [], [], []
+        before: list[int] = []
+        for places, size in self.choices:
+            open_to = np.flatnonzero(~np.isin(places.vertex, before)).tolist()
+            chosen = [open_to.pop(int(share * len(open_to))) for share in islice(shares, size)]
+            before = places.vertex[chosen].tolist()
+            positions += [(*places.position[place], np.nan) for place in chosen]
+            levels += places.level[chosen].tolist()
+            names.append(" or ".join(places.names[place] for place in chosen) if places.names else "")
         return Task(
-            goals=pose,
+            goals=np.array(positions),
+            errand=np.repeat(np.arange(len(sizes)), sizes),
             levels=np.array(levels, np.int16),
             name=" to ".join(names) if all(names) else "",
             release=release,

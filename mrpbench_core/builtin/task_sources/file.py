@@ -38,5 +38,6 @@ class FromFile(TaskSource):
             off = roadmap.locate(entry.task.goals[:, :2], entry.task.levels) < 0
             if off.any():
                 x, y = entry.task.goals[off.argmax(), :2]
-                raise entry.error(f"errand {off.argmax() + 1} at ({x:g}, {y:g}) is off the roadmap")
+                errand = entry.task.errand[off.argmax()] + 1
+                raise entry.error(f"errand {errand} at ({x:g}, {y:g}) is off the roadmap")
         return ListedStream([attrs.evolve(entry.task, index=index) for index, entry in enumerate(filed)])

@@ -32,19 +32,33 @@ class PickupDelivery(DrawnTasks):
     rate: float = option(help="tasks per simulated minute", validator=attrs.validators.gt(0))
     pickups: Patterns = option((), help="names of places; `*` stands for any text")
     dropoffs: Patterns = option((), help="names of places; `*` stands for any text")
+    places_per_pickup: int = option(
+        1, help="places drawn for each pickup, of which any will do", validator=attrs.validators.ge(1)
+    )
+    places_per_dropoff: int = option(
+        1, help="places drawn for each delivery, of which any will do", validator=attrs.validators.ge(1)
+    )
 
     def start(self, world: World, roadmap: Roadmap, fleet: Fleet, seed: int) -> TaskStream:  # noqa: ARG002
         """Begin the stream of `seed`."""
         return PoissonStream(Drawing(self, self.places(world, roadmap), seed), self.rate / 60)
 
-    def places(self, world: World, roadmap: Roadmap) -> tuple[Places, ...]:
-        """Return the places of pickups and those of deliveries."""
+    def places(self, world: World, roadmap: Roadmap) -> tuple[tuple[Places, int], ...]:
+        """Return the places of pickups and those of deliveries, and how many are drawn."""
         usable = usable_places(world, roadmap)
         pickups = _chosen(world, roadmap, usable, "pickups", self.pickups)
         dropoffs = _chosen(world, roadmap, usable, "dropoffs", self.dropoffs)
         if len(dropoffs) == 1 and dropoffs.vertex[0] in pickups.vertex:
             raise InputError(f"tasks.dropoffs: the only place, {dropoffs.names[0]!r}, is also a place of pickups")
-        return pickups, dropoffs
+        both = min(self.places_per_pickup, int(np.isin(dropoffs.vertex, pickups.vertex).sum()))
+        for key, left, needed in (
+            ("pickup", len(pickups), self.places_per_pickup),
+            ("dropoff", len(dropoffs) - both, self.places_per_dropoff),
+        ):
+            if left < needed:
+                beside = f" beside {both} of the pickup" if key == "dropoff" and both else ""
+                raise InputError(f"tasks.places_per_{key}: {needed} of {left} places{beside}")
+        return (pickups, self.places_per_pickup), (dropoffs, self.places_per_dropoff)
 
 
 def _chosen(world: World, roadmap: Roadmap, usable: Places, key: str, patterns: Patterns) -> Places:

@@ -9,7 +9,7 @@ import numpy as np
 from mrpbench_core.checking.lorr.faults import Faults
 from mrpbench_core.files.lorr.output import Event
 from mrpbench_core.files.lorr.problem import LorrProblem
-from mrpbench_core.model.common.arrays import Int
+from mrpbench_core.model.common.arrays import Int, Int32
 
 Schedule = Sequence[Sequence[tuple[int, int]]]
 
@@ -26,7 +26,7 @@ class Done:
     errands: int = 0
 
 
-def follow_goals(problem: LorrProblem, cells: Int) -> Done:
+def follow_goals(problem: LorrProblem, cells: Int32) -> Done:
     """2023: each robot has a queue of goals; one that is reached is replaced at once."""
     robots, lines = cells.shape[1], len(problem.first) - 1
     done, given = Done(), [0] * robots
@@ -60,13 +60,13 @@ def follow_goals(problem: LorrProblem, cells: Int) -> Done:
 
 
 def follow_schedule(
-    problem: LorrProblem, cells: Int, times: Int, schedule: Schedule, faults: Faults, *, later: bool
+    problem: LorrProblem, cells: Int32, times: Int, schedule: Schedule, faults: Faults, *, later: bool
 ) -> Done:
     """2024 and 2026: a pool of visible tasks, which the schedule gives to robots.
 
     Args:
         problem: says the tasks and the size of the pool.
-        cells: i8[T+1,n] of each robot.
+        cells: i4[T+1,n] of each robot.
         times: i8[T+1] of the rows of `cells`.
         schedule: for each robot, when which task is given to it.
         faults: gets what breaks a rule.

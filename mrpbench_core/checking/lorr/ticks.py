@@ -9,7 +9,8 @@ from mrpbench_core.checking.lorr.steps import OFFSETS
 from mrpbench_core.files.lorr.motion import CLOCKWISE, COUNTER_CLOCKWISE, FORWARD
 from mrpbench_core.files.lorr.output import LorrOutput
 from mrpbench_core.files.lorr.problem import LorrProblem
-from mrpbench_core.model.common.arrays import Byte, Float, Int
+from mrpbench_core.files.text import counted
+from mrpbench_core.model.common.arrays import Byte, Float, Int, Int32
 
 TOUCH = 1e-9
 """Overlaps of less than this, in cells, are rounding."""
@@ -18,8 +19,8 @@ TOUCH = 1e-9
 class Ticked(NamedTuple):
     """Cells at the end of each tick, and when."""
 
-    cells: Int
-    """i8[T+1,n]."""
+    cells: Int32
+    """i4[T+1,n]."""
     time: Int
     """i8[T+1]: the tick of each row; ticks without any answer are left out."""
 
@@ -32,14 +33,15 @@ def cells_by_tick(problem: LorrProblem, output: LorrOutput, faults: Faults) -> T
     for index, one in enumerate(output.motion):
         letters[: len(one.letters), index] = one.letters
         if len(one.letters) != length:
-            faults.add(-1, f"robot {index} has {len(one.letters)} ticks of motion, others have {length}")
+            ticks = counted(len(one.letters), "tick")
+            faults.add(-1, f"actualPaths: robot {index} has {ticks} of motion, others have {length}")
     time = _times(output, length)
     _check_delays(output, letters, time, faults)
     shape = np.array(problem.blocked.shape)
     counter = output.counter
     place, heading = output.start[:, :2].astype(np.int64), output.start[:, 2].astype(np.int64)
     begun, progress = np.zeros(robots, np.uint8), np.zeros(robots, np.int64)
-    cells = np.zeros((length + 1, robots), np.int64)
+    cells = np.zeros((length + 1, robots), np.int32)
     cells[0] = place @ (shape[1], 1)
     _check_start(problem, cells[0], faults)
     for tick, row in enumerate(letters):
@@ -86,7 +88,7 @@ def _times(output: LorrOutput, length: int) -> Int:
     return stamped if increasing and stamped[0] > 0 and stamped[-1] <= output.makespan else time
 
 
-def _check_start(problem: LorrProblem, cells: Int, faults: Faults) -> None:
+def _check_start(problem: LorrProblem, cells: Int32, faults: Faults) -> None:
     for robot in np.flatnonzero(problem.blocked.ravel()[cells]):
         faults.add(0, f"robot {robot} starts in a wall")
 

@@ -155,10 +155,10 @@ def observe(
     else:
         channels["level"] = level
     tasks = [scenario.tasks[task] if task >= 0 else None for task in assigned]
-    channels["reached"] = np.stack(
-        [_reached(truth[:, robot], level, robot, task, sampling.tolerance) for robot, task in enumerate(tasks)], axis=1
-    )
-    goals = np.array([0 if task is None else len(task.goals) for task in tasks])
+    visits = [_visits(truth[:, robot], level, robot, task, sampling.tolerance) for robot, task in enumerate(tasks)]
+    channels["reached"] = np.stack([reached for reached, _ in visits], axis=1)
+    tasks = [task and _at(task, rows) for task, (_, rows) in zip(tasks, visits, strict=True)]
+    goals = np.array([0 if task is None else task.errands for task in tasks])
     lacking = np.flatnonzero(channels["reached"][-1] < goals).tolist()
     open_ends = _open_ends(observed, {robot: triggers[robot] for robot in lacking}, truth, time, sampling)
     names = [track.robot for track in observed.tracks]
@@ -254,19 +254,34 @@ def _levels(tracks: tuple[Track, ...], world: World, time: Float) -> Int16 | Non
     return np.stack(columns, axis=1).astype(np.int16)
 
 
-def _reached(pose: Float, level: Int16 | None, robot: int, task: Task | None, tolerance: float) -> Int32:
-    """The number i4[T] of goals that the robot has reached."""
+def _visits(
+    pose: Float, level: Int16 | None, robot: int, task: Task | None, tolerance: float
+) -> tuple[Int32, list[int]]:
+    """The number i4[T] of errands that a robot has done, and for each the row of its place: the first if it has not."""
     reached = np.zeros(len(pose), np.int32)
+    rows = [list(own) for own in task.by_errand(range(len(task.goals)))] if task else []
+    visited = [own[0] for own in rows]
     since = 0
-    for goal, wanted in zip(task.goals, task.levels, strict=True) if task else ():
-        near = np.hypot(*(pose[since:, :2] - goal[:2]).T) <= tolerance
+    for errand, own in enumerate(rows):
+        assert task is not None
+        offset = pose[since:, None, :2] - task.goals[None, own, :2]
+        near = np.hypot(offset[..., 0], offset[..., 1]) <= tolerance
         if level is not None:
-            near &= level[since:, robot] == wanted
+            near &= level[since:, robot, None] == task.levels[own]
         if not near.any():
             break
-        since += int(near.argmax())
+        first = int(near.any(axis=1).argmax())
+        visited[errand] = own[int(near[first].argmax())]
+        since += first
         reached[since:] += 1
-    return reached
+    return reached, visited
+
+
+def _at(task: Task, rows: list[int]) -> Task:
+    """The task with one place for each errand."""
+    return attrs.evolve(
+        task, goals=task.goals[rows], levels=task.levels[rows], errand=np.arange(len(rows), dtype=np.int32)
+    )
 
 
 def _context(world: World, fleet: Fleet, scenario: Scenario, tasks: list[Task | None], period: float) -> RunContext:

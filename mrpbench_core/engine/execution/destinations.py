@@ -1,10 +1,10 @@
 """Where robots go next: to their errands, else out of the way.
 
 Planners for one batch need goals at which all robots can stand at the same time. Of errands that exclude one another,
-only the most important one is a goal then.
+only the most important one is a goal then. An errand with several places has room if one of them has.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Literal
 
 import attrs
@@ -29,9 +29,12 @@ class Errand:
     robot: int
     task: int
     number: int
-    vertex: int
-    yaw: float
-    """radians, NaN = any."""
+    yaws: Mapping[int, float]
+    """radians wanted at each vertex that will do, NaN = any; in a plan the nearest vertex comes first."""
+
+    def at(self, vertices: Iterable[int]) -> "Errand":
+        """Return the errand at some of its vertices, in this order."""
+        return attrs.evolve(self, yaws={vertex: self.yaws[vertex] for vertex in vertices})
 
 
 @attrs.frozen(kw_only=True)
@@ -95,25 +98,48 @@ class Places:
         chosen: list[Errands] = [()] * robots
         goals: list[tuple[GoalSet, ...]] = [((taken.vertex.get(robot, -1),),) for robot in range(robots)]
         yaw = np.full(robots, np.nan)
+        ends: list[Errand] = []
         for sequence in errands:
-            way = self._with_room(sequence, taken)
+            way, place = self._with_room(sequence, taken)
             if way:
                 last = way[-1]
-                taken.add(last.robot, last.vertex)
+                taken.add(last.robot, place)
                 chosen[last.robot] = tuple((errand.task, errand.number) for errand in way)
-                goals[last.robot], yaw[last.robot] = tuple((errand.vertex,) for errand in way), last.yaw
+                before = (tuple(errand.yaws)[: None if self._sets else 1] for errand in way[:-1])
+                goals[last.robot] = (*before, (place,))
+                yaw[last.robot] = last.yaws[place]
+                if self._sets and len(last.yaws) > 1 and len(set(map(str, last.yaws.values()))) == 1:
+                    ends.append(last)
         for robot in [robot for robot in range(robots) if robot not in taken.vertex]:
             goals[robot] = (self._room(robot, int(head[robot]), taken, attempt),)
             if len(goals[robot][0]) == 1:
                 taken.add(robot, goals[robot][0][0])
+        for end in ends:
+            goals[end.robot] = (*goals[end.robot][:-1], self._choice(end, taken))
         return Destinations(goals=tuple(goals), yaw=yaw, errands=tuple(chosen))
 
-    def _with_room(self, errands: Sequence[Errand], taken: "_Taken") -> Sequence[Errand]:
-        """Of a robot's errands, the leading ones at the last of which it may rest."""
-        last = len(errands)
-        while last and not self._shared and not taken.leaves(errands[last - 1].robot, errands[last - 1].vertex):
-            last -= 1
-        return errands[:last]
+    def _with_room(self, errands: Sequence[Errand], taken: "_Taken") -> tuple[Sequence[Errand], int]:
+        """Of a robot's errands, the leading ones at the last of which it may rest, and where it does.
+
+        That is the nearest place with room. If robots may share goals and no place has room, it is the nearest of those
+        to which fewest robots go.
+        """
+        for last in range(len(errands), 0, -1):
+            errand = errands[last - 1]
+            place = next((it for it in errand.yaws if taken.leaves(errand.robot, it)), None)
+            if place is None and self._shared:
+                place = min(errand.yaws, key=[*taken.vertex.values()].count)
+            if place is not None:
+                return errands[:last], place
+        return (), -1
+
+    def _choice(self, errand: Errand, taken: "_Taken") -> GoalSet:
+        """The places among which a planner may choose: that of the robot, and those which no other one needs.
+
+        Whatever it chooses for some robots, each other robot still has its own place.
+        """
+        own = taken.vertex[errand.robot]
+        return tuple(it for it in errand.yaws if it == own or taken.leaves(errand.robot, it))
 
     def _room(self, robot: int, head: int, taken: "_Taken", attempt: int) -> GoalSet:
         """Where a robot without an errand may stand."""
@@ -163,9 +189,12 @@ class _Taken:
         self._count += 1
 
     def leaves(self, robot: int, vertex: int) -> bool:
-        """Tell whether there is room for one more robot at a vertex."""
+        """Tell whether the other robots leave room for a robot at a vertex."""
         roadmap = self._problem.roadmap
-        there, x, y, radius = self._places[: self._count].T
+        others = self._places[: self._count]
+        if robot in self.vertex:
+            others = np.delete(others, list(self.vertex).index(robot), axis=0)
+        there, x, y, radius = others.T
         gap = np.hypot(x - roadmap.position[vertex, 0], y - roadmap.position[vertex, 1])
         near = there[gap < radius + self._problem.radius[robot] - TOLERANCE].astype(np.int64)
         return not ((there == vertex).any() or (roadmap.level[near] == roadmap.level[vertex]).any())

@@ -1,5 +1,6 @@
 """Seconds that robots need from place to place, for assigners that are called again and again."""
 
+from collections.abc import Iterable
 from functools import lru_cache
 from itertools import pairwise
 
@@ -7,13 +8,17 @@ import numpy as np
 
 from mrpbench_core.api.assigner import Cost
 from mrpbench_core.checking.reachability import round_trips
-from mrpbench_core.engine.travel import travel_ticks
+from mrpbench_core.engine.execution.destinations import Errand
+from mrpbench_core.engine.travel import through, travel_ticks
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.roadmap import Roadmap
 
 TABLES = 2048
 """Tables of travel times to one vertex that are kept."""
+WAYS = 16384
+"""Ways through errands whose times are kept."""
 
 
 class QueueCosts:
@@ -37,7 +42,7 @@ class QueueCosts:
             min((speed for speed, own in zip(speeds, profile, strict=True) if own == number), default=1.0)
             for number in range(len(models))
         ]
-        self._to = lru_cache(TABLES)(self._search)
+        self._to, self.along = lru_cache(TABLES)(self._search), lru_cache(WAYS)(self._along)
 
     def seconds(self, profile: int, start: Int, goal: Int) -> Float:
         """Seconds f8[k,l] from vertices `start` i8[k] to `goal` i8[l]; inf where there is no way back."""
@@ -51,10 +56,26 @@ class QueueCosts:
             found = metres / self._speed[profile]
         return np.where(able, found, np.inf)
 
-    def along(self, profile: int, vertices: tuple[int, ...]) -> float:
-        """Seconds through vertices in order."""
-        legs = pairwise(vertices)
-        return float(sum(self.seconds(profile, np.array([a]), np.array([b]))[0, 0] for a, b in legs))
+    def _along(self, profile: int, sets: tuple[GoalSet, ...]) -> Float:
+        """Seconds f8[p,q] from each vertex of the first set, through one of each further set, to each of the last."""
+        here = np.where(np.eye(len(sets[0])), 0.0, np.inf)
+        return through(here, (self.seconds(profile, np.array(a), np.array(b)) for a, b in pairwise(sets)))
+
+    def nearest_first(self, way: Iterable[Errand], start: int) -> list[Errand]:
+        """Sort the places of errands that a robot does in order by the time on the roadmap to get there.
+
+        The way begins at `start`, then at the first place of the errand before. Places without a way are left out.
+        """
+        found = []
+        for errand in way:
+            if len(errand.yaws) > 1:
+                profile = int(self.profile[errand.robot])
+                seconds = {vertex: float(self._to(profile, vertex)[start]) for vertex in errand.yaws}
+                there = sorted((it for it in seconds if seconds[it] < np.inf), key=seconds.__getitem__)
+                errand = errand.at(there or errand.yaws)
+            start = next(iter(errand.yaws))
+            found.append(errand)
+        return found
 
     def _search(self, profile: int, goal: int) -> Float:
         """Seconds f8[V] from every vertex to `goal`."""

@@ -53,6 +53,7 @@ IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
 TASKS: dict[str, tuple[str, tuple[int, ...]]] = {
     "errand_time": ("f8", ()),
     "errand_task": ("i4", ()),
+    "errand_number": ("i4", ()),
     "errand_goal": ("f8", (3,)),
     "errand_level": ("i2", ()),
     "errand_service": ("f8", ()),
@@ -82,7 +83,7 @@ TRAJECTORY: dict[str, tuple[str, tuple[int, ...]]] = {
 INTEGERS = dict.fromkeys(
     (
         *("contact", "scan_robot", "event_robot", "critic_robot"),
-        *("errand_task", "errand_priority", "task_index", "task_robot", "task_errand"),
+        *("errand_task", "errand_number", "errand_priority", "task_index", "task_robot", "task_errand"),
     ),
     "i4",
 )
@@ -211,15 +212,16 @@ class Recorder:
             self._rows["event_detail"].append(event.detail)
 
     def tasks(self, tasks: Sequence[Task], events: Sequence[TaskEvent]) -> None:
-        """Record tasks that were released, one row per errand, and what happened to tasks."""
+        """Record tasks that were released, one row per place of each errand, and what happened to tasks."""
         rows = self._rows
         for task in tasks:
             count = len(task.goals)
             rows["errand_time"] += [task.release] * count
             rows["errand_task"] += [task.index] * count
+            rows["errand_number"] += task.errand.tolist()
             rows["errand_goal"] += [*task.goals]
             rows["errand_level"] += [*task.levels]
-            rows["errand_service"] += [*task.service]
+            rows["errand_service"] += [*task.service[task.errand]]
             rows["errand_deadline"] += [task.deadline] * count
             rows["errand_priority"] += [task.priority] * count
         for event in events:

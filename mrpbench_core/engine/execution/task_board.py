@@ -1,10 +1,12 @@
 """The tasks of an execution that are not finished: who does which, and how far each is."""
 
 import math
+from collections.abc import Mapping
 
 import attrs
 
 from mrpbench_core.model.planning.assignment import Queues
+from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.scenario import Task
 
 
@@ -25,8 +27,12 @@ class Job:
     """A task that is not finished."""
 
     task: Task
-    vertices: tuple[int, ...]
-    """Roadmap vertex of each errand."""
+    yaws: tuple[Mapping[int, float], ...]
+    """For each errand the radians wanted at each vertex that will do, NaN = any."""
+    places: tuple[GoalSet, ...] = attrs.field(
+        init=False, default=attrs.Factory(lambda self: tuple(map(tuple, self.yaws)), takes_self=True)
+    )
+    """Vertices of each errand, of which any will do."""
     robot: int = -1
     errand: int = 0
     """The errand that comes next."""
@@ -48,9 +54,9 @@ class TaskBoard:
         self.events: list[TaskEvent] = []
         """What happened since the recorder took the events."""
 
-    def release(self, now: float, task: Task, vertices: tuple[int, ...]) -> None:
-        """Take a task in."""
-        self.jobs[task.index] = Job(task, vertices)
+    def release(self, now: float, task: Task, yaws: tuple[Mapping[int, float], ...]) -> None:
+        """Take a task in; see `Job.yaws`."""
+        self.jobs[task.index] = Job(task, yaws)
         self._note(now, task.index, "released")
 
     def refuse(self, now: float, task: Task) -> None:
@@ -111,7 +117,7 @@ class TaskBoard:
         self._note(now, index, "errand", robot, job.errand)
         job.errand += 1
         job.since = math.nan
-        if job.errand == len(job.vertices):
+        if job.errand == len(job.places):
             self._note(now, index, "done", robot)
             self.finished += 1
             del self.jobs[index]

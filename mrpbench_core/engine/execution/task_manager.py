@@ -8,7 +8,7 @@ time or a wanted yaw, and the robot visits those before the last one without a s
 import math
 import time
 from collections.abc import Sequence, Set
-from itertools import takewhile
+from itertools import pairwise, takewhile
 from typing import Protocol
 
 import numpy as np
@@ -17,6 +17,7 @@ from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.checking.assignment import check_queues
+from mrpbench_core.checking.tasks import task_fault
 from mrpbench_core.engine.execution.destinations import Destinations, Errand, Errands, Places
 from mrpbench_core.engine.execution.planned_errands import PlannedErrands
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
@@ -25,7 +26,7 @@ from mrpbench_core.engine.execution.task_board import Job, TaskBoard, TaskEvent
 from mrpbench_core.engine.own import Handed, name_of, own
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.planning.assignment import QueueProblem
-from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.planning.problem import GoalSet, Problem
 from mrpbench_core.model.planning.scenario import Task
 
 
@@ -128,16 +129,18 @@ class TaskManager:
                 f"{now:g} s"
             )
         self._next += 1
-        if not len(task.goals) == len(task.levels) == len(task.service) > 0:
-            raise BrokenContractError(f"the task source gave task {task.index} without a level or service per goal")
-        vertices = tuple(int(vertex) for vertex in self._roadmap.locate(task.goals[:, :2], task.levels))
+        if (fault := task_fault(task)) is not None:
+            raise BrokenContractError(f"the task source gave task {task.index}, which {fault}")
+        located = self._roadmap.locate(task.goals[:, :2], task.levels).tolist()
+        places = zip(located, task.goals[:, 2].tolist(), strict=True)
+        yaws = tuple({it: yaw for it, yaw in goal if it >= 0} for goal in task.by_errand([*places]))
         labels = [self._costs.labels[int(profile)] for profile in self._costs.profile]
-        able = min(vertices) >= 0 and any(
-            all(label[vertex] == label[start] for vertex in vertices)
+        able = any(
+            all(any(label[vertex] == label[start] for vertex in goal) for goal in yaws)
             for label, start in zip(labels, self._start.tolist(), strict=True)
         )
         if able:
-            self._board.release(now, task, vertices)
+            self._board.release(now, task, yaws)
             self._unassigned = True
         else:
             self._board.refuse(now, task)
@@ -203,28 +206,33 @@ class TaskManager:
 
     def _queue_problem(self, now: float, open_tasks: list[int]) -> QueueProblem:
         jobs = [self._board.jobs[index] for index in open_tasks]
-        first = np.array([job.vertices[0] for job in jobs], np.int64)
-        last = np.array([job.vertices[-1] for job in jobs], np.int64)
+        first, begin = _flat([job.places[0] for job in jobs])
+        last, end = _flat([job.places[-1] for job in jobs])
         profiles = range(len(self._costs.labels))
         column = {index: number for number, index in enumerate(open_tasks)}
         place, free_in = self._head.copy(), np.zeros(len(self._robots))
         for robot in self._robots:
             if (job := self._board.begun(robot)) is not None:
                 profile = int(self._costs.profile[robot])
-                ahead = (int(self._head[robot]), *job.vertices[job.errand :])
-                free_in[robot] = self._costs.along(profile, ahead) + _service(job, now)
-                place[robot] = job.vertices[-1]
+                (way,) = self._costs.along(profile, ((int(self._head[robot]),), *job.places[job.errand :]))
+                free_in[robot] = way.min() + _service(job, now)
+                place[robot] = job.places[-1][int(way.argmin())]
         free_in[self._aborted] = np.inf
-        length = np.array(
-            [[self._costs.along(p, job.vertices) + job.task.service.sum() for job in jobs] for p in profiles]
-        )
+        after = [
+            [self._costs.along(p, job.places).min(axis=1) + job.task.service.sum() for job in jobs] for p in profiles
+        ]
+        length = np.array([np.concatenate(row) for row in after])[self._costs.profile]
         approach = np.array(
             [self._costs.seconds(int(p), place[[robot]], first)[0] for robot, p in enumerate(self._costs.profile)]
         )
-        length = length[self._costs.profile]
+        if len(first) > len(jobs):
+            total = approach + length
+            best = np.stack([at + total[:, at:to].argmin(axis=1) for at, to in pairwise([*begin, len(first)])], axis=1)
+            approach, length = (np.take_along_axis(values, best, axis=1) for values in (approach, length))
         between: Float = np.empty((0, 0, 0))
         if self._assigner.reads_between:
             between = np.array([self._costs.seconds(p, last, first) for p in profiles])
+            between = np.minimum.reduceat(np.minimum.reduceat(between, end, axis=1), begin, axis=2)
         return QueueProblem(
             now=now,
             tasks=tuple(job.task for job in jobs),
@@ -234,9 +242,9 @@ class TaskManager:
             length=length,
             between=between,
             profile=self._costs.profile.astype(np.int32),
-            errands=tuple(job.vertices for job in jobs),
+            errands=tuple(job.places for job in jobs),
             ahead=tuple(
-                () if job is None else job.vertices[job.errand :] for job in map(self._board.begun, self._robots)
+                () if job is None else job.places[job.errand :] for job in map(self._board.begun, self._robots)
             ),
         )
 
@@ -266,16 +274,20 @@ class TaskManager:
         self._planned_at = now
         ahead = [self._ahead(robot) for robot in self._robots]
         self._planned.ask([_names(way) for way in ahead])
-        ways = [way for way, stays in zip(ahead, held.tolist(), strict=True) if not stays]
+        ways = [
+            self._costs.nearest_first(way, int(self._head[way[0].robot]))
+            for way, stays in zip(ahead, held.tolist(), strict=True)
+            if way and not stays
+        ]
         if restricted.roadmap is not self._roadmap:
-            ways = [
-                list(takewhile(lambda it: reaches(restricted, it.robot, int(self._head[it.robot]), (it.vertex,)), way))
-                for way in ways
-            ]
+            ways = [[*takewhile(lambda it: it.yaws, (self._within(restricted, it) for it in way))] for way in ways]
         resting: list[list[Errand]] = []
         moving: list[list[Errand]] = []
         for way in filter(None, ways):
-            (moving if math.isnan(self._board.jobs[way[0].task].since) else resting).append(way)
+            if math.isnan(self._board.jobs[way[0].task].since):
+                moving.append(way)
+            else:
+                resting.append([way[0].at([*way[0].yaws][:1]), *way[1:]])  # it is there
         moving.sort(key=lambda way: way[0].task)
         if self._failures and moving:
             first = self._failures % len(moving)
@@ -296,17 +308,28 @@ class TaskManager:
         """The errands to which a plan leads a robot: the next one and, if it need not rest there, those after it."""
         ahead: list[Errand] = []
         for job in self._board.queue(robot):
-            for number in range(job.errand, len(job.vertices)):
-                yaw = float(job.task.goals[number, 2])
-                ahead.append(Errand(robot, job.task.index, number, job.vertices[number], yaw))
-                rests = job.task.service[number] > 0 or not math.isnan(yaw)
+            for number in range(job.errand, len(job.places)):
+                yaws = job.yaws[number]
+                ahead.append(Errand(robot, job.task.index, number, yaws))
+                rests = job.task.service[number] > 0 or not all(map(math.isnan, yaws.values()))
                 if rests or not self._sequences or robot in self._missed:
                     return ahead
         return ahead
 
+    def _within(self, restricted: Problem, errand: Errand) -> Errand:
+        """Leave out places that the robot cannot reach in a problem."""
+        head = int(self._head[errand.robot])
+        return errand.at(it for it in errand.yaws if reaches(restricted, errand.robot, head, (it,)))
+
     def _is_done(self, errand: tuple[int, int]) -> bool:
         job = self._board.jobs.get(errand[0])
         return job is None or job.errand > errand[1]
+
+
+def _flat(goals: Sequence[GoalSet]) -> tuple[Int, list[int]]:
+    """The vertices of sets, one after another, and where each set begins."""
+    sizes = [len(goal) for goal in goals]
+    return np.array([vertex for goal in goals for vertex in goal], np.int64), (np.cumsum(sizes) - sizes).tolist()
 
 
 def _names(way: Sequence[Errand]) -> Errands:

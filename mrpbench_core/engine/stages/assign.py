@@ -56,6 +56,6 @@ def assign(config: RunConfig, instance: RunInstance, announce: Announce, timing:
 
 def tasks_of_plan(instance: RunInstance, problem: Problem, plan: Plan) -> tuple[int, ...]:
     """The task of each robot when the planner has chosen: the one whose goal is where its path ends."""
-    task = {sequence[0]: index for index, sequence in reversed(list(enumerate(instance.goals)))}
+    task = {vertex: index for index, ((vertex,),) in reversed(list(enumerate(instance.goals)))}
     starts = problem.start.tolist()
     return tuple(task[path.end(problem.roadmap, start)] for path, start in zip(plan.paths, starts, strict=True))

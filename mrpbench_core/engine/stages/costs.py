@@ -1,18 +1,23 @@
 """Cost matrices for assigners."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from mrpbench_core.api.assigner import Cost
 from mrpbench_core.engine.stages.prepare import goal_vertices, start_vertices
-from mrpbench_core.engine.travel import travel_ticks
+from mrpbench_core.engine.travel import through, travel_ticks
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario
 
 
 def cost_matrix(kind: Cost, roadmap: Roadmap, fleet: Fleet, scenario: Scenario) -> Float:
-    """The cost f8[n,m] of each task for each robot: from its start through all goals of the task, in order.
+    """The cost f8[n,m] of each task for each robot: from its start through all errands of the task, in order.
+
+    Of an errand with several places, the one counts that makes the whole cheapest.
 
     `euclidean` and `manhattan` are metres between the places of the scenario in the plane, regardless of walls;
     `roadmap` is the shortest travel time in seconds on the roadmap with the robot's motion profile, without other
@@ -20,11 +25,11 @@ def cost_matrix(kind: Cost, roadmap: Roadmap, fleet: Fleet, scenario: Scenario) 
     """
     if kind == "roadmap":
         return _travel_times(roadmap, fleet, scenario)
-    robots, tasks = len(scenario.start), len(scenario.tasks)
-    first = np.array([task.goals[0, :2] for task in scenario.tasks]).reshape(tasks, 2)
-    legs = [_length(np.diff(task.goals[:, :2], axis=0), kind).sum() for task in scenario.tasks]
-    approach = _length(first[None, :] - scenario.start[:, None, :2], kind)
-    costs: Float = (approach + np.array(legs)).reshape(robots, tasks)
+    costs = np.empty((len(scenario.start), len(scenario.tasks)))
+    for column, task in enumerate(scenario.tasks):
+        places = [scenario.start[:, :2], *map(np.array, task.by_errand([*task.goals[:, :2]]))]
+        first, *legs = (_length(there[None] - here[:, None], kind) for here, there in pairwise(places))
+        costs[:, column] = through(first, legs).min(axis=1)
     return costs
 
 
@@ -43,9 +48,9 @@ def _travel_times(roadmap: Roadmap, fleet: Fleet, scenario: Scenario) -> Float:
     return costs * roadmap.tick
 
 
-def _profile_times(roadmap: Roadmap, profile: int, start: Int, goals: list[tuple[int, ...]]) -> Float:
+def _profile_times(roadmap: Roadmap, profile: int, start: Int, goals: list[tuple[GoalSet, ...]]) -> Float:
     """Ticks f8[robots,tasks] for robots of one motion profile; inf where there is no way or a place is off the map."""
-    targets = sorted({goal for sequence in goals for goal in sequence if goal >= 0})
+    targets = sorted({vertex for sequence in goals for goal in sequence for vertex in goal} - {-1})
     sources = sorted({*start.tolist(), *targets} - {-1})
     ticks = np.full((len(targets) + 1, len(sources) + 1), np.inf)  # last row and column: not on the roadmap
     ticks[:-1, :-1] = travel_ticks(roadmap, profile, targets, sources)
@@ -53,7 +58,9 @@ def _profile_times(roadmap: Roadmap, profile: int, start: Int, goals: list[tuple
     column = {vertex: index for index, vertex in enumerate(sources)}
     times = np.zeros((len(start), len(goals)))
     for task, sequence in enumerate(goals):
-        for before, goal in zip([None, *sequence], sequence, strict=False):
-            here = [column.get(vertex, -1) for vertex in (start.tolist() if before is None else [before])]
-            times[:, task] += ticks[row.get(goal, -1), here]
+        first, *legs = (
+            ticks[np.ix_([row.get(it, -1) for it in there], [column.get(it, -1) for it in here])].T
+            for here, there in pairwise([start.tolist(), *sequence])
+        )
+        times[:, task] = through(first, legs).min(axis=1)
     return times

@@ -14,8 +14,9 @@ from mrpbench_core.engine.stages.fleet import build_fleet
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.roadmap import Roadmap
-from mrpbench_core.model.planning.scenario import Scenario
+from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.model.worlds.world import World
 
@@ -33,8 +34,8 @@ class RunInstance:
     scenario: Scenario
     start: np.ndarray
     """i4[n] roadmap vertices."""
-    goals: list[tuple[int, ...]]
-    """Roadmap vertices of each task."""
+    goals: list[tuple[GoalSet, ...]]
+    """The goals of each task; see `goal_vertices`."""
 
     @property
     def task_names(self) -> list[str]:
@@ -107,9 +108,13 @@ def start_vertices(roadmap: Roadmap, scenario: Scenario) -> Int32:
     return roadmap.facing(vertex, np.nan_to_num(scenario.start[:, 2]))
 
 
-def goal_vertices(roadmap: Roadmap, scenario: Scenario) -> list[tuple[int, ...]]:
-    """The roadmap vertices of each task's goals, in order; -1 = not on the roadmap."""
-    found = [
-        roadmap.facing(roadmap.locate(task.goals[:, :2], task.levels), task.goals[:, 2]) for task in scenario.tasks
-    ]
-    return [tuple(vertices.tolist()) for vertices in found]
+def goal_vertices(roadmap: Roadmap, scenario: Scenario) -> list[tuple[GoalSet, ...]]:
+    """The roadmap vertices of each task's errands, in order; (-1,) = no place is on the roadmap."""
+    return [tuple(tuple(goal) or (-1,) for goal in goal_yaws(roadmap, task)) for task in scenario.tasks]
+
+
+def goal_yaws(roadmap: Roadmap, task: Task) -> tuple[dict[int, float], ...]:
+    """For each errand of a task the radians wanted at each vertex that will do, NaN = any."""
+    vertices = roadmap.facing(roadmap.locate(task.goals[:, :2], task.levels), task.goals[:, 2]).tolist()
+    places = task.by_errand([*zip(vertices, task.goals[:, 2].tolist(), strict=True)])
+    return tuple({vertex: yaw for vertex, yaw in errand if vertex >= 0} for errand in places)

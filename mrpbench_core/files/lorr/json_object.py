@@ -35,8 +35,11 @@ class JsonObject:
         except json.JSONDecodeError as error:
             message = f"is no JSON: {error.msg}"
             raise InputError(message, file=file, line=error.lineno, column=error.colno) from None
-        except (ValueError, RecursionError) as error:
-            raise InputError(f"is no JSON: {error}", file=file) from None
+        except RecursionError:
+            raise InputError("is no JSON: nested too deeply", file=file) from None
+        except ValueError as error:
+            reason = str(error).partition(";")[0]  # Python's advice on long numbers follows
+            raise InputError(f"is no JSON: {reason}", file=file) from None
         if not isinstance(values, dict):
             raise InputError("should hold one JSON object", file=file, line=1)
         return cls(file, text, values)
@@ -45,7 +48,7 @@ class JsonObject:
         """Return a whole number within bounds."""
         value = self._get(key, default)
         if type(value) is not int or not least <= value <= most:
-            raise self.error(key, f"should be a whole number from {least} to {most}, is {value!r}")
+            raise self.error(key, f"should be a whole number from {least} to {most}, is {value!r:.80}")
         return value
 
     def number(self, key: str, least: float, most: float = math.inf, default: Any = REQUIRED) -> float:
@@ -53,7 +56,7 @@ class JsonObject:
         value = self._get(key, default)
         sound = type(value) in (int, float) and abs(value) < 2**53
         if not sound or not least <= value <= most:
-            raise self.error(key, f"should be a number from {least:g} to {most:g}, is {value!r}")
+            raise self.error(key, f"should be a number from {least:g} to {most:g}, is {value!r:.80}")
         return float(value)
 
     def word(self, key: str, choices: tuple[str, ...] = (), default: Any = REQUIRED) -> str:
@@ -61,7 +64,7 @@ class JsonObject:
         value = self._get(key, default)
         if not isinstance(value, str) or (choices and value not in choices):
             wanted = f"one of {', '.join(choices)}" if choices else "a text"
-            raise self.error(key, f"should be {wanted}, is {value!r}")
+            raise self.error(key, f"should be {wanted}, is {value!r:.80}")
         return value
 
     def items(self, key: str, length: int | None = None) -> list[Any]:

@@ -16,6 +16,8 @@ from mrpbench_core.model.common.arrays import Int32, array
 
 LONGEST = 10**7
 """Steps or ticks."""
+MOST = 10**9
+"""Steps or ticks of all robots together."""
 HEADINGS = "ESWN"
 Event = tuple[int, int, int, int]
 """Time, robot, task, errands done: 0 = given to the robot (2023 only)."""
@@ -60,6 +62,8 @@ def read_output(file: Path) -> LorrOutput:
             motion.append(parse_segments(_text(text), makespan) if season == 2026 else parse_steps(_text(text)))
         except ValueError as error:
             raise data.error("actualPaths", f"robot {robot} {error}") from None
+    if robots * max(len(one.letters) for one in motion) > MOST:
+        raise data.error("actualPaths", f"more than {MOST} actions, if all robots had as many as the longest path")
     return LorrOutput(
         season=season,  # type: ignore[arg-type]
         start=np.array([_start(data, one) for one in data.items("start", robots)], np.int32),

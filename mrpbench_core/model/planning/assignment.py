@@ -3,6 +3,7 @@
 import attrs
 
 from mrpbench_core.model.common.arrays import Float, Int32, array
+from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.scenario import Task
 
 
@@ -51,15 +52,16 @@ class QueueProblem:
     free_in: Float = array("f8")
     """f8[n] until the robot has finished the task that it has begun, 0 = free; inf = it gave up."""
     approach: Float = array("f8")
-    """f8[n,m] from where the robot becomes free to the first errand of the task; inf = it cannot do the task."""
+    """f8[n,m] from where the robot becomes free to the first errand of the task; inf = it cannot do the task. Of
+    several places of an errand, those count that make the whole task shortest."""
     length: Float = array("f8")
     """f8[n,m] from the arrival at its first errand to the end of the task, with its service times."""
     between: Float = array("f8")
-    """f8[p,m,m] from the end of a task (row) to the first errand of another (column); f8[0,0,0] unless the assigner
-    `reads_between`."""
+    """f8[p,m,m] from the end of a task (row) to the first errand of another (column), of several places the nearest to
+    one another; f8[0,0,0] unless the assigner `reads_between`."""
     profile: Int32 = array("i4")
     """i4[n] first index of `between` for each robot."""
-    errands: tuple[tuple[int, ...], ...] = ()
-    """Roadmap vertices of the errands of each of the m tasks."""
-    ahead: tuple[tuple[int, ...], ...] = ()
-    """For each of n robots the vertices of the errands left of the task that it has begun."""
+    errands: tuple[tuple[GoalSet, ...], ...] = ()
+    """For each of the m tasks the roadmap vertices of each errand, of which any will do."""
+    ahead: tuple[tuple[GoalSet, ...], ...] = ()
+    """For each of n robots the errands left of the task that it has begun."""

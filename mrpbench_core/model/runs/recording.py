@@ -28,7 +28,8 @@
 | `route_segment` | i4 | segments of the robot before this waypoint, from the beginning of the execution |
 | `route_waypoint`, `route_level`, `route_speed` | f8[3]; i2; f8 | see `mrpbench_core.model.runs.routes.RouteHistory` |
 | `route_edge`, `route_leave` | i4; i8 | of the segment to the waypoint: edge, -1 = wait; tick at which it ends |
-| `errand_time`, `errand_task` | f8; i4 | one row per errand of each task: its release and index; only with `tasks` |
+| `errand_time`, `errand_task` | f8; i4 | per place of each errand: release and index of its task; only with `tasks` |
+| `errand_number` | i4 | the errand of the task, from 0, which is done at any of its places |
 | `errand_goal`, `errand_level` | f8[3]; i2 | see `mrpbench_core.model.planning.scenario.Task` |
 | `errand_service`, `errand_deadline`, `errand_priority` | f8; f8; i4 | the same |
 | `task_time`, `task_index`, `task_event` | f8; i4; U | see `TASK_EVENTS`; only with `tasks` |

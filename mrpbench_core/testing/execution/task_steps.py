@@ -69,7 +69,8 @@ class TaskSteps:
         ahead = self._way[1] if len(self._way) > 1 else self.at
         self._check(ahead)
         self.at, self._way, self.tick = ahead, self._way[1:] if len(self._way) > 1 else self._way, self.tick + 1
-        self._visits.update(self._roadmap.position[self.at], self._roadmap.level[self.at], self._reached())
+        self.ledger.position = self._roadmap.position[self.at]
+        self._visits.update(self.ledger.position, self._roadmap.level[self.at], self._reached())
         arrived = (self._way == self._way[-1]).all(axis=0)
         self.tasks.judge(self.tick * self.problem.roadmap.tick, arrived, self._visits.count)
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from mrpbench_core.api.scenario import ScenarioSource
+from mrpbench_core.checking.tasks import task_fault
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario
@@ -48,8 +49,8 @@ class ScenarioConformance(ComponentConformance):
         require(drawn.tasks, "draws no tasks")
         require(np.isfinite(drawn.start[:, :2]).all(), "a start has a position that is not finite")
         for index, task in enumerate(drawn.tasks):
-            require(len(task.goals) == len(task.levels) > 0, f"task {index}: goals and levels differ in number")
-            require(np.isfinite(task.goals[:, :2]).all(), f"task {index} has a goal with a position that is not finite")
+            fault = task_fault(task)
+            require(fault is None, f"task {index} {fault}")
 
     def test_starts_lie_on_the_roadmap(self) -> None:
         drawn = self.draw(0)

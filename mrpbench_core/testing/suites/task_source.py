@@ -1,10 +1,9 @@
 """Checks that every task source must pass, on the built-in office."""
 
-import math
-
 import numpy as np
 
 from mrpbench_core.api.task_source import TaskSource, TaskStream
+from mrpbench_core.checking.tasks import task_fault
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Task
@@ -59,14 +58,8 @@ class TaskSourceConformance(ComponentConformance):
 
     def test_tasks_are_sound(self) -> None:
         for task in self.tasks(0, 60.0):
-            name, count = f"task {task.index}", len(task.goals)
-            require(count > 0, f"{name} has no errand")
-            require(len(task.levels) == len(task.service) == count, f"{name}: not one level and service time per goal")
-            service = task.service
-            require(
-                bool(np.isfinite(service).all() and (service >= 0).all()), f"{name} has the service times {service}"
-            )
-            require(not math.isnan(task.deadline), f"{name} has a deadline that is not a number")
+            name, fault = f"task {task.index}", task_fault(task)
+            require(fault is None, f"{name} {fault}")
             vertex = self.roadmap().locate(task.goals[:, :2], task.levels)
             require(bool((vertex >= 0).all()), f"{name} has an errand off the roadmap")
 
@@ -100,6 +93,7 @@ def alike(some: list[Task], others: list[Task], release: bool) -> bool:
     return all(
         np.array_equal(one.goals, other.goals, equal_nan=True)
         and np.array_equal(one.levels, other.levels)
+        and np.array_equal(one.errand, other.errand)
         and np.array_equal(one.service, other.service)
         and one.priority == other.priority
         and (not release or (one.release, one.deadline) == (other.release, other.deadline))

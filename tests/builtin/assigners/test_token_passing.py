@@ -19,6 +19,11 @@ class TestTaskSwaps(AssignerConformance):
         return TokenPassing(task_swaps=True)
 
 
+def sets(vertices):
+    """Errands at one place each, or at any of several."""
+    return tuple(it if isinstance(it, tuple) else (it,) for it in vertices)
+
+
 def queue_problem(approach, errands, free_in=None, queues=None, ahead=None):
     """Tasks whose errands are at vertices `errands`."""
     approach = np.array(approach, float)
@@ -32,8 +37,8 @@ def queue_problem(approach, errands, free_in=None, queues=None, ahead=None):
         length=np.ones(approach.shape),
         between=np.empty((0, 0, 0)),
         profile=np.zeros(robots, np.int32),
-        errands=tuple(errands),
-        ahead=ahead or ((),) * robots,
+        errands=tuple(map(sets, errands)),
+        ahead=tuple(map(sets, ahead or ((),) * robots)),
     )
 
 
@@ -46,6 +51,14 @@ def test_a_task_with_a_place_to_which_another_robot_goes_waits():
     shared = queue_problem([[1, 2], [1, 2]], [(5, 6), (7, 6)])
     assert TokenPassing().assign_queues(shared) == ((0,), ())
     busy = queue_problem([[1, 2], [1, 2]], [(5, 6), (7, 8)], free_in=[0, 9], ahead=[(), (6,)])
+    assert TokenPassing().assign_queues(busy) == ((1,), ())
+
+
+def test_a_task_waits_until_a_place_is_left_for_each_errand():
+    docks = (5, 6)
+    shared = queue_problem([[1, 2, 3]] * 3, [(docks, 7), (docks, 8), (docks, 9)])
+    assert TokenPassing().assign_queues(shared) == ((0,), (1,), ())
+    busy = queue_problem([[1, 2], [1, 2]], [(docks, 7), (4, 8)], free_in=[0, 9], ahead=[(), (5, 6)])
     assert TokenPassing().assign_queues(busy) == ((1,), ())
 
 

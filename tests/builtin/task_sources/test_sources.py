@@ -69,9 +69,29 @@ def test_pickups_and_deliveries_are_where_they_are_named():
     assert [task.release for task in found] == [task.release for task in tasks(Poisson(rate=10))]
 
 
+def test_places_of_an_errand_differ_and_none_is_of_the_errand_before():
+    names = ("lounge", "printer", "sofa")
+    source = PickupDelivery(
+        rate=10, pickups=names, dropoffs=(*names, "library"), places_per_pickup=2, places_per_dropoff=2
+    )
+    for task in tasks(source):
+        first, second = (set(goal) for goal in task.by_errand([*map(tuple, task.goals[:, :2].tolist())]))
+        assert len(first) == len(second) == 2
+        assert not first & second
+    assert task.name.count(" or ") == 2
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
+        (
+            {"pickups": ("sofa",), "dropoffs": ("lounge",), "places_per_pickup": 2},
+            r"tasks.places_per_pickup: 2 of 1 places$",
+        ),
+        (
+            {"pickups": ("sofa", "lounge"), "dropoffs": ("sofa", "lounge"), "places_per_dropoff": 2},
+            r"tasks.places_per_dropoff: 2 of 1 places beside 1 of the pickup$",
+        ),
         ({}, r"tasks: no vertex of world office has 'pickup_dispenser' \(name places with 'pickups'\)"),
         ({"pickups": ("lunge",), "dropoffs": ("sofa",)}, r"tasks.pickups: .*'lunge' \(did you mean 'lounge'\?\)"),
         ({"pickups": ("x*",), "dropoffs": ("sofa",)}, r"tasks.pickups: world office has no vertex 'x\*'"),

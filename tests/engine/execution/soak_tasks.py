@@ -27,22 +27,23 @@ FAILURE, REPAIR, GIVES_UP, DEAF = 0.002, 0.05, 0.2, 0.02
 
 @attrs.frozen
 class Draws:
-    """Tasks with one to three errands at random vertices, some of which no robot can reach."""
+    """Tasks with one to three errands at random vertices, also at any of several, some of which no robot can reach."""
 
     position: np.ndarray
     seed: tuple[int, int]
 
     def task(self, index, release):
-        """Task `index`; one of a hundred is off the roadmap."""
+        """Task `index`; one place of a hundred is off the roadmap."""
         random = np.random.default_rng([*self.seed, index])
-        goals = self.position[random.integers(len(self.position), size=random.integers(1, 4))]
-        goals = goals + 1e6 if random.random() < 0.01 else goals
-        count = len(goals)
+        sizes = random.integers(1, 4, random.integers(1, 4)) if random.random() < 0.5 else [1] * random.integers(1, 4)
+        goals = self.position[random.integers(len(self.position), size=sum(sizes))]
+        goals = goals + 1e6 * (random.random((len(goals), 1)) < 0.01)
         return Task(
-            goals=np.column_stack([goals, np.full(count, np.nan)]),
-            levels=np.zeros(count, np.int16),
+            goals=np.column_stack([goals, np.full(len(goals), np.nan)]),
+            errand=np.repeat(np.arange(len(sizes)), sizes),
+            levels=np.zeros(len(goals), np.int16),
             release=release,
-            service=random.integers(0, 3, count).astype(float),
+            service=random.integers(0, 3, len(sizes)).astype(float),
             index=index,
         )
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from mrpbench_core.engine.execution.task_board import TaskBoard
 from mrpbench_core.model.planning.scenario import Task
 
-ROBOTS = 3
+ROBOTS, NAN = 3, float("nan")
 
 
 def task(index, errands=1, service=0.0):
@@ -34,7 +34,7 @@ def test_every_task_is_done_once_by_the_robot_that_began_it(steps):
     for now, (kind, value, service) in enumerate(steps):
         if kind == "release":
             released.append(task(len(released), value, service))
-            board.release(float(now), released[-1], (0,) * value)
+            board.release(float(now), released[-1], ({0: NAN},) * value)
         elif kind == "assign":
             pool = board.unbegun()
             value.shuffle(pool)
@@ -65,7 +65,7 @@ def test_every_task_is_done_once_by_the_robot_that_began_it(steps):
 
 def test_an_errand_takes_its_service_time_and_begins_again_when_the_robot_was_pushed_away():
     board = TaskBoard(1)
-    board.release(0.0, task(0, service=2.0), (0,))
+    board.release(0.0, task(0, service=2.0), ({0: NAN},))
     board.assign(0.0, ((0,),))
     assert [board.rest(now, 0) for now in (1.0, 2.0)] == [False, False]
     board.leave(0)

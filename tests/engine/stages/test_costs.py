@@ -1,6 +1,7 @@
 """Cost matrices against sums computed by hand and a plain Dijkstra search."""
 
 import heapq
+from itertools import product
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from mrpbench_core.engine.travel import travel_ticks
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.testing.instances.problems import grid_of
 
 SQUARE = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]
 SLOW = RobotModel(name="slow", footprint=SQUARE, max_speed=0.5, max_turn_rate=1.0)
@@ -24,6 +26,21 @@ def scenario(starts, *tasks):
         start_level=[0] * len(starts),
         tasks=tuple(Task(goals=[(x, y, np.nan) for x, y in goals], levels=[0] * len(goals)) for goals in tasks),
     )
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), kind=st.sampled_from(["euclidean", "manhattan", "roadmap"]))
+def test_of_several_places_those_count_that_make_the_whole_cheapest(seed, kind):
+    random = np.random.default_rng(seed)
+    road = grid_of(["".join(random.choice([".", "#"], 4, p=[0.8, 0.2])) for _ in range(3)] + ["...."])
+    pose = np.column_stack([road.position, np.full(len(road.position), np.nan)])
+    sets = [random.integers(len(pose), size=random.integers(1, 4)).tolist() for _ in range(random.integers(1, 4))]
+    errand = np.repeat(np.arange(len(sets)), [len(places) for places in sets])
+    whole = Task(goals=pose[np.concatenate(sets)], errand=errand, levels=np.zeros(len(errand), np.int16))
+    choices = [Task(goals=pose[[*way]], levels=[0] * len(way)) for way in product(*sets)]
+    drawn = Scenario(start=pose[:2], start_level=[0, 0], tasks=(whole, *choices))
+    costs = cost_matrix(kind, road, Fleet(robots=(SLOW, SLOW)), drawn)
+    assert costs[:, 0] == pytest.approx(costs[:, 1:].min(axis=1))
 
 
 @pytest.fixture

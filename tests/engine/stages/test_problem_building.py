@@ -35,4 +35,4 @@ def test_a_robot_without_a_task_may_end_anywhere(corridor, robot_model):
 
 
 def test_goals_are_in_the_cells_that_contain_them(run_context):
-    assert goal_vertices(run_context.problem.roadmap, run_context.scenario) == [(1,), (2,)]
+    assert goal_vertices(run_context.problem.roadmap, run_context.scenario) == [((1,),), ((2,),)]

@@ -23,6 +23,7 @@ from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance
 from mrpbench_core.engine.stages.problem_building import build_problem
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.plugins.local import refuse_local
@@ -85,7 +86,7 @@ def _plan_faults(
     config: RunConfig, instance: RunInstance, first: RunContext, record: Mapping[str, Any]
 ) -> Iterator[str]:
     assigned = None if config.planner.assigns else assign(config, instance, _ignore, {})
-    problem = build_problem(instance, assigned, config.assigner)
+    problem = build_problem(instance, assigned, config.assigner, Feature.GOAL_SETS in config.planner.supports)
     if _form(problem) != _form(first.problem):
         yield "its problem is not the one of the configuration"
         return

@@ -85,12 +85,12 @@ export class Paths {
     context.globalAlpha = 1;
   }
 
-  /** x, y and level of a robot's goal: the errand of its task, else where its route ends; nothing without a task. */
+  /** x, y and level of a robot's goal: a place of its task, else where its route ends; nothing without a task. */
   #goal(robot, last) {
     const { tasks, routeX, routeY, routeLevel } = this.run;
     if (!tasks) return [routeX[last], routeY[last], routeLevel[last]];
-    const errand = tasks.goal(robot);
-    return errand < 0 ? [] : [tasks.x[errand], tasks.y[errand], tasks.level[errand]];
+    const place = tasks.goal(robot);
+    return place < 0 ? [] : [tasks.x[place], tasks.y[place], tasks.level[place]];
   }
 
   #drawDriven(context, view, shown, colours) {

@@ -157,11 +157,11 @@ export class Run {
     return this.contacts.filter(([first, last]) => first <= this.now && this.now <= last + after);
   }
 
-  /** Where a robot goes: the errand of its task, the name of its only goal, or metres. */
+  /** Where a robot goes: a place of its task, the name of its only goal, or metres. */
   goal(robot) {
     if (this.tasks) {
-      const errand = this.tasks.goal(robot);
-      return errand < 0 ? "–" : `${this.tasks.placeName(errand)} (task ${this.tasks.target[robot]})`;
+      const place = this.tasks.goal(robot);
+      return place < 0 ? "–" : `${this.tasks.placeName(place)} (task ${this.tasks.target[robot]})`;
     }
     const last = this.routeFirst[robot + 1] - 1;
     if (last < this.routeFirst[robot]) return "–";

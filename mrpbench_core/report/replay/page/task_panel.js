@@ -75,9 +75,9 @@ export class TaskPanel {
 
   #fill(button, task) {
     const { run, tasks } = this;
-    const of = tasks.first[task.index + 1] - tasks.first[task.index];
+    const of = tasks.errandsOf(task.index);
     const name = task.robot >= 0 ? run.names[task.robot] : "";
-    const where = tasks.placeName(tasks.place(task));
+    const where = tasks.where(task);
     const what = task.fate
       ? `${task.fate} after ${Math.round(task.at - task.since)} s`
       : `${task.begun ? "carried to" : "waits at"} ${where}`;

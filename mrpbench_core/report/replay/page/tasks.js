@@ -5,6 +5,7 @@ import { decoded, lastAtMost } from "replay/data.js";
 const [RELEASED, REFUSED, ASSIGNED, WITHDRAWN, BEGUN, ERRAND, DONE, GIVEN_UP] = Array(8).keys(); // `TASK_EVENTS`
 const FATES = { [REFUSED]: "refused", [DONE]: "done", [GIVEN_UP]: "given up" };
 const SIDE = 9; // pixels of a mark
+const NAMED = 3; // places of an errand that are named
 const MANY = 60; // open tasks from which ages are not written
 
 export class Tasks {
@@ -15,6 +16,7 @@ export class Tasks {
     this.y = decoded(arrays.errand_y);
     this.level = arrays.errand_level.values;
     this.first = arrays.errand_first.values;
+    this.number = arrays.errand_number.values;
     this.count = this.first.length - 1;
     this.times = decoded(arrays.task_time);
     this.kinds = arrays.task_kind.values;
@@ -73,20 +75,39 @@ export class Tasks {
     return lastAtMost(this.doneTimes, this.run.now + 5e-4) + 1;
   }
 
-  /** Index of the errand that comes next in a task. */
-  place({ index, errand }) {
-    return Math.min(this.first[index] + errand, this.first[index + 1] - 1);
+  /** Number of errands of a task. */
+  errandsOf(index) {
+    return this.number[this.first[index + 1] - 1] + 1;
   }
 
-  /** Index of the errand to which a robot goes now, -1 without a task. */
+  /** Indices of the places of the errand that comes next in a task, of which any will do. */
+  places({ index, errand }) {
+    const next = Math.min(errand, this.errandsOf(index) - 1);
+    const found = [];
+    for (let place = this.first[index]; place < this.first[index + 1]; place++) if (this.number[place] === next) found.push(place);
+    return found;
+  }
+
+  /** Index of the place to which a robot goes now, -1 without a task: of several, the nearest to the end of its route. */
   goal(robot) {
     const task = this.open.get(this.target[robot]);
-    return task ? this.place(task) : -1;
+    if (!task) return -1;
+    const { routeX, routeY, routeLevel, routeFirst } = this.run;
+    const last = routeFirst[robot + 1] - 1;
+    const gap = (place) =>
+      Math.hypot(this.x[place] - routeX[last], this.y[place] - routeY[last]) + (this.level[place] === routeLevel[last] ? 0 : 1e6);
+    return this.places(task).reduce((best, place) => (gap(place) < gap(best) ? place : best));
   }
 
-  /** Name of the place of an errand, else metres. */
-  placeName(errand) {
-    const [x, y, level] = [this.x[errand], this.y[errand], this.level[errand]];
+  /** Names of the places of the errand that comes next in a task. */
+  where(task) {
+    const places = this.places(task);
+    return places.length > NAMED ? `any of ${places.length} places` : places.map((place) => this.placeName(place)).join(" or ");
+  }
+
+  /** Name of a place, else metres. */
+  placeName(place) {
+    const [x, y, level] = [this.x[place], this.y[place], this.level[place]];
     const near = ([vx, vy, vl, name]) => name && vl === level && Math.hypot(vx - x, vy - y) < 0.01;
     const vertex = this.run.world.vertices.find(near);
     return vertex ? vertex[3].replaceAll("_", " ") : `${x.toFixed(2)}, ${y.toFixed(2)} m`;
@@ -100,14 +121,15 @@ export class Tasks {
     [context.textAlign, context.textBaseline, context.lineWidth] = ["left", "middle", 3];
     [context.strokeStyle, context.fillStyle] = [theme.paper, theme.ink];
     for (const task of this.open.values()) {
-      const [x, y, level] = this.#where(task);
-      if (level !== shown.level) continue;
-      const [px, py] = view.toScreen(x, y);
-      (task.begun ? carried : waiting).rect(px - SIDE / 2, py - SIDE / 2, SIDE, SIDE);
-      if (task.begun || !ages) continue;
-      const text = `${Math.floor(this.run.now - task.since)} s`;
-      context.strokeText(text, px + SIDE, py);
-      context.fillText(text, px + SIDE, py);
+      for (const [x, y, level] of this.#where(task)) {
+        if (level !== shown.level) continue;
+        const [px, py] = view.toScreen(x, y);
+        (task.begun ? carried : waiting).rect(px - SIDE / 2, py - SIDE / 2, SIDE, SIDE);
+        if (task.begun || !ages) continue;
+        const text = `${Math.floor(this.run.now - task.since)} s`;
+        context.strokeText(text, px + SIDE, py);
+        context.fillText(text, px + SIDE, py);
+      }
     }
     context.fillStyle = theme.paper;
     context.fill(waiting);
@@ -120,8 +142,7 @@ export class Tasks {
   }
 
   #where(task) {
-    if (task.begun) return [this.run.pose.x[task.robot], this.run.pose.y[task.robot], this.run.value("level", task.robot, 0)];
-    const errand = this.place(task);
-    return [this.x[errand], this.y[errand], this.level[errand]];
+    if (task.begun) return [[this.run.pose.x[task.robot], this.run.pose.y[task.robot], this.run.value("level", task.robot, 0)]];
+    return this.places(task).map((place) => [this.x[place], this.y[place], this.level[place]]);
   }
 }

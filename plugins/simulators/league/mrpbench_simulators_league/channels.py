@@ -69,6 +69,7 @@ def _tasks(output: LorrOutput, tasks: Sequence[Task], seconds: float) -> Chunk:
     return {
         "errand_time": each([time for _, time in revealed], "f8"),
         "errand_task": each([task.index for task, _ in revealed], "i4"),
+        "errand_number": np.concatenate([task.errand for task, _ in revealed]),
         "errand_goal": np.concatenate([task.goals for task, _ in revealed]),
         "errand_level": np.concatenate([task.levels for task, _ in revealed]).astype(np.int16),
         "errand_service": np.concatenate([task.service for task, _ in revealed]),

@@ -151,6 +151,8 @@ class League(DiscreteSimulator):
             if len(tasks) < wanted:
                 raise InputError("tasks: `simulator: league` needs a pool without end")
             errands = [cells_of(raster, task.goals, f"an errand of task {task.index}") for task in tasks]
+            if any(task.errands < len(task.goals) for task in tasks):
+                raise InputError("tasks: errands of `simulator: league` have one place each")
             if any(task.service.any() for task in tasks):
                 raise InputError("tasks: errands of `simulator: league` take no service time")
             problem = LorrProblem(
