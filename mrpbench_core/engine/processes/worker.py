@@ -13,11 +13,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.config.study import unpack
+from mrpbench_core.config.unpacking import Unpack
 from mrpbench_core.engine.json_values import jsonable
 from mrpbench_core.engine.loading.runs import pack_error
 from mrpbench_core.engine.observers import Observers
@@ -25,7 +23,7 @@ from mrpbench_core.engine.origins import owner_of, title, with_origin
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.processes.channel import KEY_BYTES, Channel
 from mrpbench_core.engine.processes.output import flush, redirect
-from mrpbench_core.engine.processes.process_tree import address_space
+from mrpbench_core.engine.processes.process_tree import address_space, prefer_to_end
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.files.printing import printable
@@ -35,10 +33,10 @@ from mrpbench_core.plugins.importing import tell_imports
 from mrpbench_core.store.paths import RunPaths
 
 
-def execute_job(connection: socket.socket, hooks: Hooks, executed: Callable[[], None]) -> None:
+def execute_job(connection: socket.socket, hooks: Hooks, unpack: Unpack, executed: Callable[[], None]) -> None:
     """Receive a job, execute it, and send its answer; call `executed` before."""
     connection.set_inheritable(False)  # programs that a plugin starts must not keep it open
-    Path("/proc/self/oom_score_adj").write_text("500")  # the kernel is to end a run, never the invoker
+    prefer_to_end()
     channel = Channel(connection, connection.recv(KEY_BYTES, socket.MSG_WAITALL))
     job = channel.receive()
     assert job is not None
@@ -48,7 +46,7 @@ def execute_job(connection: socket.socket, hooks: Hooks, executed: Callable[[], 
         os.chdir(job["folder"])
         found = _call(job["call"], job["arguments"])
     else:
-        found = _run(job, channel, hooks)
+        found = _run(job, channel, hooks, unpack)
     flush()
     executed()
     channel.send(found)
@@ -69,18 +67,17 @@ def _call(function: str, arguments: list[Any]) -> dict[str, Any]:
         return {"raised": describe(error)}
 
 
-def _run(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, Any]:
+def _run(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack) -> dict[str, Any]:
     """Execute a run; return its answer."""
     try:
         os.environ["TMPDIR"] = tempfile.tempdir = job["temporary"]
-        np.random.seed()  # noqa: NPY002 - the state that plugins find in a process that was not forked
         _backstop(job["memory_bytes"])
-        return _execute(job, channel, hooks)
+        return _execute(job, channel, hooks, unpack)
     except OSError as error:
         return {"mistake": f"{job['log']}: {error.strerror}"}
 
 
-def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, Any]:
+def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack) -> dict[str, Any]:
     def announce(name: Stage, facts: dict[str, Any]) -> None:
         channel.send({"stage": name, **jsonable(facts)})
 
