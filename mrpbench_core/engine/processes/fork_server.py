@@ -58,8 +58,10 @@ class ForkServer:
                 for connection in (ours, *inherited):
                     connection.close()
                 _serve(theirs, Channel(theirs, key), job, execute)
-            except BaseException:  # noqa: BLE001 - nothing of the parent's stack may run in this process
-                traceback.print_exc()
+            except BaseException:  # noqa: BLE001 - as below
+                with suppress(Exception):  # a plugin closed standard error
+                    traceback.print_exc()
+            finally:  # nothing of the parent's stack may run in this process
                 os._exit(1)
         theirs.close()
         return cls(pid, ours, key)

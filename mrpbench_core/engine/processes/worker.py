@@ -3,6 +3,7 @@
 Plugins run here. What they print, in Python or in native code, goes to the run's log.
 """
 
+import errno
 import importlib
 import os
 import resource
@@ -100,15 +101,15 @@ def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack
     except (InputError, InputErrors) as error:
         return {"mistake": jsonable(str(error))}
     except BrokenContractError as error:
-        traceback.print_exc()
+        _print_exception()
         return {"status": RunStatus.CONTRACT_BROKEN, "message": printable(_named(str(error), config))}
     except MemoryError as error:
-        traceback.print_exc()
+        _print_exception()
         return {"status": RunStatus.OUT_OF_MEMORY, "message": printable(str(error)) or "no memory left"}
     except BaseException as error:  # noqa: BLE001 - a plugin may raise anything, even SystemExit
-        if is_full(error):  # the run is to be done again
+        if is_full(error) and not _limits_files():  # the run is to be done again
             return {"mistake": f"{job['recording']}: cannot be written: {jsonable(printable(str(error)))}"}
-        traceback.print_exc()
+        _print_exception()
         return {"status": RunStatus.CRASHED, "message": describe(error, config)}
     return {"record": record}
 
@@ -119,7 +120,10 @@ def _named(message: str, config: RunConfig | None) -> str:
 
 def describe(error: BaseException, config: RunConfig | None = None) -> str:
     """One line: what was raised, the innermost place outside the core, and the component to which it belongs."""
-    text = printable(str(error))[:300]
+    try:
+        text = printable(str(error))[:300]
+    except BaseException:  # noqa: BLE001 - which is code of the plugin, too
+        text = ""
     frames = traceback.extract_tb(error.__traceback__)
     own = str(Path(__file__).parents[2]), "<"  # attrs compiles without a file
     outside = [frame for frame in frames if not frame.filename.startswith(own)]
@@ -128,6 +132,20 @@ def describe(error: BaseException, config: RunConfig | None = None) -> str:
     of = "" if owner is None else f", in the {printable(title(owner))}"
     where = "" if place is None else f" ({Path(place.filename).name}:{place.lineno})"
     return f"{type(error).__name__}{': ' + text if text else ''}{where}{of}"
+
+
+def _print_exception() -> None:
+    """Print the traceback into the log, if the plugin left one that can be written."""
+    try:
+        traceback.print_exc()
+    except OSError as error:
+        if error.errno != errno.EBADF and not _limits_files():
+            raise
+
+
+def _limits_files() -> bool:
+    """Tell whether a plugin has changed how large files may be: it would do so in each run, other than a full disk."""
+    return resource.getrlimit(resource.RLIMIT_FSIZE) != resource.prlimit(os.getppid(), resource.RLIMIT_FSIZE)
 
 
 def _backstop(memory_bytes: int) -> None:
