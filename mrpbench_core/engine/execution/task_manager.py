@@ -17,6 +17,7 @@ from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.checking.assignment import check_queues
+from mrpbench_core.engine.contract_checks import check_released
 from mrpbench_core.engine.execution.destinations import Destinations, Errand, Errands, Places
 from mrpbench_core.engine.execution.planned_errands import PlannedErrands
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
@@ -109,8 +110,7 @@ class TaskManager:
         """
         for robot in np.flatnonzero(given_up).tolist():
             self._board.give_up(now, robot)
-        released = list(self._stream.released(now, self._board.finished))
-        tasks = [own(task) for task in released]
+        tasks = [own(task) for task in check_released(self._stream.released(now, self._board.finished))]
         for task in tasks:
             self._take(now, task)
         if (aborted != self._aborted).any():
@@ -130,6 +130,8 @@ class TaskManager:
         self._next += 1
         if not len(task.goals) == len(task.levels) == len(task.service) > 0:
             raise BrokenContractError(f"the task source gave task {task.index} without a level or service per goal")
+        if not (np.isfinite(task.goals[:, :2]).all() and np.isfinite(task.service).all() and task.service.min() >= 0):
+            raise BrokenContractError(f"the task source gave task {task.index} a goal or service that cannot be")
         vertices = tuple(int(vertex) for vertex in self._roadmap.locate(task.goals[:, :2], task.levels))
         labels = [self._costs.labels[int(profile)] for profile in self._costs.profile]
         able = min(vertices) >= 0 and any(
