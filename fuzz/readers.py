@@ -1,9 +1,11 @@
 """The readers of files from outside: what each reads, examples of it, and how they are changed."""
 
+import atexit
 import functools
 import json
 import tempfile
 from collections.abc import Callable, Iterable
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +18,7 @@ from mrpbench_controllers_dwb.dwb import Dwb
 from mrpbench_exporters_rosbag2.exporter import Rosbag2
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 from mrpbench_localizers_amcl import Amcl
-from mrpbench_metrics_standard import execution
+from mrpbench_metrics_standard import execution, planning
 from mrpbench_planners_external.outputs import READERS as OUTPUTS
 from mrpbench_planners_external.outputs import UnreadableError
 from mutation import Mutate, in_zip, mutate_bytes, mutate_npy, mutate_text
@@ -26,8 +28,9 @@ from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.analysis.observed_run import Sampling, observe, observe_own
 from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.engine.record import StoredRecord
-from mrpbench_core.engine.stages.measure import measure_recording
+from mrpbench_core.engine.stages.measure import describe, measure_recording
 from mrpbench_core.files.jsonl import line
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.files.scenario import read_scenario, write_scenario
@@ -43,6 +46,7 @@ from mrpbench_core.report.replay.page import write_page
 from mrpbench_core.report.report import make_report
 from mrpbench_core.report.tables.write import latex, markdown
 from mrpbench_core.store.folder import ResultsFolder
+from mrpbench_core.store.invocation import write_document
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
@@ -101,6 +105,8 @@ def _results(file: Path) -> Results:
     folder = ResultsFolder(file.parent / "results")
     if not folder.path.exists():
         folder.create()
+        metrics = {"planning": planning.Planning(), "execution": execution.Execution()}
+        write_document(folder.invocation("1"), {"columns": describe(metrics)})  # or a worker process describes them
     folder.shard("1").write_bytes(file.read_bytes())
     return Results(folder)
 
@@ -112,8 +118,18 @@ def read_records(file: Path) -> None:
     assert len(runs) == len(results) == len(results.to_rows())
 
 
+@functools.cache
+def workers() -> ExitStack:
+    """Worker processes for all inputs; a report asks one about columns that no invocation declares."""
+    stack = ExitStack()
+    stack.enter_context(slots_of_this_process())
+    atexit.register(stack.close)
+    return stack
+
+
 def read_reports(file: Path) -> None:
     """Make everything of records that `mrpbench report` and `compare` make."""
+    workers()
     results = _results(file)
     report = make_report([results], ["all"])
     write_report(report, file.parent / "report.html", {})

@@ -28,6 +28,8 @@ MEMORY = 6 * 2**30
 """Bytes of address space; a reader that takes more fails."""
 INPUT_S = 20.0
 """CPU seconds after which an input counts as a failure."""
+MEMORY_FILES = Path("/dev/shm")  # noqa: S108 - folders in it have random names
+"""Folder for files in memory: readers that write bring what they write to disk, which takes milliseconds."""
 LARGEST = 2**20
 """Bytes of an input that Atheris makes."""
 INSTRUMENTED = ("mrpbench_core", "mrpbench_exporters_rosbag2", "mrpbench_controllers_dwb", "mrpbench_localizers_amcl")
@@ -44,7 +46,9 @@ class Run:
         self.count = self.refused = 0
         self.known: set[str] = set()
         self.began = time.process_time()
-        self.folder = tempfile.TemporaryDirectory(prefix="mrpbench-fuzz-")
+        self.folder = tempfile.TemporaryDirectory(
+            prefix="mrpbench-fuzz-", dir=MEMORY_FILES if MEMORY_FILES.is_dir() else None
+        )
         self._file = Path(self.folder.name) / reader.file
 
     def read(self, data: bytes) -> None:

@@ -58,9 +58,11 @@ def check_queues(problem: QueueProblem, queues: Any) -> str | None:
         return f"returned {queues!r:.60} instead of one queue for each of {len(problem.free_in)} robots"
     given: set[int] = set()
     for robot, queue in enumerate(queues):
+        if not isinstance(queue, tuple | list):
+            return f"gave robot {robot} {queue!r:.60} instead of a queue"
         for task in queue:
-            if not 0 <= task < len(problem.tasks):
-                return f"gave robot {robot} task {task}, which does not exist"
+            if not isinstance(task, int | np.integer) or not 0 <= task < len(problem.tasks):
+                return f"gave robot {robot} task {task!s:.60}, which does not exist"
             if task in given:
                 return f"gave task {task} twice"
             if not np.isfinite(problem.approach[robot, task]):

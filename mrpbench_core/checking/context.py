@@ -1,6 +1,7 @@
 """Validates the context of a recording: sizes and indices agree, and numbers are finite where arithmetic needs it."""
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from typing import Any
 
 import attrs
@@ -34,6 +35,16 @@ _TABLES = ("scenario.start", "grid.cell")
 def check_context(context: RunContext) -> str | None:
     """Return what is wrong with a context, as a sentence, or None."""
     return next(_faults(context), None)
+
+
+def check_instance(world: World, roadmap: Roadmap | None = None, scenario: Scenario | None = None) -> str | None:
+    """Return what is wrong with a world, or with the roadmap or scenario of a right world, as a sentence, or None."""
+    levels = len(world.levels)
+    if scenario is not None:
+        return next(chain(_numbers(scenario, ""), _scenario(scenario, len(scenario.start), levels)), None)
+    if roadmap is not None:
+        return next(chain(_numbers(roadmap, ""), _roadmap(roadmap, levels), _durations(roadmap)), None)
+    return next(chain(_numbers(world, ""), _world(world)), None)
 
 
 def check_rows(name: str, rows: NDArray[Any], time: NDArray[Any], context: RunContext) -> str | None:
@@ -199,6 +210,11 @@ def _roadmap(roadmap: Roadmap, levels: int) -> Iterator[str]:
         yield from _indices("roadmap.grid.cell", roadmap.grid.cell[:, 1], columns)
         if not roadmap.grid.cell_size > 0:
             yield "roadmap.grid.cell_size is not positive"
+
+
+def _durations(roadmap: Roadmap) -> Iterator[str]:
+    if ((roadmap.duration < 1) & (roadmap.duration != -1)).any():
+        yield "roadmap.duration has moves that take no time"
 
 
 def _path(name: str, path: Path, edges: int) -> Iterator[str]:

@@ -42,11 +42,23 @@ class Structure:
         """Return one complete configuration.
 
         Raises:
-            InputErrors: everything that is wrong with it.
+            InputErrors: everything that is wrong with it, in reading order.
         """
         if not isinstance(root.value, dict):
             raise InputErrors(root.location.error("", f"expected a block of settings, got {show(root.value)}"))
-        return cast("RunConfig", self._options(root, RunConfig, "", self._with_defaults(root)))
+        try:
+            return cast("RunConfig", self._options(root, RunConfig, "", self._with_defaults(root)))
+        except InputErrors as several:
+            raise InputErrors(*in_reading_order(several.errors)) from None
+
+    def settings(self, given: Mapping[str, Any]) -> dict[str, Any]:
+        """Return some settings of `RunConfig` by name, from plain data.
+
+        Raises:
+            InputErrors: what is wrong with one of them.
+        """
+        fields = attrs.fields_dict(RunConfig)
+        return {key: self._field(from_data(value, Location()), fields[key], key) for key, value in given.items()}
 
     def component(self, item: Item, base: type[C], key: str) -> C:
         """Return one component of a kind."""
@@ -221,10 +233,7 @@ def structure(
     Raises:
         InputErrors: it cannot be run on this installation.
     """
-    try:
-        return Structure(folder, sources, verify=verify).run(from_data(canonical, Location()))
-    except InputErrors as several:
-        raise InputErrors(*in_reading_order(several.errors)) from None
+    return Structure(folder, sources, verify=verify).run(from_data(canonical, Location()))
 
 
 def structure_component(base: type[C], item: Item, key: str, folder: Path) -> C:

@@ -17,7 +17,7 @@ from mrpbench_core.config.matrix import Matrix, Point, parse_matrix
 from mrpbench_core.config.overrides import parse_overrides
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.shared import Shared
-from mrpbench_core.config.structure import Structure, structure
+from mrpbench_core.config.structure import Structure
 from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order, read_all
 from mrpbench_core.files.yaml import load
 from mrpbench_core.plugins.provenance import components_in
@@ -41,7 +41,7 @@ class RunData:
 
     @property
     def parcel(self) -> dict[str, Any]:
-        """Plain data from which another process makes the same configuration; see `unpack`."""
+        """Plain data from which another process makes the same configuration; see `mrpbench_core.config.unpacking`."""
         return {"config": self.canonical, "folder": str(self.folder), "sources": self.sources}
 
 
@@ -100,15 +100,6 @@ def load_study(source: Path | str | Mapping[str, Any], overrides: Sequence[str] 
 def load_studies(files: Iterable[Path | str], overrides: Sequence[str] = ()) -> list[Study]:
     """Read several configurations; raise the errors of all of them together."""
     return read_all(lambda file: load_study(file, overrides), files)
-
-
-def unpack(parcel: Mapping[str, Any], *, verify: bool = True) -> RunConfig:
-    """Return the configuration of a `RunData.parcel`, in any process that sees the same files.
-
-    Raises:
-        InputErrors: a plugin or file is missing, or (with `verify`) a file has changed.
-    """
-    return structure(parcel["config"], Path(parcel["folder"]), parcel["sources"], verify=verify)
 
 
 def _study(root: Item, file: Path | None, folder: Path, overrides: Sequence[str]) -> Study:

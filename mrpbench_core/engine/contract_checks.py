@@ -4,6 +4,7 @@ Arrays of a wrong shape broadcast, and comparisons with NaN are false: without t
 not stop the run but falsify its numbers.
 """
 
+from collections.abc import Sequence
 from typing import Any, NoReturn, TypeVar, cast
 
 import numpy as np
@@ -17,7 +18,7 @@ from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
 from mrpbench_core.model.execution.orders import Orders, RepeatedOrders
 from mrpbench_core.model.execution.state import State
-from mrpbench_core.model.planning.scenario import Scenario
+from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
@@ -172,6 +173,28 @@ def check_returned(component: Component, returned: Any, wanted: type[T]) -> T:
     return cast("T", returned)
 
 
+def check_made(kind: str, fault: str | None) -> None:
+    """Check what a component made, of which something else found a fault."""
+    if fault is not None:
+        _refuse(kind, f"what cannot be: {fault}")
+
+
+def check_released(tasks: Any) -> Sequence[Task]:
+    """Check the class of what a stream of tasks returns."""
+    if not isinstance(tasks, Sequence):
+        _refuse("the task source", f"{type(tasks).__name__} instead of tasks")
+    for task in tasks:
+        _require_class("the task source", task, Task)
+    return tasks
+
+
+def check_size(robots: Any) -> int:
+    """Check the number of robots that a scenario says."""
+    if not isinstance(robots, int | np.integer) or robots < 0:
+        _refuse("the scenario", f"{robots!r:.40} instead of a number of robots")
+    return int(robots)
+
+
 def check_drawn(scenario: Scenario, robots: int) -> Scenario:
     """Check a drawn scenario: later stages rely on its number of robots."""
     if not len(scenario.start) == len(scenario.start_level) == robots:
@@ -180,7 +203,7 @@ def check_drawn(scenario: Scenario, robots: int) -> Scenario:
         ("start", scenario.start),
         *((f"goal of {task.name!r}", task.goals) for task in scenario.tasks),
     ):
-        if not len(rows) or not np.isfinite(rows[:, :2]).all():
+        if not len(rows) or not np.isfinite(rows[:, :2]).all() or np.isinf(rows).any():
             _refuse("the scenario", f"a {place} that is nowhere")
     return scenario
 

@@ -26,6 +26,8 @@ def with_origin(message: str, config: RunConfig) -> str:
             kind = kind_of(component.group).replace("_", " ")
             if message.startswith(f"the {kind} "):
                 return f"{message} ({title(component)})"
+    if message.startswith("a crowd "):
+        return f"{message} ({' or '.join(map(title, config.crowds))})"
     return message
 
 

@@ -5,11 +5,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.checking.assignment import check_assignment, check_choice
+from mrpbench_core.checking.assignment import check_assignment, check_choice, check_queues
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
+from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem, QueueProblem
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Rules
+from mrpbench_core.model.planning.scenario import Task
 
 COSTS = [[1.0, 2.0, np.inf], [3.0, 1.0, 1.0]]
 
@@ -71,3 +72,32 @@ def test_robots_that_choose_one_goal_are_found_even_where_they_disappear_there(m
     assert check_choice(asked, shared) == ["robots 0 and 1 take the same goal, vertex 2, so that a task is left undone"]
     apart = Plan(paths=(make.path(lane, (0, 1, 1), (1, 2, 2), (2, 3, 3)), short, stays))
     assert check_choice(asked, apart) == []
+
+
+@pytest.mark.parametrize(
+    ("queues", "said"),
+    [
+        ([(0,), (1,)], None),
+        ([(1, 0), ()], None),
+        (None, "returned None instead of one queue for each of 2 robots"),
+        ([(0,)], "instead of one queue for each of 2 robots"),
+        ([(0,), "ab"], "gave robot 1 'ab' instead of a queue"),
+        ([(0,), ("a",)], "gave robot 1 task a, which does not exist"),
+        ([(np.nan,), ()], "gave robot 0 task nan, which does not exist"),
+        ([(2,), ()], "gave robot 0 task 2, which does not exist"),
+        ([(0, 1), (0,)], "gave task 0 twice"),
+    ],
+)
+def test_queues_hold_each_task_at_most_once(queues, said):
+    problem = QueueProblem(
+        now=0.0,
+        tasks=tuple(Task(goals=[[0.0, 0.0, 0.0]], index=index) for index in range(2)),
+        queues=((), ()),
+        free_in=np.zeros(2),
+        approach=np.zeros((2, 2)),
+        length=np.zeros((2, 2)),
+        between=np.zeros((0, 0, 0)),
+        profile=np.zeros(2, np.int32),
+    )
+    found = check_queues(problem, queues)
+    assert found == said or said in found

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from mrpbench_core.config.study import load_study, unpack
+from mrpbench_core.config.study import load_study
+from mrpbench_core.config.unpacking import Unpacking, unpack
 from mrpbench_core.files.errors import InputErrors
 
 FULL = """
@@ -72,7 +73,7 @@ def test_every_form_of_a_configuration_is_read_back_equal(study, text):
 
 def test_another_process_in_another_folder_reads_the_same(full, tmp_path):
     code = (
-        "import json, sys; from pathlib import Path; from mrpbench_core.config.study import unpack;"
+        "import json, sys; from pathlib import Path; from mrpbench_core.config.unpacking import unpack;"
         "from mrpbench_core.config.canonical import canonical; from mrpbench_core.config.identity import run_id;"
         "parcel = json.load(sys.stdin); config = unpack(parcel); folder = Path(parcel['folder']);"
         "print(json.dumps([canonical(config, folder), run_id(config, folder)]))"
@@ -114,6 +115,26 @@ def test_a_file_that_changed_is_refused_unless_only_looked_at(full, tmp_path):
     with pytest.raises(InputErrors, match=r"world\.file: has changed since this configuration was written"):
         unpack(full.parcel)
     assert unpack(full.parcel, verify=False).world.file == Path(tmp_path / "maps" / "a.yaml")
+
+
+def test_settings_that_runs_have_in_common_are_structured_once(full, study, tmp_path):
+    unpacking = Unpacking(full.parcel)
+    others = FULL.replace(
+        "seed: 7",
+        "matrix: {seed: [7, 8], planner.w: [1.0, 2], fleet.0.count: [1, 2], world.file: [maps/a.yaml, maps/b.yaml]}",
+    )
+    (tmp_path / "maps" / "b.yaml").write_text("more walls")
+    for run in study(others).runs:
+        found = unpacking(json.loads(json.dumps(run.parcel)))
+        assert found == run.config
+        assert found.controller is unpacking.config.controller
+    elsewhere = {**full.parcel, "folder": str(tmp_path / "maps" / "..")}
+    assert unpacking(elsewhere) == full.config
+    (tmp_path / "maps" / "a.yaml").write_text("other walls")
+    with pytest.raises(InputErrors, match=r"world\.file: has changed since"):
+        unpacking(full.parcel)
+    with pytest.raises(InputErrors, match="seed"):
+        unpacking({**full.parcel, "config": {**full.parcel["config"], "seed": -1}})
 
 
 def test_a_dict_and_a_file_describe_the_same_run(toy, full, tmp_path, monkeypatch):

@@ -71,6 +71,8 @@ class Crowds:
             self._add(crowd.start(own(world), own(fleet), seed_of(*seeds, f"crowd {index}"), seen))
 
     def _add(self, session: CrowdSession) -> None:
+        if not isinstance(session, CrowdSession):
+            _refuse(f"{type(session).__name__} instead of a session")
         members = own(tuple(session.members))
         for member in members:
             if not (type(member) is Mover and member.radius > 0 and member.leg_radius >= 0):
@@ -102,7 +104,7 @@ class Crowds:
             return dict(commands)
         wanted = {name for session in self._sessions for name in session.wanted_doors()}
         if wanted - self._doors:
-            _refuse(f"doors that the world does not have: {', '.join(sorted(wanted - self._doors))}")
+            _refuse(f"doors that the world does not have: {', '.join(sorted(map(str, wanted - self._doors)))}")
         self._opened |= wanted
         closed = dict.fromkeys(sorted(self._opened - wanted), 0.0)
         return closed | dict(commands) | dict.fromkeys(sorted(wanted), 1.0)

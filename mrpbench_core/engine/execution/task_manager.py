@@ -18,6 +18,7 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.checking.assignment import check_queues
 from mrpbench_core.checking.tasks import task_fault
+from mrpbench_core.engine.contract_checks import check_released
 from mrpbench_core.engine.execution.destinations import Destinations, Errand, Errands, Places
 from mrpbench_core.engine.execution.planned_errands import PlannedErrands
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
@@ -110,8 +111,7 @@ class TaskManager:
         """
         for robot in np.flatnonzero(given_up).tolist():
             self._board.give_up(now, robot)
-        released = list(self._stream.released(now, self._board.finished))
-        tasks = [own(task) for task in released]
+        tasks = [own(task) for task in check_released(self._stream.released(now, self._board.finished))]
         for task in tasks:
             self._take(now, task)
         if (aborted != self._aborted).any():

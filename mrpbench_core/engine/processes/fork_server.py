@@ -14,18 +14,21 @@ import sys
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, NoReturn, Self
+from typing import Any, NoReturn, Self, cast
 
-from mrpbench_core.config.study import unpack
+import numpy as np
+
+from mrpbench_core.config.unpacking import Unpack, Unpacking, unpack
 from mrpbench_core.engine.processes.channel import Channel, ClosedError, GarbledError, new_key
 from mrpbench_core.engine.processes.output import redirect
 from mrpbench_core.engine.processes.process_tree import end_with_parent
+from mrpbench_core.engine.processes.warm_up import warm_up
 from mrpbench_core.engine.stages.fleet import robot_model
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.plugins.hooks import Hooks, load_hooks
 from mrpbench_core.plugins.importing import tell_imports
 
-Execute = Callable[[socket.socket, Hooks, Callable[[], None]], None]
+Execute = Callable[[socket.socket, Hooks, Unpack, Callable[[], None]], None]
 """Receives a job from a connection, executes it, calls its last argument and answers."""
 _NAMES = 1 << 15
 """Bytes of module names, less than a pipe holds."""
@@ -55,8 +58,10 @@ class ForkServer:
                 for connection in (ours, *inherited):
                     connection.close()
                 _serve(theirs, Channel(theirs, key), job, execute)
-            except BaseException:  # noqa: BLE001 - nothing of the parent's stack may run in this process
-                traceback.print_exc()
+            except BaseException:  # noqa: BLE001 - as below
+                with suppress(Exception):  # a plugin closed standard error
+                    traceback.print_exc()
+            finally:  # nothing of the parent's stack may run in this process
                 os._exit(1)
         theirs.close()
         return cls(pid, ours, key)
@@ -96,14 +101,17 @@ def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], 
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     os.setsid()  # Ctrl-C reaches the invoker only
     tell_imports(lambda plugin: channel.send({"importing": plugin}))
-    hooks = Hooks()
+    hooks, unpacking = Hooks(), cast("Unpack", unpack)
     if "parcel" in job:
+        warm_up()
         hooks = load_hooks()
         with suppress(InputError, InputErrors):  # the run reports them
-            for entry in unpack(job["parcel"]).fleet:
+            unpacking = first = Unpacking(job["parcel"])
+            for entry in first.config.fleet:
                 robot_model(entry)
     server = os.getpid()
     while True:
+        np.random.seed()  # noqa: NPY002 - the state that plugins find in a process that was not forked
         gc.freeze()  # collections in the forked processes then leave the shared memory alone
         _, descriptors, _, _ = socket.recv_fds(connection, 1, 1)
         if not descriptors:  # the supervisor closed its end
@@ -115,7 +123,8 @@ def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], 
             connection.close()
             os.close(imported)
             os.set_inheritable(writer, False)
-            execute(socket.socket(fileno=descriptors[0]), hooks, functools.partial(_tell, writer, len(sys.modules)))
+            tell = functools.partial(_tell, writer, len(sys.modules))
+            execute(socket.socket(fileno=descriptors[0]), hooks, unpacking, tell)
             os._exit(0)
         os.close(descriptors[0])
         os.close(writer)

@@ -16,7 +16,7 @@ class Job:
 
     run_id: str
     parcel: dict[str, Any]
-    """The configuration; see `mrpbench_core.config.study.unpack`."""
+    """The configuration; see `mrpbench_core.config.unpacking`."""
     paths: RunPaths
     log: Path
     """Receives the output of plugins."""

@@ -4,6 +4,7 @@ Whatever a plugin does, a run ends with an outcome, and a supervisor that ended 
 """
 
 import threading
+import time
 from collections.abc import Mapping
 from typing import Any
 
@@ -15,6 +16,8 @@ from mrpbench_core.model.runs.status import RunStatus, Stage
 
 START_S = 120.0
 """Seconds a supervisor may take to import the core."""
+LATE_S = 60.0
+"""Seconds after the wall limit of a job when its supervisor, which ends a job at its limit, cannot be working."""
 
 
 class SlotStopped(Exception):  # noqa: N818 - not an error
@@ -70,9 +73,11 @@ class Slot:
         try:
             child = self._ready()
             child.send(job)
+            deadline = time.monotonic() + job["wall_s"] + LATE_S
             while True:
-                message = child.receive()
-                assert message is not None
+                message = child.receive(max(0.0, deadline - time.monotonic()))
+                if message is None:
+                    raise WorkerDied("the supervisor process did not end the run at its wall limit")
                 if "progress" not in message:
                     return message
                 facts = message["progress"]

@@ -27,6 +27,8 @@ SAMPLING_S = 0.05
 """Seconds between two measurements of memory and log, which messages do not delay."""
 ENDING_S = 0.05
 """Seconds that a process may take to end after its answer, before it is killed."""
+TELLING_S = 5.0
+"""Seconds that a fork server may take to tell that a killed process has ended, before it is killed too."""
 CLOSING_S = 1.0
 """Seconds from the end of a connection to the end of its process."""
 OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
@@ -91,8 +93,12 @@ class Supervision:
             if answer is not None and status is None and serves:
                 status, serves = self._heed(ENDING_S)  # most processes end by themselves
             kill_descendants(self._servers)
+            deadline = time.monotonic() + TELLING_S
             while status is None and serves:
-                status, serves = self._heed()
+                status, serves = self._heed(max(0.0, deadline - time.monotonic()))
+                if status is None and serves and time.monotonic() >= deadline:  # a plugin stopped it
+                    self._server.kill()
+                    serves = False
             self._connection.close()
         if not serves:
             status = self._server.wait()

@@ -3,6 +3,7 @@
 Plugins run here. What they print, in Python or in native code, goes to the run's log.
 """
 
+import errno
 import importlib
 import os
 import resource
@@ -13,11 +14,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.config.study import unpack
+from mrpbench_core.config.unpacking import Unpack
 from mrpbench_core.engine.json_values import jsonable
 from mrpbench_core.engine.loading.runs import pack_error
 from mrpbench_core.engine.observers import Observers
@@ -25,7 +24,7 @@ from mrpbench_core.engine.origins import owner_of, title, with_origin
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.processes.channel import KEY_BYTES, Channel
 from mrpbench_core.engine.processes.output import flush, redirect
-from mrpbench_core.engine.processes.process_tree import address_space
+from mrpbench_core.engine.processes.process_tree import address_space, prefer_to_end
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.files.printing import printable
@@ -35,10 +34,10 @@ from mrpbench_core.plugins.importing import tell_imports
 from mrpbench_core.store.paths import RunPaths
 
 
-def execute_job(connection: socket.socket, hooks: Hooks, executed: Callable[[], None]) -> None:
+def execute_job(connection: socket.socket, hooks: Hooks, unpack: Unpack, executed: Callable[[], None]) -> None:
     """Receive a job, execute it, and send its answer; call `executed` before."""
     connection.set_inheritable(False)  # programs that a plugin starts must not keep it open
-    Path("/proc/self/oom_score_adj").write_text("500")  # the kernel is to end a run, never the invoker
+    prefer_to_end()
     channel = Channel(connection, connection.recv(KEY_BYTES, socket.MSG_WAITALL))
     job = channel.receive()
     assert job is not None
@@ -48,7 +47,7 @@ def execute_job(connection: socket.socket, hooks: Hooks, executed: Callable[[], 
         os.chdir(job["folder"])
         found = _call(job["call"], job["arguments"])
     else:
-        found = _run(job, channel, hooks)
+        found = _run(job, channel, hooks, unpack)
     flush()
     executed()
     channel.send(found)
@@ -69,18 +68,17 @@ def _call(function: str, arguments: list[Any]) -> dict[str, Any]:
         return {"raised": describe(error)}
 
 
-def _run(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, Any]:
+def _run(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack) -> dict[str, Any]:
     """Execute a run; return its answer."""
     try:
         os.environ["TMPDIR"] = tempfile.tempdir = job["temporary"]
-        np.random.seed()  # noqa: NPY002 - the state that plugins find in a process that was not forked
         _backstop(job["memory_bytes"])
-        return _execute(job, channel, hooks)
+        return _execute(job, channel, hooks, unpack)
     except OSError as error:
         return {"mistake": f"{job['log']}: {error.strerror}"}
 
 
-def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, Any]:
+def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack) -> dict[str, Any]:
     def announce(name: Stage, facts: dict[str, Any]) -> None:
         channel.send({"stage": name, **jsonable(facts)})
 
@@ -103,15 +101,15 @@ def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks) -> dict[str, A
     except (InputError, InputErrors) as error:
         return {"mistake": jsonable(str(error))}
     except BrokenContractError as error:
-        traceback.print_exc()
+        _print_exception()
         return {"status": RunStatus.CONTRACT_BROKEN, "message": printable(_named(str(error), config))}
     except MemoryError as error:
-        traceback.print_exc()
+        _print_exception()
         return {"status": RunStatus.OUT_OF_MEMORY, "message": printable(str(error)) or "no memory left"}
     except BaseException as error:  # noqa: BLE001 - a plugin may raise anything, even SystemExit
-        if is_full(error):  # the run is to be done again
+        if is_full(error) and not _limits_files():  # the run is to be done again
             return {"mistake": f"{job['recording']}: cannot be written: {jsonable(printable(str(error)))}"}
-        traceback.print_exc()
+        _print_exception()
         return {"status": RunStatus.CRASHED, "message": describe(error, config)}
     return {"record": record}
 
@@ -122,7 +120,10 @@ def _named(message: str, config: RunConfig | None) -> str:
 
 def describe(error: BaseException, config: RunConfig | None = None) -> str:
     """One line: what was raised, the innermost place outside the core, and the component to which it belongs."""
-    text = printable(str(error))[:300]
+    try:
+        text = printable(str(error))[:300]
+    except BaseException:  # noqa: BLE001 - which is code of the plugin, too
+        text = ""
     frames = traceback.extract_tb(error.__traceback__)
     own = str(Path(__file__).parents[2]), "<"  # attrs compiles without a file
     outside = [frame for frame in frames if not frame.filename.startswith(own)]
@@ -131,6 +132,20 @@ def describe(error: BaseException, config: RunConfig | None = None) -> str:
     of = "" if owner is None else f", in the {printable(title(owner))}"
     where = "" if place is None else f" ({Path(place.filename).name}:{place.lineno})"
     return f"{type(error).__name__}{': ' + text if text else ''}{where}{of}"
+
+
+def _print_exception() -> None:
+    """Print the traceback into the log, if the plugin left one that can be written."""
+    try:
+        traceback.print_exc()
+    except OSError as error:
+        if error.errno != errno.EBADF and not _limits_files():
+            raise
+
+
+def _limits_files() -> bool:
+    """Tell whether a plugin has changed how large files may be: it would do so in each run, other than a full disk."""
+    return resource.getrlimit(resource.RLIMIT_FSIZE) != resource.prlimit(os.getppid(), resource.RLIMIT_FSIZE)
 
 
 def _backstop(memory_bytes: int) -> None:

@@ -4,10 +4,11 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.roadmap import RoadmapBuilder
+from mrpbench_core.checking.context import check_instance
 from mrpbench_core.checking.doorways import check_doorways
 from mrpbench_core.config.identity import options_text
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.contract_checks import check_drawn, check_returned
+from mrpbench_core.engine.contract_checks import check_drawn, check_made, check_returned, check_size
 from mrpbench_core.engine.own import Handed, difference, own
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.fleet import build_fleet
@@ -52,7 +53,8 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
     """
     announce(Stage.WORLD, {})
     world = own(check_returned(config.world, config.world.load(), World))
-    fleet = build_fleet(config, config.scenario.size())
+    check_made("the world", check_instance(world))
+    fleet = build_fleet(config, check_size(config.scenario.size()))
     announce(Stage.ROADMAP, {})
     roadmap = _roadmap(config.roadmap, world, fleet)
     announce(Stage.SCENARIO, {})
@@ -60,6 +62,7 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
     drawn = check_returned(config.scenario, config.scenario.draw(*handed.given, config.seed), Scenario)
     scenario = own(check_drawn(drawn, len(fleet)))
     handed.check(config.scenario)
+    check_made("the scenario", check_instance(world, scenario=scenario))
     if config.tasks is not None:
         scenario = attrs.evolve(scenario, tasks=(), stream=f"{options_text(config.tasks)} {config.seed}")
     if any(task.release > 0 for task in scenario.tasks) or len(scenario.tasks) > len(fleet):
@@ -81,6 +84,7 @@ def _roadmap(builder: RoadmapBuilder, world: World, fleet: Fleet) -> Roadmap:
     given = Handed((world, fleet), "world or fleet")
     roadmap = own(check_returned(builder, builder.build(*given.given), Roadmap))
     given.check(builder)
+    check_made("the roadmap", check_instance(world, roadmap))
     _LAST[:] = [(builder, world, fleet, roadmap)]
     return roadmap
 

@@ -14,8 +14,10 @@ from mrpbench_core.store.invocation import write_document
 
 PLANNERS = '''
 import ctypes
+import errno
 import os
 import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -77,6 +79,31 @@ class Rogue(Planner):
         resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
         os.chdir("/")
         os.environ.clear()
+
+    def stop(self):
+        """Stop the process that tells the supervisor when this one has ended."""
+        os.kill(os.getppid(), signal.SIGSTOP)
+
+    def limit_files(self):
+        """Let nothing be written, which looks like a full disk."""
+        resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))
+        raise OSError(errno.EFBIG, "too large")
+
+    def close_all(self):
+        os.closerange(0, 300)
+
+    def replace_folder(self):
+        """Put a link to another folder in the place of the folder for temporary files."""
+        os.rmdir(tempfile.gettempdir())
+        os.symlink(self.marks, tempfile.gettempdir())
+        Path(self.marks, "kept").touch()
+
+    def raise_without_text(self):
+        class Wordless(Exception):
+            def __str__(self):
+                raise SystemExit(3)
+
+        raise Wordless
 
     def shout(self):
         """Write to every descriptor, as text and as bytes."""
@@ -147,6 +174,30 @@ def test_a_plugin_that_writes_to_every_descriptor_crashes_its_own_run_only(rogue
     assert records["nothing"]["status"] == "plan_unsolvable"
     assert records["shout"]["status"] == "crashed"
     assert "a plugin wrote to the connection of the engine" in records["shout"]["error"]["message"]
+
+
+def test_a_plugin_that_stops_the_process_that_forks_costs_its_own_run_only(rogue):
+    records = rogue("stop", "nothing")
+    assert {record["status"] for record in records.values()} == {"plan_unsolvable"}
+
+
+def test_a_plugin_that_leaves_its_process_without_descriptors_folder_or_words_costs_its_own_run_only(rogue):
+    records = rogue("close_all", "replace_folder", "raise_without_text", "nothing")
+    assert {does: record["status"] for does, record in records.items()} == {
+        "close_all": "crashed",
+        "replace_folder": "plan_unsolvable",
+        "raise_without_text": "crashed",
+        "nothing": "plan_unsolvable",
+    }
+    assert records["close_all"]["error"]["stage"] == "planning"
+    assert "Wordless" in records["raise_without_text"]["error"]["message"]
+    assert Path("marks", "kept").exists()
+
+
+def test_a_plugin_that_limits_the_size_of_files_has_a_record_and_is_not_done_again(rogue):
+    record = rogue("limit_files")["limit_files"]
+    assert record["status"] == "crashed"
+    assert "too large" in record["error"]["message"]
 
 
 @pytest.mark.parametrize("name", AT_IMPORT)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.stages.prepare import build_run_instance
 
@@ -35,3 +36,87 @@ def test_a_roadmap_follows_its_options_the_robots_and_the_world(name, values):
         assert (built.position == rebuilt.position).all()
         assert (built.duration == rebuilt.duration).all()
     assert one.position.shape != other.position.shape or (one.duration != other.duration).any()
+
+
+MAKERS = """
+import attrs
+import numpy as np
+
+from mrpbench_core.api import option
+from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
+from mrpbench_core.builtin.scenarios.random import Random
+from mrpbench_core.builtin.worlds.shipped import Office
+
+
+@attrs.frozen(kw_only=True)
+class BadWorld(Office):
+    how: str = option(help="what is wrong")
+
+    def load(self):
+        world = super().load()
+        level = world.levels[0]
+        return attrs.evolve(world, **{
+            "walls": {"levels": (attrs.evolve(level, walls=np.full((1, 4), np.nan)),)},
+            "levels": {"levels": ()},
+            "lanes": {"lanes": (attrs.evolve(world.lanes[0], end=999),)},
+            "places": {"vertices": tuple(attrs.evolve(vertex, x=float("nan")) for vertex in world.vertices)},
+        }[self.how])
+
+
+@attrs.frozen(kw_only=True)
+class BadRoadmap(GridRoadmap):
+    how: str = option(help="what is wrong")
+
+    def build(self, world, fleet):
+        roadmap = super().build(world, fleet)
+        return attrs.evolve(roadmap, **{
+            "edges": {"edges": roadmap.edges + 10**6},
+            "duration": {"duration": 0 * roadmap.duration},
+            "forbidden": {"duration": -5 + 0 * roadmap.duration},
+            "tick": {"tick": float("nan")},
+            "position": {"position": np.full_like(roadmap.position, np.nan)},
+            "rows": {"duration": np.zeros((0, 3), np.int32)},
+        }[self.how])
+
+
+@attrs.frozen(kw_only=True)
+class BadScenario(Random):
+    how: str = option(help="what is wrong")
+
+    def size(self):
+        return {"size": "two", "less": -1}.get(self.how, 2)
+
+    def draw(self, world, roadmap, fleet, seed):
+        scenario = super().draw(world, roadmap, fleet, seed)
+        if self.how == "yaw":
+            return attrs.evolve(scenario, start=np.column_stack([scenario.start[:, :2], [np.nan, np.inf]]))
+        return attrs.evolve(scenario, start_level=scenario.start_level + 9)
+"""
+
+
+@pytest.mark.parametrize(
+    ("kind", "how", "fault"),
+    [
+        ("World", "walls", "the world returned what cannot be: walls is not finite"),
+        ("World", "levels", "the world returned what cannot be: world has no level"),
+        ("World", "lanes", "the world returned what cannot be: a lane: its end does not exist"),
+        ("World", "places", "the world returned what cannot be: x is nan"),
+        ("Roadmap", "edges", "the roadmap returned what cannot be: roadmap.edges does not exist"),
+        ("Roadmap", "duration", "the roadmap returned what cannot be: roadmap.duration has moves that take no time"),
+        ("Roadmap", "forbidden", "roadmap.duration has moves that take no time"),
+        ("Roadmap", "tick", "the roadmap returned what cannot be: tick is nan"),
+        ("Roadmap", "position", "the roadmap returned what cannot be: roadmap.position is not finite"),
+        ("Roadmap", "rows", "roadmap.duration has another number of edges than roadmap.edges"),
+        ("Scenario", "size", "the scenario returned 'two' instead of a number of robots"),
+        ("Scenario", "less", "the scenario returned -1 instead of a number of robots"),
+        ("Scenario", "yaw", "the scenario returned a start that is nowhere"),
+        ("Scenario", "level", "the scenario returned what cannot be: scenario.start_level does not exist"),
+    ],
+)
+def test_what_cannot_be_is_refused_where_it_is_made(tmp_path, monkeypatch, kind, how, fault):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bad.py").write_text(MAKERS)
+    robots = {"robots": 2} if kind == "Scenario" else {}
+    (point,) = load_study(STUDY | {kind.lower(): {"plugin": f"./bad.py:Bad{kind}", "how": how, **robots}}).runs
+    with pytest.raises(BrokenContractError, match=fault):
+        build_run_instance(point.config, lambda stage, facts: None)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.config.study import unpack
+from mrpbench_core.config.unpacking import unpack
 from mrpbench_core.engine.execution.routes import start_poses
 from mrpbench_core.engine.json_values import jsonable
 from mrpbench_core.engine.pipeline import router_of

@@ -1,0 +1,67 @@
+"""Configurations of runs from plain data, in processes that did not read the study."""
+
+import json
+import os
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from itertools import chain
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_core.config.content import content_hash
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.config.structure import Structure, structure
+from mrpbench_core.files.errors import InputError, InputErrors
+
+Unpack = Callable[[Mapping[str, Any]], RunConfig]
+"""Returns the configuration of a `RunData.parcel`; see `unpack`."""
+
+
+def unpack(parcel: Mapping[str, Any], *, verify: bool = True) -> RunConfig:
+    """Return the configuration of a `RunData.parcel`, in any process that sees the same files.
+
+    Raises:
+        InputErrors: a plugin or file is missing, or (with `verify`) a file has changed.
+    """
+    return structure(parcel["config"], Path(parcel["folder"]), parcel["sources"], verify=verify)
+
+
+class Unpacking:
+    """Unpacks parcels that have most settings in common, which are those of the first one."""
+
+    def __init__(self, first: Mapping[str, Any]) -> None:
+        """Unpack the first parcel.
+
+        Raises:
+            InputErrors: see `unpack`.
+        """
+        self._origin = first["folder"], first["sources"]
+        self._texts = {key: json.dumps(value) for key, value in first["config"].items()}
+        self._files = [
+            (Path(os.path.normpath(Path(first["folder"], name))), sha256) for name, sha256 in _files(first["config"])
+        ]
+        self._structure = Structure(Path(first["folder"]), first["sources"])
+        self.config = unpack(first)
+
+    def __call__(self, parcel: Mapping[str, Any]) -> RunConfig:
+        """Return the configuration of a parcel; see `unpack`. Only the settings that differ are structured."""
+        plain = parcel["config"]
+        if (parcel["folder"], parcel["sources"]) == self._origin and self._texts.keys() == plain.keys():
+            changed = {key: value for key, value in plain.items() if self._texts[key] != json.dumps(value)}
+            with suppress(InputErrors, InputError, ValueError, TypeError):  # then `unpack` says what is wrong
+                if all(content_hash(file) == sha256 for file, sha256 in self._files):
+                    return attrs.evolve(self.config, **self._structure.settings(changed))
+        return unpack(parcel)
+
+
+def _files(value: Any) -> Iterator[tuple[str, str]]:
+    """The names of the files in a configuration, with the hashes of their content."""
+    if isinstance(value, Mapping):
+        if set(value) == {"path", "sha256"}:
+            yield value["path"], value["sha256"]
+        else:
+            yield from chain.from_iterable(map(_files, value.values()))
+    elif isinstance(value, list):
+        yield from chain.from_iterable(map(_files, value))
