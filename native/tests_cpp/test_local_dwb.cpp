@@ -76,6 +76,22 @@ TEST("a limit of speed holds for all samples") {
   for (std::size_t i = 0; i < all.size(); ++i) CHECK(all.twist(i).ahead <= 0.1);
 }
 
+TEST("a path is driven to a point beyond its end until the robot is there") {
+  const Frame frame{60, 60, 0.05, {-30, -30}};
+  PathGrid path;
+  const std::vector<Point> rest{{0.5, 0.0}, {0.5, 0.4}};
+  path.take(frame, {0.0, 0.0}, {0.0, 0.0}, rest, {.beyond_end = 0.35});
+  CHECK(near(path.left(), 0.9));
+  CHECK(near(path.goal().x, 0.5) && near(path.goal().y, 0.75));
+  const std::vector<Point> last{{0.5, 0.4}};
+  path.take(frame, {0.5, 0.36}, {0.5, 0.36}, last, {.beyond_end = 0.35});
+  CHECK(near(path.left(), 0.04) && near(path.goal().y, 0.4));
+  path.take(frame, {0.0, 0.0}, {0.0, 0.0}, rest, {.beyond_end = 0});
+  CHECK(near(path.goal().x, 0.5) && near(path.goal().y, 0.4));
+  path.take(frame, {0.0, 0.0}, {0.0, 0.0}, rest, {.prune_distance = 0.3});
+  CHECK(std::isinf(path.left()) && near(path.goal().x, 0.3));
+}
+
 TEST("distances to the path are counted along rows and columns") {
   const Frame frame{10, 8, 1.0, {0, 0}};
   PathGrid path;
