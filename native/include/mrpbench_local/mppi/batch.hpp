@@ -25,14 +25,13 @@ struct Table {
   const float* operator[](std::size_t t) const { return values.data() + t * samples; }
 };
 
-/// The samples: velocities as drawn, velocities within the limits of acceleration, poses, and the length of each in
-/// metres.
+/// The samples: velocities within the limits of acceleration, poses, and the length of each in metres.
 struct Tables {
-  Table control_vx, control_wz, vx, wz, x, y, yaw;
+  Table vx, wz, x, y, yaw;
   std::vector<float> length;
 
   void resize(std::size_t steps, std::size_t samples) {
-    for (Table* it : {&control_vx, &control_wz, &vx, &wz, &x, &y, &yaw}) it->resize(steps, samples);
+    for (Table* it : {&vx, &wz, &x, &y, &yaw}) it->resize(steps, samples);
     length.resize(samples);
   }
 };

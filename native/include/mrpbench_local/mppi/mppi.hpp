@@ -46,6 +46,7 @@ class Mppi : public Controller {
   void reset();
   void prepare(const Situation& now);
   void sample(mppi::Batch& batch) const;
+  std::pair<mppi::Controls, mppi::Controls> controls(std::size_t t) const;
   bool improve(const Extra& extra);
   void begin_plan();
   bool score(const Extra& extra);

@@ -31,7 +31,7 @@ struct Sampling {
   float dt = 0.05f;
 };
 
-/// Fill all tables. Poses begin at (0, 0, 0); row t is at the end of step t.
+/// Fill the tables. Poses begin at (0, 0, 0); row t is at the end of step t.
 void roll_out(const Sampling& by, Tables& out);
 
 }  // namespace mrpbench::local::mppi

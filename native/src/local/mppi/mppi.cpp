@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "mrpbench_local/costmap/collision.hpp"
-#include "mrpbench_local/wide.hpp"
 #include "mrpbench_sim/noise.hpp"
 
 namespace mrpbench::local {
@@ -155,14 +154,16 @@ void Mppi::sample(Batch& batch) const {
   roll_out(
       {noise_, centre_vx_, centre_wz_, static_cast<float>(start_.ahead), static_cast<float>(start_.turn), change, dt},
       batch);
-  if (!options_.clamp_raw_controls) return;
-  const auto second = static_cast<std::ptrdiff_t>(batch.samples());
-  std::copy(batch.vx.values.begin() + second, batch.vx.values.end(), batch.control_vx.values.begin());
-  std::copy(batch.wz.values.begin() + second, batch.wz.values.end(), batch.control_wz.values.begin());
+}
+
+/// The controls of one step: the velocities that follow them if these are to be within the accelerations, too.
+std::pair<Controls, Controls> Mppi::controls(std::size_t t) const {
+  if (options_.clamp_raw_controls && t + 1 < batch_.steps()) return {{0, batch_.vx[t + 1]}, {0, batch_.wz[t + 1]}};
+  return {{centre_vx_[t], noise_.vx_of(t)}, {centre_wz_[t], noise_.wz_of(t)}};
 }
 
 /// One update of the plan. Returns false if every sample collides.
-MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
+bool Mppi::improve(const Extra& extra) {
   const std::size_t steps = batch_.steps(), samples = batch_.samples();
   const MppiOptions& it = options_;
   begin_plan();
@@ -174,9 +175,8 @@ MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
   for (std::size_t t = 0; t < steps; ++t) {
     const float on_vx = plan_vx_[t] * static_cast<float>(it.gamma / (it.vx_std * it.vx_std));
     const float on_wz = plan_wz_[t] * static_cast<float>(it.gamma / (it.wz_std * it.wz_std));
-    const float *cv = batch_.control_vx[t], *cw = batch_.control_wz[t];
-    const float vx = plan_vx_[t], wz = plan_wz_[t];
-    for (std::size_t k = 0; k < samples; ++k) total_[k] += on_vx * (cv[k] - vx) + on_wz * (cw[k] - wz);
+    const auto [vx, wz] = controls(t);
+    add_deviation(vx, wz, plan_vx_[t], plan_wz_[t], on_vx, on_wz, total_);
   }
   const float least = *std::min_element(total_.begin(), total_.end());
   if (!(least < kInfinity)) return false;
@@ -185,8 +185,10 @@ MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
   for (std::size_t k = 0; k < samples; ++k) weight_[k] = std::exp((total_[k] - least) * sharpness);
   const float per = 1 / sum(weight_.data(), samples);
   for (std::size_t t = 0; t < steps; ++t) {
-    plan_vx_[t] = weighted_sum(weight_.data(), batch_.control_vx[t], samples) * per;
-    plan_wz_[t] = weighted_sum(weight_.data(), batch_.control_wz[t], samples) * per;
+    const auto [vx, wz] = controls(t);
+    const auto [sum_vx, sum_wz] = weighted_sums(weight_.data(), vx, wz, samples);
+    plan_vx_[t] = sum_vx * per;
+    plan_wz_[t] = sum_wz * per;
   }
   smooth(plan_vx_, past_vx_, it.sgf_order);
   smooth(plan_wz_, past_wz_, it.sgf_order);

@@ -1,6 +1,7 @@
 #include "mrpbench_local/mppi/plan.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <vector>
 
 #include "mrpbench_local/wide.hpp"
@@ -9,26 +10,65 @@ namespace mrpbench::local::mppi {
 
 namespace {
 
-/// The sum of `term(k)`, in eight parts, so that the compiler vectorises it.
-template <class Term>
-float sum_of(std::size_t count, Term&& term) {
-  float sums[8] = {};
-  const std::size_t whole = count / 8 * 8;
-  for (std::size_t k = 0; k < whole; k += 8) {
-    for (std::size_t j = 0; j < 8; ++j) sums[j] += term(k + j);
-  }
-  for (std::size_t k = whole; k < count; ++k) sums[k - whole] += term(k);
-  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]));
+/// Numbers of neighbouring samples. Sums have as many parts, which are added up in the end.
+constexpr std::size_t kBlock = 8;
+using Block = float __attribute__((vector_size(kBlock * sizeof(float))));
+
+void load(Block& block, const float* from) {
+  std::memcpy(&block, from, sizeof block);
+}
+
+void load(Block& block, Controls from, std::size_t k) {
+  load(block, from.row + k);
+  block += from.base;
+}
+
+float total(const Block& it) {
+  return ((it[0] + it[1]) + (it[2] + it[3])) + ((it[4] + it[5]) + (it[6] + it[7]));
 }
 
 }  // namespace
 
 MRPBENCH_WIDE float sum(const float* values, std::size_t count) {
-  return sum_of(count, [=](std::size_t k) { return values[k]; });
+  Block sum{};
+  std::size_t k = 0;
+  for (; k + kBlock <= count; k += kBlock) {
+    Block value;
+    load(value, values + k);
+    sum += value;
+  }
+  for (; k < count; ++k) sum[k % kBlock] += values[k];
+  return total(sum);
 }
 
-MRPBENCH_WIDE float weighted_sum(const float* weights, const float* values, std::size_t count) {
-  return sum_of(count, [=](std::size_t k) { return weights[k] * values[k]; });
+MRPBENCH_WIDE std::pair<float, float> weighted_sums(const float* weights, Controls vx, Controls wz, std::size_t count) {
+  Block sum_vx{}, sum_wz{};
+  std::size_t k = 0;
+  for (; k + kBlock <= count; k += kBlock) {
+    Block weight, speed, rate;
+    load(weight, weights + k);
+    load(speed, vx, k);
+    load(rate, wz, k);
+    sum_vx += weight * speed;
+    sum_wz += weight * rate;
+  }
+  for (; k < count; ++k) {
+    sum_vx[k % kBlock] += weights[k] * vx[k];
+    sum_wz[k % kBlock] += weights[k] * wz[k];
+  }
+  return {total(sum_vx), total(sum_wz)};
+}
+
+float weighted_sum(const float* weights, const float* values, std::size_t count) {
+  return weighted_sums(weights, {0, values}, {0, values}, count).first;
+}
+
+MRPBENCH_WIDE void add_deviation(Controls vx, Controls wz, float plan_vx, float plan_wz, float per_vx, float per_wz,
+                                 std::span<float> total) {
+  MRPBENCH_NO_OVERLAP
+  for (std::size_t k = 0; k < total.size(); ++k) {
+    total[k] += per_vx * (vx[k] - plan_vx) + per_wz * (wz[k] - plan_wz);
+  }
 }
 
 void smooth(std::span<float> values, const std::array<float, 4>& past, int order) {

@@ -1,6 +1,7 @@
 #include "mrpbench_local/mppi/rollout.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -20,10 +21,10 @@ inline void sine_cosine(float angle, float& sine, float& cosine) {
   const float c =
       ((2.443315711809948e-5f * z - 1.388731625493765e-3f) * z + 4.166664568298827e-2f) * z * z - 0.5f * z + 1.0f;
   const bool odd = (quarter & 1) != 0;
-  const float sign_s = static_cast<float>(1 - (quarter & 2));
-  const float sign_c = static_cast<float>(1 - ((quarter + 1) & 2));
-  sine = (odd ? c : s) * sign_s;
-  cosine = (odd ? s : c) * sign_c;
+  const auto number = static_cast<std::uint32_t>(quarter);
+  const std::uint32_t sign_s = (number & 2) << 30, sign_c = ((number + 1) & 2) << 30;
+  sine = std::bit_cast<float>(std::bit_cast<std::uint32_t>(odd ? c : s) ^ sign_s);
+  cosine = std::bit_cast<float>(std::bit_cast<std::uint32_t>(odd ? s : c) ^ sign_c);
 }
 
 /// Fetch a row into the cache before it is needed. The noise of a fleet does not fit there.
@@ -32,8 +33,8 @@ void fetch(const float* row, std::size_t count) {
   for (std::size_t k = 0; k < count; k += line) __builtin_prefetch(row + k);
 }
 
-/// The controls of step t - 1, and the velocities and poses of step t, which follow from them: by Euler's method with
-/// the yaw before the step.
+/// The velocities of step t, which follow the controls of the step before, and the poses, by Euler's method with the
+/// yaw before the step.
 MRPBENCH_WIDE void take_step(std::size_t t, const Sampling& by, Tables& out) {
   const std::size_t count = out.length.size();
   const float *const noise_vx = by.noise.vx_of(t - 1), *const noise_wz = by.noise.wz_of(t - 1);
@@ -41,14 +42,11 @@ MRPBENCH_WIDE void take_step(std::size_t t, const Sampling& by, Tables& out) {
   const Change change = by.change;
   const float *const from_vx = out.vx[t - 1], *const from_wz = out.wz[t - 1];
   const float *const from_x = out.x[t - 1], *const from_y = out.y[t - 1], *const from_yaw = out.yaw[t - 1];
-  float *const control_vx = out.control_vx[t - 1], *const control_wz = out.control_wz[t - 1];
   float *const vx = out.vx[t], *const wz = out.wz[t], *const x = out.x[t], *const y = out.y[t], *const yaw = out.yaw[t];
   float* const length = out.length.data();
   MRPBENCH_NO_OVERLAP
   for (std::size_t k = 0; k < count; ++k) {
     const float wanted_vx = centre_vx + noise_vx[k], wanted_wz = centre_wz + noise_wz[k];
-    control_vx[k] = wanted_vx;
-    control_wz[k] = wanted_wz;
     const bool forward = from_vx[k] > 0;
     const float up = forward ? change.speed_up : change.slow_down;
     const float down = forward ? change.slow_down : change.speed_up;
@@ -82,9 +80,6 @@ void roll_out(const Sampling& by, Tables& out) {
     fetch(by.noise.wz_of(t), count);
     take_step(t, by, out);
   }
-  const std::size_t last = steps - 1;
-  for (std::size_t k = 0; k < count; ++k) out.control_vx[last][k] = by.vx[last] + by.noise.vx_of(last)[k];
-  for (std::size_t k = 0; k < count; ++k) out.control_wz[last][k] = by.wz[last] + by.noise.wz_of(last)[k];
 }
 
 }  // namespace mrpbench::local::mppi
