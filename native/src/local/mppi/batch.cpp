@@ -35,10 +35,12 @@ MRPBENCH_WIDE void Batch::find_furthest() {
   const float *const ex = x[last], *const ey = y[last], *const reached = length.data();
   float* const nearest = nearest_.data();
   std::int32_t* const index = index_.data();
+  const float longest = *std::max_element(length.begin(), length.end());
   const float start = path.size() > 0 ? std::hypot(path.x[0], path.y[0]) : 0;
   for (std::size_t p = 0; p < path.size(); ++p) {
     const float px = path.x[p], py = path.y[p];
     const float reach = std::max(0.0f, static_cast<float>(p) * path.spacing - start - path.spacing);
+    if (reach > longest) break;  // no sample comes there
     const auto number = static_cast<std::int32_t>(p);
     MRPBENCH_NO_OVERLAP
     for (std::size_t k = 0; k < count; ++k) {
