@@ -47,7 +47,7 @@ class Case:
     robots: int
     controller: str = "dwb"
     seconds: float = 20.0
-    options: dict[str, Any] = attrs.field(factory=dict)
+    threads: int = 1
 
     @property
     def simulator_name(self) -> str:
@@ -77,8 +77,13 @@ class Case:
             "fleet": [robot],
             "assigner": "identity",
             "planner": "prioritized",
-            "controller": {"plugin": self.controller, **self.options},
-            "simulator": self.simulator,
+            "controller": {
+                "plugin": self.controller,
+                **({"threads": self.threads} if self.controller in COSTMAPS else {}),
+            },
+            "simulator": {"plugin": "planar", "threads": self.threads}
+            if self.simulator == "planar"
+            else self.simulator,
             "metrics": [],
             "limits": {"execution": self.seconds, "planning": "10 min"},
         }
@@ -158,7 +163,7 @@ def main() -> None:
     parser.add_argument("rows", nargs="*", default=list(ROWS), help=f"of {', '.join(ROWS)} (default: all)")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--seconds", type=float, default=20.0, help="simulated, of each execution")
-    parser.add_argument("--threads", type=int, default=1, help="of controllers with a costmap")
+    parser.add_argument("--threads", type=int, default=1, help="of lidars, and of controllers with a costmap")
     options = parser.parse_args()
     if unknown := set(options.rows) - set(ROWS):
         parser.error(f"no such row: {', '.join(sorted(unknown))}")
@@ -171,8 +176,7 @@ def main() -> None:
         if case.simulator_name == "pybullet" and find_spec("pybullet") is None:
             print(f"{name:<26} {asked:>5}x   no PyBullet here")
             continue
-        extra = {"threads": options.threads} if case.controller in COSTMAPS else {}
-        case = attrs.evolve(case, seconds=options.seconds, options=extra)
+        case = attrs.evolve(case, seconds=options.seconds, threads=options.threads)
         rounds = [run(case) for _ in range(options.rounds)]
         cpu = max(clock.simulated / clock.cpu for clock in rounds)
         wall = max(clock.simulated / clock.wall for clock in rounds)

@@ -57,12 +57,14 @@ void construct_plane(Plane* self, const Matrix<4>& segments, const nb::dict& rob
   new (self) Plane(copy<Segment>(segments), std::move(radius), std::move(drives), copy<Pose>(pose), period, chance);
 }
 
-void construct_caster(Caster* self, const Matrix<4>& segments, nb::handle lidar) {
+void construct_caster(Caster* self, const Matrix<4>& segments, nb::handle lidar, int threads) {
   const auto [forward, leftward, height] = attribute<std::tuple<double, double, double>>(lidar, "mount");
-  new (self) Caster(copy<Segment>(segments), {attribute<int>(lidar, "beams"),
-                                              attribute<double>(lidar, "range"),
-                                              attribute<double>(lidar, "min_range"),
-                                              {forward, leftward}});
+  new (self) Caster(copy<Segment>(segments),
+                    {attribute<int>(lidar, "beams"),
+                     attribute<double>(lidar, "range"),
+                     attribute<double>(lidar, "min_range"),
+                     {forward, leftward}},
+                    threads);
 }
 
 void step(Plane& self, const Matrix<2>& twist, const std::optional<Matrix<2>>& movers) {
@@ -148,7 +150,7 @@ NB_MODULE(sim, module) {
           "contacts", [](const Plane& self) { return copied<std::int32_t>(self.touches()); }, nb::rv_policy::automatic);
 
   nb::class_<Caster>(module, "Caster")
-      .def("__init__", &construct_caster, nb::kw_only(), "segments"_a, "lidar"_a)
+      .def("__init__", &construct_caster, nb::kw_only(), "segments"_a, "lidar"_a, "threads"_a = 1)
       .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a, "leaves"_a = nb::none());
 
   nb::class_<Walkers>(module, "Walkers")

@@ -3,6 +3,7 @@
 
 #include "check.hpp"
 #include "mrpbench_local/mppi/critic.hpp"
+#include "mrpbench_local/mppi/plan.hpp"
 #include "mrpbench_local/mppi/rollout.hpp"
 
 using namespace mrpbench::local;
@@ -181,25 +182,31 @@ TEST("the furthest point is the one where samples come") {
   for (int i = 0; i < 10; ++i) add_point(it.path, 0.2f * static_cast<float>(i));
   it.path.spacing = 0.2f;
   std::fill_n(it.x[kSteps - 1], kSamples, 1.0f);
-  fill(it.vx, 1);
+  it.length.assign(kSamples, 3.0f);
   it.find_furthest();
   CHECK(it.furthest == 5 && it.beyond_furthest(2) == 7 && it.beyond_furthest(9) == 9);
-  fill(it.vx, 0.1f);  // samples do not reach farther than their length
+  it.length.assign(kSamples, 0.3f);  // samples do not reach farther than their length
   it.find_furthest();
   CHECK(it.furthest == 2);
 }
 
-TEST("sampled controls change within accelerations") {
-  Table vx, wz, out_vx, out_wz;
-  for (Table* it : {&vx, &wz, &out_vx, &out_wz}) it->resize(2, 1);
+TEST("sampled controls are the plan and noise, and velocities follow them within accelerations") {
   const Change change{3 * 0.05f, 3 * 0.05f, 3.5f * 0.05f};
-  vx[0][0] = 0.75f;
-  wz[0][0] = 0.1f;
-  limit(vx, wz, 5, 6, change, out_vx, out_wz);
-  CHECK(near(out_vx[1][0], 4.85) && near(out_wz[1][0], 5.825));
-  vx[0][0] = -0.75f;
-  limit(vx, wz, -5, 6, change, out_vx, out_wz);
-  CHECK(near(out_vx[1][0], -4.85));
+  const auto sampled = [&](float noise, float start_vx) {
+    Noise its;
+    for (Table* it : {&its.vx, &its.wz}) it->resize(3, 1);
+    its.first = 1;
+    its.vx[1][0] = noise;  // of step 0
+    Tables out;
+    out.resize(3, 1);
+    const std::vector<float> vx{0, 0, 0.2f}, wz{0.1f, 0, 0.3f};
+    roll_out({its, vx, wz, start_vx, 6, change, 0.05f}, out);
+    return out;
+  };
+  const Tables slower = sampled(0.75f, 5), faster = sampled(-0.75f, -5);
+  CHECK(near(slower.vx[1][0], 4.85) && near(slower.wz[1][0], 5.825));
+  CHECK(near(faster.vx[1][0], -4.85));
+  CHECK(near(slower.length[0], (5 + 4.85 + 4.7) * 0.05));
 }
 
 TEST("a plan keeps speeds and accelerations, the first step within a control period") {
@@ -216,14 +223,13 @@ TEST("a plan keeps speeds and accelerations, the first step within a control per
 }
 
 TEST("samples roll out as by Euler's method with the yaw before each step") {
-  Table vx, wz, x, y, yaw;
-  for (Table* it : {&vx, &wz, &x, &y, &yaw}) it->resize(50, 1);
-  for (std::size_t t = 1; t < 50; ++t) {
-    vx[t][0] = 0.1f;
-    wz[t][0] = 0.2f;
-  }
-  roll_out(vx, wz, 0.1f, x, y, yaw);
-  CHECK(near(x[49][0], 0.41745, 1e-5) && near(y[49][0], 0.21733, 1e-5) && near(yaw[49][0], 0.98));
+  Noise none;
+  for (Table* it : {&none.vx, &none.wz}) it->resize(50, 1);
+  Tables out;
+  out.resize(50, 1);
+  const std::vector<float> vx(50, 0.1f), wz(50, 0.2f);
+  roll_out({none, vx, wz, 0, 0, {1, 1, 1}, 0.1f}, out);
+  CHECK(near(out.x[49][0], 0.41745, 1e-5) && near(out.y[49][0], 0.21733, 1e-5) && near(out.yaw[49][0], 0.98));
 }
 
 TEST("smoothing keeps constants, and spreads an impulse by the coefficients of Savitzky and Golay") {

@@ -58,9 +58,6 @@ class Fleet {
   };
   static void refresh(Robot& robot, double now, Pose pose);
 
-  template <class Work>
-  void share(std::size_t count, Work&& work) const;
-
   std::shared_ptr<const StaticMap> walls_;
   int threads_;
   std::vector<std::unique_ptr<Robot>> robots_;

@@ -19,7 +19,8 @@ struct Lidar {
 
 class Caster {
  public:
-  Caster(std::vector<Segment> segments, const Lidar& lidar);
+  /// `threads` share the lidars of a scan; results do not depend on their number.
+  Caster(std::vector<Segment> segments, const Lidar& lidar, int threads = 1);
 
   /// Ranges in metres of the lidars of `scanning`, row by row; infinity = no return. `centres` and `radius` are those
   /// of all discs, of which the first are the robots; none sees itself. `leaves` are solid besides the segments.
@@ -45,6 +46,7 @@ class Caster {
   std::size_t beam(long index) const;
 
   Lidar lidar_;
+  int threads_;
   std::vector<Wall> walls_;
   SegmentBuckets buckets_;
   std::vector<double> cosine_, sine_;

@@ -51,8 +51,8 @@ class Plane:
 class Caster:
     """Lidars of one kind among segments and discs. Beam i points at i * 2*pi / beams from straight ahead."""
 
-    def __init__(self, *, segments: NDArray[np.float64], lidar: Any) -> None:
-        """`lidar` has the attributes of `mrpbench_core.model.common.fleet.Lidar`."""
+    def __init__(self, *, segments: NDArray[np.float64], lidar: Any, threads: int = 1) -> None:
+        """`lidar` has the attributes of `mrpbench_core.model.common.fleet.Lidar`; `threads` share the robots."""
     def scan(
         self,
         robots: NDArray[np.int32],

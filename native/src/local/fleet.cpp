@@ -1,52 +1,18 @@
 #include "mrpbench_local/fleet.hpp"
 
-#include <algorithm>
-#include <atomic>
-#include <exception>
 #include <limits>
 #include <stdexcept>
-#include <thread>
 
 #include "mrpbench_local/costmap/collision.hpp"
+#include "mrpbench_sim/share.hpp"
 
 namespace mrpbench::local {
 
 Fleet::Fleet(std::vector<Segment> walls, double reach, int threads)
-    : walls_(std::make_shared<const StaticMap>(std::move(walls), reach)), threads_(std::max(1, threads)) {}
+    : walls_(std::make_shared<const StaticMap>(std::move(walls), reach)), threads_(threads) {}
 
 void Fleet::add(const RobotOptions& options, std::unique_ptr<Controller> controller) {
   robots_.push_back(std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), std::move(controller), options}));
-}
-
-/// Call `work(i)` once for every i below `count`, in several threads, of which this is one. Each takes the next i, so
-/// that none waits for another whose robots take longer.
-template <class Work>
-void Fleet::share(std::size_t count, Work&& work) const {
-  const std::size_t threads = std::min(static_cast<std::size_t>(threads_), count);
-  if (threads < 2) {
-    for (std::size_t i = 0; i < count; ++i) work(i);
-    return;
-  }
-  std::vector<std::exception_ptr> failures(count);
-  std::atomic<std::size_t> next{0};
-  const auto take = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        failures[i] = std::current_exception();
-        return;
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t t = 1; t < threads; ++t) others.emplace_back(take);
-    take();
-  }
-  for (const auto& it : failures) {
-    if (it) std::rethrow_exception(it);
-  }
 }
 
 /// Update a costmap as often as its options say.
@@ -59,7 +25,7 @@ void Fleet::refresh(Robot& robot, double now, Pose pose) {
 void Fleet::see(double now, std::span<const std::int32_t> robots, std::span<const Pose> poses,
                 std::span<const double> ranges) {
   const std::size_t beams = robots.empty() ? 0 : ranges.size() / robots.size();
-  share(robots.size(), [&](std::size_t row) {
+  sim::share(robots.size(), threads_, [&](std::size_t row) {
     Robot& robot = *robots_[static_cast<std::size_t>(robots[row])];
     const Pose& pose = poses[static_cast<std::size_t>(robots[row])];
     robot.costmap.see(pose, robot.options.sensor, ranges.subspan(row * beams, beams));
@@ -83,7 +49,7 @@ void Fleet::command(double now, std::span<const Request> requests, std::span<Twi
   if (extra) {
     for (std::size_t i = 0; i < requests.size(); ++i) answer(i);
   } else {
-    share(requests.size(), answer);
+    sim::share(requests.size(), threads_, answer);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "mrpbench_sim/disc_hash.hpp"
+#include "mrpbench_sim/share.hpp"
 
 namespace mrpbench::sim {
 
@@ -44,8 +45,9 @@ Lidar sound(const Lidar& lidar) {
 
 }  // namespace
 
-Caster::Caster(std::vector<Segment> segments, const Lidar& lidar)
+Caster::Caster(std::vector<Segment> segments, const Lidar& lidar, int threads)
     : lidar_(sound(lidar)),
+      threads_(threads),
       buckets_(segments, lidar.range, bucket_size(lidar.range)),
       per_radian_(lidar.beams / kTurn),
       padding_(kRough * per_radian_),
@@ -71,7 +73,7 @@ void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, st
   DiscHash hash((lidar_.range + largest) / 2);
   hash.build(centres);
   const auto beams = static_cast<std::size_t>(lidar_.beams);
-  for (std::size_t row = 0; row < scanning.size(); ++row) {
+  share(scanning.size(), threads_, [&](std::size_t row) {
     const int robot = scanning[row];
     const Pose& pose = poses[static_cast<std::size_t>(robot)];
     if (!somewhere({pose.x, pose.y}) || !std::isfinite(pose.yaw)) throw std::invalid_argument("poses must be finite");
@@ -94,7 +96,7 @@ void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, st
       const bool returns = distance >= lidar_.min_range && distance <= lidar_.range;
       nearness[i] = returns ? distance : std::numeric_limits<double>::infinity();
     }
-  }
+  });
 }
 
 void Caster::see_wall(const Wall& wall, Point origin, Point facing, double* nearness) const {

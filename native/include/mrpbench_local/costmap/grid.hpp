@@ -72,13 +72,13 @@ struct Line {
   /// returns false.
   template <class Visit, class Step>
   bool walk(Visit&& visit, Step&& step) const {
-    int error = longer / 2;
+    int error = longer / 2 - longer;  // from -longer to -1
     for (int i = 0;; ++i) {
       if (!visit()) return false;
       if (i == longer) return true;
-      error += shorter;
-      const bool aside = error >= longer;
-      error -= aside ? longer : 0;
+      const int straight = error + shorter, back = error + (shorter - longer);
+      const bool aside = straight >= 0;
+      error = aside ? back : straight;
       step(aside);
     }
   }

@@ -14,6 +14,8 @@ struct UpdateBuffers {
   std::vector<std::size_t> lethal;
   /// Costs with room for stamps all around.
   std::vector<std::uint8_t> margined;
+  /// `kLethal` for the lethal cells whose costs are not written along their row.
+  std::vector<std::uint8_t> alone;
   Beams beams;
   std::vector<double> lengths;
   std::vector<Cell> ends;

@@ -48,7 +48,7 @@ class Critic {
   virtual Reason check(const Scene&, Pose) { return kLegal; }
   /// Record the command that was chosen.
   virtual void debrief(const Scene&, Twist) {}
-  /// Factor of the scale.
+  /// Factor of the scale; 0 = nothing to say, and trajectories are not scored.
   virtual double weight(const Scene&) const { return 1; }
 };
 

@@ -25,12 +25,14 @@ struct Table {
   const float* operator[](std::size_t t) const { return values.data() + t * samples; }
 };
 
-/// The samples: velocities as drawn, velocities within the limits of acceleration, and poses.
+/// The samples: velocities within the limits of acceleration, poses, and the length of each in metres.
 struct Tables {
-  Table control_vx, control_wz, vx, wz, x, y, yaw;
+  Table vx, wz, x, y, yaw;
+  std::vector<float> length;
 
   void resize(std::size_t steps, std::size_t samples) {
-    for (Table* it : {&control_vx, &control_wz, &vx, &wz, &x, &y, &yaw}) it->resize(steps, samples);
+    for (Table* it : {&vx, &wz, &x, &y, &yaw}) it->resize(steps, samples);
+    length.resize(samples);
   }
 };
 
@@ -73,6 +75,8 @@ struct Batch : Tables {
   float tolerance = 0.1f;
   const Costmap* costmap = nullptr;
   Pose robot;
+  /// Unit vector along the robot's heading.
+  Point heading{1, 0};
   bool by_radius = true;
   /// The farthest point of the path that is the nearest one to the end of a sample, among those that the sample can
   /// reach by its length.
@@ -80,7 +84,12 @@ struct Batch : Tables {
 
   std::size_t steps() const { return vx.steps; }
   std::size_t samples() const { return vx.samples; }
-  Pose in_map(float px, float py, float heading) const;
+  /// Set the pose of the robot.
+  void place(Pose pose);
+  /// A pose in the frame of the robot as one in the map.
+  Pose in_map(float px, float py, float turned) const {
+    return {robot.x + heading.x * px - heading.y * py, robot.y + heading.y * px + heading.x * py, robot.yaw + turned};
+  }
   /// The index of the path point `offset` points beyond `furthest`, or of the last one.
   std::size_t beyond_furthest(int offset) const {
     return std::min(furthest + static_cast<std::size_t>(offset), path.size() - 1);
@@ -89,7 +98,7 @@ struct Batch : Tables {
   void find_furthest();
 
  private:
-  std::vector<float> along_, nearest_;
+  std::vector<float> nearest_;
   std::vector<std::int32_t> index_;
 };
 

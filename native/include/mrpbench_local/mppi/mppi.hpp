@@ -5,6 +5,7 @@
 
 #include "mrpbench_local/controller.hpp"
 #include "mrpbench_local/mppi/critic.hpp"
+#include "mrpbench_local/mppi/plan.hpp"
 #include "mrpbench_local/mppi/rollout.hpp"
 #include "mrpbench_local/path/rotate_to_path.hpp"
 
@@ -25,6 +26,9 @@ struct MppiOptions {
   static Description<MppiOptions> derived();
 };
 
+/// Twists f8[m,p,2] and poses f8[m,p,3] of every so many samples and steps.
+Samples trajectories(const mppi::Batch& batch, std::size_t every, std::size_t step);
+
 class Mppi : public Controller {
  public:
   Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key, std::vector<mppi::WeightedCritic> critics);
@@ -42,11 +46,22 @@ class Mppi : public Controller {
   void reset();
   void prepare(const Situation& now);
   void sample(mppi::Batch& batch) const;
+  std::pair<mppi::Controls, mppi::Controls> controls(std::size_t t) const;
   bool improve(const Extra& extra);
   void begin_plan();
   bool score(const Extra& extra);
+  /// Call `visit(pose)` at the end of each of the first steps of the plan, until it returns false.
   template <class Visit>
-  bool walk(std::size_t steps, Visit&& visit) const;
+  bool walk(std::size_t steps, Visit&& visit) const {
+    Pose pose = batch_.robot;
+    for (std::size_t t = 0; t < steps; ++t) {
+      pose.x += plan_vx_[t] * std::cos(pose.yaw) * options_.model_dt;
+      pose.y += plan_vx_[t] * std::sin(pose.yaw) * options_.model_dt;
+      pose.yaw += plan_wz_[t] * options_.model_dt;
+      if (!visit(pose)) return false;
+    }
+    return true;
+  }
   bool is_safe() const;
   std::vector<double> mean_scores() const;
   Twist send();
@@ -56,10 +71,9 @@ class Mppi : public Controller {
   std::vector<mppi::WeightedCritic> critics_;
   bool shift_ = true, drawn_fresh_ = false, scored_ = false;
   std::uint64_t drawn_ = 0;
-  std::size_t rolled_ = 0;
   Twist start_, last_;
   mppi::Batch batch_;
-  mppi::Table noise_vx_, noise_wz_;
+  mppi::Noise noise_;
   std::vector<float> plan_vx_, plan_wz_, total_, raw_, weight_, added_;
   /// The plan around which samples were drawn last.
   std::vector<float> centre_vx_, centre_wz_;

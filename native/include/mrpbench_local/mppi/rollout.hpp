@@ -1,8 +1,6 @@
-// The arithmetic of MPPI on tables of samples, so that the compiler vectorises it. Sums over samples have a fixed
-// order.
+// How MPPI samples: controls around a plan, velocities that follow them, and poses.
 #pragma once
 
-#include <array>
 #include <span>
 
 #include "mrpbench_local/mppi/batch.hpp"
@@ -14,32 +12,26 @@ struct Change {
   float speed_up = 0, slow_down = 0, turn = 0;
 };
 
-/// Sine and cosine, to 2e-7, without branches (polynomials: S. L. Moshier, Cephes, 1992).
-void sine_cosine(const float* angle, float* sine, float* cosine, std::size_t count);
+/// Noise of all steps and samples. Step t takes the row t + `first`, in a circle.
+struct Noise {
+  Table vx, wz;
+  std::size_t first = 0;
 
-/// Velocities that follow controls within accelerations: row 0 is the start, row t follows control t - 1.
-void limit(const Table& wanted_vx, const Table& wanted_wz, float vx, float wz, Change change, Table& out_vx,
-           Table& out_wz);
-
-/// Poses by velocities from (0, 0, 0); row t is at the end of step t.
-void roll_out(const Table& vx, const Table& wz, float dt, Table& x, Table& y, Table& yaw);
-
-/// The sum over samples, of values or of weight * value.
-float sum(const float* values, std::size_t count);
-float weighted_sum(const float* weights, const float* values, std::size_t count);
-
-/// Nine points Savitzky-Golay filter of second order, or the mean of nine points (order 1). Before `values` come the
-/// four of `past`, after them the last one repeated; the last stays. Fewer than 21 values stay as they are.
-void smooth(std::span<float> values, const std::array<float, 4>& past, int order);
-
-/// Metres per second squared, both positive, and radians per second squared.
-struct Accelerations {
-  double speed_up = 0, slow_down = 0, turn = 0;
+  const float* vx_of(std::size_t t) const { return vx[(t + first) % vx.steps]; }
+  const float* wz_of(std::size_t t) const { return wz[(t + first) % wz.steps]; }
 };
 
-/// Keep a plan within limits and accelerations. It begins `period` seconds after the velocity `ahead`, `turn`; its
-/// steps are `dt` seconds.
-void constrain(std::span<float> vx, std::span<float> wz, const Limits& limits, const Accelerations& accelerations,
-               double ahead, double turn, double period, double dt);
+/// What samples follow from: controls are `vx`, `wz` of each step plus noise; velocities begin at the start and follow
+/// the controls of the step before within `change`.
+struct Sampling {
+  const Noise& noise;
+  std::span<const float> vx, wz;
+  float start_vx = 0, start_wz = 0;
+  Change change;
+  float dt = 0.05f;
+};
+
+/// Fill the tables. Poses begin at (0, 0, 0); row t is at the end of step t.
+void roll_out(const Sampling& by, Tables& out);
 
 }  // namespace mrpbench::local::mppi

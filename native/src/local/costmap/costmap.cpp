@@ -293,22 +293,52 @@ void Costmap::draw_walls(std::vector<std::uint8_t>& cells) const {
   }
 }
 
-/// Write the costs around each lethal cell. The lethal cell that is nearest to a free one has a free side, so cells
-/// without a free side can be skipped.
+/// Write the costs around the lethal cells. Along a run of these, costs are those of the nearest one: at its sides the
+/// costs beside one cell, beyond its ends those around the last one. The lethal cell that is nearest to a free one has
+/// a free side, so cells without a free side can be skipped.
 MRPBENCH_WIDE void Costmap::inflate() {
   const auto width = static_cast<std::size_t>(frame_.width), height = static_cast<std::size_t>(frame_.height);
   const auto reach = static_cast<std::size_t>(reach_), stride = width + 2 * reach + kBlock, side = 2 * reach + 1;
-  std::vector<std::uint8_t>& margined = UpdateBuffers::of_thread().margined;
+  std::vector<std::uint8_t>&margined = UpdateBuffers::of_thread().margined, &alone = UpdateBuffers::of_thread().alone;
   margined.assign(stride * (height + 2 * reach), kFree);
+  alone.assign(width * height, 0);
+  // `row` of the stamp of a cell, or that row `below` it.
+  const auto stamp = [&](std::size_t x, std::size_t y, std::size_t row, std::size_t below = 0) {
+    raise(&margined[(y + row + below) * stride + x], &stamp_[row * stamp_width_], stamp_width_);
+  };
   const auto lethal = [&](std::size_t x, std::size_t y) { return cost_[y * width + x] == kLethal; };
+  const auto buried = [&](std::size_t x, std::size_t y) {
+    return (x == 0 || lethal(x - 1, y)) && (x + 1 == width || lethal(x + 1, y)) && (y == 0 || lethal(x, y - 1)) &&
+           (y + 1 == height || lethal(x, y + 1));
+  };
   for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t x = 0; (x = next_lethal(&cost_[y * width], x, width)) < width; ++x) {
-      const bool buried = (x == 0 || lethal(x - 1, y)) && (x + 1 == width || lethal(x + 1, y)) &&
-                          (y == 0 || lethal(x, y - 1)) && (y + 1 == height || lethal(x, y + 1));
-      if (buried) continue;
-      for (std::size_t row = 0; row < side; ++row) {
-        raise(&margined[(y + row) * stride + x], &stamp_[row * stamp_width_], stamp_width_);
+    for (std::size_t first = 0, end = 0; (first = next_lethal(&cost_[y * width], end, width)) < width;) {
+      for (end = first + 1; end < width && lethal(end, y);) ++end;
+      while (first < end && buried(first, y)) ++first;
+      if (first == end) continue;
+      std::size_t last = end - 1;
+      while (buried(last, y)) --last;
+      if (last - first < 2) {
+        for (std::size_t x = first; x <= last; ++x) alone[y * width + x] = kLethal;
+        continue;
       }
+      for (std::size_t row = 0; row < side; ++row) {
+        stamp(first, y, row);
+        stamp(last, y, row);
+        std::uint8_t* const between = &margined[(y + row) * stride + reach];
+        const std::uint8_t beside = stamp_[row * stamp_width_ + reach];
+        for (std::size_t x = first; x < last; ++x) between[x] = std::max(between[x], beside);
+      }
+    }
+  }
+  for (std::size_t y = 0; y < height; ++y) {
+    for (std::size_t x = 0; (x = next_lethal(&alone[y * width], x, width)) < width; ++x) {
+      if (y > 0 && alone[(y - 1) * width + x]) continue;  // the run began below
+      std::size_t more = 0;                               // cells of the run along the column
+      while (y + more + 1 < height && alone[(y + more + 1) * width + x]) ++more;
+      for (std::size_t row = 0; row < reach; ++row) stamp(x, y, row);
+      for (std::size_t below = 0; below <= more; ++below) stamp(x, y, reach, below);
+      for (std::size_t row = reach + 1; row < side; ++row) stamp(x, y, row, more);
     }
   }
   for (std::size_t y = 0; y < height; ++y) {

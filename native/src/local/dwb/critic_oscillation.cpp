@@ -60,13 +60,14 @@ class Oscillation : public Critic {
 
   bool score(const Scene&, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
     std::ranges::fill(raw, 0);
-    if (!ahead_.reversed() && !turn_.reversed()) return false;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const Twist twist = all.twist(i);
       if (ahead_.forbids(twist.ahead) || turn_.forbids(twist.turn)) why[i] = "Trajectory is oscillating.";
     }
     return true;
   }
+
+  double weight(const Scene&) const override { return ahead_.reversed() || turn_.reversed() ? 1 : 0; }
 
   void debrief(const Scene& scene, Twist chosen) override {
     bool reversed = ahead_.update(chosen.ahead);

@@ -40,9 +40,10 @@ class RotateToGoal : public Critic {
     rotating_ = rotating_ || (in_window_ && std::abs(scene.twist.ahead) <= options_.trans_stopped_velocity);
   }
 
+  double weight(const Scene&) const override { return in_window_ ? 1 : 0; }
+
   bool score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
     std::ranges::fill(raw, 0);
-    if (!in_window_) return false;
     for (std::size_t i = 0; i < all.size(); ++i) {
       const double speed = all.twist(i).ahead;
       if (rotating_) {

@@ -148,7 +148,7 @@ void Dwb::score(const Scene& scene, Buffers& its, const Extra& extra) {
   why_.assign(count, kLegal);
   dropped_.assign(count, -1);
   raw_.resize(count * critics_.size());
-  its.fault.assign(count, kLegal);
+  its.fault.resize(count, kLegal);  // it is full of that
   scale_.assign(critics_.size(), 0);
   for (std::size_t c = 0; c < critics_.size(); ++c) {
     const Weighted& it = critics_[c];

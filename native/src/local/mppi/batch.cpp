@@ -23,32 +23,31 @@ Lent::~Lent() {
   std::swap(to_, of_thread);
 }
 
-Pose Batch::in_map(float px, float py, float heading) const {
-  const double cosine = std::cos(robot.yaw), sine = std::sin(robot.yaw);
-  return {robot.x + cosine * px - sine * py, robot.y + sine * px + cosine * py, robot.yaw + heading};
+void Batch::place(Pose pose) {
+  robot = pose;
+  heading = {std::cos(pose.yaw), std::sin(pose.yaw)};
 }
 
 MRPBENCH_WIDE void Batch::find_furthest() {
   const std::size_t count = samples(), last = steps() - 1;
-  along_.assign(count, 0);
-  for (std::size_t t = 0; t <= last; ++t) {
-    const float* const v = vx[t];
-    for (std::size_t k = 0; k < count; ++k) along_[k] += std::abs(v[k]) * dt;
-  }
   nearest_.assign(count, std::numeric_limits<float>::max());
   index_.assign(count, 0);
-  const float* const ex = x[last];
-  const float* const ey = y[last];
+  const float *const ex = x[last], *const ey = y[last], *const reached = length.data();
+  float* const nearest = nearest_.data();
+  std::int32_t* const index = index_.data();
+  const float longest = *std::max_element(length.begin(), length.end());
   const float start = path.size() > 0 ? std::hypot(path.x[0], path.y[0]) : 0;
   for (std::size_t p = 0; p < path.size(); ++p) {
     const float px = path.x[p], py = path.y[p];
     const float reach = std::max(0.0f, static_cast<float>(p) * path.spacing - start - path.spacing);
+    if (reach > longest) break;  // no sample comes there
     const auto number = static_cast<std::int32_t>(p);
+    MRPBENCH_NO_OVERLAP
     for (std::size_t k = 0; k < count; ++k) {
       const float dx = ex[k] - px, dy = ey[k] - py, squared = dx * dx + dy * dy;
-      const bool nearer = (squared < nearest_[k]) & (reach <= along_[k]);
-      nearest_[k] = nearer ? squared : nearest_[k];
-      index_[k] = nearer ? number : index_[k];
+      const bool nearer = (squared < nearest[k]) & (reach <= reached[k]);
+      nearest[k] = nearer ? squared : nearest[k];
+      index[k] = nearer ? number : index[k];
     }
   }
   std::int32_t most = 0;

@@ -8,6 +8,11 @@
 namespace mrpbench::local::mppi {
 
 MRPBENCH_WIDE void WeightedCritic::add(std::span<const float> raw, std::span<float> total) const {
+  if (power == 1) {
+    MRPBENCH_NO_OVERLAP
+    for (std::size_t k = 0; k < raw.size(); ++k) total[k] += weight * raw[k];
+    return;
+  }
   for (std::size_t k = 0; k < raw.size(); ++k) {
     const float weighted = weight * raw[k];
     float product = weighted;

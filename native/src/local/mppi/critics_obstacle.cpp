@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "mrpbench_local/costmap/collision.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
@@ -12,44 +13,72 @@ namespace mrpbench::local::mppi {
 
 namespace {
 
+/// What critics need for a while, shared by the robots that a thread controls one after the other.
+struct Buffers {
+  /// The costs of all cells as numbers that vectors can gather, and at the end `kOff`.
+  std::vector<float> costs;
+  /// Of one step of all samples: the cell that holds each, its cost, and 1 where the robot may collide.
+  std::vector<std::int32_t> cell;
+  std::vector<float> row;
+  std::vector<char> suspect;
+  std::vector<char> collides;
+
+  static Buffers& of_thread() {
+    thread_local Buffers buffers;
+    return buffers;
+  }
+};
+
 /// The costs under poses that are given in the frame of the robot.
 class Lookup {
  public:
-  static constexpr int kOff = -1;
+  static constexpr float kOff = -1;
 
-  Lookup(const Batch& batch, bool consider_footprint) : batch_(batch), map_(*batch.costmap) {
+  Lookup(const Batch& batch, bool consider_footprint, Buffers& its) : batch_(batch), map_(*batch.costmap), its_(its) {
     const Frame& frame = map_.frame();
     const double per = 1 / frame.resolution;
-    cosine_ = static_cast<float>(std::cos(batch.robot.yaw) * per);
-    sine_ = static_cast<float>(std::sin(batch.robot.yaw) * per);
+    cosine_ = static_cast<float>(batch.heading.x * per);
+    sine_ = static_cast<float>(batch.heading.y * per);
     x_ = static_cast<float>(batch.robot.x * per - frame.origin.x);
     y_ = static_cast<float>(batch.robot.y * per - frame.origin.y);
     outline_ = consider_footprint && !batch.by_radius;
     double farthest = 0;
     for (const Point& p : map_.options().footprint) farthest = std::max(farthest, sim::length(p));
     near_ = outline_ ? inflated_cost(farthest, map_.inscribed(), map_.options().cost_scaling_factor) : kInscribed;
+    its_.costs.assign(map_.costs().begin(), map_.costs().end());
+    its_.costs.push_back(kOff);
+    its_.cell.resize(batch.samples());
+    its_.row.resize(batch.samples());
+    its_.suspect.resize(batch.samples());
   }
 
-  /// The indices of the cells that hold places, -1 outside of the map.
-  MRPBENCH_WIDE void find(std::span<const float> px, const float* py, std::int32_t* index) const {
-    const float cosine = cosine_, sine = sine_, left = x_, bottom = y_;
-    const std::int32_t width = map_.frame().width, height = map_.frame().height;
-    for (std::size_t k = 0; k < px.size(); ++k) {
+  /// Fill the row and the suspects of step t.
+  MRPBENCH_WIDE void find(std::size_t t) {
+    const float cosine = cosine_, sine = sine_, left = x_, bottom = y_, near = static_cast<float>(near_);
+    const std::int32_t width = map_.frame().width, height = map_.frame().height, off = width * height;
+    const float *const px = batch_.x[t], *const py = batch_.y[t], *const costs = its_.costs.data();
+    float* const row = its_.row.data();
+    std::int32_t* const cell = its_.cell.data();
+    char* const suspect = its_.suspect.data();
+    const std::size_t count = its_.row.size();
+    MRPBENCH_NO_OVERLAP
+    for (std::size_t k = 0; k < count; ++k) {
       const float u = cosine * px[k] - sine * py[k] + left, v = sine * px[k] + cosine * py[k] + bottom;
-      const auto column = static_cast<std::int32_t>(u), row = static_cast<std::int32_t>(v);
-      const bool outside = (u < 0) | (v < 0) | (column >= width) | (row >= height);
-      index[k] = outside ? -1 : row * width + column;
+      const auto column = static_cast<std::int32_t>(u), line = static_cast<std::int32_t>(v);
+      const bool outside = (u < 0) | (v < 0) | (column >= width) | (line >= height);
+      cell[k] = outside ? off : line * width + column;
     }
+    MRPBENCH_NO_OVERLAP
+    for (std::size_t k = 0; k < count; ++k) row[k] = costs[cell[k]];
+    MRPBENCH_NO_OVERLAP
+    for (std::size_t k = 0; k < count; ++k) suspect[k] = (row[k] < 0) | (row[k] >= near) ? 1 : 0;
   }
 
-  /// The cost of a cell, or `kOff`.
-  int at(std::int32_t index) const { return index < 0 ? kOff : map_.costs()[static_cast<std::size_t>(index)]; }
-
-  /// Tell whether the robot collides at a pose, under which the cost is `cost`.
-  bool collides(int cost, float px, float py, float yaw) {
-    if (cost < near_) return cost == kOff;
-    if (cost >= kLethal) return true;
-    const Pose pose = batch_.in_map(px, py, yaw);
+  /// Tell whether the robot collides at the pose of a sample, which is a suspect.
+  bool collides(std::size_t t, std::size_t k) {
+    const float cost = its_.row[k];
+    if (cost == kOff || cost >= kLethal) return true;
+    const Pose pose = batch_.in_map(batch_.x[t][k], batch_.y[t][k], batch_.yaw[t][k]);
     if (!outline_) {
       const Cell c = map_.frame().cell({pose.x, pose.y});
       return map_.frame().holds(c) && !map_.is_free(c, {pose.x, pose.y});
@@ -63,35 +92,45 @@ class Lookup {
  private:
   const Batch& batch_;
   const Costmap& map_;
+  Buffers& its_;
   float cosine_, sine_, x_, y_;
   bool outline_;
   int near_;
   std::vector<Point> corners_;
 };
 
-/// Go through every `step`th pose of all samples: `score(k, cost)` for costs above 0, up to the collision of a sample,
-/// which makes its score `collision`. Returns false if every sample collides.
+/// The first suspect from `k` on, or their number.
+std::size_t next_suspect(const std::vector<char>& suspect, std::size_t k) {
+  const void* const found = std::memchr(suspect.data() + k, 1, suspect.size() - k);
+  return found ? static_cast<std::size_t>(static_cast<const char*>(found) - suspect.data()) : suspect.size();
+}
+
+/// Go through every `step`th pose of all samples: `score(costs, collides)` with the cost under each sample, and which
+/// have collided so far. In the end these score `collision`. Returns false if every sample collides.
 template <class Score>
-bool sweep(const Batch& batch, Lookup& costs, std::size_t step, double collision, std::span<float> raw, Score&& score) {
-  std::vector<char> collides(raw.size(), 0);
-  std::vector<std::int32_t> cells(raw.size());
+bool sweep(const Batch& batch, Lookup& costs, Buffers& its, std::size_t step, double collision, std::span<float> raw,
+           Score&& score) {
+  its.collides.assign(raw.size(), 0);
   std::size_t left = raw.size();
   for (std::size_t t = 0; t < batch.steps(); t += step) {
-    const float *x = batch.x[t], *y = batch.y[t], *yaw = batch.yaw[t];
-    costs.find({x, raw.size()}, y, cells.data());
-    for (std::size_t k = 0; k < raw.size(); ++k) {
-      const int cost = costs.at(cells[k]);
-      if (cost == 0 || collides[k]) continue;
-      if (costs.collides(cost, x[k], y[k], yaw[k])) {
-        collides[k] = 1;
-        raw[k] = static_cast<float>(collision);
-        --left;
-      } else {
-        score(k, cost);
-      }
+    costs.find(t);
+    for (std::size_t k = 0; (k = next_suspect(its.suspect, k)) < raw.size(); ++k) {
+      if (its.collides[k] || !costs.collides(t, k)) continue;
+      its.collides[k] = 1;
+      --left;
     }
+    score(its.row.data(), its.collides.data());
+  }
+  for (std::size_t k = 0; k < raw.size(); ++k) {
+    if (its.collides[k]) raw[k] = static_cast<float>(collision);
   }
   return left > 0;
+}
+
+/// Add `critical` for costs from `limit` on, and a share of lower ones.
+MRPBENCH_WIDE void add_costs(const float* costs, float limit, float critical, float share, std::span<float> raw) {
+  MRPBENCH_NO_OVERLAP
+  for (std::size_t k = 0; k < raw.size(); ++k) raw[k] += costs[k] >= limit ? critical : share * costs[k];
 }
 
 /// Mean cost under the poses.
@@ -116,16 +155,15 @@ class Cost : public Critic {
   explicit Cost(const Options& options) : options_(options) {}
 
   bool score(const Batch& batch, std::span<float> raw) override {
-    Lookup costs(batch, options_.consider_footprint);
+    Buffers& its = Buffers::of_thread();
+    Lookup costs(batch, options_.consider_footprint, its);
     const auto step = static_cast<std::size_t>(options_.trajectory_point_step);
     const bool near_goal = batch.path.length < static_cast<float>(options_.near_goal_distance);
     const auto critical = static_cast<float>(options_.critical_cost);
-    const bool some = sweep(batch, costs, step, options_.collision_cost, raw, [&](std::size_t k, int cost) {
-      if (cost >= options_.near_collision_cost) {
-        raw[k] += critical;
-      } else if (!near_goal) {
-        raw[k] += static_cast<float>(cost);
-      }
+    // Cells that cost nothing are never critical.
+    const auto limit = static_cast<float>(std::max(1, options_.near_collision_cost));
+    const bool some = sweep(batch, costs, its, step, options_.collision_cost, raw, [&](const float* row, const char*) {
+      add_costs(row, limit, critical, near_goal ? 0.0f : 1.0f, raw);
     });
     const float share = 1.0f / 254.0f / static_cast<float>((batch.steps() + step - 1) / step);
     for (float& it : raw) it *= share;
@@ -157,7 +195,8 @@ class Obstacles : public Critic {
   explicit Obstacles(const Options& options) : options_(options) {}
 
   bool score(const Batch& batch, std::span<float> raw) override {
-    Lookup costs(batch, options_.consider_footprint);
+    Buffers& its = Buffers::of_thread();
+    Lookup costs(batch, options_.consider_footprint, its);
     const CostmapOptions& map = batch.costmap->options();
     const float inflation = static_cast<float>(map.inflation_radius);
     const float inscribed = static_cast<float>(batch.costmap->inscribed());
@@ -169,11 +208,15 @@ class Obstacles : public Critic {
     }
     repulsion_.assign(raw.size(), 0);
     const auto margin = static_cast<float>(options_.collision_margin_distance);
-    const bool some = sweep(batch, costs, 1, options_.collision_cost, raw, [&](std::size_t k, int cost) {
-      const float away = distance[cost];
-      if (away < margin) raw[k] += margin - away;
-      if (!near_goal) repulsion_[k] += std::max(inflation - away, 0.0f);
-    });
+    const auto repel = [&](const float* row, const char* collides) {
+      for (std::size_t k = 0; k < raw.size(); ++k) {
+        if (row[k] == 0 || collides[k]) continue;
+        const float away = distance[static_cast<std::size_t>(row[k])];
+        if (away < margin) raw[k] += margin - away;
+        if (!near_goal) repulsion_[k] += std::max(inflation - away, 0.0f);
+      }
+    };
+    const bool some = sweep(batch, costs, its, 1, options_.collision_cost, raw, repel);
     const float least = *std::min_element(repulsion_.begin(), repulsion_.end());
     const float share = static_cast<float>(options_.repulsion_weight) / static_cast<float>(batch.steps());
     for (std::size_t k = 0; k < raw.size(); ++k) {

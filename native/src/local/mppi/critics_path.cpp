@@ -16,6 +16,15 @@ float wrapped(float angle) {
   return angle - 2 * kPi * std::floor((angle + kPi) / (2 * kPi));
 }
 
+/// Add a share of the distance from a place.
+MRPBENCH_WIDE void add_distance(const float* x, const float* y, float px, float py, float share, std::span<float> raw) {
+  MRPBENCH_NO_OVERLAP
+  for (std::size_t k = 0; k < raw.size(); ++k) {
+    const float dx = x[k] - px, dy = y[k] - py;
+    raw[k] += std::sqrt(dx * dx + dy * dy) * share;
+  }
+}
+
 /// Mean distance from the end of the plan.
 class Goal : public Critic {
  public:
@@ -32,14 +41,7 @@ class Goal : public Critic {
     if (batch.path.length > static_cast<float>(options_.threshold_to_consider)) return true;
     const float gx = batch.path.x.back(), gy = batch.path.y.back();
     const float share = 1.0f / static_cast<float>(batch.steps());
-    for (std::size_t t = 0; t < batch.steps(); ++t) {
-      const float* const x = batch.x[t];
-      const float* const y = batch.y[t];
-      for (std::size_t k = 0; k < raw.size(); ++k) {
-        const float dx = x[k] - gx, dy = y[k] - gy;
-        raw[k] += std::sqrt(dx * dx + dy * dy) * share;
-      }
-    }
+    for (std::size_t t = 0; t < batch.steps(); ++t) add_distance(batch.x[t], batch.y[t], gx, gy, share, raw);
     return true;
   }
 
@@ -104,37 +106,46 @@ class PathAlign : public Critic {
     const auto taken = std::count(path.free.begin(), path.free.begin() + most + 1, 0);
     const double ratio = static_cast<double>(taken) / (most + 1);
     if (taken > 2 && ratio > options_.max_path_occupancy_ratio) return true;
-    add(batch, most, raw);
+    add(batch, most, taken == 0, raw);
     return true;
   }
 
  private:
-  /// `most`: the last point of the plan that poses are compared with.
-  MRPBENCH_WIDE void add(const Batch& batch, std::int32_t most, std::span<float> raw) {
+  /// `most`: the last point of the plan that poses are compared with. `all`: all points up to it are free.
+  MRPBENCH_WIDE void add(const Batch& batch, std::int32_t most, bool all, std::span<float> raw) {
     const LocalPath& path = batch.path;
     const std::size_t count = raw.size(), step = static_cast<std::size_t>(options_.trajectory_point_step);
     along_.assign(count, 0);
     number_.assign(count, 0);
+    counts_.assign(path.free.begin(), path.free.end());
+    float *const along = along_.data(), *const number = number_.data(), *const sums = raw.data();
+    const float *const path_x = path.x.data(), *const path_y = path.y.data(), *const counts = counts_.data();
     const float per = 1 / path.spacing;
     for (std::size_t t = step; t < batch.steps(); t += step) {
       const float *x = batch.x[t], *y = batch.y[t], *bx = batch.x[t - step], *by = batch.y[t - step];
-      for (std::size_t k = 0; k < count; ++k) {
-        const float dx = x[k] - bx[k], dy = y[k] - by[k];
-        along_[k] += std::sqrt(dx * dx + dy * dy);
-      }
-      for (std::size_t k = 0; k < count; ++k) {
-        const auto at = static_cast<std::size_t>(std::min(static_cast<std::int32_t>(along_[k] * per + 0.5f), most));
-        const float dx = x[k] - path.x[at], dy = y[k] - path.y[at];
-        const float counts = path.free[at] != 0 ? 1.0f : 0.0f;
-        raw[k] += std::sqrt(dx * dx + dy * dy) * counts;
-        number_[k] += counts;
+      const auto each = [=](auto&& count_of) {
+        MRPBENCH_NO_OVERLAP
+        for (std::size_t k = 0; k < count; ++k) {
+          const float sx = x[k] - bx[k], sy = y[k] - by[k];
+          along[k] += std::sqrt(sx * sx + sy * sy);
+          const std::int32_t at = std::min(static_cast<std::int32_t>(along[k] * per + 0.5f), most);
+          const float dx = x[k] - path_x[at], dy = y[k] - path_y[at], counting = count_of(at);
+          sums[k] += std::sqrt(dx * dx + dy * dy) * counting;
+          number[k] += counting;
+        }
+      };
+      if (all) {
+        each([](std::int32_t) { return 1.0f; });
+      } else {
+        each([=](std::int32_t at) { return counts[at]; });
       }
     }
-    for (std::size_t k = 0; k < count; ++k) raw[k] /= std::max(number_[k], 1.0f);
+    MRPBENCH_NO_OVERLAP
+    for (std::size_t k = 0; k < count; ++k) sums[k] /= std::max(number[k], 1.0f);
   }
 
   Options options_;
-  std::vector<float> along_, number_;
+  std::vector<float> along_, number_, counts_;  // counts_: 1 for free points of the plan, 0 for others
 };
 
 /// Distance of the last pose from a point of the plan ahead of where samples come.
@@ -157,12 +168,8 @@ class PathFollow : public Critic {
     if (path.length < static_cast<float>(options_.threshold_to_consider)) return true;
     std::size_t at = batch.beyond_furthest(options_.offset_from_furthest);
     while (at + 1 < path.size() && !path.free[at]) ++at;
-    const float* const x = batch.x[batch.steps() - 1];
-    const float* const y = batch.y[batch.steps() - 1];
-    for (std::size_t k = 0; k < raw.size(); ++k) {
-      const float dx = x[k] - path.x[at], dy = y[k] - path.y[at];
-      raw[k] = std::sqrt(dx * dx + dy * dy);
-    }
+    const std::size_t last = batch.steps() - 1;
+    add_distance(batch.x[last], batch.y[last], path.x[at], path.y[at], 1, raw);
     return true;
   }
 

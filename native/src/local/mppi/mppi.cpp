@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "mrpbench_local/costmap/collision.hpp"
-#include "mrpbench_local/wide.hpp"
 #include "mrpbench_sim/noise.hpp"
 
 namespace mrpbench::local {
@@ -26,70 +25,7 @@ float clamped(double value, double low, double high) {
   return static_cast<float>(std::clamp(value, low, high));
 }
 
-/// Twists f8[m,p,2] and poses f8[m,p,3] of every so many samples and steps.
-Samples trajectories(const Batch& batch, std::size_t every, std::size_t step) {
-  Samples found;
-  std::size_t rows = 0, columns = 0;
-  for (std::size_t k = 0; k < batch.samples(); k += every, ++rows) {
-    columns = 0;
-    for (std::size_t t = 0; t < batch.steps(); t += step, ++columns) {
-      const Pose pose = batch.in_map(batch.x[t][k], batch.y[t][k], batch.yaw[t][k]);
-      found.twist.values.insert(found.twist.values.end(), {batch.vx[t][k], batch.wz[t][k]});
-      found.pose.values.insert(found.pose.values.end(), {pose.x, pose.y, pose.yaw});
-    }
-  }
-  found.twist.shape = {rows, columns, 2};
-  found.pose.shape = {rows, columns, 3};
-  return found;
-}
-
 }  // namespace
-
-Description<MppiOptions> MppiOptions::nav2() {
-  using M = MppiOptions;
-  return {{"batch_size", &M::batch_size, within(1, 100000), "number of samples"},
-          {"time_steps", &M::time_steps, within(2, 1000), "steps of a sample"},
-          {"model_dt", &M::model_dt, above(0, "s"), "duration of a step; not shorter than the control period"},
-          {"iteration_count", &M::iteration_count, within(1, 100), "updates per period"},
-          {"temperature", &M::temperature, above(0), "how much worse samples count less; small = the best alone"},
-          {"gamma", &M::gamma, at_least(0), "how much controls far from the last ones cost"},
-          {"vx_std", &M::vx_std, above(0, "m/s"), "standard deviation of sampled speeds"},
-          {"wz_std", &M::wz_std, above(0, "rad/s"), "standard deviation of sampled turn rates"},
-          {"vx_max", &M::vx_max, above(0, "m/s"), "highest speed, within the robot's limit"},
-          {"vx_min", &M::vx_min, any("m/s"), "lowest speed, within the robot's limit; negative = may drive back"},
-          {"wz_max", &M::wz_max, above(0, "rad/s"), "highest turn rate, within the robot's limit"},
-          {"ax_max", &M::ax_max, above(0), "acceleration, within the robot's limit, m/s^2"},
-          {"ax_min", &M::ax_min, any(""), "deceleration, negative, m/s^2"},
-          {"az_max", &M::az_max, above(0), "acceleration of turns, within the robot's limit, rad/s^2"},
-          {"prune_distance", &M::prune_distance, above(0, "m"), "ignore the path that is farther along"},
-          {"retry_attempt_limit", &M::retry_attempt_limit, within(0, 100), "new attempts when all samples collide"},
-          {"open_loop", &M::open_loop, "start from the last command instead of the measured velocity"},
-          {"regenerate_noises", &M::regenerate_noises, "draw new noise in every period"},
-          {"clamp_raw_controls", &M::clamp_raw_controls, "limit sampled controls by the accelerations, too"},
-          {"min_turning_r", &M::min_turning_r, at_least(0, "m"),
-           "smallest radius of turns, of Ackermann steering; 0 = the robot turns on the spot"},
-          {"sgf_order", &M::sgf_order, within(1, 2), "order of the filter that smooths the controls"},
-          {"collision_lookahead_time", &M::collision_lookahead_time, above(0, "s"),
-           "check the command for collisions up to this time"}};
-}
-
-Description<MppiOptions> MppiOptions::further() {
-  using M = MppiOptions;
-  return {
-      {"path_spacing", &M::path_spacing, at_least(0, "m"),
-       "distance of the points of the path that critics count; 0 = so that as many are within reach as at Nav2's "
-       "highest speed and spacing"},
-      {"roll_noises", &M::roll_noises,
-       "begin one step later in the noise in every period, so that a robot does not stand where the plan and always "
-       "the same noise balance; false = as Nav2 without regenerate_noises"},
-      {"rotate_to_path", &M::rotate_to_path, at_least(0),
-       "turn on the spot first where a new path leads off the heading by more than this, radians, as the rotation "
-       "shim of Nav2 does; 0 = never, as MPPI alone; Ackermann steering never does"}};
-}
-
-Description<MppiOptions> MppiOptions::derived() {
-  return {{"period", &MppiOptions::period, above(0, "s"), "control period"}};
-}
 
 Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key, std::vector<WeightedCritic> critics)
     : options_(options),
@@ -105,7 +41,7 @@ Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key,
   shift_ = std::abs(options.period - options.model_dt) < 1e-9;
   const auto steps = static_cast<std::size_t>(options.time_steps),
              samples = static_cast<std::size_t>(options.batch_size);
-  for (Table* it : {&noise_vx_, &noise_wz_}) it->resize(steps, samples);
+  for (Table* it : {&noise_.vx, &noise_.wz}) it->resize(steps, samples);
   batch_.dt = static_cast<float>(options.model_dt);
   batch_.by_radius = robot.by_radius;
   plan_vx_.assign(steps, 0);
@@ -118,10 +54,10 @@ Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key,
 void Mppi::draw() {
   sim::Draws draws(key_.seed, key_.robot, drawn_++);
   const auto vx = static_cast<float>(options_.vx_std), wz = static_cast<float>(options_.wz_std);
-  for (std::size_t i = 0; i < noise_vx_.values.size(); ++i) {
+  for (std::size_t i = 0; i < noise_.vx.values.size(); ++i) {
     const auto [a, b] = draws.normal();
-    noise_vx_.values[i] = static_cast<float>(a) * vx;
-    noise_wz_.values[i] = static_cast<float>(b) * wz;
+    noise_.vx.values[i] = static_cast<float>(a) * vx;
+    noise_.wz.values[i] = static_cast<float>(b) * wz;
   }
 }
 
@@ -153,7 +89,7 @@ std::optional<Twist> Mppi::command(const Situation& now, const Extra& extra) {
   }
   scored_ = true;
   const Lent lent(batch_, plan_vx_.size(), total_.size());
-  if (options_.roll_noises) rolled_ = (rolled_ + 1) % plan_vx_.size();
+  if (options_.roll_noises) noise_.first = (noise_.first + 1) % plan_vx_.size();
   for (int attempt = 0; attempt <= options_.retry_attempt_limit; ++attempt) {
     if (!drawn_fresh_ || options_.regenerate_noises) draw();
     drawn_fresh_ = true;
@@ -182,7 +118,7 @@ void Mppi::prepare(const Situation& now) {
   batch_.limits = {static_cast<float>(it.vx_max * share), static_cast<float>(it.vx_min * share),
                    static_cast<float>(it.wz_max * share), static_cast<float>(it.min_turning_r)};
   batch_.costmap = now.costmap;
-  batch_.robot = now.pose;
+  batch_.place(now.pose);
   batch_.tolerance = static_cast<float>(now.path.tolerance);
   batch_.goal_yaw.reset();
   if (!std::isnan(now.path.yaw)) batch_.goal_yaw = static_cast<float>(wrapped(now.path.yaw - now.pose.yaw));
@@ -210,33 +146,24 @@ void Mppi::prepare(const Situation& now) {
   }
 }
 
-/// Draw the samples around the plan that is their centre.
-MRPBENCH_WIDE void Mppi::sample(Batch& batch) const {
-  const std::size_t steps = batch.steps(), samples = batch.samples();
-  const MppiOptions& it = options_;
-  for (std::size_t t = 0; t < steps; ++t) {
-    const float vx = centre_vx_[t], wz = centre_wz_[t];
-    const std::size_t drawn = (t + rolled_) % steps;
-    const float *nv = noise_vx_[drawn], *nw = noise_wz_[drawn];
-    float *cv = batch.control_vx[t], *cw = batch.control_wz[t];
-    for (std::size_t k = 0; k < samples; ++k) cv[k] = vx + nv[k];
-    for (std::size_t k = 0; k < samples; ++k) cw[k] = wz + nw[k];
-  }
+/// Sample around the plan that is the centre.
+void Mppi::sample(Batch& batch) const {
   const float dt = batch.dt;
-  const Change change{static_cast<float>(it.ax_max) * dt, static_cast<float>(-it.ax_min) * dt,
-                      static_cast<float>(it.az_max) * dt};
-  limit(batch.control_vx, batch.control_wz, static_cast<float>(start_.ahead), static_cast<float>(start_.turn), change,
-        batch.vx, batch.wz);
-  if (it.clamp_raw_controls) {
-    const auto second = static_cast<std::ptrdiff_t>(samples);
-    std::copy(batch.vx.values.begin() + second, batch.vx.values.end(), batch.control_vx.values.begin());
-    std::copy(batch.wz.values.begin() + second, batch.wz.values.end(), batch.control_wz.values.begin());
-  }
-  roll_out(batch.vx, batch.wz, dt, batch.x, batch.y, batch.yaw);
+  const Change change{static_cast<float>(options_.ax_max) * dt, static_cast<float>(-options_.ax_min) * dt,
+                      static_cast<float>(options_.az_max) * dt};
+  roll_out(
+      {noise_, centre_vx_, centre_wz_, static_cast<float>(start_.ahead), static_cast<float>(start_.turn), change, dt},
+      batch);
+}
+
+/// The controls of one step: the velocities that follow them if these are to be within the accelerations, too.
+std::pair<Controls, Controls> Mppi::controls(std::size_t t) const {
+  if (options_.clamp_raw_controls && t + 1 < batch_.steps()) return {{0, batch_.vx[t + 1]}, {0, batch_.wz[t + 1]}};
+  return {{centre_vx_[t], noise_.vx_of(t)}, {centre_wz_[t], noise_.wz_of(t)}};
 }
 
 /// One update of the plan. Returns false if every sample collides.
-MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
+bool Mppi::improve(const Extra& extra) {
   const std::size_t steps = batch_.steps(), samples = batch_.samples();
   const MppiOptions& it = options_;
   begin_plan();
@@ -248,9 +175,8 @@ MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
   for (std::size_t t = 0; t < steps; ++t) {
     const float on_vx = plan_vx_[t] * static_cast<float>(it.gamma / (it.vx_std * it.vx_std));
     const float on_wz = plan_wz_[t] * static_cast<float>(it.gamma / (it.wz_std * it.wz_std));
-    const float *cv = batch_.control_vx[t], *cw = batch_.control_wz[t];
-    const float vx = plan_vx_[t], wz = plan_wz_[t];
-    for (std::size_t k = 0; k < samples; ++k) total_[k] += on_vx * (cv[k] - vx) + on_wz * (cw[k] - wz);
+    const auto [vx, wz] = controls(t);
+    add_deviation(vx, wz, plan_vx_[t], plan_wz_[t], on_vx, on_wz, total_);
   }
   const float least = *std::min_element(total_.begin(), total_.end());
   if (!(least < kInfinity)) return false;
@@ -259,8 +185,10 @@ MRPBENCH_WIDE bool Mppi::improve(const Extra& extra) {
   for (std::size_t k = 0; k < samples; ++k) weight_[k] = std::exp((total_[k] - least) * sharpness);
   const float per = 1 / sum(weight_.data(), samples);
   for (std::size_t t = 0; t < steps; ++t) {
-    plan_vx_[t] = weighted_sum(weight_.data(), batch_.control_vx[t], samples) * per;
-    plan_wz_[t] = weighted_sum(weight_.data(), batch_.control_wz[t], samples) * per;
+    const auto [vx, wz] = controls(t);
+    const auto [sum_vx, sum_wz] = weighted_sums(weight_.data(), vx, wz, samples);
+    plan_vx_[t] = sum_vx * per;
+    plan_wz_[t] = sum_wz * per;
   }
   smooth(plan_vx_, past_vx_, it.sgf_order);
   smooth(plan_wz_, past_wz_, it.sgf_order);
@@ -304,39 +232,11 @@ bool Mppi::score(const Extra& extra) {
   return true;
 }
 
-/// Call `visit(pose)` at the end of each of the first steps of the plan, until it returns false.
-template <class Visit>
-bool Mppi::walk(std::size_t steps, Visit&& visit) const {
-  Pose pose = batch_.robot;
-  for (std::size_t t = 0; t < steps; ++t) {
-    pose.x += plan_vx_[t] * std::cos(pose.yaw) * options_.model_dt;
-    pose.y += plan_vx_[t] * std::sin(pose.yaw) * options_.model_dt;
-    pose.yaw += plan_wz_[t] * options_.model_dt;
-    if (!visit(pose)) return false;
-  }
-  return true;
-}
-
 /// Tell whether the plan is free of collisions for a while.
 bool Mppi::is_safe() const {
   const auto steps =
       std::min(plan_vx_.size(), static_cast<std::size_t>(options_.collision_lookahead_time / options_.model_dt));
   return walk(steps, [&](Pose pose) { return is_free(*batch_.costmap, pose, batch_.by_radius); });
-}
-
-/// What each critic, and then those of the caller if there are some, contributes to the mean total of the plan.
-std::vector<double> Mppi::mean_scores() const {
-  const std::size_t samples = total_.size();
-  const float per = 1 / sum(weight_.data(), samples);
-  std::vector<double> found;
-  std::vector<float> scores(samples);
-  for (std::size_t c = 0; c < critics_.size(); ++c) {
-    std::fill(scores.begin(), scores.end(), 0.0f);
-    if (critics_[c].weight != 0) critics_[c].add(std::span<const float>(raw_).subspan(c * samples, samples), scores);
-    found.push_back(weighted_sum(weight_.data(), scores.data(), samples) * per);
-  }
-  if (!added_.empty()) found.push_back(weighted_sum(weight_.data(), added_.data(), samples) * per);
-  return found;
 }
 
 /// The command of the plan; the plan moves on by one step if a step is a control period.
@@ -350,67 +250,6 @@ Twist Mppi::send() {
     for (auto* plan : {&plan_vx_, &plan_wz_}) std::copy(plan->begin() + 1, plan->end(), plan->begin());
   }
   return sent;
-}
-
-Explanation Mppi::explain() const {
-  Explanation found;
-  found.words["reason"] = {fault_};
-  if (!scored_) return found;
-  constexpr std::size_t every = 5;
-  Batch batch = batch_;
-  const Lent lent(batch, plan_vx_.size(), total_.size());
-  sample(batch);
-  Samples samples = trajectories(batch, every, 3);
-  found.arrays = {{"twist", std::move(samples.twist)},
-                  {"pose", std::move(samples.pose)},
-                  {"score", {{raw_.begin(), raw_.end()}, {critics_.size(), total_.size()}}},
-                  {"total", {{total_.begin(), total_.end()}, {total_.size()}}}};
-  Array& plan = found.arrays["plan"];
-  for (std::size_t t = 0; t < plan_vx_.size(); ++t) plan.values.insert(plan.values.end(), {plan_vx_[t], plan_wz_[t]});
-  plan.shape = {plan_vx_.size(), 2};
-  for (const WeightedCritic& it : critics_) found.words["critics"].push_back(it.name);
-  Array& cost = found.arrays["cost"];
-  for (std::size_t k = 0; k < total_.size(); k += every) cost.values.push_back(total_[k]);
-  cost.shape = {cost.values.size()};
-  if (*fault_) return found;
-  Array& chosen = found.arrays["chosen"];
-  const auto add = [&](Pose pose) {
-    chosen.values.insert(chosen.values.end(), {pose.x, pose.y, pose.yaw});
-    return true;
-  };
-  add(batch_.robot);
-  walk(plan_vx_.size(), add);
-  chosen.shape = {chosen.values.size() / 3, 3};
-  Array& scores = found.arrays["chosen_score"];
-  scores.values = mean_scores();
-  scores.shape = {scores.values.size()};
-  return found;
-}
-
-ControllerKind mppi_controller() {
-  Description<MppiOptions> rows = MppiOptions::nav2();
-  for (const auto& group : {MppiOptions::further(), MppiOptions::derived()}) {
-    rows.insert(rows.end(), group.begin(), group.end());
-  }
-  ControllerKind kind;
-  kind.make = [rows](const OptionValues& values, const RobotOptions& robot, RandomKey key,
-                     std::span<const CriticChoice> chosen) {
-    std::vector<WeightedCritic> critics;
-    for (const CriticChoice& it : chosen) {
-      try {
-        critics.push_back(mppi::critic_kind(it.name).make(it.options));
-      } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(it.name + ": " + error.what());
-      }
-      critics.back().name = it.name;
-    }
-    return std::make_unique<Mppi>(configured(rows, values, MppiOptions{}), robot, key, std::move(critics));
-  };
-  kind.nav2 = parameters(MppiOptions::nav2());
-  kind.further = parameters(MppiOptions::further());
-  kind.derived = parameters(MppiOptions::derived());
-  kind.critic_options = [](const std::string& name) { return mppi::critic_kind(name).options; };
-  return kind;
 }
 
 }  // namespace mrpbench::local

@@ -28,7 +28,10 @@ class WheelNoise(NamedTuple):
 
 
 class PlanarSimulation(Simulation):
-    """Robots, walls and movers; arguments as in `Simulator.open`. A robot is the disc of its circumscribed radius."""
+    """Robots, walls and movers; arguments as in `Simulator.open`. A robot is the disc of its circumscribed radius.
+
+    `threads` share the lidars.
+    """
 
     def __init__(
         self,
@@ -39,6 +42,8 @@ class PlanarSimulation(Simulation):
         period: float,
         movers: Sequence[float],
         levels: Int16 | None,
+        *,
+        threads: int = 1,
     ) -> None:
         robots = fleet.robots
         self._schedule = ScanSchedule(fleet, period)
@@ -65,7 +70,9 @@ class PlanarSimulation(Simulation):
         )
         self._plane.set_leaves(self._leaves)
         self._period, self._periods = period, 0
-        self._casters = {lidar: Caster(segments=solids, lidar=lidar) for lidar in self._schedule.lidars}
+        self._casters = {
+            lidar: Caster(segments=solids, lidar=lidar, threads=threads) for lidar in self._schedule.lidars
+        }
         self._movers = MoverDiscs(self._layout, np.asarray(movers, float))
         self._state = self._observe()
         self._scans = self._take_scans()

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import attrs
 from mrpbench_native.sim import noise_options
 
-from mrpbench_core.api import Simulation, Simulator
+from mrpbench_core.api import Simulation, Simulator, option
 from mrpbench_core.api.described import described
 from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
@@ -18,6 +18,10 @@ from mrpbench_simulators_planar.simulation import PlanarSimulation, WheelNoise
 class Planar(Simulator):
     """Differential drives, discs that touch, lidars; in C++. Levels lie side by side; doors and lifts move."""
 
+    threads: int = option(
+        1, help="threads that share the lidars; results do not depend on their number", validator=attrs.validators.ge(1)
+    )
+
     def open(
         self,
         world: World,
@@ -29,5 +33,7 @@ class Planar(Simulator):
         levels: Int16 | None = None,
     ) -> Simulation:
         """Place the robots. A robot's slip and noise are functions of `seed`, its index and the period alone."""
-        noise = attrs.asdict(self)
-        return PlanarSimulation(WheelNoise(noise, seed), world, fleet, placements, period, movers, levels)
+        noise = attrs.asdict(self, filter=lambda field, _: field.name != "threads")
+        return PlanarSimulation(
+            WheelNoise(noise, seed), world, fleet, placements, period, movers, levels, threads=self.threads
+        )

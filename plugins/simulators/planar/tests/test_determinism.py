@@ -3,7 +3,7 @@ import subprocess
 import sys
 
 SCRIPT = """
-import hashlib, numpy as np
+import hashlib, sys, numpy as np
 from mrpbench_simulators_planar import Planar
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.execution.state import Inputs
@@ -13,7 +13,8 @@ room = World(name="room", levels=(Level(name="L1", walls=[[0, 0, 2, 0], [2, 0, 2
 starts = np.array([[x, y, x + y] for x in (0.4, 1.0, 1.6) for y in (0.4, 1.0, 1.6)])
 random, digest, contacts = np.random.default_rng(7), hashlib.sha256(), 0
 fleet = Fleet(robots=(load_robot("turtlebot3_burger"),) * 9)
-with Planar(slip=0.02, actuation_noise=0.05).open(room, fleet, starts, 11, 0.05, (0.2,)) as simulation:
+planar = Planar(slip=0.02, actuation_noise=0.05, threads=int(sys.argv[1]))
+with planar.open(room, fleet, starts, 11, 0.05, (0.2,)) as simulation:
     for period in range(400):
         movers = np.array([[1 + np.sin(period / 50), 1.3, 0, 0]])
         state = simulation.step(Inputs(twist=random.uniform(-1, 1, (9, 2)), movers=movers))
@@ -26,10 +27,11 @@ print(digest.hexdigest())
 """
 
 
-def test_two_processes_agree_to_the_last_bit():
-    def run():
-        return subprocess.run([sys.executable, "-c", SCRIPT], check=True, capture_output=True, text=True).stdout
+def test_two_processes_agree_to_the_last_bit_with_any_number_of_threads():
+    def run(threads):
+        command = [sys.executable, "-c", SCRIPT, str(threads)]
+        return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
-    first = run()
+    first = run(1)
     assert len(first.strip()) == hashlib.sha256().digest_size * 2
-    assert first == run()
+    assert first == run(3)
