@@ -29,6 +29,7 @@ from mrpbench_core.store.recording import Recording
 from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources
 from mrpbench_core.testing.instances.roadmaps import two_way_grid
 
+reordering = pytest.importorskip("mrpbench_dispatchers_reordering")
 PERIOD = 0.25
 GRID = two_way_grid(3, 5)
 kinds = st.sampled_from(["stop", "slow", "lidar", "silent", "blocked", "out_of_order"])
@@ -143,7 +144,7 @@ def test_only_moves_that_lead_closer_to_a_blocked_place_are_blocked(tail, head, 
     assert found.tolist() == [closer]
 
 
-def finished(run_context, problem, plan, faults, seed):
+def finished(run_context, problem, plan, faults, seed, dispatcher):
     """Execute without physics; whether all arrived, the simulated seconds, and the ending if there were faults."""
     robots = len(problem)
     router = Router(problem, np.full(robots, np.nan), np.full(len(problem.roadmap.edges), np.inf))
@@ -163,7 +164,10 @@ def finished(run_context, problem, plan, faults, seed):
     events = draw_faults(faults, robots, problem.roadmap, names, 3000.0, seed, 0)
     state = FaultState(faults, events, robots)
     loop = ScheduleLoop(
-        Schedule(context, Adg()), DelayStream(Delays(), robots, 0, 0), Recorder(1, PERIOD, lambda chunk: None), state
+        Schedule(context, dispatcher),
+        DelayStream(DELAYS, robots, seed, 0),
+        Recorder(1, PERIOD, lambda chunk: None),
+        state,
     )
     arrived, seconds = loop.run(3000.0)
     return arrived, seconds, loop.ending
@@ -177,14 +181,23 @@ lasting = st.builds(
 passing = st.builds(lambda kind, at: Fault(kind=kind, at=at, lasts=10), kinds, st.floats(0, 20))
 
 
+DELAYS = Delays(p_delay=0.05, max_delay=10)
+DISPATCHERS = [Adg(), reordering.Btpg(lookahead=1, gain=-np.inf), reordering.Gses(lookahead=1, gain=0.001, period=0)]
+
+
 @pytest.mark.parametrize("make", [random_plan, random_plan_with_resources])
-@given(st.integers(0, 2**32), st.lists(lasting | passing, min_size=1, max_size=3), st.integers(0, 99))
-@settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@example(random=0, events=[Fault(kind="out_of_order", at=0.0, lasts=10)], seed=0)  # nothing can be out of order there
-def test_every_robot_ends_in_a_definite_state_before_the_limit(run_context, make, random, events, seed):
+@given(
+    st.integers(0, 2**32),
+    st.lists(lasting | passing, min_size=1, max_size=3),
+    st.integers(0, 99),
+    st.sampled_from(DISPATCHERS),
+)
+@settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@example(0, [Fault(kind="out_of_order", at=0.0, lasts=10)], 0, Adg())  # nothing can be out of order there
+def test_every_robot_ends_in_a_definite_state_before_the_limit(run_context, make, random, events, seed, dispatcher):
     problem, plan = make(np.random.default_rng(random))
     try:
-        arrived, seconds, ending = finished(run_context, problem, plan, Faults(events=tuple(events)), seed)
+        arrived, seconds, ending = finished(run_context, problem, plan, Faults(events=tuple(events)), seed, dispatcher)
     except DispatchError:
         return
     assert seconds < 3000
