@@ -228,13 +228,13 @@ SCENARIO = "version 1\n" + "".join(
 )
 
 
-def aisle(tmp_path, text=AISLE, **changes):
+def aisle(tmp_path, text=AISLE, agents=SCENARIO, **changes):
     """The record and the channels of four robots, one of which stops in the only aisle."""
     (tmp_path / "aisle.map").write_text(text)
-    (tmp_path / "aisle.scen").write_text(SCENARIO.replace("\t5\t", f"\t{len(text.splitlines()) - 4}\t"))
+    (tmp_path / "aisle.scen").write_text(agents.replace("\t5\t", f"\t{len(text.splitlines()) - 4}\t"))
     study = {
         "world": {"plugin": "movingai", "file": str(tmp_path / "aisle.map"), "cell_size": 0.5},
-        "scenario": {"plugin": "movingai", "file": str(tmp_path / "aisle.scen"), "robots": 4},
+        "scenario": {"plugin": "movingai", "file": str(tmp_path / "aisle.scen"), "robots": agents.count("aisle.map")},
         "roadmap": "grid",
         "planner": "prioritized",
         "faults": {"events": [{"kind": "stop", "robot": 0, "at": 9}], "patience": 10},
@@ -269,6 +269,26 @@ def test_a_robot_that_dies_in_the_only_aisle_leaves_all_others_in_a_definite_exp
     kinds = recording.channel("event_kind").tolist()
     assert kinds.count("fault") == 1
     assert kinds.count("not_arrived") == 3
+
+
+HALLS = AISLE.replace("11", "17").replace("...@@@@@...", ".....@@@@@@@.....").replace("." * 11, "." * 17)
+CROSSING = "version 1\n" + "".join(
+    f"0\taisle.map\t17\t5\t{ax}\t{ay}\t{bx}\t{by}\t9\n"
+    for ax, ay, bx, by in [
+        *[(0, 0, 16, 0), (0, 4, 16, 4), (1, 1, 15, 1)],
+        *[(16, 1, 0, 1), (16, 3, 0, 3), (14, 2, 2, 0), (0, 2, 4, 0)],
+    ]
+)
+
+
+def test_reasons_follow_the_order_that_the_dispatcher_has_changed(tmp_path):
+    stop = {"events": [{"kind": "stop", "robot": 1, "at": 5}], "patience": 10}
+    changes = {"dispatcher": {"plugin": "gses", "lookahead": 2}, "planner": "cbs", "execution": "schedule_only"}
+    changes |= {"control_rate": 2, "roadmap": {"plugin": "grid", "cell_size": 0.5}, "faults": stop}
+    record, _ = aisle(tmp_path, HALLS, CROSSING, **changes)
+    first = {"robot_1": "stopped for good at 5.0 s"}
+    waiting = dict.fromkeys(("robot_3", "robot_4", "robot_5"), "waits for robot_1, which stopped for good at 5.0 s")
+    assert record.unarrived == first | waiting
 
 
 ROWS = AISLE.splitlines()
