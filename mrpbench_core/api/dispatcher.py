@@ -1,6 +1,7 @@
 """Contract of the kind *dispatcher*."""
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
@@ -27,6 +28,14 @@ class DispatcherSession(ABC):
         Raises:
             DispatchError: the new plan cannot be released safely from here. The session continues with the old one.
         """
+
+    def waits_for(self, robot: int) -> Sequence[int] | None:  # noqa: ARG002 - for those that know
+        """Return the robots that have to pass before the next move of `robot` is released, as far as the session knows;
+        None = those that come first in the plan.
+
+        Called where an execution ends before all robots have arrived, to explain why.
+        """
+        return None
 
     def copied(self) -> "DispatcherSession | None":
         """Return a session that goes on from here as this one does, neither of them disturbing the other; None = it

@@ -261,11 +261,16 @@ class DependencyGraph:
                 if self.unmet[self.group[move]]:
                     raise DispatchError(
                         f"robot {robot} is already on its way to vertex {self.moves.head[move]}, "
-                        f"where the new plan lets robot {self._blocker(self.group[move])} pass first"
+                        f"where the new plan lets robot {self._blockers(self.group[move])[0]} pass first"
                     )
                 self.frontier[robot] = move + 1
             self._advance(robot)
 
-    def _blocker(self, group: int) -> int:
+    def blockers(self, robot: int) -> list[int]:
+        """The robots for which the first move of a robot that is not released still waits."""
+        move = self.frontier[robot]
+        return self._blockers(self.group[move]) if move < self.last[robot] else []
+
+    def _blockers(self, group: int) -> list[int]:
         waits = (key // self._stride for key, groups in self._waiting.items() if group in groups)
-        return next(waits) % len(self.frontier)
+        return list(dict.fromkeys(row % len(self.frontier) for row in waits))

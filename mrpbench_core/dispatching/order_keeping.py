@@ -95,6 +95,12 @@ class OrderKeepingSession(DispatcherSession):
         self._free = graph.released.copy()
         self._begin_to_release(committed)
 
+    def waits_for(self, robot: int) -> list[int]:
+        """Return the robots that come first in the order in force, of which the dispatcher does not know that they have
+        passed.
+        """
+        return self.graph.blockers(robot)
+
     def _copied(self) -> Self:
         """A copy for `DispatcherSession.copied`; a derived class copies what else it changes in place."""
         found = copy.copy(self)

@@ -119,6 +119,15 @@ class ContractChecks:
         self._released = orders.released
         return orders
 
+    def waits_for(self, robots: Sequence[int] | None) -> list[int] | None:
+        """Check the robots for which a robot waits, as a dispatcher names them."""
+        if robots is None:
+            return None
+        found = [int(robot) for robot in robots]
+        if any(not 0 <= robot < self._robots for robot in found):
+            _refuse("the dispatcher", f"robots {found} for which a robot waits, and not all of them exist")
+        return found
+
     def repeated(self, orders: RepeatedOrders, executions: int) -> RepeatedOrders:
         """Check the orders for several executions that a dispatcher returns."""
         kind = "the dispatcher"

@@ -79,7 +79,7 @@ class ExecutionLoop:
         sets = Feature.GOAL_SETS in inputs.replanner.supports
         self._visits = Visits(context.problem, plan, inputs.goal_tolerance)
         self._reactions = Reactions(inputs.faults, robots, inputs.replanner.yaw, sets)
-        self._standstill = Standstill(_patience(inputs))
+        self._standstill = Standstill(_patience(inputs), len(inputs.replanner.problem))
         self._given_routes = given.routes
         self._returned = self._orders = self._given_orders = Orders(released=np.zeros(robots, "i4"))
         self._motion = Motion(
@@ -258,8 +258,8 @@ class ExecutionLoop:
         counts = (int(count.sum()) for count in (motion.reached, motion.cleared, self._orders.released))
         progress = (*counts, self._now if busy else None, tuple(round(at, 2) for at in state.facilities.values()))
         plans = inputs.replanner.pending is not None and not inputs.replanner.failing
-        may_end = inputs.faults.final and not plans and not inputs.delays.stopped.any()
-        return self._standstill.update(self._now, progress, may_end)
+        may_end = inputs.faults.final and not plans
+        return self._standstill.update(self._now, progress, may_end, inputs.delays.stopped)
 
     def _unarrived(self) -> dict[int, str]:
         """Why each robot did not arrive."""
@@ -279,6 +279,7 @@ class ExecutionLoop:
             gave_up={robot: self._causes.get(robot, "") for robot in gave_up},
             given_up=set(np.flatnonzero(self._reactions.given_up).tolist()),
             cut_off=set(np.flatnonzero(self._reactions.cut_off).tolist()),
+            come_first=lambda robot: self._checks.waits_for(self._dispatcher.waits_for(robot)),
         ).reasons()
 
     def _record(self, observation: FleetObservation, last: bool) -> None:

@@ -58,7 +58,7 @@ class ScheduleLoop:
         context = schedule.context
         self._schedule = schedule
         self._faults = faults or FaultState(Faults(), (), len(context.problem))
-        self._standstill = Standstill(self._faults.settings.patience)
+        self._standstill = Standstill(self._faults.settings.patience, len(context.problem))
         self._period, self._delays, self._recorder = context.period, delays, recorder
         self._session, self._checks, self._paths = schedule.session(), schedule.checks(), schedule.paths
         self._resources = _Resources(context.problem)
@@ -131,7 +131,7 @@ class ScheduleLoop:
         if not self._faults:
             return False
         progress = (int(self._reached.sum()), float(self._done.sum()), int(self._orders.released.sum()))
-        return self._standstill.update(now, progress, self._faults.final and not self._delays.stopped.any())
+        return self._standstill.update(now, progress, self._faults.final, self._delays.stopped)
 
     def _ending(self, arrived: Bool, pose: Float) -> Ending | None:
         """The fleet at the end, if there are faults."""
@@ -149,6 +149,7 @@ class ScheduleLoop:
             holders=self._resources.holders,
             arrived=arrived,
             gave_up={},
+            come_first=lambda robot: self._checks.waits_for(self._session.waits_for(robot)),
         )
 
     def _speed(self) -> Float:

@@ -1,7 +1,7 @@
 """Tells when an execution with a lasting fault is over, and why each robot did not arrive."""
 
 import math
-from collections.abc import Collection, Hashable, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 
 import attrs
 import numpy as np
@@ -17,19 +17,31 @@ from mrpbench_core.model.planning.problem import Problem
 
 
 class Standstill:
-    """Notices that nothing goes on; `patience` in simulated seconds without any progress."""
+    """Notices that nothing goes on.
 
-    def __init__(self, patience: float) -> None:
+    Args:
+        patience: simulated seconds without any progress, of which those do not count in which a robot stops because of
+            `delays`.
+        robots: their number.
+    """
+
+    def __init__(self, patience: float, robots: int) -> None:
         self._patience = patience
         self._last: Hashable = None
-        self.since = 0.0
-        """Simulated seconds since which there was no progress."""
+        self._now = 0.0
+        self._free: Float = np.zeros(robots)
+        """Seconds f8[n] since the last progress in which each robot did not stop."""
 
-    def update(self, now: float, progress: Hashable, may_end: bool) -> bool:
-        """Tell whether the execution is over: `progress` did not change, and `may_end` held, for long enough."""
+    def update(self, now: float, progress: Hashable, may_end: bool, stopped: Bool) -> bool:
+        """Tell whether the execution is over: `progress` did not change, and `may_end` held, for long enough.
+
+        `stopped` bool[n]: the robots that stop, though not for good.
+        """
+        self._free = self._free + np.where(stopped, 0.0, now - self._now)
+        self._now = now
         if progress != self._last or not may_end:
-            self._last, self.since = progress, now
-        return now - self.since >= self._patience - 1e-9
+            self._last, self._free = progress, np.zeros_like(self._free)
+        return bool((self._free >= self._patience - 1e-9).all())
 
 
 @attrs.frozen(kw_only=True)
@@ -57,6 +69,8 @@ class Ending:
     """Robots whose tasks are given up."""
     cut_off: Collection[int] = ()
     """Robots to whose goals no way is left."""
+    come_first: Callable[[int], Sequence[int] | None]
+    """The robots that have to pass before a robot by the order in force; None = those that come first in the plan."""
     dependencies: Dependencies = attrs.field(
         default=attrs.Factory(lambda self: Dependencies(self.problem, self.plan), takes_self=True)
     )
@@ -132,8 +146,10 @@ class Ending:
             gap = point_segment_distance(self.pose[:, :2], *ends)
             near = gap < self.problem.radius + self.problem.radius[robot]
             found += np.flatnonzero(near)[np.argsort(gap[near], kind="stable")].tolist()
+        first = self.come_first(robot)
+        found += first or []
         graph = self.dependencies
-        if (move := graph.next_move(robot, int(self.orders.released[robot]))) is not None:
+        if first is None and (move := graph.next_move(robot, int(self.orders.released[robot]))) is not None:
             for other, needed, reached in graph.of(move):
                 known = self.faults.told or self.motion
                 done = known.reached if reached else known.cleared

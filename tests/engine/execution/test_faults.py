@@ -29,6 +29,7 @@ from mrpbench_core.store.recording import Recording
 from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources
 from mrpbench_core.testing.instances.roadmaps import two_way_grid
 
+reordering = pytest.importorskip("mrpbench_dispatchers_reordering")
 PERIOD = 0.25
 GRID = two_way_grid(3, 5)
 kinds = st.sampled_from(["stop", "slow", "lidar", "silent", "blocked", "out_of_order"])
@@ -143,7 +144,7 @@ def test_only_moves_that_lead_closer_to_a_blocked_place_are_blocked(tail, head, 
     assert found.tolist() == [closer]
 
 
-def finished(run_context, problem, plan, faults, seed):
+def finished(run_context, problem, plan, faults, seed, dispatcher):
     """Execute without physics; whether all arrived, the simulated seconds, and the ending if there were faults."""
     robots = len(problem)
     router = Router(problem, np.full(robots, np.nan), np.full(len(problem.roadmap.edges), np.inf))
@@ -163,7 +164,10 @@ def finished(run_context, problem, plan, faults, seed):
     events = draw_faults(faults, robots, problem.roadmap, names, 3000.0, seed, 0)
     state = FaultState(faults, events, robots)
     loop = ScheduleLoop(
-        Schedule(context, Adg()), DelayStream(Delays(), robots, 0, 0), Recorder(1, PERIOD, lambda chunk: None), state
+        Schedule(context, dispatcher),
+        DelayStream(DELAYS, robots, seed, 0),
+        Recorder(1, PERIOD, lambda chunk: None),
+        state,
     )
     arrived, seconds = loop.run(3000.0)
     return arrived, seconds, loop.ending
@@ -177,14 +181,23 @@ lasting = st.builds(
 passing = st.builds(lambda kind, at: Fault(kind=kind, at=at, lasts=10), kinds, st.floats(0, 20))
 
 
+DELAYS = Delays(p_delay=0.05, max_delay=10)
+DISPATCHERS = [Adg(), reordering.Btpg(lookahead=1, gain=-np.inf), reordering.Gses(lookahead=1, gain=0.001, period=0)]
+
+
 @pytest.mark.parametrize("make", [random_plan, random_plan_with_resources])
-@given(st.integers(0, 2**32), st.lists(lasting | passing, min_size=1, max_size=3), st.integers(0, 99))
-@settings(max_examples=12, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@example(random=0, events=[Fault(kind="out_of_order", at=0.0, lasts=10)], seed=0)  # nothing can be out of order there
-def test_every_robot_ends_in_a_definite_state_before_the_limit(run_context, make, random, events, seed):
+@given(
+    st.integers(0, 2**32),
+    st.lists(lasting | passing, min_size=1, max_size=3),
+    st.integers(0, 99),
+    st.sampled_from(DISPATCHERS),
+)
+@settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@example(0, [Fault(kind="out_of_order", at=0.0, lasts=10)], 0, Adg())  # nothing can be out of order there
+def test_every_robot_ends_in_a_definite_state_before_the_limit(run_context, make, random, events, seed, dispatcher):
     problem, plan = make(np.random.default_rng(random))
     try:
-        arrived, seconds, ending = finished(run_context, problem, plan, Faults(events=tuple(events)), seed)
+        arrived, seconds, ending = finished(run_context, problem, plan, Faults(events=tuple(events)), seed, dispatcher)
     except DispatchError:
         return
     assert seconds < 3000
@@ -215,13 +228,13 @@ SCENARIO = "version 1\n" + "".join(
 )
 
 
-def aisle(tmp_path, text=AISLE, **changes):
+def aisle(tmp_path, text=AISLE, agents=SCENARIO, **changes):
     """The record and the channels of four robots, one of which stops in the only aisle."""
     (tmp_path / "aisle.map").write_text(text)
-    (tmp_path / "aisle.scen").write_text(SCENARIO.replace("\t5\t", f"\t{len(text.splitlines()) - 4}\t"))
+    (tmp_path / "aisle.scen").write_text(agents.replace("\t5\t", f"\t{len(text.splitlines()) - 4}\t"))
     study = {
         "world": {"plugin": "movingai", "file": str(tmp_path / "aisle.map"), "cell_size": 0.5},
-        "scenario": {"plugin": "movingai", "file": str(tmp_path / "aisle.scen"), "robots": 4},
+        "scenario": {"plugin": "movingai", "file": str(tmp_path / "aisle.scen"), "robots": agents.count("aisle.map")},
         "roadmap": "grid",
         "planner": "prioritized",
         "faults": {"events": [{"kind": "stop", "robot": 0, "at": 9}], "patience": 10},
@@ -256,6 +269,26 @@ def test_a_robot_that_dies_in_the_only_aisle_leaves_all_others_in_a_definite_exp
     kinds = recording.channel("event_kind").tolist()
     assert kinds.count("fault") == 1
     assert kinds.count("not_arrived") == 3
+
+
+HALLS = AISLE.replace("11", "17").replace("...@@@@@...", ".....@@@@@@@.....").replace("." * 11, "." * 17)
+CROSSING = "version 1\n" + "".join(
+    f"0\taisle.map\t17\t5\t{ax}\t{ay}\t{bx}\t{by}\t9\n"
+    for ax, ay, bx, by in [
+        *[(0, 0, 16, 0), (0, 4, 16, 4), (1, 1, 15, 1)],
+        *[(16, 1, 0, 1), (16, 3, 0, 3), (14, 2, 2, 0), (0, 2, 4, 0)],
+    ]
+)
+
+
+def test_reasons_follow_the_order_that_the_dispatcher_has_changed(tmp_path):
+    stop = {"events": [{"kind": "stop", "robot": 1, "at": 5}], "patience": 10}
+    changes = {"dispatcher": {"plugin": "gses", "lookahead": 2}, "planner": "cbs", "execution": "schedule_only"}
+    changes |= {"control_rate": 2, "roadmap": {"plugin": "grid", "cell_size": 0.5}, "faults": stop}
+    record, _ = aisle(tmp_path, HALLS, CROSSING, **changes)
+    first = {"robot_1": "stopped for good at 5.0 s"}
+    waiting = dict.fromkeys(("robot_3", "robot_4", "robot_5"), "waits for robot_1, which stopped for good at 5.0 s")
+    assert record.unarrived == first | waiting
 
 
 ROWS = AISLE.splitlines()
