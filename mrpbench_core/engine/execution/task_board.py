@@ -29,16 +29,25 @@ class Job:
     task: Task
     yaws: tuple[Mapping[int, float], ...]
     """For each errand the radians wanted at each vertex that will do, NaN = any."""
-    places: tuple[GoalSet, ...] = attrs.field(
-        init=False, default=attrs.Factory(lambda self: tuple(map(tuple, self.yaws)), takes_self=True)
-    )
+    places: tuple[GoalSet, ...] = attrs.field(init=False)
     """Vertices of each errand, of which any will do."""
+    rests: tuple[bool, ...] = attrs.field(init=False)
+    """For each errand whether its robot has to rest there, for a service time or a yaw."""
     robot: int = -1
     errand: int = 0
     """The errand that comes next."""
     begun: bool = False
     since: float = math.nan
     """Simulated seconds since which its robot rests at the errand; NaN = it does not."""
+
+    @places.default
+    def _places(self) -> tuple[GoalSet, ...]:
+        return tuple(map(tuple, self.yaws))
+
+    @rests.default
+    def _rests(self) -> tuple[bool, ...]:
+        wanted = (not all(map(math.isnan, errand.values())) for errand in self.yaws)
+        return tuple(seconds > 0 or yaw for seconds, yaw in zip(self.task.service.tolist(), wanted, strict=True))
 
 
 class TaskBoard:

@@ -274,11 +274,7 @@ class TaskManager:
         self._planned_at = now
         ahead = [self._ahead(robot) for robot in self._robots]
         self._planned.ask([_names(way) for way in ahead])
-        ways = [
-            self._costs.nearest_first(way, int(self._head[way[0].robot]))
-            for way, stays in zip(ahead, held.tolist(), strict=True)
-            if way and not stays
-        ]
+        ways = [self._nearest_first(robot, ahead[robot]) for robot in np.flatnonzero(~held).tolist() if ahead[robot]]
         if restricted.roadmap is not self._roadmap:
             ways = [[*takewhile(lambda it: it.yaws, (self._within(restricted, it) for it in way))] for way in ways]
         resting: list[list[Errand]] = []
@@ -304,17 +300,19 @@ class TaskManager:
         """Note that no plan to the last goals takes effect."""
         self._failures += 1
 
-    def _ahead(self, robot: int) -> list[Errand]:
+    def _ahead(self, robot: int) -> list[tuple[Job, int]]:
         """The errands to which a plan leads a robot: the next one and, if it need not rest there, those after it."""
-        ahead: list[Errand] = []
+        ahead: list[tuple[Job, int]] = []
         for job in self._board.queue(robot):
             for number in range(job.errand, len(job.places)):
-                yaws = job.yaws[number]
-                ahead.append(Errand(robot, job.task.index, number, yaws))
-                rests = job.task.service[number] > 0 or not all(map(math.isnan, yaws.values()))
-                if rests or not self._sequences or robot in self._missed:
+                ahead.append((job, number))
+                if job.rests[number] or not self._sequences or robot in self._missed:
                     return ahead
         return ahead
+
+    def _nearest_first(self, robot: int, ahead: Sequence[tuple[Job, int]]) -> list[Errand]:
+        errands = (Errand(robot, job.task.index, number, job.yaws[number]) for job, number in ahead)
+        return self._costs.nearest_first(errands, int(self._head[robot]))
 
     def _within(self, restricted: Problem, errand: Errand) -> Errand:
         """Leave out places that the robot cannot reach in a problem."""
@@ -332,8 +330,8 @@ def _flat(goals: Sequence[GoalSet]) -> tuple[Int, list[int]]:
     return np.array([vertex for goal in goals for vertex in goal], np.int64), (np.cumsum(sizes) - sizes).tolist()
 
 
-def _names(way: Sequence[Errand]) -> Errands:
-    return tuple((errand.task, errand.number) for errand in way)
+def _names(ahead: Sequence[tuple[Job, int]]) -> Errands:
+    return tuple((job.task.index, number) for job, number in ahead)
 
 
 def _service(job: Job, now: float) -> float:

@@ -63,6 +63,21 @@ def test_tasks_are_those_of_the_moment_also_backwards(show, tasks, ask):
     assert rows == ["refused after 3 s", "done after 3 s"]
 
 
+def test_an_errand_with_several_places_shows_all_of_them(show, tasks, ask):
+    tasks["errand_number"] = np.array([0, 0, 0], "i4")
+    tasks["task_errand"] = np.where(tasks["task_event"] == "errand", 0, -1).astype("i4")
+    browser = show(tasks)
+    browser.find_element("id", "tab-tasks").click()
+    browser.execute_script("replay.clock.seek(0.7)")
+    assert ask("replay.run.tasks.places({ index: 0, errand: 0 })") == [0, 1]
+    assert ask("replay.run.tasks.errandsOf(0)") == 1
+    rows = ask("[...document.querySelectorAll('#task-list .what')].map((row) => row.textContent)")
+    assert rows == ["waits at 1.50, 0.50 m or east", "waits at west"]
+    end = ask("replay.run.routeX[replay.run.routeFirst[1] - 1]")
+    place = ask("replay.run.tasks.goal(0)")
+    assert abs((1.5, 2.5)[place] - end) == min(abs(1.5 - end), abs(2.5 - end))
+
+
 def test_a_run_without_tasks_has_no_tab_of_tasks(show, chunk):
     assert not show(chunk).find_element("id", "tab-tasks").is_displayed()
 

@@ -122,6 +122,7 @@ def test_all_planners_of_a_study_meet_the_same_tasks(tmp_path):
         ({"tasks": {"plugin": "poisson", "rate": 1}}, "needs tasks from the start on"),
         ({"tasks": {"plugin": "closed_pool", "total": 9}}, "needs a pool without end"),
         ({"tasks": {"plugin": "closed_pool", "service": 1}}, "take no service time"),
+        ({"tasks": {"plugin": "closed_pool", "places_per_errand": 2}}, "have one place each"),
         ({"tasks": "none"}, "needs a task source"),
         ({"delays": {"p_delay": 0.1}}, "means nothing with league, which counts steps"),
         ({"limits": {"execution": 0.5}}, "are 0 steps of 1 s"),
