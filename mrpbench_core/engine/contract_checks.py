@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.checking.recording import LARGEST
 from mrpbench_core.engine.own import own
 from mrpbench_core.model.common.arrays import Int, Int32
 from mrpbench_core.model.execution.motion import Mode, Motion
@@ -113,6 +114,8 @@ class ContractChecks:
         if len(orders.speed):
             self._one_each(kind, "speed", orders.speed)
             self._no_robot(kind, "a speed that is not above 0", ~(orders.speed > 0))
+        if orders.in_step and not self._exist(orders.in_step):
+            _refuse(kind, "a group of robots or segments that do not exist")
         if self._limits_speed not in (None, bool(len(orders.speed))):
             _refuse(kind, "speeds at some times and none at others")
         self._limits_speed = bool(len(orders.speed))
@@ -160,12 +163,23 @@ class ContractChecks:
         self._no_robot(kind, "a mode that does not exist", motion.mode > _LAST_MODE)
         return motion
 
+    def _exist(self, groups: Any) -> bool:
+        """Tell whether the robots and segments of groups that rotate exist."""
+        try:
+            robot, segment = np.array([member for group in groups for member in group], np.int64).reshape(-1, 2).T
+        except (TypeError, ValueError):
+            return False
+        here = (robot >= 0) & (robot < self._robots)
+        return bool(here.all() and ((segment >= 0) & (segment < self.length[robot])).all())
+
     def _finite(self, kind: str, name: str, values: NDArray[Any]) -> None:
         if len(values) != self._robots:
             _refuse(kind, f"{name} of {len(values)} robots instead of {self._robots}")
-        if np.count_nonzero(np.isfinite(values)) < values.size:  # several times as fast as `all`, here and below
-            robot = int(np.flatnonzero(~np.isfinite(values).all(axis=1))[0])
-            _refuse(kind, f"for robot {robot} the {name} {values[robot].tolist()}, which is not finite")
+        sound = np.abs(values) <= LARGEST
+        if np.count_nonzero(sound) < values.size:  # several times as fast as `all`, here and below
+            robot = int(np.flatnonzero(~sound.all(axis=1))[0])
+            fault = "too large" if np.isfinite(values[robot]).all() else "not finite"
+            _refuse(kind, f"for robot {robot} the {name} {values[robot].tolist()}, which is {fault}")
 
     def _one_each(self, kind: str, name: str, values: NDArray[Any]) -> None:
         if values.shape != (self._robots,):

@@ -41,7 +41,8 @@ def test_what_keeps_the_contract_goes_through_as_a_copy():
     ("changes", "message"),
     [
         ({"pose": np.zeros((1, 3))}, "pose of 1 robots instead of 2"),
-        ({"pose": [[0, 0, 0], [0, np.nan, 0]]}, "for robot 1 the pose"),
+        ({"pose": [[0, 0, 0], [0, np.nan, 0]]}, "for robot 1 the pose .* not finite"),
+        ({"pose": [[0, 0, 0], [0, 1e12, 0]]}, "for robot 1 the pose .* too large"),
         ({"twist": np.full((2, 2), np.inf)}, "for robot 0 the twist"),
         ({"level": [0]}, r"level of shape \(1,\) for 2 robots"),
         ({"contacts": [[0, 2]]}, "contacts"),
@@ -89,6 +90,13 @@ def test_wrong_speeds_are_refused(speed, message):
     checked.orders(Orders(released=[1, 1], speed=[0.1, np.inf]))
     with pytest.raises(BrokenContractError, match=f"the dispatcher returned .*{message}"):
         checked.orders(Orders(released=[1, 1], speed=speed))
+
+
+@pytest.mark.parametrize("group", [(0, 1, 2), ((2, 0),), ((0, 2),), ((-1, 0),), ((0, "a"),)])
+def test_groups_of_what_does_not_exist_are_refused(group):
+    checks().orders(Orders(released=[2, 1], in_step=(((0, 1), (1, 0)),)))
+    with pytest.raises(BrokenContractError, match="the dispatcher returned a group"):
+        checks().orders(Orders(released=[2, 1], in_step=(((0, 1), (1, 0)), group)))
 
 
 def test_released_segments_are_not_taken_back():

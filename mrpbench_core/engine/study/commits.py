@@ -3,6 +3,7 @@
 A disk takes milliseconds to confirm, so a thread of its own stores records: as many at once as came in the meantime.
 """
 
+import shutil
 from collections.abc import Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any
@@ -94,5 +95,7 @@ class Commits:
                 self.folder.forget(point.run_id, attempt)
         record = complete_record(point, attempt, outcome, self.workers, self.invocation)
         if outcome.record is None:
-            record.run.files = seal(self.folder.run(point.run_id, attempt))
+            paths = self.folder.run(point.run_id, attempt)
+            shutil.rmtree(paths.exports, ignore_errors=True)  # their sums may be what took too long
+            record.run.files = seal(paths)
         return record.document()

@@ -24,11 +24,11 @@ def markdown(tables: Sequence[Table]) -> str:
     parts = []
     for table in tables:
         rows = [[_markdown(cell) for cell in row] for row in table.rows]
-        lines = [f"## {table.title}", ""]
+        lines = [f"## {_markdown(table.title)}", ""]
         lines += [f"| {' | '.join(map(_markdown, table.headings))} |"]
         lines += ["|" + "|".join("---" if index < table.keys else "---:" for index in range(len(table.headings))) + "|"]
         lines += [f"| {' | '.join(row)} |" for row in rows]
-        parts.append("\n".join([*lines, "", table.note, ""]))
+        parts.append("\n".join([*lines, "", _markdown(table.note), ""]))
     return "\n".join(parts)
 
 

@@ -1,8 +1,11 @@
 """A value that cannot be measured is null with a reason, never 0."""
 
+from operator import attrgetter
+
 import attrs
 import numpy as np
 import pytest
+from mrpbench_metrics_standard.planning import Planning
 
 from mrpbench_core.api import Column, Metric
 from mrpbench_core.engine.stages.measure import measure
@@ -35,6 +38,22 @@ def test_values_are_named_after_metric_and_column_and_nan_is_null(run_context):
     values, reasons = measure(METRICS, run)
     assert values == {"length.length_s": 2.0, "length.odd": None, "plan.length_s": 1.0, "plan.odd": None}
     assert reasons.keys() == {"length.odd", "plan.odd"}
+
+
+def test_a_metric_of_others_cannot_change_what_those_of_this_project_call(run_context, monkeypatch):
+    @attrs.frozen(kw_only=True)
+    class Patches(NeedsPlan):
+        def measure(self, run):
+            monkeypatch.setattr(
+                Planning, "measure", lambda self, run: dict.fromkeys(map(attrgetter("name"), self.columns), 0)
+            )
+            return {"length_s": 1.0, "odd": 1.0}
+
+    run = FinishedRun(context=run_context, executed=False)
+    honest, _ = measure({"planning": Planning()}, run)
+    values, _ = measure({"patches": Patches(), "planning": Planning()}, run)
+    assert values == honest | {"patches.length_s": 1.0, "patches.odd": 1.0}
+    assert Planning().measure(run)["solved"] == 0
 
 
 def test_a_metric_without_its_channel_gives_null_and_the_reason(run_context):

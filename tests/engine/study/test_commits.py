@@ -75,6 +75,9 @@ class Later:
 def test_a_run_that_was_ended_while_it_was_measured_keeps_its_recording_and_others_keep_none(commits, folder):
     for run_id, stage in (("a", Stage.METRICS), ("b", Stage.EXECUTION)):
         folder.run(run_id).recording.write_bytes(b"recording")
+        folder.run(run_id).exports.mkdir()
+        with (folder.run(run_id).exports / "bag").open("wb") as sparse:
+            sparse.truncate(2**42)  # whose sum takes hours
         failure = Failure(status=RunStatus.WALL_TIMEOUT, stage=stage, message="late", seconds=1.0)
         commits.add([ended(run_id, failure=failure)])
     commits.close()
@@ -82,6 +85,7 @@ def test_a_run_that_was_ended_while_it_was_measured_keeps_its_recording_and_othe
     assert [line.split("  ")[1] for line in files["a"]] == ["recordings/a.zip", "invocations/1.yaml"]
     assert [line.split("  ")[1] for line in files["b"]] == ["invocations/1.yaml"]
     assert not folder.run("b").recording.exists()
+    assert not folder.run("a").exports.exists()
 
 
 def test_a_full_disk_is_one_line_and_keeps_the_records_before(commits, folder):
