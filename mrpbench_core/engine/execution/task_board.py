@@ -27,6 +27,8 @@ class Job:
     task: Task
     vertices: tuple[int, ...]
     """Roadmap vertex of each errand."""
+    length: tuple[float, ...] = ()
+    """Seconds from the first errand to the end, for each motion profile."""
     robot: int = -1
     errand: int = 0
     """The errand that comes next."""
@@ -43,14 +45,16 @@ class TaskBoard:
         """By index, in the order of their release."""
         self.queues: list[list[int]] = [[] for _ in range(robots)]
         """For each robot the tasks to do, in order; only the first may have begun."""
+        self.resting: set[int] = set()
+        """All robots that rest at their errands, and perhaps others."""
         self.finished = 0
         """Tasks that are done or given up, or that no robot can do."""
         self.events: list[TaskEvent] = []
         """What happened since the recorder took the events."""
 
-    def release(self, now: float, task: Task, vertices: tuple[int, ...]) -> None:
+    def release(self, now: float, task: Task, vertices: tuple[int, ...], length: tuple[float, ...] = ()) -> None:
         """Take a task in."""
-        self.jobs[task.index] = Job(task, vertices)
+        self.jobs[task.index] = Job(task, vertices, length)
         self._note(now, task.index, "released")
 
     def refuse(self, now: float, task: Task) -> None:
@@ -106,11 +110,12 @@ class TaskBoard:
             self._note(now, index, "begun", robot)
         if math.isnan(job.since):
             job.since = now
+            self.resting.add(robot)
         if now - job.since < job.task.service[job.errand] - 1e-9:
             return False
         self._note(now, index, "errand", robot, job.errand)
         job.errand += 1
-        job.since = math.nan
+        self._leave(robot, job)
         if job.errand == len(job.vertices):
             self._note(now, index, "done", robot)
             self.finished += 1
@@ -129,7 +134,11 @@ class TaskBoard:
     def leave(self, robot: int) -> None:
         """Note that a robot does not rest at its errand; a service that was interrupted begins again."""
         if (job := self.current(robot)) is not None:
-            job.since = math.nan
+            self._leave(robot, job)
+
+    def _leave(self, robot: int, job: Job) -> None:
+        job.since = math.nan
+        self.resting.discard(robot)
 
     def _note(self, now: float, task: int, kind: str, robot: int = -1, errand: int = -1) -> None:
         self.events.append(TaskEvent(now, task, kind, robot, errand))

@@ -62,7 +62,10 @@ class TaskManager:
         sequences: bool = False,
     ) -> None:
         self._stream, self._assigner, self._costs, self._places = stream, assigner, costs, places
-        self._roadmap, self._start = problem.roadmap, problem.start
+        self._roadmap = problem.roadmap
+        starts = zip(costs.profile.tolist(), problem.start.tolist(), strict=True)
+        self._components = {(profile, costs.labels[profile][start]) for profile, start in starts}
+        """Motion profiles, each with the label of the vertices that some of its robots can reach."""
         self._recorder, self._interval = recorder, interval
         self._robots = range(len(problem))
         self._board = TaskBoard(len(problem))
@@ -73,6 +76,8 @@ class TaskManager:
         """Tasks or robots have changed since the last assignment."""
         self._sequences = sequences
         self._planned = PlannedErrands(len(problem))
+        self._ways: dict[int, tuple[tuple[int, ...], list[Errand], Errands]] = {}
+        """By robot: what its errands ahead depend on, these, and their names."""
         self._missed: set[int] = set()
         """Robots that came to rest without having visited all goals of their paths; they stop at the next one."""
         self._held_back = False
@@ -131,13 +136,14 @@ class TaskManager:
         if not len(task.goals) == len(task.levels) == len(task.service) > 0:
             raise BrokenContractError(f"the task source gave task {task.index} without a level or service per goal")
         vertices = tuple(int(vertex) for vertex in self._roadmap.locate(task.goals[:, :2], task.levels))
-        labels = [self._costs.labels[int(profile)] for profile in self._costs.profile]
         able = min(vertices) >= 0 and any(
-            all(label[vertex] == label[start] for vertex in vertices)
-            for label, start in zip(labels, self._start.tolist(), strict=True)
+            all(self._costs.labels[profile][vertex] == label for vertex in vertices)
+            for profile, label in self._components
         )
         if able:
-            self._board.release(now, task, vertices)
+            service = task.service.sum()
+            along = (self._costs.along(profile, vertices) for profile in range(len(self._costs.labels)))
+            self._board.release(now, task, vertices, tuple(seconds + service for seconds in along))
             self._unassigned = True
         else:
             self._board.refuse(now, task)
@@ -155,7 +161,7 @@ class TaskManager:
                 errand, job = self._planned.visit(robot), self._board.current(robot)
                 if job is not None and (job.task.index, job.errand) == errand:
                     self._rest(now, robot, job)
-        for robot in self._robots:
+        for robot in sorted(self._board.resting.union(np.flatnonzero(arrived).tolist())):
             job = self._board.current(robot)
             if job is None:
                 continue
@@ -215,13 +221,18 @@ class TaskManager:
                 free_in[robot] = self._costs.along(profile, ahead) + _service(job, now)
                 place[robot] = job.vertices[-1]
         free_in[self._aborted] = np.inf
-        length = np.array(
-            [[self._costs.along(p, job.vertices) + job.task.service.sum() for job in jobs] for p in profiles]
-        )
-        approach = np.array(
-            [self._costs.seconds(int(p), place[[robot]], first)[0] for robot, p in enumerate(self._costs.profile)]
-        )
-        length = length[self._costs.profile]
+        lengths = np.array([job.length for job in jobs]).T
+        approach = np.zeros((len(place), len(jobs)))
+        for p in profiles:
+            robots = np.flatnonzero(self._costs.profile == p)
+            if self._assigner.reads_costs:
+                approach[robots] = self._costs.seconds(p, place[robots], first)
+            able = self._costs.joined(p, place[robots], first) & np.isfinite(lengths[p])
+            row, task = np.nonzero(~able)
+            approach[robots[row], task] = np.inf
+        length = lengths[self._costs.profile] if self._assigner.reads_costs else np.zeros((len(place), 1))
+        for values in (approach, length):
+            values.setflags(write=False)  # so that no field copies them
         between: Float = np.empty((0, 0, 0))
         if self._assigner.reads_between:
             between = np.array([self._costs.seconds(p, last, first) for p in profiles])
@@ -230,7 +241,7 @@ class TaskManager:
             tasks=tuple(job.task for job in jobs),
             queues=tuple(tuple(column[index] for index in queue if index in column) for queue in self._board.queues),
             free_in=free_in,
-            approach=np.where(np.isfinite(length), approach, np.inf),
+            approach=approach,
             length=length,
             between=between,
             profile=self._costs.profile.astype(np.int32),
@@ -244,7 +255,7 @@ class TaskManager:
         """Return why a new plan is needed now, or None: some robot's errand is not the one of its path."""
         if now < self._planned_at + self._interval - 1e-9:
             return None
-        wanted = [_names(self._ahead(robot)) for robot in self._robots]
+        wanted = [self._way(robot)[1] for robot in self._robots]
         other = self._planned.others(wanted)
         if not other and not self._held_back:
             return None
@@ -264,9 +275,9 @@ class TaskManager:
         many robots are sent to errands, others each time, until a plan is found.
         """
         self._planned_at = now
-        ahead = [self._ahead(robot) for robot in self._robots]
-        self._planned.ask([_names(way) for way in ahead])
-        ways = [way for way, stays in zip(ahead, held.tolist(), strict=True) if not stays]
+        ahead = [self._way(robot) for robot in self._robots]
+        self._planned.ask([names for _, names in ahead])
+        ways = [way for (way, _), stays in zip(ahead, held.tolist(), strict=True) if not stays]
         if restricted.roadmap is not self._roadmap:
             ways = [
                 list(takewhile(lambda it: reaches(restricted, it.robot, int(self._head[it.robot]), (it.vertex,)), way))
@@ -292,6 +303,18 @@ class TaskManager:
         """Note that no plan to the last goals takes effect."""
         self._failures += 1
 
+    def _way(self, robot: int) -> tuple[list[Errand], Errands]:
+        """The errands ahead of a robot, and their names."""
+        job = self._board.current(robot)
+        if job is None:
+            return [], ()
+        depends_on = (*self._board.queues[robot], job.errand, robot in self._missed)
+        known = self._ways.get(robot)
+        if known is None or known[0] != depends_on:
+            ahead = self._ahead(robot)
+            known = self._ways[robot] = depends_on, ahead, tuple((errand.task, errand.number) for errand in ahead)
+        return known[1:]
+
     def _ahead(self, robot: int) -> list[Errand]:
         """The errands to which a plan leads a robot: the next one and, if it need not rest there, those after it."""
         ahead: list[Errand] = []
@@ -307,10 +330,6 @@ class TaskManager:
     def _is_done(self, errand: tuple[int, int]) -> bool:
         job = self._board.jobs.get(errand[0])
         return job is None or job.errand > errand[1]
-
-
-def _names(way: Sequence[Errand]) -> Errands:
-    return tuple((errand.task, errand.number) for errand in way)
 
 
 def _service(job: Job, now: float) -> float:

@@ -1,0 +1,75 @@
+"""Many tasks in flat arrays."""
+
+from collections.abc import Sequence
+from functools import cached_property
+from itertools import pairwise
+from typing import overload
+
+import attrs
+import numpy as np
+
+from mrpbench_core.model.common.arrays import Float, Int, Int16, array
+from mrpbench_core.model.planning.scenario import Task
+
+
+@attrs.frozen(kw_only=True)
+class Tasks(Sequence[Task]):
+    """Tasks in flat arrays, which are copied and compared as a whole; items are made when asked for."""
+
+    first: Int = array("i8")
+    """i8[m+1]: the errands of task i are `first[i]:first[i + 1]`."""
+    goals: Float = array("f8", 3)
+    """f8[k,3] as in `Task`, like the other columns."""
+    levels: Int16 = array("i2")
+    service: Float = array("f8")
+    name: tuple[str, ...]
+    release: Float = array("f8")
+    """f8[m] as in `Task`, like the other columns."""
+    deadline: Float = array("f8")
+    priority: tuple[int, ...]
+    index: Int = array("i8")
+
+    @classmethod
+    def of(cls, tasks: Sequence[Task]) -> "Tasks":
+        """Join tasks that have as many levels and service times as goals; `Tasks` are returned as they are."""
+        if isinstance(tasks, Tasks):
+            return tasks
+        return cls(
+            first=np.cumsum([0, *(len(task.goals) for task in tasks)]),
+            goals=np.concatenate([np.empty((0, 3)), *(task.goals for task in tasks)]),
+            levels=np.concatenate([np.empty(0, np.int16), *(task.levels for task in tasks)]),
+            service=np.concatenate([np.empty(0), *(task.service for task in tasks)]),
+            name=tuple(task.name for task in tasks),
+            release=np.array([task.release for task in tasks]),
+            deadline=np.array([task.deadline for task in tasks]),
+            priority=tuple(task.priority for task in tasks),
+            index=np.array([task.index for task in tasks], np.int64),
+        )
+
+    def __len__(self) -> int:
+        return len(self.first) - 1
+
+    @overload
+    def __getitem__(self, index: int) -> Task: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Task, ...]: ...
+    def __getitem__(self, index: int | slice) -> Task | tuple[Task, ...]:
+        return self._items[index]
+
+    @cached_property
+    def _items(self) -> tuple[Task, ...]:
+        rows = [slice(*bounds) for bounds in pairwise(self.first.tolist())]
+        columns = self.name, self.release.tolist(), self.deadline.tolist(), self.priority, self.index.tolist()
+        return tuple(
+            Task(
+                goals=self.goals[own],
+                levels=self.levels[own],
+                service=self.service[own],
+                name=name,
+                release=release,
+                deadline=deadline,
+                priority=priority,
+                index=index,
+            )
+            for own, name, release, deadline, priority, index in zip(rows, *columns, strict=True)
+        )
