@@ -18,7 +18,7 @@ class Assigner(Component):
 
     group: ClassVar[str] = "mrpbench.assigners"
     reads_costs: ClassVar[bool] = True
-    """False if the assigner ignores the cost matrix, which is then not computed."""
+    """False if the assigner ignores costs, which are then not computed; see `QueueProblem.approach`."""
     optimal: ClassVar[bool] = False
     """True if it promises the least value of its objective, the sum of costs or what its option `objective` says."""
 

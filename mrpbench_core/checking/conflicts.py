@@ -87,14 +87,13 @@ def _candidates(problem: Problem, occupations: Int) -> Int:
     if Feature.FOOTPRINTS in problem.features or problem.rules.following == "forbidden" or problem.roadmap.resources:
         return occupations
     _, tail, head, begin, end = occupations.T
-    _, element = np.unique(np.sort(np.column_stack([tail, head]), axis=1), axis=0, return_inverse=True)
+    vertices = int(max(tail.max(initial=0), head.max(initial=0))) + 1
+    element = np.minimum(tail, head) * vertices + np.maximum(tail, head)
     order = np.lexsort((end, begin, element))
     before, after = order[:-1], order[1:]  # if any two on an element meet, so do two that follow each other
     meets = (begin[after] < end[before]) | ((tail == head)[after] & (begin[after] == end[before]))
     again = after[meets & (element[before] == element[after])]
-    crowded = np.zeros(len(occupations), bool)
-    crowded[element[again]] = True
-    return occupations[crowded[element]]
+    return occupations[np.isin(element, element[again])]
 
 
 def _pairs(problem: Problem, occupations: list[Occupation]) -> Iterator[Conflict]:

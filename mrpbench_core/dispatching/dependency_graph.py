@@ -27,8 +27,15 @@ class DependencyGraph:
     all of its dependencies are met. A wait is released with the move after it.
     """
 
-    def __init__(self, problem: Problem, plan: Plan, group_margin: float, ahead: int) -> None:
+    def __init__(self, problem: Problem, plan: Plan, group_margin: float, ahead: int, seen: Int) -> None:
         """Prepare the release of a plan in its own order.
+
+        Args:
+            problem: that the plan solves.
+            plan: in whose order moves are released.
+            group_margin: metres beyond their radii that robots of a rotation must keep if they move in step.
+            ahead: segments before a resource at which a robot asks for it.
+            seen: counts i8[2,n] of leading segments that robots have reached, and cleared.
 
         Raises:
             DispatchError: the order has a cycle that is not a rotation, or a rotation without enough room.
@@ -57,15 +64,19 @@ class DependencyGraph:
         sizes = Paths.of(plan.paths).size
         self._stride = int(sizes.max(initial=0)) + 1
         dependencies = np.concatenate([self._dependencies(self.order), self._follows()])
+        keys, waiting = np.divmod(dependencies, max(1, len(moves.robot)))
+        rows, counts = np.divmod(keys, self._stride)
+        open_ = counts > seen.reshape(-1)[rows]
+        keys, waiting = keys[open_], waiting[open_]
+        unmet = np.bincount(waiting, minlength=len(moves.robot))
         # Lists from here on, because they are read one number at a time.
         self.group: list[int] = self.group_of_moves.tolist()
-        keys, waiting = np.divmod(dependencies, max(1, len(moves.robot)))
-        self.unmet: list[int] = np.bincount(waiting, minlength=len(self.group)).tolist()
+        self.unmet: list[int] = unmet.tolist()
         self._waiting: dict[int, list[int]] = {}
         """The groups that wait for a robot to reach or clear a number of segments, by row and number."""
         for key, group in zip(keys.tolist(), waiting.tolist(), strict=True):
             self._waiting.setdefault(key, []).append(group)
-        self._met = [0] * (2 * len(problem))
+        self._met: list[int] = seen.reshape(-1).tolist()
         """The number of segments up to which dependencies are met: rows of REACHED, then those of CLEARED."""
         self.segment: list[int] = moves.segment.tolist()
         self.robot: list[int] = moves.robot.tolist()
@@ -73,12 +84,16 @@ class DependencyGraph:
         self.lengths = sizes.tolist()
         self.rotating = [rotation for first, rotation in self.rotations.items() if not self.unmet[first]]
         """Rotations that are released and not completed."""
-        self.frontier = list(self.first)
+        held = unmet[self.group_of_moves] > 0
+        held[list(self.requests.needs)] = True  # nothing is granted yet
+        at = np.append(np.flatnonzero(held), len(held))
+        frontier = np.minimum(at[np.searchsorted(at, moves.first[:-1])], moves.first[1:])
+        self.frontier: list[int] = frontier.tolist()
         """The first move of each robot that is not released."""
-        self.released: Int32 = np.zeros(len(problem), np.int32)
+        before = np.append(moves.segment, 0)[frontier - 1] + 1
+        released = np.where(frontier == moves.first[:-1], 0, before)
+        self.released: Int32 = np.where(frontier == moves.first[1:], sizes, released).astype(np.int32)
         """i4[n]: number of leading path segments released."""
-        for robot in range(len(problem)):
-            self._advance(robot)
 
     def copied(self) -> "DependencyGraph":
         """A graph that goes on from here by itself."""

@@ -83,8 +83,7 @@ class OrderKeepingSession(DispatcherSession):
             raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
         seen, released = np.maximum(self.seen - gone, 0), self.released - gone
         committed: Int32 = np.maximum(released, problem.committed).astype("i4")
-        graph = DependencyGraph(problem, plan, self.options.group_margin, self.options.request_ahead)
-        graph.update(seen, np.arange(len(problem)))
+        graph = DependencyGraph(problem, plan, self.options.group_margin, self.options.request_ahead, seen)
         graph.commit(committed)
         self.problem, self.plan, self.graph, self.seen = problem, plan, graph, seen
         self._speed: Float = np.zeros(0)

@@ -178,7 +178,7 @@ def _context(
     inputs: RunInputs, run_id: str, instance: RunInstance, router: Router, result: PlanResult, assigned: tuple[int, ...]
 ) -> RunContext:
     """The context of the run before its execution; without a plan there are no routes."""
-    routes = () if result.plan is None else router(result.plan)
+    routes = () if result.plan is None else tuple(router(result.plan))
     return RunContext(
         run_id=run_id,
         world=instance.world,

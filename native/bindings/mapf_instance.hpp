@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "arrays.hpp"
-#include "mrpbench_mapf/model/instance.hpp"
+#include "mrpbench_mapf/single_agent/distance_table.hpp"
 
 namespace mrpbench::bindings {
 
@@ -99,6 +99,23 @@ inline std::vector<mapf::Resource> resources_of(const nb::dict& given) {
                     {element.data() + first.data()[r], element.data() + first.data()[r + 1]}};
   }
   return resources;
+}
+
+/// A roadmap for several instances.
+struct KnownRoadmap {
+  std::shared_ptr<mapf::DistanceCache> distances;
+
+  explicit KnownRoadmap(const nb::dict& given)
+      : distances(std::make_shared<mapf::DistanceCache>(std::make_shared<const mapf::Roadmap>(roadmap_of(given)))) {}
+};
+
+inline void construct_on(mapf::Instance* self, const KnownRoadmap& roadmap, const nb::dict& robots,
+                         const nb::dict& exclusions, const nb::dict& resources, bool following_forbidden,
+                         bool disappear_at_goal, std::int64_t k, std::optional<std::int64_t> horizon) {
+  new (self)
+      mapf::Instance(roadmap.distances->roadmap(), robots_of(robots),
+                     {following_forbidden, disappear_at_goal, tick(k), horizon ? tick(*horizon) : mapf::kForever},
+                     exclusions_of(exclusions), resources_of(resources), roadmap.distances);
 }
 
 inline void construct(mapf::Instance* self, const nb::dict& roadmap, const nb::dict& robots, const nb::dict& exclusions,

@@ -104,8 +104,14 @@ inline Answer solve(const mapf::Instance& instance, const mapf::Algorithm& algor
 /// outlive the module. The class of options must exist: see `bind_options` and `use_options`.
 inline void bind_solvers(nb::module_& module, const std::vector<mapf::Algorithm>& all) {
   using namespace nb::literals;
+  nb::class_<KnownRoadmap>(module, "Roadmap",
+                           "A roadmap for several instances; solvers go on with the distances that they found on it.")
+      .def(nb::init<const nb::dict&>(), "arrays"_a);
+
   nb::class_<mapf::Instance>(module, "Instance", "Robots on a roadmap. Raises ValueError for data that make no sense.")
       .def("__init__", &construct, nb::kw_only(), "roadmap"_a, "robots"_a, "exclusions"_a, "resources"_a,
+           "following_forbidden"_a, "disappear_at_goal"_a, "k"_a = 0, "horizon"_a = nb::none())
+      .def("__init__", &construct_on, nb::kw_only(), "roadmap"_a, "robots"_a, "exclusions"_a, "resources"_a,
            "following_forbidden"_a, "disappear_at_goal"_a, "k"_a = 0, "horizon"_a = nb::none());
 
   nb::class_<Answer>(module, "Answer", "How a solver ended. The segments of robot r are [first[r], first[r + 1]).")

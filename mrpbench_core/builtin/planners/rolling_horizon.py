@@ -104,8 +104,8 @@ def from_rest(problem: Problem) -> Problem:
     if problem.commitments:
         moves = moves_of(problem, Plan(paths=problem.commitments))
         start[moves.robot] = moves.head  # of equal robots the last one counts
-        visited = visited_goals(problem, moves.robot, moves.head)
-        goals = tuple(left(sequence, visited.get(robot, 0)) for robot, sequence in enumerate(goals))
+        if visited := visited_goals(problem, moves.robot, moves.head):
+            goals = tuple(left(sequence, visited.get(robot, 0)) for robot, sequence in enumerate(goals))
     return attrs.evolve(
         problem,
         start=start,

@@ -7,7 +7,7 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32
 from mrpbench_core.model.execution.motion import Mode, Motion
-from mrpbench_core.model.execution.route import Route, last_moves
+from mrpbench_core.model.execution.route import Route, Routes, last_moves
 from mrpbench_core.model.execution.state import State
 
 REST = 0.05, 0.2
@@ -49,8 +49,9 @@ class Arrivals:
         self._leads = leads
         self._recorded = np.maximum(self._recorded - cut, 0).astype(np.int32)
         self._last: Int = last_moves(routes)
-        self._goal: Float = np.array([route.waypoint[-1, :2] for route in routes])
-        self._level: Int16 = np.array([route.level[-1] for route in routes], np.int16)
+        joined = Routes.of(routes)
+        self._goal: Float = joined.waypoint[joined.first[1:] - 1, :2]
+        self._level: Int16 = joined.level[joined.first[1:] - 1]
 
     def update(self, now: float, state: State, motion: Motion) -> Motion:
         """Compare a report at `now` with the true state; return the report with confirmed arrivals only."""

@@ -1,5 +1,7 @@
 """The loop that executes a plan: sense, dispatch, drive, record, once in every control period."""
 
+from collections.abc import Sequence
+
 import attrs
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +26,7 @@ from mrpbench_core.model.common.arrays import Bool
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.observation import FleetObservation
 from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.planning.plan import Paths
 from mrpbench_core.model.planning.problem import Feature
@@ -80,7 +83,7 @@ class ExecutionLoop:
         self._visits = Visits(context.problem, plan, inputs.goal_tolerance)
         self._reactions = Reactions(inputs.faults, robots, inputs.replanner.yaw, sets)
         self._standstill = Standstill(_patience(inputs), len(inputs.replanner.problem))
-        self._given_routes = given.routes
+        self._given_routes: Sequence[Route] = given.routes
         self._returned = self._orders = self._given_orders = Orders(released=np.zeros(robots, "i4"))
         self._motion = Motion(
             twist=np.zeros((robots, 2)),

@@ -10,7 +10,7 @@ from mrpbench_core.api.assigner import Cost
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.engine.execution.destinations import Errand
 from mrpbench_core.engine.travel import through, travel_ticks
-from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.roadmap import Roadmap
@@ -44,10 +44,15 @@ class QueueCosts:
         ]
         self._to, self.along = lru_cache(TABLES)(self._search), lru_cache(WAYS)(self._along)
 
+    def joined(self, profile: int, start: Int, goal: Int) -> Bool:
+        """Tell, bool[k,l], where there are ways from vertices `start` i8[k] to `goal` i8[l] and back."""
+        label = self.labels[profile]
+        found: Bool = label[start][:, None] == label[goal][None, :]
+        return found
+
     def seconds(self, profile: int, start: Int, goal: Int) -> Float:
         """Seconds f8[k,l] from vertices `start` i8[k] to `goal` i8[l]; inf where there is no way back."""
-        label = self.labels[profile]
-        able = label[start][:, None] == label[goal][None, :]
+        able = self.joined(profile, start, goal)
         if self._kind == "roadmap":
             found = np.array([self._to(profile, int(end))[start] for end in goal]).reshape(len(goal), len(start)).T
         else:

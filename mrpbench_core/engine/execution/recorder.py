@@ -15,7 +15,7 @@ from mrpbench_core.model.execution.motion import Event, Motion
 from mrpbench_core.model.execution.movers import Movers
 from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
 from mrpbench_core.model.execution.orders import Orders
-from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.execution.route import Route, Routes
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.scenario import Task
@@ -244,18 +244,21 @@ class Recorder:
             kept: i4[n] leading waypoints of each route that are known already, and left out.
             driven: i4[n] segments of each robot that are not part of the plan any more.
         """
-        paths, begin = Paths.of(plan.paths), kept.tolist()
-        size = np.array([len(route.waypoint) for route in routes]) - kept
+        paths, joined = Paths.of(plan.paths), Routes.of(routes)
+        size = joined.size - kept
         rows = int(size.sum())
+        new = np.arange(len(joined.level)) >= np.repeat(joined.first[:-1] + kept, joined.size)
+        speed = np.append(np.inf, joined.speed[:-1])  # of the segment that leads to each waypoint
+        speed[joined.first[:-1]] = np.inf
         within = np.arange(rows) - np.repeat(np.cumsum(size) - size, size)
         for name, values in {
             "time": np.full(rows, now),
             "revision": np.full(rows, revision, np.int32),
             "robot": np.repeat(np.arange(len(routes), dtype=np.int32), size),
             "segment": (within + np.repeat(kept + driven, size)).astype(np.int32),
-            "waypoint": np.concatenate([route.waypoint[at:] for route, at in zip(routes, begin, strict=True)]),
-            "level": np.concatenate([route.level[at:] for route, at in zip(routes, begin, strict=True)]),
-            "speed": _after(np.inf, [route.speed for route in routes], begin),
+            "waypoint": joined.waypoint[new],
+            "level": joined.level[new],
+            "speed": speed[new],
             **_segments(paths, kept),
         }.items():
             self._rows[f"route_{name}"].append(values)
@@ -269,13 +272,6 @@ class Recorder:
             self._sink({name: _stack(name, rows) for name, rows in self._rows.items()})
             self._rows.clear()
             self._waypoints = self._trajectories = 0
-
-
-def _after(first: float | np.int32, segments: list[NDArray[Any]], begin: list[int]) -> NDArray[Any]:
-    """Values of waypoints from `begin` on: `first`, then those of the segments that lead to the others."""
-    head = np.array([first])
-    parts = [own[at - 1 :] if at else np.concatenate([head, own]) for own, at in zip(segments, begin, strict=True)]
-    return np.concatenate(parts)
 
 
 def _segments(paths: Paths, kept: Int32) -> dict[str, NDArray[Any]]:

@@ -1,7 +1,7 @@
 """Decides when the current plan is replaced during execution, and requests the new one."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import attrs
 import numpy as np
@@ -36,7 +36,7 @@ class Revision:
     reason: str
     problem: Problem
     plan: Plan | None
-    routes: tuple[Route, ...] = ()
+    routes: Sequence[Route] = ()
     fault: str = ""
     """The reason why there is no plan, or why it must not be used."""
     leads: Bool
@@ -155,7 +155,7 @@ class Replanner:
         found = None if fault else result.plan
         leads = np.ones(len(problem), bool) if found is None else leads_to_goals(problem, found)
         router = attrs.evolve(self._router, problem=problem, final_yaw=np.where(leads, to.yaw, np.nan))
-        routes = () if found is None else router(found)
+        routes: Sequence[Route] = () if found is None else router(found)
         self.pending = Revision(
             due=due,
             reason=reason,

@@ -1,6 +1,6 @@
 """From a plan on the roadmap to routes in metres."""
 
-from itertools import pairwise
+from collections.abc import Sequence
 
 import attrs
 import numpy as np
@@ -8,7 +8,7 @@ import numpy as np
 from mrpbench_core.api.plan_filter import PlanFilter
 from mrpbench_core.engine.contract_checks import check_kept
 from mrpbench_core.model.common.arrays import Bool, Float, Int16
-from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.execution.route import Route, Routes
 from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
@@ -27,20 +27,22 @@ class Router:
     """f8[E] m/s, inf = none."""
     plan_filter: PlanFilter | None = None
 
-    def __call__(self, plan: Plan) -> tuple[Route, ...]:
+    def __call__(self, plan: Plan) -> Routes:
         """The routes of `plan`."""
         paths, roadmap = Paths.of(plan.paths), self.problem.roadmap
         vertices = paths.vertices(roadmap, self.problem.start)
         waypoint = np.column_stack([roadmap.position[vertices], roadmap.heading[vertices]])
         level = roadmap.level[vertices]
-        limits = self.speed_limits[paths.edge] if len(self.speed_limits) else np.inf
-        speed = np.where(paths.edge >= 0, limits, np.inf)
-        routes = []
-        for robot, (first, end) in enumerate(pairwise(paths.first.tolist())):
-            rows = slice(first + robot, end + robot + 1)
-            line = self._line(robot, waypoint[rows], level[rows])
-            routes.append(Route(waypoint=line, level=level[rows], speed=speed[first:end]))
-        return tuple(routes)
+        first = paths.first + np.arange(len(paths) + 1)
+        speed = np.full(len(vertices), np.inf)
+        if len(self.speed_limits):
+            limits = np.where(paths.edge >= 0, self.speed_limits[paths.edge], np.inf)
+            speed[np.arange(len(limits)) + paths.robot] = limits
+        changed = ~np.isnan(self.final_yaw) if self.plan_filter is None else np.ones(len(paths), bool)
+        for robot in np.flatnonzero(changed).tolist():
+            rows = slice(*first[robot : robot + 2].tolist())
+            waypoint[rows] = self._line(robot, waypoint[rows], level[rows])
+        return Routes(first=first, waypoint=waypoint, level=level, speed=speed)
 
     def _line(self, robot: int, waypoint: Float, level: Int16) -> Float:
         """The waypoints f8[k+1,3] of a robot with the yaw wanted at the end, filtered."""
@@ -82,7 +84,7 @@ def speed_limits(world: World, roadmap: Roadmap) -> np.ndarray:
     return np.where(drives, length / (ticks * roadmap.tick), np.inf)
 
 
-def start_poses(routes: tuple[Route, ...], start_yaw: np.ndarray) -> np.ndarray:
+def start_poses(routes: Sequence[Route], start_yaw: np.ndarray) -> np.ndarray:
     """The initial poses f8[n,3] of the robots: the first waypoints, facing `start_yaw` (0 where it is NaN).
 
     The yaw must not depend on the plan, or planners would be compared from different starts.

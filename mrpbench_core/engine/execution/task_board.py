@@ -5,6 +5,7 @@ from collections.abc import Mapping
 
 import attrs
 
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.planning.assignment import Queues
 from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.scenario import Task
@@ -29,6 +30,8 @@ class Job:
     task: Task
     yaws: tuple[Mapping[int, float], ...]
     """For each errand the radians wanted at each vertex that will do, NaN = any."""
+    length: tuple[Float, ...] = ()
+    """For each motion profile the seconds f8[k] from each place of the first errand to the end."""
     places: tuple[GoalSet, ...] = attrs.field(init=False)
     """Vertices of each errand, of which any will do."""
     rests: tuple[bool, ...] = attrs.field(init=False)
@@ -58,14 +61,18 @@ class TaskBoard:
         """By index, in the order of their release."""
         self.queues: list[list[int]] = [[] for _ in range(robots)]
         """For each robot the tasks to do, in order; only the first may have begun."""
+        self.resting: set[int] = set()
+        """All robots that rest at their errands, and perhaps others."""
         self.finished = 0
         """Tasks that are done or given up, or that no robot can do."""
         self.events: list[TaskEvent] = []
         """What happened since the recorder took the events."""
 
-    def release(self, now: float, task: Task, yaws: tuple[Mapping[int, float], ...]) -> None:
-        """Take a task in; see `Job.yaws`."""
-        self.jobs[task.index] = Job(task, yaws)
+    def release(
+        self, now: float, task: Task, yaws: tuple[Mapping[int, float], ...], length: tuple[Float, ...] = ()
+    ) -> None:
+        """Take a task in; see `Job`."""
+        self.jobs[task.index] = Job(task, yaws, length)
         self._note(now, task.index, "released")
 
     def refuse(self, now: float, task: Task) -> None:
@@ -121,11 +128,12 @@ class TaskBoard:
             self._note(now, index, "begun", robot)
         if math.isnan(job.since):
             job.since = now
+            self.resting.add(robot)
         if now - job.since < job.task.service[job.errand] - 1e-9:
             return False
         self._note(now, index, "errand", robot, job.errand)
         job.errand += 1
-        job.since = math.nan
+        self._leave(robot, job)
         if job.errand == len(job.places):
             self._note(now, index, "done", robot)
             self.finished += 1
@@ -144,7 +152,11 @@ class TaskBoard:
     def leave(self, robot: int) -> None:
         """Note that a robot does not rest at its errand; a service that was interrupted begins again."""
         if (job := self.current(robot)) is not None:
-            job.since = math.nan
+            self._leave(robot, job)
+
+    def _leave(self, robot: int, job: Job) -> None:
+        job.since = math.nan
+        self.resting.discard(robot)
 
     def _note(self, now: float, task: int, kind: str, robot: int = -1, errand: int = -1) -> None:
         self.events.append(TaskEvent(now, task, kind, robot, errand))

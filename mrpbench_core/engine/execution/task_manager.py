@@ -64,7 +64,10 @@ class TaskManager:
         sequences: bool = False,
     ) -> None:
         self._stream, self._assigner, self._costs, self._places = stream, assigner, costs, places
-        self._roadmap, self._start = problem.roadmap, problem.start
+        self._roadmap = problem.roadmap
+        starts = zip(costs.profile.tolist(), problem.start.tolist(), strict=True)
+        self._components = {(profile, costs.labels[profile][start]) for profile, start in starts}
+        """Motion profiles, each with the label of the vertices that some of its robots can reach."""
         self._recorder, self._interval = recorder, interval
         self._robots = range(len(problem))
         self._board = TaskBoard(len(problem))
@@ -75,6 +78,8 @@ class TaskManager:
         """Tasks or robots have changed since the last assignment."""
         self._sequences = sequences
         self._planned = PlannedErrands(len(problem))
+        self._ways: dict[int, tuple[tuple[int, ...], list[tuple[Job, int]], Errands]] = {}
+        """By robot: what its errands ahead depend on, these, and their names."""
         self._missed: set[int] = set()
         """Robots that came to rest without having visited all goals of their paths; they stop at the next one."""
         self._held_back = False
@@ -134,13 +139,14 @@ class TaskManager:
         located = self._roadmap.locate(task.goals[:, :2], task.levels).tolist()
         places = zip(located, task.goals[:, 2].tolist(), strict=True)
         yaws = tuple({it: yaw for it, yaw in goal if it >= 0} for goal in task.by_errand([*places]))
-        labels = [self._costs.labels[int(profile)] for profile in self._costs.profile]
         able = any(
-            all(any(label[vertex] == label[start] for vertex in goal) for goal in yaws)
-            for label, start in zip(labels, self._start.tolist(), strict=True)
+            all(any(self._costs.labels[profile][vertex] == label for vertex in goal) for goal in yaws)
+            for profile, label in self._components
         )
         if able:
-            self._board.release(now, task, yaws)
+            service, goals = task.service.sum(), tuple(map(tuple, yaws))
+            along = (self._costs.along(profile, goals) for profile in range(len(self._costs.labels)))
+            self._board.release(now, task, yaws, tuple(way.min(axis=1) + service for way in along))
             self._unassigned = True
         else:
             self._board.refuse(now, task)
@@ -158,7 +164,7 @@ class TaskManager:
                 errand, job = self._planned.visit(robot), self._board.current(robot)
                 if job is not None and (job.task.index, job.errand) == errand:
                     self._rest(now, robot, job)
-        for robot in self._robots:
+        for robot in sorted(self._board.resting.union(np.flatnonzero(arrived).tolist())):
             job = self._board.current(robot)
             if job is None:
                 continue
@@ -218,17 +224,23 @@ class TaskManager:
                 free_in[robot] = way.min() + _service(job, now)
                 place[robot] = job.places[-1][int(way.argmin())]
         free_in[self._aborted] = np.inf
-        after = [
-            [self._costs.along(p, job.places).min(axis=1) + job.task.service.sum() for job in jobs] for p in profiles
-        ]
-        length = np.array([np.concatenate(row) for row in after])[self._costs.profile]
-        approach = np.array(
-            [self._costs.seconds(int(p), place[[robot]], first)[0] for robot, p in enumerate(self._costs.profile)]
-        )
+        lengths = np.array([np.concatenate(own) for own in zip(*(job.length for job in jobs), strict=True)])
+        approach = np.zeros((len(place), len(first)))
+        for p in profiles:
+            robots = np.flatnonzero(self._costs.profile == p)
+            if self._assigner.reads_costs:
+                approach[robots] = self._costs.seconds(p, place[robots], first)
+            able = self._costs.joined(p, place[robots], first) & np.isfinite(lengths[p])
+            row, task = np.nonzero(~able)
+            approach[robots[row], task] = np.inf
+        length = lengths[self._costs.profile] if self._assigner.reads_costs else np.zeros((len(place), 1))
         if len(first) > len(jobs):
             total = approach + length
             best = np.stack([at + total[:, at:to].argmin(axis=1) for at, to in pairwise([*begin, len(first)])], axis=1)
-            approach, length = (np.take_along_axis(values, best, axis=1) for values in (approach, length))
+            approach = np.take_along_axis(approach, best, axis=1)
+            length = np.take_along_axis(length, best, axis=1) if self._assigner.reads_costs else length
+        for values in (approach, length):
+            values.setflags(write=False)  # so that no field copies them
         between: Float = np.empty((0, 0, 0))
         if self._assigner.reads_between:
             between = np.array([self._costs.seconds(p, last, first) for p in profiles])
@@ -238,7 +250,7 @@ class TaskManager:
             tasks=tuple(job.task for job in jobs),
             queues=tuple(tuple(column[index] for index in queue if index in column) for queue in self._board.queues),
             free_in=free_in,
-            approach=np.where(np.isfinite(length), approach, np.inf),
+            approach=approach,
             length=length,
             between=between,
             profile=self._costs.profile.astype(np.int32),
@@ -252,7 +264,7 @@ class TaskManager:
         """Return why a new plan is needed now, or None: some robot's errand is not the one of its path."""
         if now < self._planned_at + self._interval - 1e-9:
             return None
-        wanted = [_names(self._ahead(robot)) for robot in self._robots]
+        wanted = [self._way(robot)[1] for robot in self._robots]
         other = self._planned.others(wanted)
         if not other and not self._held_back:
             return None
@@ -272,9 +284,10 @@ class TaskManager:
         many robots are sent to errands, others each time, until a plan is found.
         """
         self._planned_at = now
-        ahead = [self._ahead(robot) for robot in self._robots]
-        self._planned.ask([_names(way) for way in ahead])
-        ways = [self._nearest_first(robot, ahead[robot]) for robot in np.flatnonzero(~held).tolist() if ahead[robot]]
+        ahead = [self._way(robot) for robot in self._robots]
+        self._planned.ask([names for _, names in ahead])
+        going = [robot for robot in np.flatnonzero(~held).tolist() if ahead[robot][0]]
+        ways = [self._nearest_first(robot, ahead[robot][0]) for robot in going]
         if restricted.roadmap is not self._roadmap:
             ways = [[*takewhile(lambda it: it.yaws, (self._within(restricted, it) for it in way))] for way in ways]
         resting: list[list[Errand]] = []
@@ -299,6 +312,18 @@ class TaskManager:
     def failed(self) -> None:
         """Note that no plan to the last goals takes effect."""
         self._failures += 1
+
+    def _way(self, robot: int) -> tuple[list[tuple[Job, int]], Errands]:
+        """The errands ahead of a robot, and their names."""
+        job = self._board.current(robot)
+        if job is None:
+            return [], ()
+        depends_on = (*self._board.queues[robot], job.errand, robot in self._missed)
+        known = self._ways.get(robot)
+        if known is None or known[0] != depends_on:
+            ahead = self._ahead(robot)
+            known = self._ways[robot] = depends_on, ahead, tuple((it.task.index, number) for it, number in ahead)
+        return known[1:]
 
     def _ahead(self, robot: int) -> list[tuple[Job, int]]:
         """The errands to which a plan leads a robot: the next one and, if it need not rest there, those after it."""
@@ -328,10 +353,6 @@ def _flat(goals: Sequence[GoalSet]) -> tuple[Int, list[int]]:
     """The vertices of sets, one after another, and where each set begins."""
     sizes = [len(goal) for goal in goals]
     return np.array([vertex for goal in goals for vertex in goal], np.int64), (np.cumsum(sizes) - sizes).tolist()
-
-
-def _names(ahead: Sequence[tuple[Job, int]]) -> Errands:
-    return tuple((job.task.index, number) for job, number in ahead)
 
 
 def _service(job: Job, now: float) -> float:

@@ -1,10 +1,13 @@
 """The assignment of tasks to robots."""
 
+from collections.abc import Sequence
+
 import attrs
 
 from mrpbench_core.model.common.arrays import Float, Int32, array
 from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.scenario import Task
+from mrpbench_core.model.planning.tasks import join
 
 
 @attrs.frozen(kw_only=True)
@@ -45,17 +48,19 @@ class QueueProblem:
 
     now: float
     """simulated seconds."""
-    tasks: tuple[Task, ...]
-    """m tasks, in the order of their release."""
+    tasks: Sequence[Task] = attrs.field(converter=join)
+    """m tasks, in the order of their release, which are held as `Tasks`."""
     queues: Queues
     """What was decided last, one queue per robot."""
     free_in: Float = array("f8")
     """f8[n] until the robot has finished the task that it has begun, 0 = free; inf = it gave up."""
     approach: Float = array("f8")
     """f8[n,m] from where the robot becomes free to the first errand of the task; inf = it cannot do the task. Of
-    several places of an errand, those count that make the whole task shortest."""
+    several places of an errand, those count that make the whole task shortest. 0 instead of the duration unless the
+    assigner `reads_costs`."""
     length: Float = array("f8")
-    """f8[n,m] from the arrival at its first errand to the end of the task, with its service times."""
+    """f8[n,m] from the arrival at its first errand to the end of the task, with its service times; f8[n,1], all 0,
+    unless the assigner `reads_costs`."""
     between: Float = array("f8")
     """f8[p,m,m] from the end of a task (row) to the first errand of another (column), of several places the nearest to
     one another; f8[0,0,0] unless the assigner `reads_between`."""

@@ -89,7 +89,7 @@ def _at_vertices(problem: Problem, moves: Moves, chosen: Bool | None) -> Type2Ed
         needed = _around(vertex, begin, ours)
         vertex, robot, begin = vertex[needed], robot[needed], begin[needed]
         arrival, departure = arrival[needed], departure[needed]
-    order = np.argsort(vertex * (int(begin.max(initial=0)) + 1) + begin, kind="stable")
+    order = np.argsort(_places_and_times(vertex, begin), kind="stable")
     earlier, later = order[:-1], order[1:]
     pairs = (vertex[earlier] == vertex[later]) & (robot[earlier] != robot[later])
     earlier, later = earlier[pairs], later[pairs]
@@ -107,10 +107,17 @@ def _at_vertices(problem: Problem, moves: Moves, chosen: Bool | None) -> Type2Ed
     )
 
 
+def _places_and_times(place: Int, tick: Int) -> Int:
+    """Numbers i8[k] in the order of places i8[k], those of equal places in the order of time, which may be below 0."""
+    since = int(tick.min(initial=0))
+    ordered: Int = place * (int(tick.max(initial=0)) - since + 1) + (tick - since)
+    return ordered
+
+
 def _around(vertex: Int, begin: Int, ours: Bool) -> Bool:
     """The visits bool[v] of each vertex from the first of `ours` bool[v] to the next one after the last of these."""
     never = np.iinfo(np.int64).max
-    low, high, following = (np.full(int(vertex.max(initial=0)) + 1, value) for value in (never, -1, never))
+    low, high, following = (np.full(int(vertex.max(initial=0)) + 1, value) for value in (never, -never, never))
     np.minimum.at(low, vertex[ours], begin[ours])
     np.maximum.at(high, vertex[ours], begin[ours])
     later = (low[vertex] < never) & (begin > high[vertex])
@@ -123,13 +130,14 @@ def _between_footprints(problem: Problem, moves: Moves) -> list[Type2Edges]:
     """Rule 5: for each move and each edge near its own, the last move there before it; one size of robot at a time."""
     found = []
     vertices = len(problem.roadmap.position)
-    ticks = int(moves.leave.max(initial=0)) + 1
+    since = int(moves.enter.min(initial=0))  # may be below 0
+    ticks = int(moves.enter.max(initial=0)) - since + 1
     radius = problem.radius[moves.robot]
     for mine in np.unique(radius):
         after = np.flatnonzero(radius == mine)
         for theirs in np.unique(radius):
             before = np.flatnonzero(radius == theirs)
-            key = moves.edge[before] * ticks + moves.enter[before]
+            key = moves.edge[before] * ticks + (moves.enter[before] - since)
             before, key = before[np.argsort(key)], np.sort(key)
             near = exclusions(problem.roadmap, float(mine + theirs))
             begin, end = near.first[vertices + moves.edge[after]], near.first[vertices + moves.edge[after] + 1]
@@ -137,7 +145,7 @@ def _between_footprints(problem: Problem, moves: Moves) -> list[Type2Edges]:
             row = np.repeat(after, size)
             element = near.element[np.arange(len(row)) + np.repeat(begin - np.cumsum(size) + size, size)]
             row, edge = row[element >= vertices], element[element >= vertices].astype(np.int64) - vertices
-            last = np.searchsorted(key, edge * ticks + moves.enter[row]) - 1
+            last = np.searchsorted(key, edge * ticks + (moves.enter[row] - since)) - 1
             some = last >= 0
             row, edge, last = row[some], edge[some], before[last[some]]
             other = (moves.edge[last] == edge) & (moves.robot[last] != moves.robot[row])

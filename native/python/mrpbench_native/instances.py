@@ -74,7 +74,7 @@ NO_EXCLUSIONS = SolverExclusions(np.empty(0, "i8"), np.empty(0, "i4"), np.empty(
 
 
 def build_instance(
-    roadmap: SolverRoadmap,
+    roadmap: SolverRoadmap | mapf.Roadmap,
     robots: Robots,
     *,
     exclusions: SolverExclusions = NO_EXCLUSIONS,
@@ -87,6 +87,7 @@ def build_instance(
 ) -> mapf.Instance:
     """Join the lists of all robots and resources into the arrays that C++ takes.
 
+    With a `Roadmap` of the module, solvers go on with the distances that they found for other instances on it.
     The instance is one of `module`: `mrpbench_native.mapf`, or a module of solvers that is built against its headers.
     With `k` the paths are free of conflicts although each robot is up to `k` ticks late (k-robust plans). With a
     `horizon`, a tick, conflicts that begin later may stay, and paths may end there.
@@ -100,7 +101,7 @@ def build_instance(
     via = robots.via or [()] * count
     visits = [goals for sets in via for goals in sets]
     instance: mapf.Instance = module.Instance(
-        roadmap=roadmap._asdict(),
+        roadmap=roadmap._asdict() if isinstance(roadmap, SolverRoadmap) else roadmap,
         robots={
             "start": robots.start,
             "ready": np.zeros(count, "i8") if robots.ready is None else robots.ready,

@@ -7,6 +7,11 @@ from numpy.typing import NDArray
 
 from mrpbench_native.options import Option
 
+class Roadmap:
+    """A roadmap for several instances; solvers go on with the distances that they found on it for the one before."""
+
+    def __init__(self, arrays: dict[str, Any]) -> None: ...
+
 class Instance:
     """Robots on a roadmap. `mrpbench_native.instances.build_instance` makes one; each dict holds arrays by name.
 
@@ -17,7 +22,7 @@ class Instance:
     def __init__(
         self,
         *,
-        roadmap: dict[str, Any],
+        roadmap: dict[str, Any] | Roadmap,
         robots: dict[str, Any],
         exclusions: dict[str, Any],
         resources: dict[str, Any],

@@ -16,16 +16,17 @@ constexpr std::size_t kMostGoals = 10'000;  // to visit before the last one
 
 }  // namespace
 
-Instance::Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Exclusions exclusions,
-                   std::vector<Resource> resources)
+Instance::Instance(std::shared_ptr<const Roadmap> roadmap, std::vector<Robot> robots, Rules rules,
+                   Exclusions exclusions, std::vector<Resource> resources, std::shared_ptr<DistanceCache> distances)
     : roadmap_(std::move(roadmap)),
+      distances_(std::move(distances)),
       robots_(std::move(robots)),
       rules_(rules),
       exclusions_(std::move(exclusions)),
       resources_(std::move(resources)) {
   validate();
   for (Resource& it : resources_) it.setup += rules_.k;
-  if (!resources_.empty()) resources_of_.resize(roadmap_.element_count());
+  if (!resources_.empty()) resources_of_.resize(roadmap_->element_count());
   for (std::size_t resource = 0; resource < resources_.size(); ++resource) {
     for (const int element : resources_[resource].elements) {
       resources_of_[element].push_back(static_cast<std::int32_t>(resource));
@@ -36,7 +37,7 @@ Instance::Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Excl
 }
 
 std::size_t Instance::bytes() const {
-  std::size_t bytes = roadmap_.bytes() + resources_of_.capacity() * sizeof(resources_of_.front());
+  std::size_t bytes = roadmap_->bytes() + resources_of_.capacity() * sizeof(resources_of_.front());
   bytes += exclusions_.first.capacity() * sizeof(exclusions_.first.front());
   bytes += exclusions_.element.capacity() * (sizeof(exclusions_.element.front()) + sizeof(double));
   return bytes;
@@ -52,8 +53,8 @@ Beginning Instance::begin(int robot) const {
       continue;
     }
     result.occupied.push_back(at_vertex(result.vertex, since, segment.enter));
-    result.occupied.push_back(on_edge(roadmap_.vertex_count() + segment.edge, segment.enter, segment.leave));
-    result.vertex = roadmap_.head(segment.edge);
+    result.occupied.push_back(on_edge(roadmap_->vertex_count() + segment.edge, segment.enter, segment.leave));
+    result.vertex = roadmap_->head(segment.edge);
     result.visited = visited_at(result.vertex, it.via, result.visited);
     result.free_at = since = segment.leave;
   }
@@ -64,18 +65,18 @@ Beginning Instance::begin(int robot) const {
 void Instance::validate() const {
   if (rules_.k < 0 || rules_.k > kLongestEdge) throw std::invalid_argument("k must be 0 to 2^20 ticks");
   if (footprints()) {
-    const auto rows = static_cast<std::size_t>(roadmap_.element_count());
+    const auto rows = static_cast<std::size_t>(roadmap_->element_count());
     const auto size = static_cast<std::int64_t>(exclusions_.element.size());
     const auto& first = exclusions_.first;
     const auto& element = exclusions_.element;
     if (first.size() != rows + 1 || first.front() != 0 || first.back() != size || !std::ranges::is_sorted(first) ||
         exclusions_.distance.size() != element.size() ||
-        std::ranges::any_of(element, [&](int x) { return x < 0 || x >= roadmap_.element_count(); })) {
+        std::ranges::any_of(element, [&](int x) { return x < 0 || x >= roadmap_->element_count(); })) {
       throw std::invalid_argument("the exclusions do not fit the roadmap");
     }
   }
   for (const Resource& it : resources_) {
-    const auto exists = [&](int x) { return x >= 0 && x < roadmap_.element_count(); };
+    const auto exists = [&](int x) { return x >= 0 && x < roadmap_->element_count(); };
     if (it.capacity < 1 || it.setup < 0 || it.setup > kLatestTime || !std::ranges::all_of(it.elements, exists)) {
       throw std::invalid_argument("a resource has no capacity, an impossible setup or elements that do not exist");
     }
@@ -85,8 +86,8 @@ void Instance::validate() const {
 
 void Instance::validate_robot(int robot) const {
   const Robot& it = robots_[robot];
-  const auto is_vertex = [&](int v) { return v >= 0 && v < roadmap_.vertex_count(); };
-  if (it.profile < 0 || it.profile >= roadmap_.profile_count()) refuse(robot, "has no such motion profile");
+  const auto is_vertex = [&](int v) { return v >= 0 && v < roadmap_->vertex_count(); };
+  if (it.profile < 0 || it.profile >= roadmap_->profile_count()) refuse(robot, "has no such motion profile");
   if (!is_vertex(it.start)) refuse(robot, "starts at a vertex that does not exist");
   if (!(it.radius >= 0.0)) refuse(robot, "has no radius");
   if (it.goals.empty()) refuse(robot, "has no goal");
@@ -103,15 +104,15 @@ void Instance::validate_robot(int robot) const {
     }
     now = segment.leave;
     if (segment.edge == -1) continue;
-    if (segment.edge < 0 || segment.edge >= roadmap_.edge_count() || roadmap_.tail(segment.edge) != vertex) {
+    if (segment.edge < 0 || segment.edge >= roadmap_->edge_count() || roadmap_->tail(segment.edge) != vertex) {
       refuse(robot, "has committed segments that do not follow one another on the roadmap");
     }
-    const Tick duration = roadmap_.duration(it.profile)[segment.edge];
+    const Tick duration = roadmap_->duration(it.profile)[segment.edge];
     // An edge that is forbidden by now (duration -1) may be committed: the robot is on it, or has used it.
     if (segment.leave - segment.enter < duration) refuse(robot, "cannot move as committed");
     if (!moved && segment.enter < it.ready) refuse(robot, "is committed to move before it is ready");
     moved = true;
-    vertex = roadmap_.head(segment.edge);
+    vertex = roadmap_->head(segment.edge);
   }
 }
 

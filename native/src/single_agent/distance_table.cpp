@@ -9,7 +9,7 @@ namespace mrpbench::mapf {
 
 DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits,
                              DistanceTable* then)
-    : roadmap_(roadmap), limits_(limits), duration_(roadmap.duration(profile)) {
+    : roadmap_(roadmap), limits_(&limits), duration_(roadmap.duration(profile)) {
   limits.charge(static_cast<std::size_t>(roadmap.vertex_count()) * sizeof(Tick));
   for (const Tick duration : duration_) {
     if (duration < 0) continue;
@@ -33,8 +33,14 @@ DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<cons
   }
 }
 
+void DistanceTable::go_on(Limits& limits) {
+  limits_ = &limits;
+  limits.charge(distance_.size() * sizeof(Tick));
+  limits.charge(counted_);
+}
+
 void DistanceTable::advance() {
-  limits_.check();
+  limits_->check();
   if (uniform_) {
     advance_level();
   } else {
@@ -48,7 +54,7 @@ void DistanceTable::advance_level() {
     std::swap(level_, found_);
     found_.clear();
     next_ = 0;
-    limits_.charge_growth(counted_, (level_.capacity() + found_.capacity()) * sizeof(std::int32_t));
+    limits_->charge_growth(counted_, (level_.capacity() + found_.capacity()) * sizeof(std::int32_t));
   }
   if (level_.empty()) {
     final_ = kForever;
@@ -83,20 +89,46 @@ void DistanceTable::advance_heap() {
     heap_.push_back({distance, vertex});
     std::ranges::push_heap(heap_, std::greater{});
   }
-  limits_.charge_growth(counted_, heap_.capacity() * sizeof(Entry));
+  limits_->charge_growth(counted_, heap_.capacity() * sizeof(Entry));
   // Everything found later is at least one edge farther than `entry`, so nothing nearer can follow.
   final_ = std::min(kForever, entry.distance + shortest_);
 }
 
-DistanceTables::DistanceTables(const Instance& instance, Limits& limits) {
+std::unique_ptr<DistanceTable> DistanceCache::take(const Key& key) {
+  const std::scoped_lock lock(mutex_);
+  auto node = tables_.extract(key);
+  return node.empty() ? nullptr : std::move(node.mapped());
+}
+
+void DistanceCache::keep(Tables tables) {
+  const std::scoped_lock lock(mutex_);
+  tables_.swap(tables);
+}
+
+DistanceTables::DistanceTables(const Instance& instance, Limits& limits) : cache_(instance.distances()) {
+  const Roadmap& roadmap = instance.roadmap();
+  const auto table = [&](int profile, std::vector<int> goals) {
+    std::ranges::sort(goals);
+    const auto [place, is_new] = tables_.try_emplace({profile, std::move(goals)});
+    if (is_new) {
+      limits.check_clock();
+      if (cache_) place->second = cache_->take(place->first);
+      if (place->second) {
+        place->second->go_on(limits);
+      } else {
+        place->second = std::make_unique<DistanceTable>(roadmap, profile, place->first.second, limits);
+      }
+    }
+    return place->second.get();
+  };
   std::map<std::tuple<int, std::vector<int>, DistanceTable*>, DistanceTable*> known;
-  const auto table = [&](int profile, std::vector<int> goals, DistanceTable* then) {
+  const auto onward = [&](int profile, std::vector<int> goals, DistanceTable* then) {
     std::ranges::sort(goals);
     const auto [place, is_new] = known.try_emplace({profile, goals, then});
     if (is_new) {
       limits.check_clock();
-      tables_.push_back(std::make_unique<DistanceTable>(instance.roadmap(), profile, goals, limits, then));
-      place->second = tables_.back().get();
+      onward_.push_back(std::make_unique<DistanceTable>(roadmap, profile, goals, limits, then));
+      place->second = onward_.back().get();
     }
     return place->second;
   };
@@ -104,12 +136,16 @@ DistanceTables::DistanceTables(const Instance& instance, Limits& limits) {
   for (int robot = 0; robot < instance.size(); ++robot) {
     const Robot& it = instance.robots()[robot];
     std::vector<DistanceTable*>& tables = remaining_[robot];
-    tables.push_back(table(it.profile, it.goals, nullptr));
+    tables.push_back(table(it.profile, it.goals));
     for (int set = static_cast<int>(it.via.size()); set-- > instance.beginning(robot).visited;) {
-      tables.push_back(table(it.profile, it.via[set], tables.back()));
+      tables.push_back(onward(it.profile, it.via[set], tables.back()));
     }
     std::ranges::reverse(tables);
   }
+}
+
+DistanceTables::~DistanceTables() {
+  if (cache_) cache_->keep(std::move(tables_));
 }
 
 Cost DistanceTables::sum_of_costs(const Instance& instance) {

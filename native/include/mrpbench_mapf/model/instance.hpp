@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -70,13 +71,21 @@ inline int visited_at(int vertex, const std::vector<std::vector<int>>& via, int 
   return visited;
 }
 
+class DistanceCache;  // see single_agent/distance_table.hpp
+
 class Instance {
  public:
-  /// Throws std::invalid_argument naming the robot with invalid data.
+  /// Solvers take distances from the cache, which must be of the same roadmap, and leave there what they found; null =
+  /// there is none. Throws std::invalid_argument naming the robot with invalid data.
+  Instance(std::shared_ptr<const Roadmap> roadmap, std::vector<Robot> robots, Rules rules, Exclusions exclusions,
+           std::vector<Resource> resources = {}, std::shared_ptr<DistanceCache> distances = nullptr);
   Instance(Roadmap roadmap, std::vector<Robot> robots, Rules rules, Exclusions exclusions,
-           std::vector<Resource> resources = {});
+           std::vector<Resource> resources = {})
+      : Instance(std::make_shared<const Roadmap>(std::move(roadmap)), std::move(robots), rules, std::move(exclusions),
+                 std::move(resources)) {}
 
-  const Roadmap& roadmap() const { return roadmap_; }
+  const Roadmap& roadmap() const { return *roadmap_; }
+  const std::shared_ptr<DistanceCache>& distances() const { return distances_; }
   const std::vector<Robot>& robots() const { return robots_; }
   const Rules& rules() const { return rules_; }
   const Exclusions& exclusions() const { return exclusions_; }
@@ -101,7 +110,8 @@ class Instance {
   void validate() const;
   void validate_robot(int robot) const;
 
-  Roadmap roadmap_;
+  std::shared_ptr<const Roadmap> roadmap_;
+  std::shared_ptr<DistanceCache> distances_;
   std::vector<Robot> robots_;
   Rules rules_;
   Exclusions exclusions_;

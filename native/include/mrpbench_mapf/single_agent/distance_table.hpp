@@ -3,7 +3,10 @@
 // table serves every robot with the same goals and motion profile.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 #include "mrpbench_mapf/common/limits.hpp"
@@ -17,6 +20,8 @@ class DistanceTable {
   /// With `then`, robots go on from the goals as it says.
   DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits,
                 DistanceTable* then = nullptr);
+  /// Go on in another call, whose limits hold from now on.
+  void go_on(Limits& limits);
 
   /// Ticks from `vertex` to the nearest goal, or to the end of the shortest way over the goals; kForever if there is
   /// none.
@@ -38,7 +43,7 @@ class DistanceTable {
   void advance_heap();
 
   const Roadmap& roadmap_;
-  Limits& limits_;
+  Limits* limits_;
   std::span<const Tick> duration_;
   Tick shortest_ = kForever;  // least and greatest duration of an edge
   Tick longest_ = 0;
@@ -51,10 +56,32 @@ class DistanceTable {
   Tick final_ = 0;  // distances up to this one are final
 };
 
+/// The tables of one roadmap that the last solver had, for the next one: most robots then have the same goals.
+class DistanceCache {
+ public:
+  using Key = std::pair<int, std::vector<int>>;  // motion profile and goals
+  using Tables = std::map<Key, std::unique_ptr<DistanceTable>>;
+
+  explicit DistanceCache(std::shared_ptr<const Roadmap> roadmap) : roadmap_(std::move(roadmap)) {}
+  const std::shared_ptr<const Roadmap>& roadmap() const { return roadmap_; }
+  /// Null if there is none.
+  std::unique_ptr<DistanceTable> take(const Key& key);
+  /// Forget all others.
+  void keep(Tables tables);
+
+ private:
+  std::shared_ptr<const Roadmap> roadmap_;  // which the tables refer to
+  std::mutex mutex_;
+  Tables tables_;
+};
+
 /// One table per robot, shared between robots with equal goals and profile.
 class DistanceTables {
  public:
   DistanceTables(const Instance& instance, Limits& limits);
+  ~DistanceTables();
+  DistanceTables(const DistanceTables&) = delete;
+  DistanceTables& operator=(const DistanceTables&) = delete;
   /// What a robot has to go once its beginning is over: over all goals that it has not visited then.
   DistanceTable& operator[](int robot) { return *remaining(robot).front(); }
   /// The same, then what it has to go after each of these goals, in order.
@@ -71,7 +98,9 @@ class DistanceTables {
   Cost least_cost(const Instance& instance, int robot);
 
  private:
-  std::vector<std::unique_ptr<DistanceTable>> tables_;
+  std::shared_ptr<DistanceCache> cache_;
+  DistanceCache::Tables tables_;
+  std::vector<std::unique_ptr<DistanceTable>> onward_;  // to goals from which robots go on
   std::vector<std::vector<DistanceTable*>> remaining_;  // by robot
 };
 

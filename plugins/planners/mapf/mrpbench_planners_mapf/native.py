@@ -23,6 +23,27 @@ from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.planning.window import until
 
 
+class KnownRoadmap:
+    """The roadmap of the last call, with the distances on it that a solver of a module found then."""
+
+    def __init__(self, module: ModuleType) -> None:
+        self._module = module
+        self._arrays: SolverRoadmap | None = None
+        self._known: mapf.Roadmap | None = None
+
+    def of(self, arrays: SolverRoadmap) -> SolverRoadmap | mapf.Roadmap:
+        """Return the same roadmap as before if it has not changed."""
+        if not hasattr(self._module, "Roadmap"):  # built against the headers of an earlier version
+            return arrays
+        if self._arrays is None or self._known is None or not _equal(self._arrays, arrays):
+            self._arrays, self._known = arrays, self._module.Roadmap(arrays._asdict())
+        return self._known
+
+
+def _equal(one: SolverRoadmap, other: SolverRoadmap) -> bool:
+    return all(np.array_equal(np.asarray(mine), np.asarray(yours)) for mine, yours in zip(one, other, strict=True))
+
+
 def solve(
     problem: Problem,
     budget: Budget,
@@ -30,13 +51,15 @@ def solve(
     options: Mapping[str, object],
     module: ModuleType = mapf,
     rank: Int32 | None = None,
+    known: KnownRoadmap | None = None,
 ) -> PlanResult:
     """Run an algorithm of `module` with its options, within what is left of `budget` after the conversion.
 
-    Robots with lower `rank` i4[n] go first where the algorithm has an order; None = it chooses.
+    Robots with lower `rank` i4[n] go first where the algorithm has an order; None = it chooses. What is `known` of the
+    roadmap saves time.
     """
     start = time.monotonic()
-    instance = _instance(problem, module, rank)
+    instance = _instance(problem, module, rank, known)
     converted = time.monotonic() - start
     answer: mapf.Answer = module.solve(
         instance,
@@ -62,8 +85,9 @@ def solve(
     )
 
 
-def _instance(problem: Problem, module: ModuleType, rank: Int32 | None) -> mapf.Instance:
+def _instance(problem: Problem, module: ModuleType, rank: Int32 | None, known: KnownRoadmap | None) -> mapf.Instance:
     roadmap = problem.roadmap
+    arrays = SolverRoadmap(roadmap.position, roadmap.edges, roadmap.duration)
     robots = Robots(
         start=problem.start,
         goals=[_goals(sequence[-1] if sequence else range(len(roadmap.position))) for sequence in problem.goals],
@@ -84,7 +108,7 @@ def _instance(problem: Problem, module: ModuleType, rank: Int32 | None) -> mapf.
         for resource in roadmap.resources
     ]
     return build_instance(
-        SolverRoadmap(roadmap.position, roadmap.edges, roadmap.duration),
+        arrays if known is None else known.of(arrays),
         robots,
         exclusions=_exclusions(problem),
         resources=resources,

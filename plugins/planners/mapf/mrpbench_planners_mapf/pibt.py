@@ -9,6 +9,7 @@ from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.plan import Budget, PlanResult
 from mrpbench_core.model.planning.problem import Feature, Goals, Problem
 from mrpbench_planners_mapf.configurations import ConfigurationPlanner
+from mrpbench_planners_mapf.native import KnownRoadmap
 from mrpbench_planners_mapf.recipe import WINDOWED, native_planner
 
 
@@ -39,6 +40,7 @@ class PibtSession(PlannerSession):
 
     def __init__(self, planner: Pibt) -> None:
         self._planner = planner
+        self._roadmap = KnownRoadmap(planner.solvers)
         self._goals: Goals = ()
         self._under_way: Int = np.zeros(0, np.int64)
 
@@ -53,4 +55,4 @@ class PibtSession(PlannerSession):
         else:
             self._under_way = np.zeros(len(problem), np.int64)
         self._goals = problem.goals
-        return self._planner.solve(problem, budget, rank)
+        return self._planner.solve(problem, budget, rank, self._roadmap)

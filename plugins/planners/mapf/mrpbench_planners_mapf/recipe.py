@@ -15,7 +15,7 @@ from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
-from mrpbench_planners_mapf.native import solve
+from mrpbench_planners_mapf.native import KnownRoadmap, solve
 from mrpbench_planners_mapf.stretching import Stops, stretch
 
 P = TypeVar("P", bound="NativePlanner")
@@ -44,9 +44,11 @@ class NativePlanner(Planner):
         """See `Planner.plan`."""
         return self.solve(problem, budget)
 
-    def solve(self, problem: Problem, budget: Budget, rank: Int32 | None = None) -> PlanResult:
-        """Run the algorithm; see `mrpbench_planners_mapf.native.solve` for `rank`."""
-        return solve(problem, budget, self.algorithm, self._options(budget), self.solvers, rank)
+    def solve(
+        self, problem: Problem, budget: Budget, rank: Int32 | None = None, known: KnownRoadmap | None = None
+    ) -> PlanResult:
+        """Run the algorithm; see `mrpbench_planners_mapf.native.solve` for `rank` and `known`."""
+        return solve(problem, budget, self.algorithm, self._options(budget), self.solvers, rank, known)
 
     def _options(self, budget: Budget) -> dict[str, Any]:
         """The options of the algorithm: fields of this recipe, and what the budget sets."""

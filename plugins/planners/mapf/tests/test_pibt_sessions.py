@@ -2,6 +2,7 @@
 
 import attrs
 import numpy as np
+from mrpbench_planners_mapf.native import KnownRoadmap
 from mrpbench_planners_mapf.pibt import Pibt
 
 from mrpbench_core.model.planning.plan import Budget
@@ -58,3 +59,16 @@ def test_a_robot_that_would_step_back_for_another_waits_for_it():
     paths = Pibt().solve(asked, BUDGET, rank).plan.paths
     assert paths[0].vertices(road, 5).tolist() == [5, 4, 3, 2, 1]
     assert paths[1].vertices(road, 1).tolist() == [1, 1, 0]
+
+
+def test_what_is_known_of_a_roadmap_changes_no_plan():
+    random, planner = np.random.default_rng(0), Pibt()
+    whole, known = grid_of(RING), KnownRoadmap(planner.solvers)
+    slow = attrs.evolve(whole, duration=np.where(np.arange(len(whole.edges)) % 3 == 0, 2, whole.duration))
+    goals = [0, 5, 8]
+    for call in range(12):
+        goals[call % 3] = int(random.integers(len(whole.position)))
+        problem = problem_on((whole, slow)[call // 3 % 2], random.permutation(len(whole.position))[:3], goals)
+        problem = attrs.evolve(problem, horizon=6, features=problem.features | {Feature.HORIZON})
+        one, other = planner.solve(problem, BUDGET, known=known), planner.solve(problem, BUDGET)
+        assert (one.status, one.plan) == (other.status, other.plan)
