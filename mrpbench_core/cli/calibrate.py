@@ -30,11 +30,12 @@ def run(arguments: argparse.Namespace) -> int:
     configs = [{key: value for key, value in record["config"].items() if key not in NO_AXES} for record in records]
     drives: dict[str, list[Drive]] = defaultdict(list)
     for record, axes in zip(records, find_axes(configs), strict=True):
-        if any(record["config"]["roadmap"].get(name, value) != value for name, value in PENALTIES.items()):
+        roadmap = record["config"].get("roadmap") or {}
+        if any(roadmap.get(name, value) != value for name, value in PENALTIES.items()):
             raise InputError(f"run {record['run_id']} was planned with penalties", hint="leave them out of the drives")
         recording = results.recording(record["run_id"])
         channels = recording.channel("time"), recording.channel("reached")
-        drives[name_axes(axes)].append(drive_of(recording.first_context(), *channels))
+        drives[name_axes(axes) or "all"].append(drive_of(recording.first_context(), *channels))
         recording.close()
     found = {name: calibrate(own) for name, own in drives.items()}
     if arguments.json:

@@ -69,8 +69,8 @@ Description<DwbOptions> DwbOptions::nav2() {
 Description<DwbOptions> DwbOptions::further() {
   return {
       {{"beyond_end", &Pruning::beyond_end, at_least(0, "m"),
-        "prolong the path straight beyond its end by this, for critics that measure distances to it, so that a robot "
-        "comes nearer to the end than the 0.25 m of Nav2; 0 = as in Nav2"},
+        "prolong the path straight beyond its end by this, for critics that measure distances to it or to its end, so "
+        "that a robot comes nearer to the end than the 0.25 m of Nav2 without creeping; 0 = as in Nav2"},
        &DwbOptions::pruning},
       {"rotate_to_path", &DwbOptions::rotate_to_path, at_least(0),
        "turn on the spot first where a new path leads off the heading by more than this, radians, as the rotation "
