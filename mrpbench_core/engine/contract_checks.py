@@ -14,7 +14,7 @@ from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.checking.recording import LARGEST
 from mrpbench_core.engine.own import own
-from mrpbench_core.model.common.arrays import Int, Int32
+from mrpbench_core.model.common.arrays import Float, Int, Int32
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
 from mrpbench_core.model.execution.orders import Orders, RepeatedOrders
@@ -24,6 +24,7 @@ from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
 _LAST_MODE = int(max(Mode))
+_LARGEST = float(np.finfo(float).max)
 
 
 class ContractChecks:
@@ -40,7 +41,13 @@ class ContractChecks:
     def __init__(self, length: NDArray[Any], reach: NDArray[Any] | None = None, movers: int = 0) -> None:
         self.length = length
         self._reach = np.inf if reach is None else reach
+        box = np.full((len(length), 3), _LARGEST)
+        box[:, :2] = np.minimum(np.reshape(self._reach, (-1, 1)) / 1.5, _LARGEST)
+        self._box = box
+        """f8[n,3]: robots whose poses change by no more have finite poses, and are where they can be."""
         self._before: State | None = None
+        self._motion: Motion | None = None
+        """The last motion checked, None after a new plan."""
         self._robots, self._movers = len(length), movers
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
@@ -54,16 +61,33 @@ class ContractChecks:
         self.length = length
         self._released, self._reached = self._released - cut, self._reached - cut
         self._cleared = np.maximum(self._cleared - cut, 0)
+        self._motion = None
 
     def state(self, state: State) -> State:
         """Check the state that a simulator returns."""
-        kind = "the simulator"
+        kind, before = "the simulator", self._before
         _require_class(kind, state, State)
-        state = own(state)
-        self._finite(kind, "pose", state.pose)
+        state = own(state, before)
+        close = before is not None and self._is_close(state.pose, before.pose)
+        if not close:
+            self._finite(kind, "pose", state.pose)
         self._finite(kind, "twist", state.twist)
         self._one_each(kind, "level", state.level)
-        one, other = state.contacts.T
+        if before is None or state.contacts is not before.contacts:
+            self._check_contacts(state.contacts)
+        if before is not None and not close:
+            shift = state.pose - before.pose
+            moved = np.hypot(shift[:, 0], shift[:, 1])
+            self._no_robot(kind, "a position that it cannot have reached in one control period", moved > self._reach)
+        self._before = state
+        return state
+
+    def _is_close(self, pose: Float, before: Float) -> bool:
+        """Tell whether all poses f8[n,3] are finite and surely within reach of those `before`: a quick check."""
+        return pose.shape == before.shape and np.count_nonzero(np.abs(pose - before) <= self._box) == pose.size
+
+    def _check_contacts(self, contacts: Int32) -> None:
+        one, other = contacts.T
         if (
             len(one)
             and (
@@ -74,13 +98,7 @@ class ContractChecks:
                 | (one == other)
             ).any()
         ):
-            _refuse(kind, "contacts that name no robot, or a robot twice")
-        if self._before is not None:
-            shift = state.pose - self._before.pose
-            moved = np.hypot(shift[:, 0], shift[:, 1])
-            self._no_robot(kind, "a position that it cannot have reached in one control period", moved > self._reach)
-        self._before = state
-        return state
+            _refuse("the simulator", "contacts that name no robot, or a robot twice")
 
     def scans(self, batches: tuple[ScanBatch, ...]) -> tuple[ScanBatch, ...]:
         """Check the scans that a simulator returns."""
@@ -88,7 +106,7 @@ class ContractChecks:
             _require_class("the simulator", batch, ScanBatch)
             if batch.robot.ndim != 1 or batch.ranges.ndim != 2 or len(batch.robot) != len(batch.ranges):
                 _refuse("the simulator", f"ranges of shape {batch.ranges.shape} for robots {batch.robot.tolist()}")
-            if np.count_nonzero((batch.robot < 0) | (batch.robot >= self._robots)):
+            if np.count_nonzero(batch.robot.astype(np.uint64) >= self._robots):  # as negative numbers are then
                 _refuse("the simulator", "a scan of a robot that does not exist")
             if np.count_nonzero(batch.ranges >= 0) < batch.ranges.size:
                 _refuse("the simulator", "ranges that are negative or no numbers")
@@ -151,8 +169,16 @@ class ContractChecks:
         """Check the motion that a navigator returns, after the orders of the same period."""
         kind = "the navigator"
         _require_class(kind, motion, Motion)
-        motion = own(motion)
+        before = self._motion
+        motion = self._motion = own(motion, before)
         self._finite(kind, "twist", motion.twist)
+        if (
+            before is not None
+            and motion.reached is before.reached
+            and motion.cleared is before.cleared
+            and motion.mode is before.mode
+        ):
+            return motion  # nothing has changed, and no robot has got less released than before
         for name in ("reached", "cleared", "mode"):
             self._one_each(kind, name, getattr(motion, name))
         self._no_robot(kind, "reached less than before", motion.reached < self._reached)

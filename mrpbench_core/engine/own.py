@@ -14,7 +14,7 @@ import numpy as np
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.model.common.arrays import ARRAY
+from mrpbench_core.model.common.arrays import ARRAY, read_only
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
@@ -24,22 +24,24 @@ _KNOWN_FIELDS: dict[type, tuple[tuple[str, str], ...]] = {}
 _SLOTS: dict[type, tuple[tuple[Any, ...], ...] | None] = {}
 
 
-def own(value: T) -> T:
+def own(value: T, like: T | None = None) -> T:
     """Return a copy that shares no array, no container and no object of `mrpbench_core.model` with `value`.
+
+    Arrays of whole numbers of an object that are equal to those of `like`, an older copy, are taken from there, so that
+    the same array says that nothing has changed.
 
     Raises:
         BrokenContractError: an object is of a class that is derived from one of the model.
     """
-    copied: T = _own(value, {})
+    known: dict[int, Any] = {}
+    copied: T = _own_object(value, known, like) if type(value) in _SLOTS else _own(value, known)
     return copied
 
 
 def _own(value: Any, known: dict[int, Any]) -> Any:
     kind = type(value)
     if kind is np.ndarray:  # the usual cases in every control period come first
-        array = value.copy()
-        array.flags.writeable = False
-        return array
+        return read_only(value.copy())
     if kind in _ATOMS:
         return value
     if kind is tuple:
@@ -70,7 +72,7 @@ def _own_other(value: Any, known: dict[int, Any]) -> Any:
     return value
 
 
-def _own_object(value: Any, known: dict[int, Any]) -> Any:
+def _own_object(value: Any, known: dict[int, Any], like: Any = None) -> Any:
     kind = type(value)
     if kind not in _SLOTS:
         _SLOTS[kind] = _slots(kind)
@@ -78,11 +80,13 @@ def _own_object(value: Any, known: dict[int, Any]) -> Any:
     if slots is None:
         return kind(**{alias: _own(getattr(value, name), known) for alias, name in _fields(kind)})
     copied = object.__new__(kind)  # `__init__` would take three times as long, in every control period
-    for read, write, dtype, tail, convert in slots:
+    for read, write, dtype, tail, convert, is_whole in slots:
         item = read(value)
         if type(item) is np.ndarray and item.dtype is dtype and (tail is None or item.shape[1:] == tail):
-            item = item.copy()
-            item.setflags(write=False)
+            if like is not None and is_whole and _same(item, found := read(like)):
+                item = found
+            else:
+                item = read_only(item.copy())
         elif type(item) not in _ATOMS or convert is not None:
             item = _own(item, known)
             if convert is not None:
@@ -120,7 +124,12 @@ def _slots(kind: type) -> tuple[tuple[Any, ...], ...] | None:
 
 def _access(slot: Any, field: Any) -> tuple[Any, ...]:
     dtype, columns = field.metadata.get(ARRAY, (None, None))
-    return slot.__get__, slot.__set__, dtype, columns and (columns,), field.converter
+    is_whole = dtype is not None and dtype.kind in "iub"
+    return slot.__get__, slot.__set__, dtype, columns and (columns,), field.converter, is_whole
+
+
+def _same(one: np.ndarray, other: np.ndarray) -> bool:
+    return one.shape == other.shape and one.tobytes() == other.tobytes()
 
 
 def _fields(kind: type) -> tuple[tuple[str, str], ...]:

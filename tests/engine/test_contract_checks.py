@@ -49,9 +49,39 @@ def test_what_keeps_the_contract_goes_through_as_a_copy():
         ({"contacts": [[1, 1]]}, "contacts"),
     ],
 )
-def test_wrong_states_are_refused(changes, message):
-    with pytest.raises(BrokenContractError, match=f"the simulator returned {message}"):
-        checks().state(attrs.evolve(STATE, **changes))
+def test_wrong_states_are_refused_first_and_later(changes, message):
+    for checked in (checks(), checks()):
+        with pytest.raises(BrokenContractError, match=f"the simulator returned {message}"):
+            checked.state(attrs.evolve(STATE, **changes))
+        checked.state(STATE)
+        with pytest.raises(BrokenContractError, match=f"the simulator returned {message}"):
+            checked.state(attrs.evolve(STATE, **changes))
+
+
+@pytest.mark.parametrize("away", [(0.99, 0.0), (0.7, -0.7), (1.01, 0.0), (-0.72, 0.72)])
+def test_a_robot_may_move_as_far_as_it_can_in_any_direction(away):
+    checked = ContractChecks(np.array([2, 1]), np.array([1.0, 3.0]))
+    moved = attrs.evolve(STATE, pose=[(*away, 9.0), (2.0, 2.0, -9.0)])
+    checked.state(STATE)
+    if np.hypot(*away) <= 1:
+        assert checked.state(moved) == moved
+    else:
+        with pytest.raises(BrokenContractError, match="for robot 0: a position that it cannot have reached"):
+            checked.state(moved)
+
+
+def test_progress_that_has_not_changed_is_the_same_array_and_a_change_in_place_is_noticed():
+    checked, motion = checks(), attrs.evolve(MOTION, reached=[1, 1])
+    checked.orders(ORDERS)
+    first, again = checked.motion(motion), checked.motion(motion)
+    assert again.reached is first.reached
+    motion.reached.setflags(write=True)
+    motion.reached[0] = 2
+    later = checked.motion(motion)
+    assert (first.reached.tolist(), later.reached.tolist()) == ([1, 1], [2, 1])
+    motion.reached[0] = 3
+    with pytest.raises(BrokenContractError, match="for robot 0: reached what was not released"):
+        checked.motion(motion)
 
 
 @pytest.mark.parametrize(

@@ -12,45 +12,59 @@ class ControllerServer:
     """The controllers of a fleet. As in Nav2, a controller may fail for a while before that counts.
 
     Args:
-        robots: number of robots.
-        controllers: of these robots.
+        controllers: of all robots.
         name: of the controller, for messages.
         failure_tolerance: simulated seconds for which a controller may know no admissible command.
     """
 
-    def __init__(self, robots: int, controllers: FleetControllerSession, name: str, failure_tolerance: float) -> None:
+    def __init__(self, controllers: FleetControllerSession, name: str, failure_tolerance: float) -> None:
         self._controllers, self._name, self._failure_tolerance = controllers, name, failure_tolerance
-        self._commanded: Float = np.zeros(robots)
-        """f8[n]: when each robot last had an admissible command, or need not have one."""
+        self._without: dict[int, float] = {}
+        """Robots that have no admissible command, and when each last had one, or did not need one."""
+        self._before = 0.0
+        """Simulated second of the control period before."""
 
-    def command(self, observations: Observations) -> Float:
-        """The commands f8[k,2] of all rows, NaN where none is admissible.
+    def command(self, observations: Observations) -> tuple[Float, Bool]:
+        """The commands f8[k,2] of all rows, and whether each is missing: NaN, as none is admissible.
 
         Raises:
             BrokenContractError: the controller returned something else.
         """
         command = self._controllers.command(observations)
-        self._check(command, observations.robot)
-        self._commanded[observations.robot[~np.isnan(command[:, 0])]] = observations.now
-        return command
+        missing = self._check(command, observations.robot)
+        if self._without or np.count_nonzero(missing):
+            robots = observations.robot[missing].tolist()
+            waiting = set(observations.robot.tolist()).difference(robots)
+            self._without = {robot: since for robot, since in self._without.items() if robot not in waiting}
+            self._without = dict.fromkeys(robots, self._before) | self._without
+        return command, missing
 
-    def have_failed(self, now: float, following: Bool) -> Bool:
-        """Tell bool[n] which robots that follow have had no command for too long; their time begins anew."""
-        failed: Bool = following & (now - self._commanded > self._failure_tolerance)
-        self._commanded[~following | failed] = now
+    def have_failed(self, now: float, following: Bool) -> list[int]:
+        """Return the robots that follow and have had no command for too long, in order; their time begins anew."""
+        self._before, failed = now, []
+        for robot, since in sorted(self._without.items()):
+            if not following[robot]:
+                del self._without[robot]
+            elif now - since > self._failure_tolerance:
+                self._without[robot] = now
+                failed.append(robot)
         return failed
 
     def failure_reason(self, robot: int) -> str:
         """Return the reason why there was no admissible command for a robot."""
         return self._controllers.failure_reason(robot)
 
-    def _check(self, command: object, robots: np.ndarray) -> None:
+    def _check(self, command: object, robots: np.ndarray) -> Bool:
+        """Tell bool[k] which commands are missing."""
         subject = f"the controller {self._name}"
         if not isinstance(command, np.ndarray) or command.shape != (len(robots), 2):
             raise BrokenContractError(f"{subject} returned {command!r} instead of f8[{len(robots)},2]")
-        if np.isfinite(command).all():
-            return
-        wrong = ~np.isfinite(command).all(axis=1) & ~np.isnan(command).all(axis=1)
-        if wrong.any():
-            row = int(wrong.argmax())
-            raise BrokenContractError(f"{subject} returned {command[row].tolist()} for robot {robots[row]}")
+        finite = np.isfinite(command)
+        missing: Bool = np.zeros(len(robots), bool)
+        if np.count_nonzero(finite) < command.size:
+            missing = np.isnan(command[:, 0]) & np.isnan(command[:, 1])
+            wrong = ~finite.all(axis=1) & ~missing
+            if wrong.any():
+                row = int(wrong.argmax())
+                raise BrokenContractError(f"{subject} returned {command[row].tolist()} for robot {robots[row]}")
+        return missing

@@ -114,8 +114,9 @@ class Detours:
         due = (self._step >= self._due[observations.robot]).nonzero()[0]
         if not len(due):
             return []
-        robots, places = observations.robot[due], observations.pose[due, :2]
-        blocked = np.abs(places - self._place[robots]).max(axis=1) <= _MOVING
+        robots, places = observations.robot[due], observations.pose.take(due, 0)[:, :2]
+        near = np.abs(places - self._place.take(robots, 0)) <= _MOVING
+        blocked = near[:, 0] & near[:, 1]
         blocked |= stopped[due] | (self._options.planner_tolerance > 0)
         if self._detours:
             blocked |= self._detouring(robots)

@@ -52,10 +52,15 @@ class RecoveryManager:
         self._reached = [0] * len(robots)
         self.recovering: Bool = np.zeros(len(robots), bool)
         self.aborted: Bool = np.zeros(len(robots), bool)
+        self._some_aborted = False
+
+    def __bool__(self) -> bool:
+        """Tell whether any robot recovers or has given up."""
+        return bool(self._sessions) or self._some_aborted
 
     def reset(self) -> None:
         """Let robots that gave up try again."""
-        self.aborted[:] = False
+        self.aborted[:] = self._some_aborted = False
         self._attempts = [0] * len(self._robots)
 
     def begin(self, robot: int, now: float, pose: Float, events: list[Event]) -> bool:
@@ -65,7 +70,7 @@ class RecoveryManager:
             self._reached[robot], self._attempts[robot] = reached, 0
         self._attempts[robot] += 1
         if self._attempts[robot] > self._options.max_recoveries or not self._names:
-            self.aborted[robot] = True
+            self.aborted[robot] = self._some_aborted = True
             return False
         index = self._next[robot] % len(self._names)
         name, recovery = self._names[index], self._options.recoveries[index]
@@ -78,7 +83,7 @@ class RecoveryManager:
 
     def step(self, now: float, pose: Float, measured: Float, twist: Float) -> list[Event]:
         """Write the commands of recovering robots into `twist` f8[n,2]; returns the events that follow."""
-        events = []
+        events: list[Event] = []
         for robot, (name, session) in list(self._sessions.items()):
             answer = session.step(now, pose[robot], measured[robot])
             if isinstance(answer, bool):

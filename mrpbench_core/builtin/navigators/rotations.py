@@ -71,13 +71,19 @@ class Rotations:
         """f8[g]: simulated second of that progress."""
         self.rotating: Bool = np.zeros(len(robots), bool)
         """bool[n]: robots that are commanded here and not by their controllers."""
+        self._nobody: Bool = np.zeros(len(robots), bool)
+
+    def __bool__(self) -> bool:
+        """Tell whether any robots rotate."""
+        return bool(self._in_step)
 
     def update(self, now: float, orders: Orders) -> None:
         """Take note of the groups that rotate."""
         if orders.in_step != self._in_step:
             self._take(now, orders.in_step)
-        self.rotating[:] = False
+            self.rotating[:] = False
         if orders.in_step:
+            self.rotating[:] = False
             reached, released = self._follower.reached[self._robots], orders.released[self._robots]
             self.rotating[self._robots[(reached == self._segments) & (released > self._segments)]] = True
             self.rotating[self._follower.only_turn()] = False
@@ -118,9 +124,9 @@ class Rotations:
         Returns:
             bool[n]: rotating robots whose group has made no progress for too long; its time begins anew.
         """
-        stuck = np.zeros(len(pose), bool)
         if not self._in_step:
-            return stuck
+            return self._nobody
+        stuck = np.zeros(len(pose), bool)
         robots, follower = self._robots, self._follower
         mine = self.rotating[robots] & able[robots]
         start, end = follower.segment_ends(robots, self._segments)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.builtin.navigators.route_checks import ClearanceCheck, CornerCheck, Legs, WaypointCheck
+from mrpbench_core.builtin.navigators.route_checks import FleetChecks, Legs
 from mrpbench_core.builtin.navigators.route_progress import RouteProgress
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 
@@ -18,18 +18,15 @@ class RouteAhead:
     def __init__(self, progress: RouteProgress, beyond_bends: bool) -> None:
         self._progress, self._beyond_bends = progress, beyond_bends
         count = len(progress.reached)
-        self.waypoint = WaypointCheck.unset(count)
-        """Whether each robot reaches the next waypoint that is released."""
-        self.corner = CornerCheck.unset(count)
-        """Whether each robot rounds the corner at the end of its leg, which it has reached."""
-        self.clearance = ClearanceCheck.unset(count)
-        """Whether each robot clears the next vertex."""
+        self.checks = FleetChecks(count)
+        """Whether each robot reaches the next waypoint that is released, rounds the corner at the end of its leg, which
+        it has reached, and clears the next vertex."""
         self.leg = Legs.unset(count)
         self.begin: Int = np.zeros(count, np.int64)
         """i8[n]: the waypoints of the path that a controller gets are `corners[begin[i]:end[i]]`."""
         self.end: Int = np.zeros(count, np.int64)
-        self.end_x: Float = np.zeros(count)
-        self.end_y: Float = np.zeros(count)
+        self.path_ends: Float = np.zeros((count, 2))
+        """f8[n,2] where that path ends."""
         self.yaw: Float = np.zeros(count)
         """f8[n] to take at the end of that path, NaN = any."""
         self.speed: Float = np.zeros(count)
@@ -57,13 +54,15 @@ class RouteAhead:
             end = np.minimum(np.maximum(corner, leg) + 1, last)
             end = np.minimum(tables.bend[first_corner + end], last)
         is_open = reached < released
-        self.waypoint.copy(robots, tables.arrival, goal, is_open & ~halting)
-        self.corner.copy(robots, tables.rounding, row, (leg + 1 < last) & (corner > leg))
+        checks, arrival = self.checks, tables.arrival_terms.take(goal, 2)
+        checks.replace(checks.WAYPOINT, robots, arrival, is_open & ~halting)
+        rounding = tables.rounding_terms.take(row, 1)
+        checks.replace(checks.CORNER, robots, rounding, (leg + 1 < last) & (corner > leg))
         self.leg.copy(robots, tables.legs, row)
         self.begin[robots] = first_corner + np.minimum(leg + 1, end)
         end_row = first_corner + end
         self.end[robots] = end_row + 1
-        self.end_x[robots], self.end_y[robots] = tables.corners[end_row].T
+        self.path_ends[:, 0][robots], self.path_ends[:, 1][robots] = tables.corners.take(end_row, 0).T
         until = first + released
         yaw = np.where(is_open, tables.yaw[until], tables.waiting_yaw[until])
         self.yaw[robots] = np.where(end == last, yaw, np.nan)
@@ -81,7 +80,8 @@ class RouteAhead:
         corner = tables.corner[first + progress.cleared[robots]]
         at = tables.corner[first + progress.reached[robots]]
         clears = (corner < tables.last_corner[robots]) & (at >= corner)
-        self.clearance.copy(robots, tables.clearing, tables.first_corner[robots] + corner, clears)
+        clearing = tables.clearing_terms.take(tables.first_corner[robots] + corner, 1)
+        self.checks.replace(self.checks.VERTEX, robots, clearing, clears)
 
     def path_end(self, robot: int) -> int:
         """The corner of its route at which the path of a robot ends."""

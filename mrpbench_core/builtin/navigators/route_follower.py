@@ -7,7 +7,7 @@ import numpy as np
 from mrpbench_core.builtin.navigators.route_ahead import RouteAhead
 from mrpbench_core.builtin.navigators.route_progress import RouteProgress
 from mrpbench_core.builtin.navigators.route_tables import ArrivalRules
-from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32, frozen_array
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32, read_only
 from mrpbench_core.model.execution.route import Route
 
 _SETTLED = 0.02
@@ -38,6 +38,10 @@ class RouteFollower:
         """i4[n], as in `FleetView`."""
         self.cleared: Int32 = self._released
         """i4[n], as in `FleetView`."""
+        self._away = self._drives = np.zeros(count, bool)
+        """bool[n]: robots that have not reached all that is released, and those that may have to drive or turn."""
+        self._finish = False
+        """Whether any robot has reached all that is released, and drives on to its very end."""
         self.adopt(routes)
 
     def __len__(self) -> int:
@@ -60,24 +64,26 @@ class RouteFollower:
             released: i4[n] number of leading segments released.
             level: i2[n].
         """
-        x, y = pose[:, 0], pose[:, 1]
-        due = self._ahead.waypoint.may_hold(x, y)
+        due, rounded, cleared = self._ahead.checks.hold(pose[:, 0], pose[:, 1])
         due |= self._ahead.is_busy
-        due |= released != self._released
-        rounded, cleared = self._ahead.corner.holds(x, y), self._ahead.clearance.may_hold(x, y)
-        self._released = released
+        if released is not self._released:
+            due |= released != self._released
+            self._released = released
+        some = due | rounded | cleared
+        if not np.count_nonzero(some) and not self._beyond_bends:  # the usual case in every control period
+            return
         reaching = due.nonzero()[0]
         if len(reaching):
             changed = self._progress.count_reached(reaching, pose, twist, released, level)
             due[:] = False
             due[changed] = True
             if len(changed):
-                self.reached = frozen_array(self._progress.reached, "i4")
+                self.reached = _int32(self._progress.reached)
         if self._beyond_bends:
             passed = self._progress.count_passed(pose)
             due[passed] = True
             if len(passed):
-                self.reached = frozen_array(self._progress.reached, "i4")
+                self.reached = _int32(self._progress.reached)
         rounding = (due | rounded).nonzero()[0]
         if len(rounding):
             self._progress.count_corners(rounding, pose)
@@ -86,7 +92,9 @@ class RouteFollower:
         if len(clearing):
             self._progress.count_cleared(clearing, pose, released)
             self._ahead.refresh_clearance(clearing)
-            self.cleared = frozen_array(self._progress.cleared, "i4")
+            self.cleared = _int32(self._progress.cleared)
+        if len(reaching) or len(rounding):
+            self._settle()
 
     def rejoin(self, robot: int, x: float, y: float) -> None:
         """Let a robot continue from a point of its released route."""
@@ -123,25 +131,30 @@ class RouteFollower:
         return self._ahead.leg.nearest_points(pose[:, 0], pose[:, 1])
 
     def driven(self, pose: Float, foot: Float) -> Bool:
-        """Tell bool[n] which robots a controller has to drive, or turn, on the way to the end of the released part."""
-        ahead = self._ahead
-        at_end = np.abs(foot[:, 0] - ahead.end_x) <= _SETTLED
-        at_end &= np.abs(foot[:, 1] - ahead.end_y) <= _SETTLED
-        settled = ahead.is_finishing & at_end & ~self._is_turned_away(pose)
-        driven: Bool = ahead.may_drive & ~settled & ~ahead.uses_lift
+        """Tell bool[n] which robots a controller has to drive, or turn, on the way to the end of the released part.
+
+        As `under_way`, it may return the same array again.
+        """
+        if not self._finish:
+            return self._drives
+        gap = np.abs(foot - self._ahead.path_ends) <= _SETTLED
+        settled = self._ahead.is_finishing & gap[:, 0] & gap[:, 1]
+        if self._wants_yaw:
+            settled &= ~self._is_turned_away(pose)
+        driven: Bool = self._drives & ~settled
         return driven
 
     def under_way(self, pose: Float) -> Bool:
-        """Tell bool[n] which robots have to drive on, or to take a yaw; a robot in a lift has not."""
-        ahead = self._ahead
-        away: Bool = self.reached < self._released
-        away |= ahead.may_drive & ahead.is_finishing & self._is_turned_away(pose)
-        away &= ~ahead.uses_lift
+        """Tell bool[n] which robots have to drive on, or to take a yaw; a robot in a lift has not.
+
+        The same array is returned again while nothing has changed; it must not be written to.
+        """
+        if not (self._wants_yaw and self._finish):
+            return self._away
+        away: Bool = self._away | (self._drives & self._ahead.is_finishing & self._is_turned_away(pose))
         return away
 
     def _is_turned_away(self, pose: Float) -> Bool:
-        if not self._wants_yaw:
-            return np.zeros(len(pose), bool)
         error = np.abs(np.remainder(pose[:, 2] - self.yaw + np.pi, 2 * np.pi) - np.pi)
         away: Bool = error > self._yaw_goal_tolerance  # false for NaN, where any yaw will do
         return away
@@ -170,5 +183,17 @@ class RouteFollower:
         """Read all about robots whose progress was changed from outside."""
         self._ahead.refresh(robots)
         self._ahead.refresh_clearance(robots)
-        self.reached = frozen_array(self._progress.reached, "i4")
-        self.cleared = frozen_array(self._progress.cleared, "i4")
+        self.reached, self.cleared = _int32(self._progress.reached), _int32(self._progress.cleared)
+        self._settle()
+
+    def _settle(self) -> None:
+        """Note what follows from progress alone, and not from poses."""
+        ahead, drives = self._ahead, ~self._ahead.uses_lift
+        self._away = (self.reached < self._released) & drives
+        self._drives = ahead.may_drive & drives
+        self._finish = bool(np.count_nonzero(ahead.is_finishing))
+
+
+def _int32(counts: Int) -> Int32:
+    """A read-only copy of counts of segments."""
+    return read_only(counts.astype(np.int32))

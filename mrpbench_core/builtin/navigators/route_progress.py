@@ -72,20 +72,23 @@ class RouteProgress:
         Returns:
             The robots for which anything has changed.
         """
-        before = self._state(robots)
-        moving = np.abs(twist[:, 0]) > _STANDING
-        self.halting[robots] &= moving[robots]
-        some = robots
+        before, some, stops = self._state(robots), robots, self._rules.stops
+        if stops:
+            moving = np.abs(twist[:, 0]) > _STANDING
+            self.halting[robots] &= moving[robots]
+            some = robots[~self.halting[robots]]
         while len(some):
-            some = some[(self.reached[some] < released[some]) & ~self.halting[some]]
+            some = some[self.reached[some] < released[some]]
             if not len(some):
                 break
             some = some[self._have_arrived(some, pose, twist, level)]
             self.reached[some] += 1
             self.at_goal[some] = False
-            self.halting[some] = moving[some] & self._rules.stops
+            if stops:
+                self.halting[some] = moving[some]
+                some = some[~moving[some]]
         allowed = released[robots].astype(np.int64)
-        self.released[robots] = np.minimum(self.reached[robots] + 1, allowed) if self._rules.stops else allowed
+        self.released[robots] = np.minimum(self.reached[robots] + 1, allowed) if stops else allowed
         self.end[robots] = self._corner(robots, self.released[robots])
         changed: Int = robots[(self._state(robots) != before).any(axis=0)]
         return changed

@@ -82,6 +82,10 @@ class RouteTables:
         self.arrival = self._arrival(waypoint, row, heading, rules)
         """W entries: when each waypoint is reached. The goal, and a wait before the first corner, are
         not reached by passing them."""
+        self.arrival_terms, self.rounding_terms, self.clearing_terms = (
+            check.terms() for check in (self.arrival, self.rounding, self.clearing)
+        )
+        """The same and those below, as `FleetChecks` takes them."""
         self.yaw: Float = waypoint[:, 2].copy()
         """f8[W] prescribed at each waypoint, NaN = any. A robot that stops at each turns there to the next one."""
         self.yaw[self.first + self.goal] = self.yaw[self.first + self.last]  # where it rests, not as it drives there

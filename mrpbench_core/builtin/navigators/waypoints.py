@@ -169,7 +169,7 @@ class Waypoints(Navigator):
         recoveries = RecoveryOptions(recoveries=self.recoveries, max_recoveries=self.max_recoveries, period=period)
         return WaypointsSession(
             follower=follower,
-            controllers=ControllerServer(len(fleet), controllers, type(controller).__name__, nav2["failure_tolerance"]),
+            controllers=ControllerServer(controllers, type(controller).__name__, nav2["failure_tolerance"]),
             progress_checker=ProgressChecker(
                 len(fleet),
                 nav2["required_movement_radius"],

@@ -10,7 +10,7 @@ from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.route import Route, Routes, last_moves
 from mrpbench_core.model.execution.state import State
 
-REST = 0.05, 0.2
+REST = np.array([0.05, 0.2])
 """m/s and rad/s below which a robot is at rest."""
 SETTLING_S = 5.0
 """Simulated seconds at rest after which a robot that is reported to be at its goal, and is not, will not get there."""
@@ -46,6 +46,12 @@ class Arrivals:
             cut: i4[n] segments that they leave out.
             leads: bool[n]: the route ends where its robot arrives.
         """
+        self._seen: Int16 | None = None
+        """The levels in the control period before; robots `_elsewhere` i8[k] were not on the level of their goal."""
+        self._elsewhere: Int = np.zeros(0, np.int64)
+        self._reached: Int32 | None = None
+        """The progress in the control period before; `_finished` bool[n] were those who had reached all, if `_some`."""
+        self._finished, self._some = self.claimed, False
         self._leads = leads
         self._recorded = np.maximum(self._recorded - cut, 0).astype(np.int32)
         self._last: Int = last_moves(routes)
@@ -55,22 +61,33 @@ class Arrivals:
 
     def update(self, now: float, state: State, motion: Motion) -> Motion:
         """Compare a report at `now` with the true state; return the report with confirmed arrivals only."""
-        finished = motion.reached >= self._last
-        if not np.count_nonzero(finished):  # `any` takes several times as long
+        if motion.reached is not self._reached:
+            self._reached, self._finished = motion.reached, motion.reached >= self._last
+            self._some = bool(np.count_nonzero(self._finished))
+        finished = self._finished
+        if not self._some:
             self.claimed = self.arrived = self.mistaken = finished
             self._rests_since[:] = np.inf
             self._recorded = motion.reached
             return motion
         slow = np.abs(state.twist) < REST
         resting = slow[:, 0] & slow[:, 1]
-        self._rests_since = np.where(resting, np.minimum(self._rests_since, now), np.inf)
+        np.minimum(self._rests_since, now, out=self._rests_since)
+        self._rests_since[~resting] = np.inf
         offset = state.pose[:, :2] - self._goal
-        self.away = np.where(state.level == self._level, np.hypot(offset[:, 0], offset[:, 1]), np.inf)
+        self.away = np.hypot(offset[:, 0], offset[:, 1])
+        if state.level is not self._seen:
+            self._seen, self._elsewhere = state.level, np.flatnonzero(state.level != self._level)
+        self.away[self._elsewhere] = np.inf
         near = self.away <= self._tolerance
         self.claimed = finished & (motion.mode == Mode.WAITING)
         self.arrived = self.claimed & near & resting & self._leads
-        self.mistaken = self.claimed & ~near & (now - self._rests_since >= SETTLING_S)
-        early = finished & ~near & (self._last > 0)
+        far = finished & ~near
+        if not np.count_nonzero(far):
+            self.mistaken, self._recorded = far, motion.reached
+            return motion
+        self.mistaken = self.claimed & far & (now - self._rests_since >= SETTLING_S)
+        early = far & (self._last > 0)
         if not np.count_nonzero(early):
             self._recorded = motion.reached
             return motion

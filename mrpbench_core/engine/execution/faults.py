@@ -219,7 +219,7 @@ class FaultState:
 
     def scans(self, batches: Sequence[ScanBatch]) -> tuple[ScanBatch, ...]:
         """The scans of the lidars that work."""
-        if not self._blind.any():
+        if not (self.active and self._blind.any()):
             return tuple(batches)
         kept = ((batch, ~self._blind[np.asarray(batch.robot)]) for batch in batches)
         return tuple(attrs.evolve(b, robot=b.robot[works], ranges=b.ranges[works]) for b, works in kept if works.any())
@@ -227,7 +227,7 @@ class FaultState:
     def heard(self, view: FleetView) -> FleetView:
         """What the dispatcher is told: of silent robots what it was told last."""
         last, self.told = self.told, view
-        if last is not None and self.silent.any():
+        if last is not None and self.active and self.silent.any():
             silent = self.silent
             self.told = attrs.evolve(
                 view,

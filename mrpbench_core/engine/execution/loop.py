@@ -53,6 +53,8 @@ class ExecutionLoop:
         assert plan is not None
         assert given.result.plan is not None
         robots = len(context.fleet)
+        self._last_start = float(inputs.noise.start_delay.max(initial=0.0))
+        """Simulated second from which on all robots may drive."""
         self._step = self._revision = 0
         self._now = 0.0
         """Simulated seconds at the beginning of this control period."""
@@ -114,7 +116,7 @@ class ExecutionLoop:
         truth = state.pose.copy() if inputs.components.needs_truth else None
         measured, seen = own(odometry), own(scans)
         estimate = self._checks.estimate(self._localizer.update(self._now, measured, seen, truth))
-        self._given = FleetObservation(estimate=own(estimate), odometry=measured, level=state.level.copy(), scans=seen)
+        self._given = FleetObservation(estimate=own(estimate), odometry=measured, level=own(state.level), scans=seen)
         return FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
 
     def _dispatch(self, observation: FleetObservation) -> None:
@@ -203,13 +205,15 @@ class ExecutionLoop:
 
     def _drive(self) -> None:
         """Command the robots; nothing is released to a robot that has not started yet."""
-        orders, late = self._given_orders, self._now < self._inputs.noise.start_delay
-        if late.any():
-            orders = attrs.evolve(orders, released=np.where(late, 0, orders.released))
+        orders, delay = self._given_orders, self._inputs.noise.start_delay
+        if self._now < self._last_start:
+            orders = attrs.evolve(orders, released=np.where(self._now < delay, 0, orders.released))
         if self._inputs.faults:
             orders = attrs.evolve(orders, released=self._inputs.faults.received(orders.released))
         self._motion = self._checks.motion(self._navigator.step(self._now, self._given, orders))
-        self._causes |= {event.robot: event.detail for event in self._motion.events if event.kind == "aborted"}
+        for event in self._motion.events:
+            if event.kind == "aborted":
+                self._causes[event.robot] = event.detail
 
     def _result(self) -> ExecutionResult | None:
         """Return the end of the execution, or None if it continues."""
@@ -247,9 +251,12 @@ class ExecutionLoop:
     def _all_done(self, gave_up: Bool) -> bool:
         """Tell whether each robot of a batch has arrived, or will not."""
         arrivals, reactions, faults = self._arrivals, self._reactions, self._inputs.faults
-        done = (arrivals.arrived | arrivals.mistaken) & ~reactions.astray
-        done |= gave_up | faults.lost | reactions.given_up | (reactions.cut_off & faults.final)
-        return bool(done.all())
+        done = arrivals.arrived | arrivals.mistaken
+        if faults:
+            done &= ~reactions.astray
+            done |= faults.lost | reactions.given_up | (reactions.cut_off & faults.final)
+        done |= gave_up
+        return int(np.count_nonzero(done)) == len(done)
 
     def _stands_still(self) -> bool:
         """Tell whether nothing goes on any more because of faults that do not end."""
@@ -291,21 +298,25 @@ class ExecutionLoop:
         recorder.scans(observation.scans)
         if inputs.evaluations is not None:
             recorder.evaluations(now, inputs.evaluations.take())
-        count = self._driven.count
-        attacked = inputs.delays.attacked(now, self._motion.reached + count, self._orders.released + count)
-        recorder.events((*inputs.delays.begun(now), *attacked, *self._motion.events))
-        sample = Sample(
-            now=now,
-            state=state,
-            estimate=observation.estimate,
-            odometry=observation.odometry,
-            orders=self._driven.orders(self._orders),
-            motion=self._driven.motion(self._confirmed),
-            waits_for=self._facility_manager.waits_for(len(state.pose)),
-            facility=self._facility_manager.states(state),
-            movers=inputs.crowds.movers if inputs.crowds.members else None,
-        )
-        recorder.sample(self._step, sample, last)
+        if inputs.delays:
+            count = self._driven.count
+            recorder.events(inputs.delays.begun(now))
+            recorder.events(inputs.delays.attacked(now, self._motion.reached + count, self._orders.released + count))
+        recorder.events(self._motion.events)
+        confirmed = self._driven.motion(self._confirmed)
+        if last or recorder.is_due(self._step):
+            sample = Sample(
+                now=now,
+                state=state,
+                estimate=observation.estimate,
+                odometry=observation.odometry,
+                orders=self._driven.orders(self._orders),
+                motion=confirmed,
+                waits_for=self._facility_manager.waits_for(len(state.pose)),
+                facility=self._facility_manager.states(state),
+                movers=inputs.crowds.movers if inputs.crowds.members else None,
+            )
+            recorder.sample(self._step, sample, last)
         if inputs.stepped is not None:
             inputs.stepped(now=now, state=own(state), observation=self._given, routes=self._given_routes)
 
@@ -315,11 +326,13 @@ class ExecutionLoop:
         commands = self._facility_manager.commands(self._motion.reached, self._orders.released, self._state)
         commands = inputs.crowds.doors(self._state, commands)
         inputs.crowds.step(self._state)
-        commands = inputs.faults.held(commands, self._state.facilities)
-        twist = inputs.delays.driven(
-            inputs.noise.actuated(self._motion.twist), self._motion.reached + self._driven.count
-        )
-        driven = Inputs(twist=inputs.faults.driven(twist), facilities=commands)
+        twist = inputs.noise.actuated(self._motion.twist)
+        if inputs.delays:
+            twist = inputs.delays.driven(twist, self._motion.reached + self._driven.count)
+        if inputs.faults:
+            commands = inputs.faults.held(commands, self._state.facilities)
+            twist = inputs.faults.driven(twist)
+        driven = Inputs(twist=twist, facilities=commands)
         self._state = self._checks.state(inputs.simulation.step(inputs.crowds.inputs(driven)))
         self._step += 1
         self._now = self._step * inputs.context.period

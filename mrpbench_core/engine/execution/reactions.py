@@ -37,6 +37,7 @@ class Reactions:
         self._gives_up = self._replans and faults.settings.reaction == "give_up"
         self._led_around: tuple[FaultEvent, ...] = ()
         self._not_before, self._wait = 0.0, RETRY_S
+        self._nobody: Bool = np.zeros(robots, bool)
         self.given_up: Bool = np.zeros(robots, bool)
         """bool[n]: the task of the robot is given up."""
         self.astray: Bool = np.zeros(robots, bool)
@@ -54,7 +55,7 @@ class Reactions:
     def update(self) -> Bool:
         """Return the robots bool[n] whose tasks are given up from now on."""
         if not self._gives_up:
-            return np.zeros_like(self.given_up)
+            return self._nobody
         new: Bool = self._faults.stopped & ~self.given_up
         self.given_up = self.given_up | new
         return new

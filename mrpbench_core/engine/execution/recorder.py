@@ -131,9 +131,13 @@ class Recorder:
         self._waypoints = self._trajectories = 0
         self._touching: set[tuple[int, int]] = set()
 
+    def is_due(self, step: int) -> bool:
+        """Tell whether control period `step` is one of those that are recorded."""
+        return step % self._every == 0
+
     def sample(self, step: int, sample: Sample, last: bool) -> None:
         """Record control period `step` if it is due; the `last` always is."""
-        if step % self._every and not last:
+        if not (last or self.is_due(step)):
             return
         rows, state, motion = self._rows, sample.state, sample.motion
         rows["time"].append(sample.now)
@@ -142,7 +146,7 @@ class Recorder:
         rows["level"].append(state.level)
         if sample.estimate is not None and sample.odometry is not None:
             rows["estimate"].append(sample.estimate.pose)
-            rows["odometry"].append(np.column_stack([sample.odometry.pose, sample.odometry.twist]))
+            rows["odometry"].append(np.concatenate([sample.odometry.pose, sample.odometry.twist], axis=1))
             rows["command"].append(motion.twist)
         rows["released"].append(sample.orders.released)
         if len(sample.orders.speed):
@@ -162,6 +166,8 @@ class Recorder:
 
     def contacts(self, now: float, state: State) -> None:
         """Record contacts during the period that ends at `now`; the beginning of a contact is also an event."""
+        if not len(state.contacts) and not self._touching:
+            return
         robots = len(state.pose)
         touching = {(robot, other) for robot, other in state.contacts.tolist()}
         for robot, other in sorted(touching):

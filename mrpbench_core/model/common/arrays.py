@@ -31,17 +31,21 @@ def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None
         array = array.reshape(0, columns)
     elif columns is not None and array.shape[1:] != (columns,):  # reshaping would hide swapped rows and columns
         raise ValueError(f"expected an array of {columns} columns, got the shape {array.shape}")
-    array.setflags(write=False)
-    return array
+    return read_only(array)
 
 
 def _frozen(given: NDArray[Any]) -> NDArray[Any]:
     """Return a read-only copy, or `given` if it is one already."""
     flags = given.flags
     if flags.writeable or not (flags.c_contiguous and flags.owndata):
-        given = given.copy()
-        given.setflags(write=False)
+        return read_only(given.copy())
     return given
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """Return the same array, which cannot be written to any more."""
+    array.setflags(False)  # type: ignore[call-arg]  # `write` by its name takes twice the time, in every control period
+    return array
 
 
 def _converted(given: NDArray[Any], wanted: np.dtype[Any]) -> NDArray[Any]:

@@ -1,5 +1,7 @@
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
@@ -69,6 +71,41 @@ def test_a_robot_that_drives_as_slowly_as_it_has_to_is_not_stuck_but_one_that_st
         poses = ((now, np.array([[speed * now, 0.0, 0.0]])) for now in np.arange(0.0, 200.0, 0.5))
         found = [checker.check(now, pose, np.ones(1, bool), np.full(1, limit))[0] for now, pose in poses]
         assert any(found) == stuck
+
+
+def stuck_by_definition(control, radius, allowance, angle):
+    """Yield which robots are stuck, robot by robot: an independent reading of Nav2's progress checkers."""
+    known, before = {}, 0.0
+    for now, pose, under_way, speed in control:
+        found = []
+        for robot, (x, y, yaw) in enumerate(pose):
+            last = known.get(robot)
+            if last is not None:
+                share = min(1.0, speed[robot] * allowance / (2 * radius))
+                last = *last[:3], last[3] + (1 - share) * (now - before)
+            turned = last is not None and abs((yaw - last[2] + np.pi) % (2 * np.pi) - np.pi) > angle
+            moved = last is None or np.hypot(x - last[0], y - last[1]) > radius or turned
+            late = bool(under_way[robot]) and not moved and now - last[3] > allowance
+            known[robot] = (x, y, yaw, now) if moved or late or not under_way[robot] else last
+            found.append(late)
+        before = now
+        yield found
+
+
+@settings(deadline=None, max_examples=40)
+@given(st.integers(0, 2**32 - 1), st.sampled_from([np.inf, 0.5]))
+def test_robots_are_stuck_when_they_are_by_definition(seed, angle):
+    random, count, under_way = np.random.default_rng(seed), 4, np.ones(4, bool)
+    pose, control = np.zeros((count, 3)), []
+    for step in range(60):
+        pose = pose + random.choice([0.0, 0.0, 0.0, 0.2], (count, 1)) * random.normal(size=(count, 3))
+        if random.random() < 0.2:
+            under_way = random.random(count) < 0.7
+        speed = np.where(random.random(count) < 0.8, np.inf, random.uniform(0.01, 0.2, count))
+        control.append((0.5 * step, pose, under_way, speed))
+    checker = ProgressChecker(count, 0.5, 4.0, angle)
+    found = [checker.check(*each).tolist() for each in control]
+    assert found == list(stuck_by_definition(control, 0.5, 4.0, angle))
 
 
 def test_a_nav2_file_names_the_checkers(tmp_path):

@@ -64,6 +64,8 @@ class LocalSession(FleetControllerSession):
             others = [critic for critic in settings.critics if not isinstance(critic, NativeCritic) and critic.weight]
             started = [(type(critic).__name__, critic.weight, critic.start(robot, world)) for critic in others]
             self._in_python.append(started)
+        self._scored = any(self._in_python)
+        """Whether any robot has critics in Python."""
         self._seen: Observations | None = None
         self._row: dict[int, int] = {}
 
@@ -73,10 +75,9 @@ class LocalSession(FleetControllerSession):
         for batch in seen.scans:
             self._fleet.see(batch.stamp, batch.robot, seen.fleet_pose, batch.ranges)
         self._seen = seen
-        scored = any(self._in_python)
-        if scored:
+        if self._scored:
             self._row = {robot: row for row, robot in enumerate(seen.robot.tolist())}
-        return self._fleet.command(seen, self._score if scored else None)
+        return self._fleet.command(seen, self._score if self._scored else None)
 
     def clear(self, robot: int) -> None:
         """Forget what one robot's scans have marked."""

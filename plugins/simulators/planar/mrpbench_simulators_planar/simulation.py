@@ -8,7 +8,7 @@ import numpy as np
 from mrpbench_native.sim import Caster, Plane
 
 from mrpbench_core.api import Simulation
-from mrpbench_core.model.common.arrays import Float, Int16
+from mrpbench_core.model.common.arrays import Float, Int16, frozen_array, read_only
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.execution.observation import ScanBatch
@@ -51,7 +51,7 @@ class PlanarSimulation(Simulation):
         self._layout, self._facilities = LevelLayout(world, reach), Facilities(world)
         self._doing = self._facilities.initial_state()
         self._leaves = self._layout.door_outlines(self._facilities, self._doing)
-        self._level: Int16 = np.zeros(len(robots), np.int16) if levels is None else np.array(levels, np.int16)
+        self._level: Int16 = frozen_array(np.zeros(len(robots)) if levels is None else levels, "i2")
         solids = self._layout.segments
         self._robot_radius = fleet.radii
         self._plane = Plane(
@@ -95,7 +95,8 @@ class PlanarSimulation(Simulation):
 
     def _observe(self) -> State:
         plane = self._plane
-        pose = self._layout.to_levels(plane.pose, self._level)
+        self._pose = plane.pose
+        pose = read_only(self._layout.to_levels(self._pose, self._level))  # or it would be copied once more
         return State(pose=pose, twist=plane.twist, level=self._level, contacts=plane.contacts, facilities=self._doing)
 
     def _operate(self, commands: Mapping[str, float]) -> None:
@@ -106,7 +107,8 @@ class PlanarSimulation(Simulation):
         )
         if after == before:
             return
-        self._doing, self._level = after, self._facilities.carry(before, after, pose, level)
+        self._doing = after
+        self._level = frozen_array(self._facilities.carry(before, after, pose, level), "i2")
         self._leaves = self._layout.door_outlines(self._facilities, after)
         self._plane.set_leaves(self._leaves)
         spread = self._layout.to_plane(pose, self._level)
@@ -125,11 +127,12 @@ class PlanarSimulation(Simulation):
             return ()
         stamp = self._periods * self._period
         batches = []
-        radius = np.concatenate([self._robot_radius, self._movers.seen_radius])
-        seen = np.ascontiguousarray(self._movers.seen)
+        radius, seen = self._robot_radius, np.ascontiguousarray(self._movers.seen)
+        if len(seen):
+            radius = np.concatenate([radius, self._movers.seen_radius])
         for lidar, robots in due:
             scanning = np.array(robots, np.int32)
-            ranges = self._casters[lidar].scan(scanning, self._plane.pose, seen, radius, self._leaves)
+            ranges = self._casters[lidar].scan(scanning, self._pose, seen, radius, self._leaves)
             batches.append(ScanBatch(stamp=stamp, robot=scanning, ranges=ranges))
         return tuple(batches)
 
