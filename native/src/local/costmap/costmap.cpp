@@ -239,6 +239,8 @@ void Costmap::mark_hits() {
   }
   its.beams.end_cells(frame_, its.lengths, its.ends);
   for (std::size_t i = 0; i < its.ends.size(); ++i) {
+    const Cell& soon = its.ends[std::min(i + 8, its.ends.size() - 1)];
+    if (frame_.holds(soon)) __builtin_prefetch(&hits_[frame_.index(soon)]);
     if (its.lengths[i] >= 0 && frame_.holds(its.ends[i])) mark(its.ends[i], its.beams.end(i, its.lengths[i]));
   }
 }
