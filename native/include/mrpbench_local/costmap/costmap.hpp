@@ -83,6 +83,8 @@ class Costmap {
   bool each_nearby(Point p, Visit&& visit) const;
   /// Tell whether a point is at least as far from what beams hit as the robot was at the last update.
   bool keeps_room(Point p) const;
+  /// Compute the costs around one lethal cell.
+  void draw_stamp();
   void inflate();
 
   CostmapOptions options_;
