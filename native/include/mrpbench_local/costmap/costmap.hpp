@@ -65,6 +65,10 @@ class Costmap {
   /// robot that was closer at the last update may drive where it comes no closer, so that it can leave.
   bool is_free(Cell c, Point p) const { return at(c) < kInscribed || (at(c) == kInscribed && keeps_room(p)); }
   const std::vector<std::uint8_t>& costs() const { return cost_; }
+  /// Begin to load the costs near the robot into the cache.
+  void fetch() const {
+    for (std::size_t i = cost_.size() / 4; i < cost_.size() * 3 / 4; i += 64) __builtin_prefetch(&cost_[i]);
+  }
   /// Mark the cells (of this frame) through which outlines of the static map pass.
   void draw_walls(std::vector<std::uint8_t>& cells) const;
 
@@ -79,6 +83,8 @@ class Costmap {
   bool each_nearby(Point p, Visit&& visit) const;
   /// Tell whether a point is at least as far from what beams hit as the robot was at the last update.
   bool keeps_room(Point p) const;
+  /// Compute the costs around one lethal cell.
+  void draw_stamp();
   void inflate();
 
   CostmapOptions options_;

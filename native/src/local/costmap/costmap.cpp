@@ -1,20 +1,15 @@
 #include "mrpbench_local/costmap/costmap.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <stdexcept>
 
+#include "local/next_byte.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
 #include "mrpbench_local/costmap/update_buffers.hpp"
-#include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local {
 
 namespace {
-
-/// Costs that are compared at once.
-constexpr std::size_t kBlock = 32;
-using Block = std::uint8_t __attribute__((vector_size(kBlock)));
 
 CostmapOptions sound(CostmapOptions options) {
   const auto require = [](bool holds, const char* what) {
@@ -58,30 +53,10 @@ void traverse(Point a, Point b, double resolution, Visit&& visit) {
 
 /// The first lethal one of `count` cells from `i` on, or their number.
 std::size_t next_lethal(const std::uint8_t* cells, std::size_t i, std::size_t count) {
-  const void* const found = std::memchr(cells + i, kLethal, count - i);
-  return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - cells) : count;
-}
-
-/// Raise each of `count` costs to another.
-void raise(std::uint8_t* to, const std::uint8_t* from, std::size_t count) {
-  std::size_t i = 0;
-  for (; i + kBlock <= count; i += kBlock) {
-    Block cost, other;
-    std::memcpy(&cost, to + i, kBlock);
-    std::memcpy(&other, from + i, kBlock);
-    cost = cost > other ? cost : other;
-    std::memcpy(to + i, &cost, kBlock);
-  }
-  for (; i < count; ++i) to[i] = std::max(to[i], from[i]);
+  return next_byte(cells, kLethal, i, count);
 }
 
 }  // namespace
-
-std::uint8_t inflated_cost(double distance, double inscribed, double cost_scaling_factor) {
-  if (distance == 0) return kLethal;
-  if (distance <= inscribed) return kInscribed;
-  return static_cast<std::uint8_t>(252 * std::exp(-cost_scaling_factor * (distance - inscribed)));
-}
 
 Costmap::Costmap(CostmapOptions options, std::shared_ptr<const StaticMap> walls)
     : options_(sound(std::move(options))), walls_(std::move(walls)), inscribed_(inscribed_radius(options_.footprint)) {
@@ -92,18 +67,7 @@ Costmap::Costmap(CostmapOptions options, std::shared_ptr<const StaticMap> walls)
   cost_ = marks_;
   hits_.resize(frame_.size());
   room_ = inscribed_;
-  reach_ = static_cast<int>(std::floor(options_.inflation_radius / options_.resolution));
-  const auto side = static_cast<std::size_t>(2 * reach_ + 1);
-  stamp_width_ = (side + kBlock - 1) / kBlock * kBlock;
-  stamp_.assign(side * stamp_width_, kFree);
-  for (int y = -reach_; y <= reach_; ++y) {
-    for (int x = -reach_; x <= reach_; ++x) {
-      if (x * x + y * y > reach_ * reach_) continue;
-      const double distance = std::sqrt(x * x + y * y) * options_.resolution;
-      stamp_[static_cast<std::size_t>(y + reach_) * stamp_width_ + static_cast<std::size_t>(x + reach_)] =
-          inflated_cost(distance, inscribed_, options_.cost_scaling_factor);
-    }
-  }
+  draw_stamp();
 }
 
 void Costmap::see(Pose pose, const Sensor& sensor, std::span<const double> ranges) {
@@ -239,6 +203,8 @@ void Costmap::mark_hits() {
   }
   its.beams.end_cells(frame_, its.lengths, its.ends);
   for (std::size_t i = 0; i < its.ends.size(); ++i) {
+    const Cell& soon = its.ends[std::min(i + 8, its.ends.size() - 1)];
+    if (frame_.holds(soon)) __builtin_prefetch(&hits_[frame_.index(soon)]);
     if (its.lengths[i] >= 0 && frame_.holds(its.ends[i])) mark(its.ends[i], its.beams.end(i, its.lengths[i]));
   }
 }
@@ -290,59 +256,6 @@ void Costmap::draw_walls(std::vector<std::uint8_t>& cells) const {
       const Cell c{plane.x - frame_.origin.x, plane.y - frame_.origin.y};
       if (frame_.holds(c)) cells[frame_.index(c)] = kLethal;
     });
-  }
-}
-
-/// Write the costs around the lethal cells. Along a run of these, costs are those of the nearest one: at its sides the
-/// costs beside one cell, beyond its ends those around the last one. The lethal cell that is nearest to a free one has
-/// a free side, so cells without a free side can be skipped.
-MRPBENCH_WIDE void Costmap::inflate() {
-  const auto width = static_cast<std::size_t>(frame_.width), height = static_cast<std::size_t>(frame_.height);
-  const auto reach = static_cast<std::size_t>(reach_), stride = width + 2 * reach + kBlock, side = 2 * reach + 1;
-  std::vector<std::uint8_t>&margined = UpdateBuffers::of_thread().margined, &alone = UpdateBuffers::of_thread().alone;
-  margined.assign(stride * (height + 2 * reach), kFree);
-  alone.assign(width * height, 0);
-  // `row` of the stamp of a cell, or that row `below` it.
-  const auto stamp = [&](std::size_t x, std::size_t y, std::size_t row, std::size_t below = 0) {
-    raise(&margined[(y + row + below) * stride + x], &stamp_[row * stamp_width_], stamp_width_);
-  };
-  const auto lethal = [&](std::size_t x, std::size_t y) { return cost_[y * width + x] == kLethal; };
-  const auto buried = [&](std::size_t x, std::size_t y) {
-    return (x == 0 || lethal(x - 1, y)) && (x + 1 == width || lethal(x + 1, y)) && (y == 0 || lethal(x, y - 1)) &&
-           (y + 1 == height || lethal(x, y + 1));
-  };
-  for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t first = 0, end = 0; (first = next_lethal(&cost_[y * width], end, width)) < width;) {
-      for (end = first + 1; end < width && lethal(end, y);) ++end;
-      while (first < end && buried(first, y)) ++first;
-      if (first == end) continue;
-      std::size_t last = end - 1;
-      while (buried(last, y)) --last;
-      if (last - first < 2) {
-        for (std::size_t x = first; x <= last; ++x) alone[y * width + x] = kLethal;
-        continue;
-      }
-      for (std::size_t row = 0; row < side; ++row) {
-        stamp(first, y, row);
-        stamp(last, y, row);
-        std::uint8_t* const between = &margined[(y + row) * stride + reach];
-        const std::uint8_t beside = stamp_[row * stamp_width_ + reach];
-        for (std::size_t x = first; x < last; ++x) between[x] = std::max(between[x], beside);
-      }
-    }
-  }
-  for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t x = 0; (x = next_lethal(&alone[y * width], x, width)) < width; ++x) {
-      if (y > 0 && alone[(y - 1) * width + x]) continue;  // the run began below
-      std::size_t more = 0;                               // cells of the run along the column
-      while (y + more + 1 < height && alone[(y + more + 1) * width + x]) ++more;
-      for (std::size_t row = 0; row < reach; ++row) stamp(x, y, row);
-      for (std::size_t below = 0; below <= more; ++below) stamp(x, y, reach, below);
-      for (std::size_t row = reach + 1; row < side; ++row) stamp(x, y, row, more);
-    }
-  }
-  for (std::size_t y = 0; y < height; ++y) {
-    raise(&cost_[y * width], &margined[(y + reach) * stride + reach], width);
   }
 }
 

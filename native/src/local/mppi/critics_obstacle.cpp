@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
+#include "local/next_byte.hpp"
 #include "mrpbench_local/costmap/collision.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
 #include "mrpbench_local/mppi/critic.hpp"
@@ -99,12 +99,6 @@ class Lookup {
   std::vector<Point> corners_;
 };
 
-/// The first suspect from `k` on, or their number.
-std::size_t next_suspect(const std::vector<char>& suspect, std::size_t k) {
-  const void* const found = std::memchr(suspect.data() + k, 1, suspect.size() - k);
-  return found ? static_cast<std::size_t>(static_cast<const char*>(found) - suspect.data()) : suspect.size();
-}
-
 /// Go through every `step`th pose of all samples: `score(costs, collides)` with the cost under each sample, and which
 /// have collided so far. In the end these score `collision`. Returns false if every sample collides.
 template <class Score>
@@ -114,7 +108,7 @@ bool sweep(const Batch& batch, Lookup& costs, Buffers& its, std::size_t step, do
   std::size_t left = raw.size();
   for (std::size_t t = 0; t < batch.steps(); t += step) {
     costs.find(t);
-    for (std::size_t k = 0; (k = next_suspect(its.suspect, k)) < raw.size(); ++k) {
+    for (std::size_t k = 0; (k = next_byte(its.suspect.data(), 1, k, raw.size())) < raw.size(); ++k) {
       if (its.collides[k] || !costs.collides(t, k)) continue;
       its.collides[k] = 1;
       --left;
