@@ -27,7 +27,7 @@ from mrpbench_dispatchers_reordering.bidirectional import open_groups
 from mrpbench_dispatchers_reordering.switching import SwitchingDispatcher, SwitchingSession
 from mrpbench_dispatchers_reordering.visits import NONE, Pairs
 
-LATER = 1.0
+LATER = 5.0
 """Seconds that a robot has to lose or make up before robots that wait for others are considered again."""
 
 
