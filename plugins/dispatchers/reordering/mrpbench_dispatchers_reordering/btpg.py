@@ -27,7 +27,7 @@ from mrpbench_dispatchers_reordering.bidirectional import open_groups
 from mrpbench_dispatchers_reordering.switching import SwitchingDispatcher, SwitchingSession
 from mrpbench_dispatchers_reordering.visits import NONE, Pairs
 
-LATER = 5.0
+LATER = 1.0
 """Seconds that a robot has to lose or make up before robots that wait for others are considered again."""
 
 
@@ -93,7 +93,7 @@ class BtpgSession(SwitchingSession):
         """Release the moves that wait for nothing, or only for robots that come later to places with an open order."""
         orders = super().update(now, view)
         chances = {robot: groups for robot in self._waiting() if (groups := self._groups_ahead(robot))}
-        if not self._is_new(chances) or not self._switch(chances, view):
+        if not chances or not self._is_new(chances) or not self._switch(chances, view):
             return orders
         return super().update(now, view)
 
