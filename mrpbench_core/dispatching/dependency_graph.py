@@ -282,9 +282,10 @@ class DependencyGraph:
             self._advance(robot)
 
     def blockers(self, robot: int) -> list[int]:
-        """The robots for which the first move of a robot that is not released still waits."""
+        """The other robots for which the first move of a robot that is not released still waits."""
         move = self.frontier[robot]
-        return self._blockers(self.group[move]) if move < self.last[robot] else []
+        found = self._blockers(self.group[move]) if move < self.last[robot] else []
+        return [other for other in found if other != robot]
 
     def _blockers(self, group: int) -> list[int]:
         waits = (key // self._stride for key, groups in self._waiting.items() if group in groups)

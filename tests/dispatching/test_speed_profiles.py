@@ -8,11 +8,15 @@ from hypothesis import strategies as st
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
+from mrpbench_core.config.delays import Delays
 from mrpbench_core.dispatching.speed_profiles import Network, SpeedProfiles, first_slope, late_times, latest_arrivals
+from mrpbench_core.engine.execution.delays import DrawnDelays
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.testing.drawing import build
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
-from mrpbench_core.testing.execution.drain import drain
+from mrpbench_core.testing.execution.drawn_executions import drained
+from mrpbench_core.testing.execution.meetings import meetings
+from mrpbench_core.testing.execution.repeated_executor import NOT_YET, RepeatedExecutor
 from mrpbench_core.testing.instances.random_plans import random_plan
 from mrpbench_core.testing.instances.roadmaps import path_through, two_way_grid
 
@@ -107,23 +111,40 @@ def test_the_first_slope_is_that_of_the_most_even_line(data):
     assert np.isclose(found, slope_by_least_squares(distance, late, latest), atol=1e-4)
 
 
-@settings(deadline=None, max_examples=30)
-@given(SEEDS)
-def test_profiles_change_nothing_of_what_is_released(seed):
-    traces = []
-    for profiles in (False, True):
-        random = np.random.default_rng(seed)
-        problem, plan = random_plan(random)
+@settings(deadline=None, max_examples=12)
+@given(SEEDS, st.booleans(), st.sampled_from([0, 3]))
+def test_profiles_change_nothing_of_what_is_released(seed, resources, replans):
+    ended = [drained(Adg(speed_profiles=profiles), seed, resources, replans) for profiles in (False, True)]
+    assert ended[0] == ended[1]
+    assert ended[0] is None or not ended[0].reordered or replans
+
+
+def arrivals(dispatcher, problem, plan, delays, seed):
+    """When the robots of an execution that keep their limits arrive, in seconds."""
+    session = dispatcher.start(problem, plan)
+    executor = RepeatedExecutor(problem, plan, 0.25, np.random.default_rng(seed))
+    drawn = DrawnDelays(delays, len(problem), seed, 0, [0])
+    while not executor.drained.all():
+        orders = session.update(executor.now * executor.period, executor.view(0, 0, ()))
+        groups = [(number, 0, *member) for number, group in enumerate(orders.in_step) for member in group]
+        limit = orders.speed if len(orders.speed) else np.full(len(problem), np.inf)
+        in_step = np.array(groups, np.int64).reshape(-1, 4)
+        executor.step(orders.released[None].astype(np.int64), in_step, limit[None], drawn, ())
+    assert not meetings(executor)
+    return np.where(executor.ended < NOT_YET, executor.ended, 0).max(axis=2)[0] * executor.period
+
+
+@pytest.mark.parametrize("delays", [Delays(), Delays(p_delay=0.05, max_delay=6)])
+def test_robots_that_drive_slowly_arrive_no_more_than_a_twentieth_later_in_sum(delays):
+    """As `docs/how-to/delays.md` says."""
+    sums = np.zeros(2)
+    for seed in range(25):
+        problem, plan = random_plan(np.random.default_rng(seed))
         try:
-            session = Adg(speed_profiles=profiles).start(problem, plan)
+            sums += [arrivals(Adg(speed_profiles=it), problem, plan, delays, seed).sum() for it in (False, True)]
         except DispatchError:
-            return
-        executor = DelayedExecutor(problem, plan, random)
-        drain(session, executor)
-        assert executor.fault is None
-        assert not executor.reordered
-        traces.append(executor.reached.tolist())
-    assert traces[0] == traces[1]
+            continue
+    assert sums[0] < sums[1] < 1.05 * sums[0]
 
 
 @pytest.fixture

@@ -119,6 +119,16 @@ class DispatcherConformance(ComponentConformance):
         after = other.update(0.0, idle.view()).released
         require(np.array_equal(before, after), "a session releases more because another session has gone on")
 
+    def test_robots_wait_for_others_that_exist(self) -> None:
+        for name, (asked, plan) in plans().items():
+            session, executor = self.make().start(asked, plan), delayed(asked, plan, 0)
+            for step in range(2 * EVERY):
+                executor.step(step, session.update(step * asked.roadmap.tick, executor.view()).released)
+                for robot in range(len(asked)):
+                    found = session.waits_for(robot)
+                    others = set(range(len(asked))) - {robot}
+                    require(found is None or others.issuperset(found), f"{name}: robot {robot} waits for {found}")
+
     def test_copies_go_on_as_their_sessions_do(self) -> None:
         for name, (asked, plan) in plans().items():
             watched = Watched(self.make().start(asked, plan))

@@ -93,7 +93,7 @@ class BtpgSession(SwitchingSession):
         """Release the moves that wait for nothing, or only for robots that come later to places with an open order."""
         orders = super().update(now, view)
         chances = {robot: groups for robot in self._waiting() if (groups := self._groups_ahead(robot))}
-        if not self._is_new(chances) or not self._switch(chances, view):
+        if not chances or not self._is_new(chances) or not self._switch(chances, view):
             return orders
         return super().update(now, view)
 

@@ -1,9 +1,10 @@
 """Plans drain under random delays in a changed order: no robot waits forever, and robots keep apart."""
 
+import attrs
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
-from mrpbench_dispatchers_reordering import Gses, Sadg, searching
+from mrpbench_dispatchers_reordering import Btpg, Gses, Sadg, searching
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.testing.execution.drawn_executions import drained
@@ -46,6 +47,13 @@ def test_plans_through_resources_drain(seed):
 def test_plans_that_change_on_the_way_drain(resources, seed):
     ended = drained(EAGER, seed, resources, replans=3)
     event(f"reordered: {ended and ended.reordered}")
+
+
+@settings(deadline=None, max_examples=12)
+@given(SEEDS, st.booleans(), st.sampled_from([0, 3]), st.sampled_from([EAGER, Btpg(lookahead=1)]))
+def test_speed_profiles_change_nothing_of_what_is_released(seed, resources, replans, dispatcher):
+    slowed = attrs.evolve(dispatcher, speed_profiles=True)
+    assert drained(slowed, seed, resources, replans) == drained(dispatcher, seed, resources, replans)
 
 
 @settings(deadline=None, max_examples=5)
