@@ -78,7 +78,6 @@ def next_rate(verdicts: Mapping[float, Verdict], first: float, resolution: float
         rate = min(verdicts) / 2 if low is None else max(verdicts) * 2
         return rate if first / FARTHEST <= rate <= first * FARTHEST else None
     steps = list(pairwise(rate for rate in sorted(verdicts) if low <= rate <= high))
-    for near, far in (steps[0], steps[-1]):  # rates between them were tried, and nothing was shown
-        if far > near * (1 + resolution):
-            return float(f"{math.sqrt(near * far):.4g}")
-    return None
+    ends = steps[0], steps[-1]  # rates between them were tried, and nothing was shown
+    near, far = max(ends, key=lambda step: step[1] / step[0])  # what shortens the interval most
+    return float(f"{math.sqrt(near * far):.4g}") if far > near * (1 + resolution) else None
