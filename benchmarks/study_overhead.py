@@ -1,7 +1,7 @@
 """Measure the overhead of a run: processes, messages, record.
 
-Prints milliseconds per run for a minimal run, in a study and alone in this process: wall time, and CPU time of all
-processes. On a busy machine only CPU time means something.
+Prints milliseconds per run for a minimal run, in a study and alone in this process: wall time, and CPU time and page
+faults of all processes. A busy machine lengthens wall time much and CPU time somewhat; page faults stay.
 """
 
 import argparse
@@ -32,11 +32,12 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         (folder / "tiny.map").write_text("type octile\nheight 3\nwidth 3\nmap\n...\n...\n...\n")
-        start, few = studied(folder, FEW, given.workers)
-        wall, cpu = studied(folder, FEW + given.runs, given.workers)
+        start, few, fewer = studied(folder, FEW, given.workers)
+        wall, cpu, faults = studied(folder, FEW + given.runs, given.workers)
         alone = executed(folder, given.runs)
     wall, cpu = (wall - start) / given.runs * 1e3, (cpu - few) / given.runs * 1e3
     print(f"{wall:.2f} ms of wall time and {cpu:.2f} ms of CPU in a study with {given.workers} workers")
+    print(f"{(faults - fewer) / given.runs:.0f} page faults")
     print(f"{alone * 1e3:.2f} ms of CPU alone: {cpu - alone * 1e3:.2f} ms of CPU a run")
     print(f"{start:.2f} s to read a study, to start its workers and to do {FEW} runs")
 
@@ -55,13 +56,14 @@ def described(folder: Path, runs: int) -> dict[str, Any]:
     }
 
 
-def studied(folder: Path, runs: int, workers: int) -> tuple[float, float]:
-    """Wall and CPU seconds of a study, with its processes."""
-    began, used = time.perf_counter(), cpu_s()
+def studied(folder: Path, runs: int, workers: int) -> tuple[float, float, int]:
+    """Wall and CPU seconds and page faults of a study, with its processes."""
+    began, (used, faulted) = time.perf_counter(), usage()
     with slots_of_this_process() as slots:
         study = read_study(described(folder, runs))
         run_study(study, StudyOptions(out=folder / f"{runs}", workers=workers), slots)
-    return time.perf_counter() - began, cpu_s() - used
+    cpu, faults = usage()
+    return time.perf_counter() - began, cpu - used, faults - faulted
 
 
 def executed(folder: Path, runs: int) -> float:
@@ -74,10 +76,10 @@ def executed(folder: Path, runs: int) -> float:
     return (time.process_time() - began) / runs
 
 
-def cpu_s() -> float:
-    """CPU seconds of this process and of those that it has waited for."""
-    used = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
-    return sum(each.ru_utime + each.ru_stime for each in used)
+def usage() -> tuple[float, int]:
+    """CPU seconds and page faults of this process and of those that it has waited for."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(each.ru_utime + each.ru_stime for each in used), sum(each.ru_minflt for each in used)
 
 
 if __name__ == "__main__":
