@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path as FilePath
 from typing import Any
 
 import attrs
@@ -27,6 +28,7 @@ from mrpbench_core.engine.stages.plan import LATE_S, STATUS, budget_of, call_pla
 from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance, goal_yaws, require_free_doorways
 from mrpbench_core.engine.stages.problem_building import build_problem, standing_problem
 from mrpbench_core.engine.stages.tasks import places_of, start_stream
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import printable
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
@@ -97,7 +99,7 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
         kept = config.recording.keep == "all" or (config.recording.keep == "failed" and failure is not None)
         with ThreadPoolExecutor(1) as disk:  # which is as slow as the metrics
             sealed = disk.submit(seal, inputs.paths, recording=kept)
-            record.metrics, record.unmeasured = measure_recording(config.metrics, inputs.paths.recording)
+            record.metrics, record.unmeasured = _measure(config, inputs.paths.recording)
             record.files = sealed.result()
         if not kept:
             inputs.paths.recording.unlink()
@@ -107,6 +109,14 @@ def _run_stages(inputs: RunInputs, record: RunRecord) -> None:
         record.metrics, record.unmeasured = measure(config.metrics, run)
     if failure is not None:
         raise failure
+
+
+def _measure(config: RunConfig, recording: FilePath) -> tuple[dict[str, Any], dict[str, str]]:
+    """Measure the recording that this process wrote."""
+    try:
+        return measure_recording(config.metrics, recording)
+    except InputError as error:  # no mistake of the user: a component changed the file, and would do so again
+        raise RuntimeError(f"the recording was changed after it was written: {error.message}") from error
 
 
 def _plan(inputs: RunInputs, problem: Problem, record: RunRecord) -> tuple[PlanResult, RunEnded | None]:

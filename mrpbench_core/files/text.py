@@ -1,5 +1,6 @@
 """Read files, with one line of error if that fails."""
 
+import os
 import re
 from pathlib import Path
 
@@ -19,7 +20,7 @@ def read_bytes(path: Path | str) -> bytes:
         InputError: it is missing, a folder, unreadable or larger than `SIZE_LIMIT`.
     """
     try:
-        with Path(path).open("rb") as stream:
+        with open(path, "rb", opener=_open) as stream:
             blocks, size = [], 0
             while size <= SIZE_LIMIT and (block := stream.read(_BLOCK)):
                 blocks.append(block)
@@ -33,6 +34,13 @@ def read_bytes(path: Path | str) -> bytes:
     if size > SIZE_LIMIT:
         raise InputError(f"is larger than {SIZE_LIMIT // 2**20} MiB", file=path)
     return b"".join(blocks)
+
+
+def _open(path: str, flags: int) -> int:
+    """Open a file, and a named pipe into which nobody writes as if it were empty: `open` would wait for a writer."""
+    descriptor = os.open(path, flags | os.O_NONBLOCK)
+    os.set_blocking(descriptor, True)
+    return descriptor
 
 
 def read_text(path: Path | str) -> str:

@@ -17,6 +17,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Assigner, Dispatcher, Localizer, LocalizerSession, Metric, Column, Planner, option
+from mrpbench_core.api.exporter import Exporter, ExporterSession
 from mrpbench_core.api.navigator import Navigator, NavigatorSession
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
@@ -162,6 +163,24 @@ class LyingScenario(Random):
         return scenario
 
 
+class _Junk(ExporterSession):
+    def __init__(self, folder):
+        self.folder = folder
+
+    def write(self, chunk):
+        pass
+
+    def close(self):
+        for file in self.folder.glob("*run.zip*"):
+            file.write_bytes(b"junk")
+
+
+@attrs.frozen(kw_only=True)
+class LyingExporter(Exporter):
+    def open(self, context, destination):
+        return _Junk(destination.parent.parent)
+
+
 @attrs.frozen(kw_only=True)
 class LyingMetric(Metric):
     columns = (Column("zero", "", "lower", "changes the run"),)
@@ -265,6 +284,11 @@ def test_inputs_that_a_component_changes_in_every_period_change_nothing_that_is_
         recording.close()
     for one, other in zip(*channels, strict=True):
         assert np.array_equal(one, other)
+
+
+def test_a_recording_that_a_component_changed_is_a_crash_of_the_run_and_no_mistake_of_the_user(record):
+    with pytest.raises(RuntimeError, match="the recording was changed after it was written: is not a recording"):
+        record(export=[liar("Exporter")], limits={"planning": 5.0, "execution": 3.0})
 
 
 def test_true_poses_are_given_only_where_the_configuration_grants_them(record):

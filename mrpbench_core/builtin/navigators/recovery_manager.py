@@ -1,11 +1,14 @@
 """Recoveries in turn for robots that are stuck, until they make progress or give up."""
 
+import math
 import re
 from collections.abc import Sequence
+from typing import Any
 
 import attrs
 import numpy as np
 
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.controller import FleetControllerSession
 from mrpbench_core.api.recovery import Recovery, RecoverySession, Surroundings
 from mrpbench_core.builtin.navigators.route_follower import RouteFollower
@@ -92,7 +95,7 @@ class RecoveryManager:
                 if not answer:
                     events.append(Event(stamp=now, kind="recovery_failed", robot=robot, detail=name))
             else:
-                twist[robot, 0], twist[robot, 1] = answer
+                twist[robot] = _command(answer, name, robot)
         return events
 
     def _surroundings(self, robot: int, pose: Float) -> Surroundings:
@@ -125,6 +128,18 @@ class _KnownSurroundings(Surroundings):
             return free
         kept: Bool = np.hypot(poses[:, 0] - self._vertex[0], poses[:, 1] - self._vertex[1]) >= self._distance
         return free & kept
+
+
+def _command(answer: Any, recovery: str, robot: int) -> tuple[float, float]:
+    """The command that a recovery returned."""
+    try:
+        ahead, turn = map(float, answer)
+    except (TypeError, ValueError):
+        ahead = turn = math.nan
+    if not (math.isfinite(ahead) and math.isfinite(turn)):
+        expected = "instead of (speed, turn rate) or a bool"
+        raise BrokenContractError(f"the recovery {recovery} returned {answer!r:.60} for robot {robot} {expected}")
+    return ahead, turn
 
 
 def _snake_case(name: str) -> str:

@@ -1,8 +1,10 @@
+from types import SimpleNamespace
+
 import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.api import Controller, ControllerSession
+from mrpbench_core.api import Controller, ControllerSession, Recovery
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.files.robot import load_robot
@@ -96,6 +98,23 @@ def test_a_controller_that_returns_no_command_is_blamed_by_its_name(fleet, comma
     controllers[0].command = lambda observation: command
     with pytest.raises(BrokenContractError, match=r"the controller _Recording returned .* for robot 0"):
         session.step(0.0, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+
+
+@pytest.mark.parametrize("answer", [None, "yes", (0.1,), (np.nan, 0.0)])
+def test_a_recovery_that_returns_no_command_is_blamed_by_its_name(answer):
+    class Odd(Recovery):
+        def start(self, robot, surroundings, period):
+            return SimpleNamespace(step=lambda now, pose, twist: answer)
+
+    fleet = Fleet(robots=(load_robot("turtlebot3_burger"),) * 2)
+    session = Waypoints(recoveries=(Odd(),)).start(fleet, World(name="w", levels=()), ROUTES, _Recording(), 0.05, 0)
+
+    def drive():
+        for period in range(20):
+            session.step(period * 0.05, observe([[-0.1, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
+
+    with pytest.raises(BrokenContractError, match=r"the recovery odd returned .* for robot 0"):
+        drive()
 
 
 def test_a_controller_gets_its_own_scan_and_only_once(fleet):
