@@ -27,8 +27,6 @@ class Job:
     task: Task
     vertices: tuple[int, ...]
     """Roadmap vertex of each errand."""
-    length: tuple[float, ...] = ()
-    """Seconds from the first errand to the end, for each motion profile."""
     robot: int = -1
     errand: int = 0
     """The errand that comes next."""
@@ -52,9 +50,9 @@ class TaskBoard:
         self.events: list[TaskEvent] = []
         """What happened since the recorder took the events."""
 
-    def release(self, now: float, task: Task, vertices: tuple[int, ...], length: tuple[float, ...] = ()) -> None:
+    def release(self, now: float, task: Task, vertices: tuple[int, ...]) -> None:
         """Take a task in."""
-        self.jobs[task.index] = Job(task, vertices, length)
+        self.jobs[task.index] = Job(task, vertices)
         self._note(now, task.index, "released")
 
     def refuse(self, now: float, task: Task) -> None:

@@ -76,6 +76,8 @@ class TaskManager:
         """Tasks or robots have changed since the last assignment."""
         self._sequences = sequences
         self._planned = PlannedErrands(len(problem))
+        self._lengths: dict[int, tuple[float, ...]] = {}
+        """Of the tasks that are not begun, for each motion profile."""
         self._ways: dict[int, tuple[tuple[int, ...], list[Errand], Errands]] = {}
         """By robot: what its errands ahead depend on, these, and their names."""
         self._missed: set[int] = set()
@@ -141,9 +143,7 @@ class TaskManager:
             for profile, label in self._components
         )
         if able:
-            service = task.service.sum()
-            along = (self._costs.along(profile, vertices) for profile in range(len(self._costs.labels)))
-            self._board.release(now, task, vertices, tuple(seconds + service for seconds in along))
+            self._board.release(now, task, vertices)
             self._unassigned = True
         else:
             self._board.refuse(now, task)
@@ -221,7 +221,10 @@ class TaskManager:
                 free_in[robot] = self._costs.along(profile, ahead) + _service(job, now)
                 place[robot] = job.vertices[-1]
         free_in[self._aborted] = np.inf
-        lengths = np.array([job.length for job in jobs]).T
+        self._lengths = {
+            index: self._lengths.get(index) or self._length(self._board.jobs[index]) for index in open_tasks
+        }
+        lengths = np.array(list(self._lengths.values())).T
         approach = np.zeros((len(place), len(jobs)))
         for p in profiles:
             robots = np.flatnonzero(self._costs.profile == p)
@@ -250,6 +253,11 @@ class TaskManager:
                 () if job is None else job.vertices[job.errand :] for job in map(self._board.begun, self._robots)
             ),
         )
+
+    def _length(self, job: Job) -> tuple[float, ...]:
+        """Seconds from the first errand of a task to its end, for each motion profile."""
+        service = job.task.service.sum()
+        return tuple(self._costs.along(profile, job.vertices) + service for profile in range(len(self._costs.labels)))
 
     def reason(self, now: float) -> str | None:
         """Return why a new plan is needed now, or None: some robot's errand is not the one of its path."""
