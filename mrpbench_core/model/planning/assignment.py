@@ -6,7 +6,7 @@ import attrs
 
 from mrpbench_core.model.common.arrays import Float, Int32, array
 from mrpbench_core.model.planning.scenario import Task
-from mrpbench_core.model.planning.tasks import Tasks
+from mrpbench_core.model.planning.tasks import joined
 
 
 @attrs.frozen(kw_only=True)
@@ -47,7 +47,7 @@ class QueueProblem:
 
     now: float
     """simulated seconds."""
-    tasks: Sequence[Task] = attrs.field(converter=Tasks.of)
+    tasks: Sequence[Task] = attrs.field(converter=joined)
     """m tasks, in the order of their release, held as `Tasks`."""
     queues: Queues
     """What was decided last, one queue per robot."""

@@ -27,7 +27,8 @@ class Tasks(Sequence[Task]):
     """f8[m] as in `Task`, like the other columns."""
     deadline: Float = array("f8")
     priority: tuple[int, ...]
-    index: Int = array("i8")
+    number: Int = array("i8")
+    """i8[m]: `Task.index`."""
 
     @classmethod
     def of(cls, tasks: Sequence[Task]) -> "Tasks":
@@ -43,7 +44,7 @@ class Tasks(Sequence[Task]):
             release=np.array([task.release for task in tasks]),
             deadline=np.array([task.deadline for task in tasks]),
             priority=tuple(task.priority for task in tasks),
-            index=np.array([task.index for task in tasks], np.int64),
+            number=np.array([task.index for task in tasks], np.int64),
         )
 
     def __len__(self) -> int:
@@ -59,7 +60,7 @@ class Tasks(Sequence[Task]):
     @cached_property
     def _items(self) -> tuple[Task, ...]:
         rows = [slice(*bounds) for bounds in pairwise(self.first.tolist())]
-        columns = self.name, self.release.tolist(), self.deadline.tolist(), self.priority, self.index.tolist()
+        columns = self.name, self.release.tolist(), self.deadline.tolist(), self.priority, self.number.tolist()
         return tuple(
             Task(
                 goals=self.goals[own],
@@ -69,7 +70,12 @@ class Tasks(Sequence[Task]):
                 release=release,
                 deadline=deadline,
                 priority=priority,
-                index=index,
+                index=number,
             )
-            for own, name, release, deadline, priority, index in zip(rows, *columns, strict=True)
+            for own, name, release, deadline, priority, number in zip(rows, *columns, strict=True)
         )
+
+
+def joined(tasks: Sequence[Task]) -> Tasks:
+    """Return `Tasks.of(tasks)`; a converter of a field is a function."""
+    return Tasks.of(tasks)
