@@ -35,8 +35,8 @@ class KnownRoadmap:
         """Return the same roadmap as before if it has not changed."""
         if not hasattr(self._module, "Roadmap"):  # built against the headers of an earlier version
             return arrays
-        before = self._arrays or ()
-        same = [np.array_equal(one, other) for one, other in zip(before, arrays, strict=False)]
+        names = SolverRoadmap._fields
+        same = (np.array_equal(getattr(self._arrays, name), getattr(arrays, name)) for name in names)
         if self._known is None or not all(same):
             self._arrays, self._known = arrays, self._module.Roadmap(arrays._asdict())
         return self._known
