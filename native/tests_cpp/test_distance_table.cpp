@@ -81,3 +81,22 @@ TEST("of robots that visit goals in order, tables hold what is left of the way o
   CHECK(&tables[1] == tables.remaining(0)[1]);
   CHECK(tables.least_cost(two, 1) == 6);
 }
+
+TEST("a cache gives tables of the call before to the next one, and forgets those that are not used") {
+  const auto cache = std::make_shared<DistanceCache>(std::make_shared<const Roadmap>(grid(3, 3)));
+  const auto to = [&](int goal) { return Instance(cache->roadmap(), {robot(0, goal)}, {}, {}, {}, cache); };
+  const auto table_to = [&](int goal) {
+    Limits limits = unlimited();
+    const Instance one = to(goal);
+    DistanceTables tables(one, limits);
+    CHECK(tables[0](0) == distances(one.roadmap(), 0, {goal})[0]);
+    CHECK(limits.memory_used() > 0);
+    return &tables[0];
+  };
+  const DistanceTable* const first = table_to(8);
+  CHECK(table_to(8) == first);
+  CHECK(cache->take({0, {4}}) == nullptr);
+  table_to(4);
+  CHECK(cache->take({0, {8}}) == nullptr);
+  CHECK(cache->take({0, {4}}) != nullptr);
+}

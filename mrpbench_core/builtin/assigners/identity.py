@@ -30,8 +30,10 @@ class Identity(Assigner):
         left = [task for task in range(len(problem.tasks)) if task not in taken]
         queues = [tuple(queue) for queue in problem.queues]
         for robot in np.flatnonzero(problem.free_in <= self.look_ahead).tolist():
+            if queues[robot]:
+                continue
             able = next((task for task in left if np.isfinite(problem.approach[robot, task])), None)
-            if not queues[robot] and able is not None:
+            if able is not None:
                 queues[robot] = (able,)
                 left.remove(able)
         return tuple(queues)

@@ -5,7 +5,6 @@ from collections.abc import Mapping
 
 import attrs
 
-from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.planning.assignment import Queues
 from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.scenario import Task
@@ -30,8 +29,6 @@ class Job:
     task: Task
     yaws: tuple[Mapping[int, float], ...]
     """For each errand the radians wanted at each vertex that will do, NaN = any."""
-    length: tuple[Float, ...] = ()
-    """For each motion profile the seconds f8[k] from each place of the first errand to the end."""
     places: tuple[GoalSet, ...] = attrs.field(init=False)
     """Vertices of each errand, of which any will do."""
     rests: tuple[bool, ...] = attrs.field(init=False)
@@ -68,11 +65,9 @@ class TaskBoard:
         self.events: list[TaskEvent] = []
         """What happened since the recorder took the events."""
 
-    def release(
-        self, now: float, task: Task, yaws: tuple[Mapping[int, float], ...], length: tuple[Float, ...] = ()
-    ) -> None:
-        """Take a task in; see `Job`."""
-        self.jobs[task.index] = Job(task, yaws, length)
+    def release(self, now: float, task: Task, yaws: tuple[Mapping[int, float], ...]) -> None:
+        """Take a task in; see `Job.yaws`."""
+        self.jobs[task.index] = Job(task, yaws)
         self._note(now, task.index, "released")
 
     def refuse(self, now: float, task: Task) -> None:

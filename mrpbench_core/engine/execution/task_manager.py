@@ -78,6 +78,8 @@ class TaskManager:
         """Tasks or robots have changed since the last assignment."""
         self._sequences = sequences
         self._planned = PlannedErrands(len(problem))
+        self._lengths: dict[int, tuple[Float, ...]] = {}
+        """Of the tasks that are not begun, for each motion profile; see `_length`."""
         self._ways: dict[int, tuple[tuple[int, ...], list[tuple[Job, int]], Errands]] = {}
         """By robot: what its errands ahead depend on, these, and their names."""
         self._missed: set[int] = set()
@@ -144,9 +146,7 @@ class TaskManager:
             for profile, label in self._components
         )
         if able:
-            service, goals = task.service.sum(), tuple(map(tuple, yaws))
-            along = (self._costs.along(profile, goals) for profile in range(len(self._costs.labels)))
-            self._board.release(now, task, yaws, tuple(way.min(axis=1) + service for way in along))
+            self._board.release(now, task, yaws)
             self._unassigned = True
         else:
             self._board.refuse(now, task)
@@ -224,7 +224,10 @@ class TaskManager:
                 free_in[robot] = way.min() + _service(job, now)
                 place[robot] = job.places[-1][int(way.argmin())]
         free_in[self._aborted] = np.inf
-        lengths = np.array([np.concatenate(own) for own in zip(*(job.length for job in jobs), strict=True)])
+        self._lengths = {
+            index: self._lengths.get(index) or self._length(self._board.jobs[index]) for index in open_tasks
+        }
+        lengths = np.array([np.concatenate(own) for own in zip(*self._lengths.values(), strict=True)])
         approach = np.zeros((len(place), len(first)))
         for p in profiles:
             robots = np.flatnonzero(self._costs.profile == p)
@@ -259,6 +262,11 @@ class TaskManager:
                 () if job is None else job.places[job.errand :] for job in map(self._board.begun, self._robots)
             ),
         )
+
+    def _length(self, job: Job) -> tuple[Float, ...]:
+        """For each motion profile the seconds f8[k] from each place of the first errand of a task to its end."""
+        service, profiles = job.task.service.sum(), range(len(self._costs.labels))
+        return tuple(self._costs.along(profile, job.places).min(axis=1) + service for profile in profiles)
 
     def reason(self, now: float) -> str | None:
         """Return why a new plan is needed now, or None: some robot's errand is not the one of its path."""

@@ -66,7 +66,7 @@ class Tasks(Sequence[Task]):
         )
 
 
-def join(tasks: Sequence[Task]) -> Tasks:
+def joined(tasks: Sequence[Task]) -> Tasks:
     """Hold tasks in flat arrays; `Tasks` are returned as they are."""
     if isinstance(tasks, Tasks):
         return tasks

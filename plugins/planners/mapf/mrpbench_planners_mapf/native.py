@@ -35,13 +35,11 @@ class KnownRoadmap:
         """Return the same roadmap as before if it has not changed."""
         if not hasattr(self._module, "Roadmap"):  # built against the headers of an earlier version
             return arrays
-        if self._arrays is None or self._known is None or not _equal(self._arrays, arrays):
+        names = SolverRoadmap._fields
+        same = (np.array_equal(getattr(self._arrays, name), getattr(arrays, name)) for name in names)
+        if self._known is None or not all(same):
             self._arrays, self._known = arrays, self._module.Roadmap(arrays._asdict())
         return self._known
-
-
-def _equal(one: SolverRoadmap, other: SolverRoadmap) -> bool:
-    return all(np.array_equal(np.asarray(mine), np.asarray(yours)) for mine, yours in zip(one, other, strict=True))
 
 
 def solve(
