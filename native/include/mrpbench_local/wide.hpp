@@ -5,7 +5,11 @@
 /// no operations.
 #if defined(__x86_64__) && defined(__linux__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__)
+#if __GNUC__ >= 12  // older ones cannot choose by levels
 #define MRPBENCH_WIDE __attribute__((target_clones("arch=x86-64-v4", "avx2", "default")))
+#else
+#define MRPBENCH_WIDE __attribute__((target_clones("avx2", "default")))
+#endif
 #else
 #define MRPBENCH_WIDE
 #endif
