@@ -20,6 +20,8 @@ from mrpbench_core.plugins.kinds import kind_of
 T = TypeVar("T")
 _PLAIN = (int, float, str)
 _ATOMS = frozenset({bool, int, float, str, type(None)})
+_LARGE = 1 << 14
+"""Bytes of an array from which it is worth a comparison without copies."""
 _KNOWN_FIELDS: dict[type, tuple[tuple[str, str], ...]] = {}
 _SLOTS: dict[type, tuple[tuple[Any, ...], ...] | None] = {}
 
@@ -129,7 +131,12 @@ def _access(slot: Any, field: Any) -> tuple[Any, ...]:
 
 
 def _same(one: np.ndarray, other: np.ndarray) -> bool:
-    return one.shape == other.shape and one.tobytes() == other.tobytes()
+    """Whether two arrays of one type are equal bit for bit."""
+    if one.shape != other.shape:
+        return False
+    if one.nbytes >= _LARGE and one.dtype.kind in "iuf" and one.itemsize == 8:
+        return bool((one.view(np.int64) == other.view(np.int64)).all())  # a third of the time of copies
+    return one.tobytes() == other.tobytes()
 
 
 def _fields(kind: type) -> tuple[tuple[str, str], ...]:
@@ -147,9 +154,8 @@ def difference(given: Any, kept: Any, name: str) -> str | None:
     if kind in _ATOMS:
         return None if given == kept or (given != given and kept != kept) else name
     if kind is np.ndarray:
-        alike = given.shape == kept.shape and given.dtype == kept.dtype and given.tobytes() == kept.tobytes()
-        return None if alike else name
-    if _is_object(kind):
+        return None if given.dtype == kept.dtype and _same(given, kept) else name
+    if kind is not tuple and _is_object(kind):
         return _difference_in_fields(given, kept, name)
     if isinstance(kept, tuple | list):
         if len(given) != len(kept):

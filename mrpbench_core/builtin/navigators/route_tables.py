@@ -7,7 +7,7 @@ import numpy as np
 
 from mrpbench_core.builtin.navigators.route_checks import SLACK, ClearanceCheck, CornerCheck, Legs, WaypointCheck
 from mrpbench_core.model.common.arrays import Bool, Float, Int
-from mrpbench_core.model.execution.route import Route, last_moves
+from mrpbench_core.model.execution.route import Route, Routes, last_moves
 
 STRAIGHT = 0.3
 """radians: a corner at which the direction changes by less is no bend."""
@@ -45,19 +45,20 @@ class RouteTables:
     """
 
     def __init__(self, routes: Sequence[Route], rules: ArrivalRules, clearances: Float) -> None:
-        sizes = np.array([len(route.waypoint) for route in routes], np.int64)
-        waypoint = np.concatenate([np.empty((0, 3)), *(route.waypoint for route in routes)])
-        self.first = np.cumsum(sizes) - sizes
+        joined = Routes.of(routes)
+        sizes, waypoint = joined.size, joined.waypoint
+        self.first = joined.first[:-1]
         """i8[n]: the waypoints of robot i are the rows from `first[i]` on."""
         self.last = sizes - 1
         """i8[n]: the last waypoint of robot i is the row `first[i] + last[i]`."""
-        last_move = last_moves(routes)
+        last_move = last_moves(joined)
         self.goal: Int = np.maximum(last_move, np.minimum(self.last, 1))
         """i8[n]: robot i arrives at the row `first[i] + goal[i]`. Only waits follow, which are reached at once, so that
         a new plan that only adds waits changes nothing."""
-        self.level = np.concatenate([np.empty(0, np.int16), *(route.level for route in routes)])
+        self.level = joined.level
         """i2[W]."""
-        self.speed: Float = np.concatenate([np.empty(0), *(np.append(route.speed, np.inf) for route in routes)])
+        self.speed: Float = joined.speed.copy()
+        self.speed[self.first + self.last] = np.inf
         """f8[W] m/s allowed from each waypoint on."""
         begins = np.zeros(len(waypoint), bool)
         begins[self.first] = True
