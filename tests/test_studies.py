@@ -20,23 +20,33 @@ RUNS_PER_PLANNER = {
     "replicability": 300,
     "safe": 216,
     "late_robots": 240,
-    "league": 120,
+    "league": 30,
+    "league_grid": 60,
     "orders": 12,
     "faults": 80,
     "controllers": 240,
     "encounters": 120,
     "people": 400,
     "people_floors": 80,
-    "floor": 80,
-    "floor_grid": 20,
+    "floor": 20,
+    "floor_grid": 10,
     "rates": 90,
     "batches": 80,
 }
 """Runs of each planner that is installed."""
-PLANNERS = {"table2": 4, "table3": 4, "fig5": 6, "table4": 6}
-"""Planners of a study, if there are several."""
-VARIANTS = {"league": 2, "floor": 4, "floor_grid": 2}
-"""Options of one planner that a study compares."""
+PLANNERS = {
+    "table2": 4,
+    "table3": 4,
+    "fig5": 6,
+    "table4": 6,
+    "league": 7,
+    "league_grid": 2,
+    "floor": 4,
+    "floor_grid": 2,
+}
+"""Planners of a study, or methods of one, if there are several."""
+SIMULATORS = {"league": 2}
+"""Simulators of a study, if there are several."""
 
 
 def missing_planners():
@@ -71,7 +81,8 @@ def test_the_study_of_the_barn_challenge_takes_its_tables_and_worlds_from_the_co
 def test_a_study_has_its_runs_and_no_mistakes_but_planners_that_are_not_installed(name):
     study = load_study(FOLDER / f"{name}.yaml")
     assert study.name == name
-    found = Counter(point.canonical["planner"]["plugin"] for point in study.runs)
+    blocks = [point.canonical["planner"] for point in study.runs]
+    found = Counter((block.get("planner", block)["plugin"], block.get("method")) for block in blocks)
     assert set(found.values()) == {RUNS_PER_PLANNER[name]}
     refused = {word for word in missing_planners() if any(f"called '{word}'" in str(error) for error in study.errors)}
     assert len(study.errors) == len(refused)
@@ -83,7 +94,7 @@ def test_a_study_has_its_runs_and_no_mistakes_but_planners_that_are_not_installe
 def test_a_study_can_be_listed(name, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     code = main(["run", str(FOLDER / f"{name}.yaml"), "--dry-run", "planner=[astar, cbs]"])
-    runs = RUNS_PER_PLANNER[name] // VARIANTS.get(name, 1) * 2
+    runs = RUNS_PER_PLANNER[name] * SIMULATORS.get(name, 1) * 2
     assert f"{runs} of {runs} runs to do" in capsys.readouterr().out
     assert code == 0
     assert not list(tmp_path.iterdir())

@@ -24,7 +24,8 @@ from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
 _LAST_MODE = int(max(Mode))
-_LARGEST = float(np.finfo(float).max)
+_TURN = 7.0
+"""Radians by which a yaw may change without a closer look; more than a whole turn, since it may be wrapped."""
 
 
 class ContractChecks:
@@ -41,10 +42,12 @@ class ContractChecks:
     def __init__(self, length: NDArray[Any], reach: NDArray[Any] | None = None, movers: int = 0) -> None:
         self.length = length
         self._reach = np.inf if reach is None else reach
-        box = np.full((len(length), 3), _LARGEST)
-        box[:, :2] = np.minimum(np.reshape(self._reach, (-1, 1)) / 1.5, _LARGEST)
-        self._box = box
+        self._box = np.full((len(length), 3), _TURN)
         """f8[n,3]: robots whose poses change by no more have finite poses, and are where they can be."""
+        if reach is None:
+            self._box[:] = -1.0  # no pose is
+        else:
+            self._box[:, :2] = np.where(np.isfinite(reach), reach / 1.5, -1.0)[:, None]
         self._before: State | None = None
         self._motion: Motion | None = None
         """The last motion checked, None after a new plan."""

@@ -180,7 +180,8 @@ def router_of(config: RunConfig, instance: RunInstance, assigned: tuple[int, ...
     for robot, task in enumerate(assigned):
         if task >= 0:
             yaws = goal_yaws(instance.roadmap, instance.scenario.tasks[task])[-1]
-            yaw[robot] = yaws[problem.goals[robot][-1][0]]  # of several, all are equal
+            goal = problem.goals[robot][-1]  # a planner that assigns has the goals of all tasks here
+            yaw[robot] = next(yaws[vertex] for vertex in goal if vertex in yaws)  # of several, all are equal
     return Router(problem, yaw, speed_limits(instance.world, instance.roadmap), config.plan_filter)
 
 

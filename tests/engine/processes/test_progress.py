@@ -19,7 +19,8 @@ class Scripted:
     def send(self, message):
         assert message["run_id"] == "r"
 
-    def receive(self):
+    def receive(self, timeout):
+        assert timeout > 60
         self.seen.append(self.slot.progress)
         return self.messages.pop(0)
 
