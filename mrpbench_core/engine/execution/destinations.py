@@ -4,6 +4,7 @@ Planners for one batch need goals at which all robots can stand at the same time
 only the most important one is a goal then. An errand with several places has room if one of them has.
 """
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Literal
 
@@ -176,6 +177,9 @@ class _Taken:
         self._count = 0
         self._places = np.full((len(problem), 4), np.nan)
         """Vertex, x, y and radius of each robot in `vertex`, in its order."""
+        self._side = max(2 * float(self._radii.max(initial=0.0)), TOLERANCE)
+        self._near: dict[tuple[int, int, int], list[tuple[int, int, float, float, float]]] = {}
+        """Robot, vertex, x, y and radius of the robots in each square of that side, by its level, column and row."""
         self._seen = np.zeros(len(self._radii), np.int64)
         self._free = np.ones((len(self._radii), vertices), bool)
         """For robots of each radius, the vertices that the first `_seen` robots leave to them."""
@@ -185,19 +189,28 @@ class _Taken:
     def add(self, robot: int, vertex: int) -> None:
         """Let a robot rest at a vertex."""
         self.vertex[robot] = vertex
-        self._places[self._count] = vertex, *self._problem.roadmap.position[vertex], self._problem.radius[robot]
+        (level, column, row), x, y = self._square(vertex)
+        radius = float(self._problem.radius[robot])
+        self._places[self._count] = vertex, x, y, radius
         self._count += 1
+        self._near.setdefault((level, column, row), []).append((robot, vertex, x, y, radius))
 
     def leaves(self, robot: int, vertex: int) -> bool:
         """Tell whether the other robots leave room for a robot at a vertex."""
+        (level, column, row), x, y = self._square(vertex)
+        own = float(self._problem.radius[robot]) - TOLERANCE
+        return not any(
+            other != robot and (there == vertex or math.hypot(u - x, v - y) < radius + own)
+            for side in (column - 1, column, column + 1)
+            for up in (row - 1, row, row + 1)
+            for other, there, u, v, radius in self._near.get((level, side, up), ())
+        )
+
+    def _square(self, vertex: int) -> tuple[tuple[int, int, int], float, float]:
+        """Level, column and row of the square around a vertex, and where the vertex is."""
         roadmap = self._problem.roadmap
-        others = self._places[: self._count]
-        if robot in self.vertex:
-            others = np.delete(others, list(self.vertex).index(robot), axis=0)
-        there, x, y, radius = others.T
-        gap = np.hypot(x - roadmap.position[vertex, 0], y - roadmap.position[vertex, 1])
-        near = there[gap < radius + self._problem.radius[robot] - TOLERANCE].astype(np.int64)
-        return not ((there == vertex).any() or (roadmap.level[near] == roadmap.level[vertex]).any())
+        x, y = roadmap.position[vertex].tolist()
+        return (int(roadmap.level[vertex]), int(x // self._side), int(y // self._side)), x, y
 
     def free(self, robot: int) -> Bool:
         """The vertices bool[V] at which there is room for one more robot."""
