@@ -12,7 +12,7 @@ class RouteAhead:
 
     Args:
         progress: how far the robots are.
-        beyond_bends: the path of a robot ends where its released part ends, not at the next bend.
+        beyond_bends: the path of a robot ends where its released part ends or it turns back, not at the next bend.
     """
 
     def __init__(self, progress: RouteProgress, beyond_bends: bool) -> None:
@@ -49,10 +49,9 @@ class RouteAhead:
         first, first_corner = tables.first[robots], tables.first_corner[robots]
         here, goal = first + reached, first + np.minimum(reached + 1, tables.last[robots])
         corner, row = tables.corner[here], first_corner + leg
-        end = last
-        if not self._beyond_bends:  # no controller cuts a corner by more than the tolerance
-            end = np.minimum(np.maximum(corner, leg) + 1, last)
-            end = np.minimum(tables.bend[first_corner + end], last)
+        # No controller cuts a corner by more than the tolerance, or turns back before it is there.
+        stop = tables.reversal if self._beyond_bends else tables.bend
+        end = np.minimum(stop[first_corner + np.minimum(np.maximum(corner, leg) + 1, last)], last)
         is_open = reached < released
         checks, arrival = self.checks, tables.arrival_terms.take(goal, 2)
         checks.replace(checks.WAYPOINT, robots, arrival, is_open & ~halting)

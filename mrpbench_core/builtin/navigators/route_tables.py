@@ -9,6 +9,8 @@ from mrpbench_core.builtin.navigators.route_checks import SLACK, ClearanceCheck,
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.execution.route import Route, Routes, last_moves
 
+BACK = 2.4
+"""Radians; a path that turns by more leads back along itself, as where a robot makes room for another one."""
 STRAIGHT = 0.3
 """radians: a corner at which the direction changes by less is no bend."""
 
@@ -125,6 +127,8 @@ class RouteTables:
         turn = np.abs(np.remainder(yaw - np.roll(yaw, 1) + np.pi, 2 * np.pi) - np.pi)
         self.bend: Int = self._first_from_each((turn > STRAIGHT) | is_last)  # no turn is NaN at either end
         """i8[C]: the first corner of its robot, from each on, at which the direction changes, or the last."""
+        self.reversal: Int = self._first_from_each((turn > BACK) | is_last)
+        """i8[C]: the first corner of its robot, from each on, at which it turns back, or the last."""
         self.lift: Int = self._first_from_each(enters_lift | is_last)
         """i8[C]: the first corner of its robot, from each on, at which it enters a lift, or the last."""
         return heading

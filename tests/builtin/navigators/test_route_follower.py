@@ -354,6 +354,17 @@ def test_beyond_bends_the_path_ends_with_the_released_part_and_corners_may_be_cu
     assert near.path.tolist() == [[0.2, 0], [1, 0]]
 
 
+def test_beyond_bends_the_path_ends_where_it_turns_back_until_the_robot_is_there():
+    follower = Follower(route([(0, 0), (1, 0), (1, 1), (1, 0), (0, 0)]), CUTTING, CLEARANCE, beyond_bends=True)
+    follower.update(0.2, 0, 0, 0.2, 4)
+    assert follower.path.tolist() == [[0.2, 0], [1, 0], [1, 1]]
+    follower.update(1, 0.8, math.pi / 2, 0.2, 4)
+    assert follower.path.tolist() == [[1, 0.8], [1, 1]]
+    follower.update(1, 0.95, math.pi / 2, 0.2, 4)
+    assert follower.reached == 2
+    assert follower.path.tolist()[1:] == [[1, 0], [0, 0]]
+
+
 def test_a_robot_that_cut_corners_has_passed_them_when_it_is_back_near_its_route():
     points = [(0, 0), (2, 0), (2, 0.4), (0, 0.4)]
     follower = Follower(route(points), CUTTING, CLEARANCE, beyond_bends=True)
