@@ -78,10 +78,10 @@ def read_page(_app: Sphinx, page: str, content: list[str]) -> None:
     lead_links_to_pages(folder, folder, content)
 
 
-def read_included(_app: Sphinx, path: Path, page: str, content: list[str]) -> None:
-    """Lead the links of a file that a page includes."""
+def read_included(app: Sphinx, path: Path, _stem: str, content: list[str]) -> None:
+    """Lead the links of a file that a page includes; MyST tells only the last part of the page's name."""
     folder = posixpath.dirname(posixpath.normpath(posixpath.join("docs", path)))
-    lead_links_to_pages(folder, posixpath.dirname(f"docs/{page}"), content)
+    lead_links_to_pages(folder, posixpath.dirname(f"docs/{app.env.docname}"), content)
 
 
 def setup(app: Sphinx) -> None:
