@@ -189,11 +189,11 @@ class _Taken:
     def add(self, robot: int, vertex: int) -> None:
         """Let a robot rest at a vertex."""
         self.vertex[robot] = vertex
-        (level, column, row), x, y = self._square(vertex)
+        square, x, y = self._square(vertex)
         radius = float(self._problem.radius[robot])
         self._places[self._count] = vertex, x, y, radius
         self._count += 1
-        self._near.setdefault((level, column, row), []).append((robot, vertex, x, y, radius))
+        self._near.setdefault(square, []).append((robot, vertex, x, y, radius))
 
     def leaves(self, robot: int, vertex: int) -> bool:
         """Tell whether the other robots leave room for a robot at a vertex."""
