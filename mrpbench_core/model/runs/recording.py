@@ -42,7 +42,7 @@
 Periodic channels are sampled every `1 / recording.rate` seconds, and at the start and the end of the execution.
 """
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from typing import Any
 
 from numpy.typing import NDArray
@@ -65,6 +65,14 @@ PERIODIC = (
 )
 """Channels that share the time axis `time`."""
 
+POSES = ("truth", "estimate")
+"""Channels of poses, the first of which is shown and judged where both were recorded."""
+
 TASK_EVENTS = ("released", "refused", "assigned", "withdrawn", "begun", "errand", "done", "given_up")
 """What happens to a task: it is released, refused (no robot can do it), given to a robot and taken back, begun (a robot
 rests at its first errand), an errand of it is done, all are, or it is given up because its robot stopped."""
+
+
+def pose_channel(channels: Container[str]) -> str | None:
+    """Return the name of the best channel of poses among those that were recorded, None if there is none."""
+    return next((name for name in POSES if name in channels), None)

@@ -15,15 +15,15 @@ from mrpbench_core.model.planning.dependencies import Dependencies, first_sample
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.runs.plans import RecordedPlan, spans
+from mrpbench_core.model.runs.recording import POSES, pose_channel
 from mrpbench_core.model.runs.run import Loaders, RunContext
 from mrpbench_core.model.runs.standing import nearest, standing
 
 NEEDED = frozenset({"time", "mode", "reached", "cleared", "released"})
 """Channels without which nothing can be said, besides one of `POSES`."""
-POSES = frozenset({"truth", "estimate"})
 EVENT_ROWS = "event_time", "event_kind", "event_robot", "event_detail"
 EVENTS = frozenset(EVENT_ROWS)
-OPTIONAL = POSES | EVENTS | {"level", "waits_for"}
+OPTIONAL = EVENTS | {*POSES, "level", "waits_for"}
 
 
 class Reason(IntEnum):
@@ -74,7 +74,7 @@ def explain_waits(context: RunContext, channels: Loaders, plans: Sequence[Record
         channels: of its recording.
         plans: of this execution, see `read_plans`.
     """
-    if not channels.keys() >= NEEDED or not channels.keys() & POSES:
+    if not channels.keys() >= NEEDED or pose_channel(channels) is None:
         return None
     loaded = {name: load() for name, load in channels.items() if name in NEEDED | OPTIONAL}
     if any(len(plan.routes) != loaded["mode"].shape[1] for plan in plans):
@@ -86,7 +86,7 @@ def explain_waits(context: RunContext, channels: Loaders, plans: Sequence[Record
 
 def _with_blocked(waits: Waits, channels: Mapping[str, Any], radius: Float) -> Waits:
     """Add the robots that stand although their way is released."""
-    pose = channels["truth"] if "truth" in channels else channels["estimate"]
+    pose = channels[pose_channel(channels) or POSES[0]]
     mode, reached, released = (channels[name] for name in ("mode", "reached", "released"))
     blocked = (mode == Mode.FOLLOWING) & (reached < released) & standing(channels["time"], pose)
     near = nearest(blocked, pose, channels.get("level", np.zeros_like(reached)), radius)

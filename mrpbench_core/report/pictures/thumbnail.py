@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.runs.recording import pose_channel
 from mrpbench_core.model.worlds.solids import wall_boxes
 from mrpbench_core.model.worlds.world import World
 from mrpbench_core.report.pictures.movers import read_movers
@@ -41,7 +42,7 @@ def run_thumbnail(recording: Recording) -> str:
 
 def _read(recording: Recording) -> tuple[World, int, Float | None]:
     world = recording.context().world
-    name = next((name for name in ("truth", "estimate") if name in recording.channels), None)
+    name = pose_channel(recording.channels)
     if name is None:
         return world, 0, None
     poses = recording.channel(name)[..., :2]

@@ -4,6 +4,7 @@ import numpy as np
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.runs.recording import pose_channel
 from mrpbench_core.report.replay.packing import Packing
 from mrpbench_core.store.recording import Recording
 
@@ -13,13 +14,11 @@ ASTRAY = 0.02
 """Metres; estimates that never differ from the truth by more are not packed."""
 COUNTS = {"reached": None, "released": None, "mode": None, "level": 0}
 """Channels of integers, and a value without information: a channel with this value only is not packed."""
-POSES = ("truth", "estimate")
-"""Channels of poses, the first of which is shown."""
 
 
 def has_poses(recording: Recording) -> bool:
     """Whether there is something to show; a run that ended before its execution has nothing."""
-    return any(name in recording.channels for name in POSES) and len(recording.channel("time")) > 0
+    return pose_channel(recording.channels) is not None and len(recording.channel("time")) > 0
 
 
 def read_poses(recording: Recording) -> tuple[Float, Float]:
@@ -28,9 +27,9 @@ def read_poses(recording: Recording) -> tuple[Float, Float]:
     Raises:
         InputError: the recording holds no samples.
     """
-    if not has_poses(recording):
+    name = pose_channel(recording.channels)
+    if name is None or not len(recording.channel("time")):
         raise InputError("the recording holds no poses", hint="a run that ended before its execution cannot be shown")
-    name = next(name for name in POSES if name in recording.channels)
     return recording.channel("time"), recording.channel(name)
 
 
