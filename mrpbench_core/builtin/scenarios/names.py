@@ -29,11 +29,8 @@ class Names:
             InputError: there is none, or several places have it.
         """
         world = self._world
-        if not self._indices:
-            raise InputError(f"world {world.name} has no named vertices")
         if name not in self._indices:
-            hint = did_you_mean(name, self._indices, f"names are {_listed(list(self._indices))}")
-            raise InputError(f"world {world.name} has no vertex {name!r}", hint=hint)
+            raise self._unknown(name)
         found = self._indices[name]
         where = {(world.vertices[i].x, world.vertices[i].y, world.vertices[i].level) for i in found}
         if len(where) > 1:
@@ -51,9 +48,17 @@ class Names:
         for pattern in patterns:
             names = [name for name in self._indices if fnmatchcase(name, pattern)] if "*" in pattern else [pattern]
             if not names:
-                raise InputError(f"world {self._world.name} has no vertex {pattern!r}")
+                raise self._unknown(pattern)
             found += [self.find(name) for name in names]
         return found
+
+    def listed(self) -> str:
+        """Say which names there are, for hints."""
+        return f"names are {_listed(list(self._indices))}" if self._indices else "no vertex of it has a name"
+
+    def _unknown(self, name: str) -> InputError:
+        hint = did_you_mean(name, self._indices, self.listed())
+        return InputError(f"world {self._world.name} has no vertex {name!r}", hint=hint)
 
 
 def _listed(words: list[str]) -> str:

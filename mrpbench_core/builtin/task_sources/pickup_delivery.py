@@ -71,7 +71,7 @@ def _chosen(world: World, roadmap: Roadmap, usable: Places, key: str, patterns: 
     else:
         wanted = [i for i, vertex in enumerate(world.vertices) if vertex.parameters.get(PARAMETER[key])]
         if not wanted:
-            hint = f"name places with {key!r}"
+            hint = f"name places with {key!r}; {Names(world).listed()}"
             raise InputError(f"tasks: no vertex of world {world.name} has {PARAMETER[key]!r}", hint=hint)
     vertices = [world.vertices[index] for index in wanted]
     position = np.array([(vertex.x, vertex.y) for vertex in vertices])

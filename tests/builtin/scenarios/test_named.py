@@ -49,7 +49,7 @@ def test_a_wrong_name_is_explained(corridor, name, message):
 
 
 def test_a_world_without_names_is_refused(corridor):
-    with pytest.raises(InputError, match=r"scenario\.starts: world bare has no named vertices"):
+    with pytest.raises(InputError, match=r"scenario\.starts: world bare has no vertex .a. .no vertex of it has a name"):
         draw(("a",), ("b",), corridor, World(name="bare", levels=()))
 
 
