@@ -1,11 +1,13 @@
 """Copies of what crosses between the engine and components, so that the engine judges by data that no component holds.
 
 Read-only arrays and frozen classes keep a component from changing its inputs by mistake; they do not keep it from
-changing them on purpose.
+changing them on purpose. What nobody can change is shared: tuples of numbers and texts, and the memory of large arrays,
+which a copy puts where nobody can write to it.
 """
 
 import enum
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import chain
 from types import MemberDescriptorType
 from typing import Any, Generic, TypeVar
 
@@ -14,20 +16,21 @@ import numpy as np
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.model.common.arrays import ARRAY, read_only
+from mrpbench_core.model.common.arrays import ARRAY, LARGE, is_sealed, read_only_copy
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
 _PLAIN = (int, float, str)
 _ATOMS = frozenset({bool, int, float, str, type(None)})
-_LARGE = 1 << 14
-"""Bytes of an array from which it is worth a comparison without copies."""
+_FIXED = _ATOMS | {tuple}
 _KNOWN_FIELDS: dict[type, tuple[tuple[str, str], ...]] = {}
 _SLOTS: dict[type, tuple[tuple[Any, ...], ...] | None] = {}
 
 
 def own(value: T, like: T | None = None) -> T:
     """Return a copy that shares no array, no container and no object of `mrpbench_core.model` with `value`.
+
+    It shares tuples of what cannot be changed, and the memory of large arrays that are copies already.
 
     Arrays of whole numbers of an object that are equal to those of `like`, an older copy, are taken from there, so that
     the same array says that nothing has changed.
@@ -43,11 +46,11 @@ def own(value: T, like: T | None = None) -> T:
 def _own(value: Any, known: dict[int, Any]) -> Any:
     kind = type(value)
     if kind is np.ndarray:  # the usual cases in every control period come first
-        return read_only(value.copy())
+        return read_only_copy(value)
     if kind in _ATOMS:
         return value
     if kind is tuple:
-        return tuple([_own(item, known) for item in value]) if value else value
+        return value if _cannot_change(value) else tuple([_own(item, known) for item in value])
     if kind is dict:
         return {key: _own(item, known) for key, item in value.items()}
     if _is_object(kind):
@@ -55,6 +58,19 @@ def _own(value: Any, known: dict[int, Any]) -> Any:
             found = known[id(value)] = value, _own_object(value, known)  # the original is kept: its id stays its own
         return found[1]
     return _own_other(value, known)
+
+
+def _cannot_change(value: tuple[Any, ...]) -> bool:
+    """Tell whether a tuple holds nothing but numbers, texts and such tuples."""
+    items: Sequence[Any] = value
+    while items:  # level by level, since thousands of tuples are copied and compared for each plan of a large fleet
+        kinds = set(map(type, items))
+        if not kinds <= _FIXED:
+            return False
+        if tuple not in kinds:
+            return True
+        items = [*chain.from_iterable(item for item in items if type(item) is tuple)]
+    return True
 
 
 def _own_other(value: Any, known: dict[int, Any]) -> Any:
@@ -88,7 +104,7 @@ def _own_object(value: Any, known: dict[int, Any], like: Any = None) -> Any:
             if like is not None and is_whole and _same(item, found := read(like)):
                 item = found
             else:
-                item = read_only(item.copy())
+                item = read_only_copy(item)
         elif type(item) not in _ATOMS or convert is not None:
             item = _own(item, known)
             if convert is not None:
@@ -134,7 +150,9 @@ def _same(one: np.ndarray, other: np.ndarray) -> bool:
     """Whether two arrays of one type are equal bit for bit."""
     if one.shape != other.shape:
         return False
-    if one.nbytes >= _LARGE and one.dtype.kind in "iuf" and one.itemsize == 8:
+    if one.base is other.base and is_sealed(one) and is_sealed(other):
+        return True
+    if one.nbytes >= LARGE and one.dtype.kind in "iuf" and one.itemsize == 8:
         return bool((one.view(np.int64) == other.view(np.int64)).all())  # a third of the time of copies
     return one.tobytes() == other.tobytes()
 
@@ -148,6 +166,8 @@ def _fields(kind: type) -> tuple[tuple[str, str], ...]:
 
 def difference(given: Any, kept: Any, name: str) -> str | None:
     """Return where `given` differs from `kept`, as in `problem.goals`, or None."""
+    if given is kept:
+        return None
     kind = type(kept)
     if type(given) is not kind:
         return name
