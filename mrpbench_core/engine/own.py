@@ -1,28 +1,32 @@
 """Copies of what crosses between the engine and components, so that the engine judges by data that no component holds.
 
 Read-only arrays and frozen classes keep a component from changing its inputs by mistake; they do not keep it from
-changing them on purpose. What nobody can change is shared: tuples of numbers and texts, and the memory of large arrays,
-which a copy puts where nobody can write to it.
+changing them on purpose.
 """
 
 import enum
+import marshal
+import weakref
 from collections.abc import Mapping, Sequence
+from functools import partial
 from itertools import chain
 from types import MemberDescriptorType
-from typing import Any, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 import attrs
 import numpy as np
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.model.common.arrays import ARRAY, LARGE, is_sealed, read_only_copy
+from mrpbench_core.model.common.arrays import ARRAY, read_only
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
 _PLAIN = (int, float, str)
 _ATOMS = frozenset({bool, int, float, str, type(None)})
-_FIXED = _ATOMS | {tuple}
+_NUMBERS = _ATOMS - {str}
+_LARGE = 1 << 14
+"""Bytes of an array that is not copied again for each call, and is compared without copies."""
 _KNOWN_FIELDS: dict[type, tuple[tuple[str, str], ...]] = {}
 _SLOTS: dict[type, tuple[tuple[Any, ...], ...] | None] = {}
 
@@ -30,27 +34,48 @@ _SLOTS: dict[type, tuple[tuple[Any, ...], ...] | None] = {}
 def own(value: T, like: T | None = None) -> T:
     """Return a copy that shares no array, no container and no object of `mrpbench_core.model` with `value`.
 
-    It shares tuples of what cannot be changed, and the memory of large arrays that are copies already.
-
     Arrays of whole numbers of an object that are equal to those of `like`, an older copy, are taken from there, so that
     the same array says that nothing has changed.
 
     Raises:
         BrokenContractError: an object is of a class that is derived from one of the model.
     """
-    known: dict[int, Any] = {}
+    known = _Copies()
     copied: T = _own_object(value, known, like) if type(value) in _SLOTS else _own(value, known)
     return copied
 
 
-def _own(value: Any, known: dict[int, Any]) -> Any:
+class _Copies(dict[int, Any]):
+    """Originals and their copies, by the id of the original."""
+
+    def of_array(self, array: np.ndarray) -> np.ndarray:
+        return read_only(array.copy())
+
+
+class _HandedCopies(_Copies):
+    """A large array of the engine, which never changes, is copied once for all calls."""
+
+    arrays: ClassVar[dict[int, tuple[Any, np.ndarray]]] = {}
+
+    def of_array(self, array: np.ndarray) -> np.ndarray:
+        if array.nbytes < _LARGE:
+            return super().of_array(array)
+        if (found := self.arrays.get(id(array))) is None:
+            forget = partial(self.arrays.pop, id(array))
+            found = self.arrays[id(array)] = weakref.ref(array, lambda _: forget(None)), super().of_array(array)
+        return found[1]
+
+
+def _own(value: Any, known: _Copies) -> Any:
     kind = type(value)
     if kind is np.ndarray:  # the usual cases in every control period come first
-        return read_only_copy(value)
+        return known.of_array(value)
     if kind in _ATOMS:
         return value
     if kind is tuple:
-        return value if _cannot_change(value) else tuple([_own(item, known) for item in value])
+        if _holds_numbers(value):
+            return marshal.loads(_bytes(value))  # noqa: S302 - what was dumped just now
+        return tuple([_own(item, known) for item in value])
     if kind is dict:
         return {key: _own(item, known) for key, item in value.items()}
     if _is_object(kind):
@@ -60,20 +85,19 @@ def _own(value: Any, known: dict[int, Any]) -> Any:
     return _own_other(value, known)
 
 
-def _cannot_change(value: tuple[Any, ...]) -> bool:
-    """Tell whether a tuple holds nothing but numbers, texts and such tuples."""
+def _holds_numbers(value: tuple[Any, ...]) -> bool:
+    """Tell whether a tuple holds nothing but numbers, or tuples of these: thousands of them cross for each plan."""
     items: Sequence[Any] = value
-    while items:  # level by level, since thousands of tuples are copied and compared for each plan of a large fleet
-        kinds = set(map(type, items))
-        if not kinds <= _FIXED:
-            return False
-        if tuple not in kinds:
-            return True
-        items = [*chain.from_iterable(item for item in items if type(item) is tuple)]
-    return True
+    while items and set(map(type, items)) == {tuple}:
+        items = [*chain.from_iterable(items)]
+    return _NUMBERS.issuperset(map(type, items))
 
 
-def _own_other(value: Any, known: dict[int, Any]) -> Any:
+def _bytes(numbers: tuple[Any, ...]) -> bytes:
+    return marshal.dumps(numbers, 2)  # later versions depend on how often an object is referred to
+
+
+def _own_other(value: Any, known: _Copies) -> Any:
     kind = type(value)
     if isinstance(value, np.ndarray):
         return _own(np.array(value, subok=False), known)
@@ -90,7 +114,7 @@ def _own_other(value: Any, known: dict[int, Any]) -> Any:
     return value
 
 
-def _own_object(value: Any, known: dict[int, Any], like: Any = None) -> Any:
+def _own_object(value: Any, known: _Copies, like: Any = None) -> Any:
     kind = type(value)
     if kind not in _SLOTS:
         _SLOTS[kind] = _slots(kind)
@@ -104,7 +128,7 @@ def _own_object(value: Any, known: dict[int, Any], like: Any = None) -> Any:
             if like is not None and is_whole and _same(item, found := read(like)):
                 item = found
             else:
-                item = read_only_copy(item)
+                item = known.of_array(item)
         elif type(item) not in _ATOMS or convert is not None:
             item = _own(item, known)
             if convert is not None:
@@ -150,10 +174,9 @@ def _same(one: np.ndarray, other: np.ndarray) -> bool:
     """Whether two arrays of one type are equal bit for bit."""
     if one.shape != other.shape:
         return False
-    if one.base is other.base and is_sealed(one) and is_sealed(other):
-        return True
-    if one.nbytes >= LARGE and one.dtype.kind in "iuf" and one.itemsize == 8:
-        return bool((one.view(np.int64) == other.view(np.int64)).all())  # a third of the time of copies
+    if one.nbytes >= _LARGE and one.dtype.kind in "iufb":
+        word = np.int64 if one.itemsize == 8 else np.uint8
+        return bool((one.view(word) == other.view(word)).all())  # a third of the time of copies
     return one.tobytes() == other.tobytes()
 
 
@@ -166,8 +189,6 @@ def _fields(kind: type) -> tuple[tuple[str, str], ...]:
 
 def difference(given: Any, kept: Any, name: str) -> str | None:
     """Return where `given` differs from `kept`, as in `problem.goals`, or None."""
-    if given is kept:
-        return None
     kind = type(kept)
     if type(given) is not kind:
         return name
@@ -177,6 +198,8 @@ def difference(given: Any, kept: Any, name: str) -> str | None:
         return None if given.dtype == kept.dtype and _same(given, kept) else name
     if kind is not tuple and _is_object(kind):
         return _difference_in_fields(given, kept, name)
+    if kind is tuple and _holds_numbers(kept) and _holds_numbers(given):
+        return None if _bytes(given) == _bytes(kept) else name
     if isinstance(kept, tuple | list):
         if len(given) != len(kept):
             return name
@@ -208,7 +231,7 @@ class Handed(Generic[T]):
     def __init__(self, kept: T, name: str) -> None:
         self._kept = kept
         self._name = name
-        self.given = own(kept)
+        self.given: T = _own(kept, _HandedCopies())
 
     def check(self, component: Component) -> None:
         """Require that the copy is unchanged.
@@ -217,4 +240,5 @@ class Handed(Generic[T]):
             BrokenContractError: it was changed by a component, which has just been called.
         """
         if (where := difference(self.given, self._kept, self._name)) is not None:
+            _HandedCopies.arrays.clear()
             raise BrokenContractError(f"{name_of(component)} changed {where}")

@@ -9,7 +9,7 @@ import numpy as np
 from mrpbench_core.api.assigner import Assigner
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.task_board import Job, TaskBoard
-from mrpbench_core.model.common.arrays import Bool, Float, Int, read_only_copy
+from mrpbench_core.model.common.arrays import Bool, Float, Int, read_only
 from mrpbench_core.model.planning.assignment import QueueProblem
 from mrpbench_core.model.planning.problem import GoalSet
 
@@ -107,7 +107,7 @@ class QueueProblems:
         if self._able[0] != depends_on:
             able = here[:, None] == there[profile]
             best = np.logical_or.reduceat(able, begin, axis=1)
-            self._able = depends_on, read_only_copy(np.where(best, 0.0, np.inf))
+            self._able = depends_on, read_only(np.where(best, 0.0, np.inf))
         return self._able[1]
 
     def _between(self, jobs: Sequence[Job], first: Int, begin: list[int]) -> Float:

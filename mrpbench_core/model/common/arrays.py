@@ -16,9 +16,6 @@ Bool = NDArray[np.bool_]
 ARRAY = "array"
 """Key of the metadata of a field declared by `array`: its dtype, and its columns or None."""
 
-LARGE = 1 << 14
-"""Bytes of arrays whose memory is shared by their copies."""
-
 
 def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None) -> NDArray[Any]:
     """Return a read-only copy of `values` as `dtype`; `columns` shapes an empty list as (0, columns).
@@ -40,22 +37,9 @@ def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None
 def _frozen(given: NDArray[Any]) -> NDArray[Any]:
     """Return a read-only copy, or `given` if it is one already."""
     flags = given.flags
-    if not flags.writeable and flags.c_contiguous and (flags.owndata or is_sealed(given)):
-        return given
-    return read_only_copy(given)
-
-
-def read_only_copy(array: NDArray[Any]) -> NDArray[Any]:
-    """Return a read-only copy. Nobody can write to the memory of a large one, and copies of it share that."""
-    if array.nbytes < LARGE or array.dtype.hasobject:
-        return read_only(array.copy())
-    return np.ndarray(array.shape, array.dtype, array.base if is_sealed(array) else array.tobytes())
-
-
-def is_sealed(array: NDArray[Any]) -> bool:
-    """Tell whether the memory of an array is a `bytes` object, to which nobody can write."""
-    memory: Any = array.base
-    return type(memory) is bytes and len(memory) == array.nbytes and array.flags.c_contiguous
+    if flags.writeable or not (flags.c_contiguous and flags.owndata):
+        return read_only(given.copy())
+    return given
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
