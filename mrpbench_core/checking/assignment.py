@@ -1,6 +1,7 @@
 """Validates assignments, and the goals that a planner with the option `assign` has chosen."""
 
 from collections import defaultdict
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -56,16 +57,16 @@ def check_queues(problem: QueueProblem, queues: Any) -> str | None:
     """Return what is wrong with queues of tasks, as the end of a sentence, or None."""
     if not isinstance(queues, tuple | list) or len(queues) != len(problem.free_in):
         return f"returned {queues!r:.60} instead of one queue for each of {len(problem.free_in)} robots"
-    given: set[int] = set()
     for robot, queue in enumerate(queues):
         if not isinstance(queue, tuple | list):
             return f"gave robot {robot} {queue!r:.60} instead of a queue"
         for task in queue:
             if not isinstance(task, int | np.integer) or not 0 <= task < len(problem.tasks):
                 return f"gave robot {robot} task {task!s:.60}, which does not exist"
-            if task in given:
-                return f"gave task {task} twice"
-            if not np.isfinite(problem.approach[robot, task]):
-                return f"gave task {task} to robot {robot}, which cannot do it"
-            given.add(int(task))
+    given = np.array([*chain.from_iterable(queues)], np.int64)
+    if len(again := np.flatnonzero(np.bincount(given) > 1)):
+        return f"gave task {again[0]} twice"
+    robots = np.repeat(np.arange(len(queues)), [len(queue) for queue in queues])
+    if len(unable := np.flatnonzero(~np.isfinite(problem.approach[robots, given]))):
+        return f"gave task {given[unable[0]]} to robot {robots[unable[0]]}, which cannot do it"
     return None

@@ -66,16 +66,21 @@ def _occupations(problem: Problem, plan: Plan) -> Int:
     since = problem.begins
     last = since.copy()
     last[segments.robot] = segments.leave  # of equal robots the last one counts
-    final = np.full(len(robots), FOREVER) if problem.rules.at_goal == "stay" else last + late
-    tail, head = problem.roadmap.edges[moves.edge].reshape(-1, 2).T
-    first = np.cumsum(count) - count
-    who, at = np.insert(moves.robot, first, robots), np.insert(head, first, problem.start)
-    begin, end = np.insert(moves.leave, first, since), np.insert(moves.enter + late, first + count, final)
-    table = np.empty((len(who) + len(tail), 5), np.int64)  # a robot stands before its first move and after each move
-    table[2 * np.arange(len(who)) - who] = np.column_stack([who, at, at, begin, end])
-    between = 2 * np.arange(len(tail)) + moves.robot + 1
-    table[between] = np.column_stack([moves.robot, tail, head, moves.enter, moves.leave + late])
-    return table
+    final = FOREVER if problem.rules.at_goal == "stay" else last + late
+    first = 2 * (np.cumsum(count) - count) + robots  # a robot stands before its first move and after each move
+    move = 2 * np.arange(len(moves.robot)) + moves.robot + 1
+    table = np.empty((5, 2 * len(move) + len(robots)), np.int64)
+    robot, tail, head, begin, end = table
+    robot[:] = np.repeat(robots, 2 * count + 1)
+    tail[move], head[move] = problem.roadmap.edges[moves.edge].reshape(-1, 2).T
+    begin[move], end[move] = moves.enter, moves.leave + late
+    head[first], begin[first] = problem.start, since
+    head[move + 1], begin[move + 1] = head[move], moves.leave
+    end[move - 1], end[first + 2 * count] = moves.enter + late, final
+    stands = np.ones(len(robot), bool)
+    stands[move] = False
+    tail[stands] = head[stands]
+    return table.T
 
 
 def _candidates(problem: Problem, occupations: Int) -> Int:
@@ -89,7 +94,12 @@ def _candidates(problem: Problem, occupations: Int) -> Int:
     _, tail, head, begin, end = occupations.T
     vertices = int(max(tail.max(initial=0), head.max(initial=0))) + 1
     element = np.minimum(tail, head) * vertices + np.maximum(tail, head)
-    order = np.lexsort((end, begin, element))
+    since = int(begin.min(initial=0))  # may be below 0
+    ticks = int(begin.max(initial=0)) - since + 1
+    if vertices**2 * ticks <= FOREVER:  # one number for both is sorted in a fraction of the time
+        order = np.argsort(element * ticks + (begin - since))
+    else:
+        order = np.lexsort((begin, element))
     before, after = order[:-1], order[1:]  # if any two on an element meet, so do two that follow each other
     meets = (begin[after] < end[before]) | ((tail == head)[after] & (begin[after] == end[before]))
     again = after[meets & (element[before] == element[after])]

@@ -5,9 +5,13 @@ changing them on purpose.
 """
 
 import enum
-from collections.abc import Mapping
+import marshal
+import weakref
+from collections.abc import Mapping, Sequence
+from functools import partial
+from itertools import chain
 from types import MemberDescriptorType
-from typing import Any, Generic, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 import attrs
 import numpy as np
@@ -20,8 +24,9 @@ from mrpbench_core.plugins.kinds import kind_of
 T = TypeVar("T")
 _PLAIN = (int, float, str)
 _ATOMS = frozenset({bool, int, float, str, type(None)})
+_NUMBERS = _ATOMS - {str}
 _LARGE = 1 << 14
-"""Bytes of an array from which it is worth a comparison without copies."""
+"""Bytes of an array that is not copied again for each call, and is compared without copies."""
 _KNOWN_FIELDS: dict[type, tuple[tuple[str, str], ...]] = {}
 _SLOTS: dict[type, tuple[tuple[Any, ...], ...] | None] = {}
 
@@ -35,19 +40,42 @@ def own(value: T, like: T | None = None) -> T:
     Raises:
         BrokenContractError: an object is of a class that is derived from one of the model.
     """
-    known: dict[int, Any] = {}
+    known = _Copies()
     copied: T = _own_object(value, known, like) if type(value) in _SLOTS else _own(value, known)
     return copied
 
 
-def _own(value: Any, known: dict[int, Any]) -> Any:
+class _Copies(dict[int, Any]):
+    """Originals and their copies, by the id of the original."""
+
+    def of_array(self, array: np.ndarray) -> np.ndarray:
+        return read_only(array.copy())
+
+
+class _HandedCopies(_Copies):
+    """A large array of the engine, which never changes, is copied once for all calls."""
+
+    arrays: ClassVar[dict[int, tuple[Any, np.ndarray]]] = {}
+
+    def of_array(self, array: np.ndarray) -> np.ndarray:
+        if array.nbytes < _LARGE:
+            return super().of_array(array)
+        if (found := self.arrays.get(id(array))) is None:
+            forget = partial(self.arrays.pop, id(array))
+            found = self.arrays[id(array)] = weakref.ref(array, lambda _: forget(None)), super().of_array(array)
+        return found[1]
+
+
+def _own(value: Any, known: _Copies) -> Any:
     kind = type(value)
     if kind is np.ndarray:  # the usual cases in every control period come first
-        return read_only(value.copy())
+        return known.of_array(value)
     if kind in _ATOMS:
         return value
     if kind is tuple:
-        return tuple([_own(item, known) for item in value]) if value else value
+        if _holds_numbers(value):
+            return marshal.loads(_bytes(value))  # noqa: S302 - what was dumped just now
+        return tuple([_own(item, known) for item in value])
     if kind is dict:
         return {key: _own(item, known) for key, item in value.items()}
     if _is_object(kind):
@@ -57,7 +85,19 @@ def _own(value: Any, known: dict[int, Any]) -> Any:
     return _own_other(value, known)
 
 
-def _own_other(value: Any, known: dict[int, Any]) -> Any:
+def _holds_numbers(value: tuple[Any, ...]) -> bool:
+    """Tell whether a tuple holds nothing but numbers, or tuples of these: thousands of them cross for each plan."""
+    items: Sequence[Any] = value
+    while items and set(map(type, items)) == {tuple}:
+        items = [*chain.from_iterable(items)]
+    return _NUMBERS.issuperset(map(type, items))
+
+
+def _bytes(numbers: tuple[Any, ...]) -> bytes:
+    return marshal.dumps(numbers, 2)  # later versions depend on how often an object is referred to
+
+
+def _own_other(value: Any, known: _Copies) -> Any:
     kind = type(value)
     if isinstance(value, np.ndarray):
         return _own(np.array(value, subok=False), known)
@@ -74,7 +114,7 @@ def _own_other(value: Any, known: dict[int, Any]) -> Any:
     return value
 
 
-def _own_object(value: Any, known: dict[int, Any], like: Any = None) -> Any:
+def _own_object(value: Any, known: _Copies, like: Any = None) -> Any:
     kind = type(value)
     if kind not in _SLOTS:
         _SLOTS[kind] = _slots(kind)
@@ -88,7 +128,7 @@ def _own_object(value: Any, known: dict[int, Any], like: Any = None) -> Any:
             if like is not None and is_whole and _same(item, found := read(like)):
                 item = found
             else:
-                item = read_only(item.copy())
+                item = known.of_array(item)
         elif type(item) not in _ATOMS or convert is not None:
             item = _own(item, known)
             if convert is not None:
@@ -134,8 +174,9 @@ def _same(one: np.ndarray, other: np.ndarray) -> bool:
     """Whether two arrays of one type are equal bit for bit."""
     if one.shape != other.shape:
         return False
-    if one.nbytes >= _LARGE and one.dtype.kind in "iuf" and one.itemsize == 8:
-        return bool((one.view(np.int64) == other.view(np.int64)).all())  # a third of the time of copies
+    if one.nbytes >= _LARGE and one.dtype.kind in "iufb":
+        word = np.int64 if one.itemsize == 8 else np.uint8
+        return bool((one.view(word) == other.view(word)).all())  # a third of the time of copies
     return one.tobytes() == other.tobytes()
 
 
@@ -157,6 +198,8 @@ def difference(given: Any, kept: Any, name: str) -> str | None:
         return None if given.dtype == kept.dtype and _same(given, kept) else name
     if kind is not tuple and _is_object(kind):
         return _difference_in_fields(given, kept, name)
+    if kind is tuple and _holds_numbers(kept) and _holds_numbers(given):
+        return None if _bytes(given) == _bytes(kept) else name
     if isinstance(kept, tuple | list):
         if len(given) != len(kept):
             return name
@@ -188,7 +231,7 @@ class Handed(Generic[T]):
     def __init__(self, kept: T, name: str) -> None:
         self._kept = kept
         self._name = name
-        self.given = own(kept)
+        self.given: T = _own(kept, _HandedCopies())
 
     def check(self, component: Component) -> None:
         """Require that the copy is unchanged.
@@ -197,4 +240,5 @@ class Handed(Generic[T]):
             BrokenContractError: it was changed by a component, which has just been called.
         """
         if (where := difference(self.given, self._kept, self._name)) is not None:
+            _HandedCopies.arrays.clear()
             raise BrokenContractError(f"{name_of(component)} changed {where}")

@@ -86,6 +86,8 @@ def test_robots_that_choose_one_goal_are_found_even_where_they_disappear_there(m
         ([(np.nan,), ()], "gave robot 0 task nan, which does not exist"),
         ([(2,), ()], "gave robot 0 task 2, which does not exist"),
         ([(0, 1), (0,)], "gave task 0 twice"),
+        ([(), (1, 0)], "gave task 0 to robot 1, which cannot do it"),
+        ([(), ()], None),
     ],
 )
 def test_queues_hold_each_task_at_most_once(queues, said):
@@ -94,7 +96,7 @@ def test_queues_hold_each_task_at_most_once(queues, said):
         tasks=tuple(Task(goals=[[0.0, 0.0, 0.0]], index=index) for index in range(2)),
         queues=((), ()),
         free_in=np.zeros(2),
-        approach=np.zeros((2, 2)),
+        approach=np.array([[0.0, 0.0], [np.inf, 0.0]]),
         length=np.zeros((2, 2)),
         between=np.zeros((0, 0, 0)),
         profile=np.zeros(2, np.int32),

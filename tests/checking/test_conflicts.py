@@ -38,6 +38,12 @@ def test_two_robots_that_arrive_at_one_vertex_conflict(make, conflicts):
     assert str(found[0]) == "vertex conflict of robots 0 and 1 at vertex 1, tick 1"
 
 
+@pytest.mark.parametrize("late", [0, 2**62])
+def test_robots_meet_however_late_it_is(make, conflicts, late):
+    found = conflicts(make.grid(1, 3), (0, (0, 0, late), (0, 1, late + 1)), (2, (2, 2, late + 1), (2, 1, late + 2)))
+    assert found == [Conflict("vertex", (0, 1), (1, 1), late + 2)]
+
+
 def test_a_robot_that_stays_at_its_goal_is_in_the_way_forever(make, conflicts):
     lane = make.grid(1, 3)
     assert conflicts(lane, (1,), (0, (0, 0, 7), (0, 1, 8), (1, 2, 9))) == [Conflict("vertex", (0, 1), (1, 1), 8)]

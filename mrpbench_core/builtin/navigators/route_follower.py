@@ -8,7 +8,7 @@ from mrpbench_core.builtin.navigators.route_ahead import RouteAhead
 from mrpbench_core.builtin.navigators.route_progress import RouteProgress
 from mrpbench_core.builtin.navigators.route_tables import ArrivalRules
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32, read_only
-from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.execution.route import Route, Routes
 
 _SETTLED = 0.02
 """metres from the end of the released part within which a robot that has reached it need not drive on."""
@@ -51,7 +51,7 @@ class RouteFollower:
         """Continue with routes that begin with the released parts of the old ones, but for `cut` i4[n] segments."""
         self._progress.adopt(routes, cut)
         self.corners = self._progress.tables.corners
-        self._wants_yaw = self._turn_ahead or any(not np.isnan(route.waypoint[:, 2]).all() for route in routes)
+        self._wants_yaw = self._turn_ahead or not np.isnan(Routes.of(routes).waypoint[:, 2]).all()
         self._refresh(np.arange(len(routes)))
         self._released = np.full(len(routes), -1, np.int32)  # so that the next `update` looks at all robots
 

@@ -4,15 +4,14 @@ Planners for one batch need goals at which all robots can stand at the same time
 only the most important one is a goal then. An errand with several places has room if one of them has.
 """
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Literal
 
 import attrs
 import numpy as np
 
+from mrpbench_core.engine.execution.taken import Neighbourhoods, Taken
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
-from mrpbench_core.model.planning.conflicts import TOLERANCE
 from mrpbench_core.model.planning.problem import Goals, GoalSet, Problem
 from mrpbench_core.model.planning.type2_edges import Moves
 
@@ -75,6 +74,7 @@ class Places:
         roadmap = problem.roadmap
         self._problem, self._labels, self._parking = problem, labels, parking
         self._sets, self._shared = sets, shared
+        self._near = Neighbourhoods(problem)
         self._kept_free = np.zeros(len(roadmap.position), bool)
         for resource in roadmap.resources:
             self._kept_free[list(resource.vertices)] = True
@@ -93,7 +93,7 @@ class Places:
             stays: bool[n] robots that cannot go on from there.
         """
         robots = len(self._problem)
-        taken = _Taken(self._problem)
+        taken = Taken(self._near)
         for robot in np.flatnonzero(stays).tolist():
             taken.add(robot, int(head[robot]))
         chosen: list[Errands] = [()] * robots
@@ -119,7 +119,7 @@ class Places:
             goals[end.robot] = (*goals[end.robot][:-1], self._choice(end, taken))
         return Destinations(goals=tuple(goals), yaw=yaw, errands=tuple(chosen))
 
-    def _with_room(self, errands: Sequence[Errand], taken: "_Taken") -> tuple[Sequence[Errand], int]:
+    def _with_room(self, errands: Sequence[Errand], taken: Taken) -> tuple[Sequence[Errand], int]:
         """Of a robot's errands, the leading ones at the last of which it may rest, and where it does.
 
         That is the nearest place with room. If robots may share goals and no place has room, it is the nearest of those
@@ -127,14 +127,14 @@ class Places:
         """
         for last in range(len(errands), 0, -1):
             errand = errands[last - 1]
-            place = next((it for it in errand.yaws if taken.leaves(errand.robot, it)), None)
-            if place is None and self._shared:
-                place = min(errand.yaws, key=[*taken.vertex.values()].count)
-            if place is not None:
-                return errands[:last], place
+            for place in errand.yaws:
+                if taken.leaves(errand.robot, place):
+                    return errands[:last], place
+            if self._shared:
+                return errands[:last], min(errand.yaws, key=taken.count)
         return (), -1
 
-    def _choice(self, errand: Errand, taken: "_Taken") -> GoalSet:
+    def _choice(self, errand: Errand, taken: Taken) -> GoalSet:
         """The places among which a planner may choose: that of the robot, and those which no other one needs.
 
         Whatever it chooses for some robots, each other robot still has its own place.
@@ -142,7 +142,7 @@ class Places:
         own = taken.vertex[errand.robot]
         return tuple(it for it in errand.yaws if it == own or taken.leaves(errand.robot, it))
 
-    def _room(self, robot: int, head: int, taken: "_Taken", attempt: int) -> GoalSet:
+    def _room(self, robot: int, head: int, taken: Taken, attempt: int) -> GoalSet:
         """Where a robot without an errand may stand."""
         label = self._labels[int(self._problem.profile[robot])]
         able = taken.free(robot) & (label == label[head]) & ~self._kept_free
@@ -165,62 +165,3 @@ class Places:
         gap[~able] = np.inf
         elsewhere = able & (roadmap.level != roadmap.level[head])
         return int(np.argmin(gap + 1e6 * elsewhere))
-
-
-class _Taken:
-    """The vertices at which robots come to rest, and what they leave to others."""
-
-    def __init__(self, problem: Problem) -> None:
-        self._problem = problem
-        self._radii, self._size = np.unique(problem.radius, return_inverse=True)
-        vertices = len(problem.roadmap.position)
-        self._count = 0
-        self._places = np.full((len(problem), 4), np.nan)
-        """Vertex, x, y and radius of each robot in `vertex`, in its order."""
-        self._side = max(2 * float(self._radii.max(initial=0.0)), TOLERANCE)
-        self._near: dict[tuple[int, int, int], list[tuple[int, int, float, float, float]]] = {}
-        """Robot, vertex, x, y and radius of the robots in each square of that side, by its level, column and row."""
-        self._seen = np.zeros(len(self._radii), np.int64)
-        self._free = np.ones((len(self._radii), vertices), bool)
-        """For robots of each radius, the vertices that the first `_seen` robots leave to them."""
-        self.vertex: dict[int, int] = {}
-        """Of each robot."""
-
-    def add(self, robot: int, vertex: int) -> None:
-        """Let a robot rest at a vertex."""
-        self.vertex[robot] = vertex
-        square, x, y = self._square(vertex)
-        radius = float(self._problem.radius[robot])
-        self._places[self._count] = vertex, x, y, radius
-        self._count += 1
-        self._near.setdefault(square, []).append((robot, vertex, x, y, radius))
-
-    def leaves(self, robot: int, vertex: int) -> bool:
-        """Tell whether the other robots leave room for a robot at a vertex."""
-        (level, column, row), x, y = self._square(vertex)
-        own = float(self._problem.radius[robot]) - TOLERANCE
-        return not any(
-            other != robot and (there == vertex or math.hypot(u - x, v - y) < radius + own)
-            for side in (column - 1, column, column + 1)
-            for up in (row - 1, row, row + 1)
-            for other, there, u, v, radius in self._near.get((level, side, up), ())
-        )
-
-    def _square(self, vertex: int) -> tuple[tuple[int, int, int], float, float]:
-        """Level, column and row of the square around a vertex, and where the vertex is."""
-        roadmap = self._problem.roadmap
-        x, y = roadmap.position[vertex].tolist()
-        return (int(roadmap.level[vertex]), int(x // self._side), int(y // self._side)), x, y
-
-    def free(self, robot: int) -> Bool:
-        """The vertices bool[V] at which there is room for one more robot."""
-        roadmap, size = self._problem.roadmap, int(self._size[robot])
-        free = self._free[size]
-        for vertex, x, y, radius in self._places[self._seen[size] : self._count].tolist():
-            gap = np.hypot(roadmap.position[:, 0] - x, roadmap.position[:, 1] - y)
-            beside = gap < radius + self._radii[size] - TOLERANCE
-            free &= ~(beside & (roadmap.level == roadmap.level[int(vertex)]))
-            free[int(vertex)] = False
-        self._seen[size] = self._count
-        left: Bool = free.copy()
-        return left

@@ -1,7 +1,6 @@
 """The errands to which the paths of robots lead, from when a plan is asked for until the next one is in force."""
 
 from collections.abc import Callable, Sequence
-from itertools import takewhile
 
 import numpy as np
 
@@ -28,7 +27,7 @@ class PlannedErrands:
     def adopt(self, errands: Sequence[Errands], done: Callable[[tuple[int, int]], bool]) -> None:
         """Note that the paths of a plan lead to these errands, of which some may be `done` since it was asked for."""
         for robot, way in enumerate(errands):
-            gone = sum(1 for _ in takewhile(done, way))
+            gone = next((number for number, errand in enumerate(way) if not done(errand)), len(way))
             self.gone[robot], self.in_force[robot] = gone, way[gone:]
             self._planned[robot] = self._asked[robot][gone:]
 

@@ -8,7 +8,7 @@ time or a wanted yaw, and the robot visits those before the last one without a s
 import math
 import time
 from collections.abc import Sequence, Set
-from itertools import pairwise, takewhile
+from itertools import takewhile
 from typing import Protocol
 
 import numpy as np
@@ -22,12 +22,12 @@ from mrpbench_core.engine.contract_checks import check_released
 from mrpbench_core.engine.execution.destinations import Destinations, Errand, Errands, Places
 from mrpbench_core.engine.execution.planned_errands import PlannedErrands
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
+from mrpbench_core.engine.execution.queue_problems import QueueProblems
 from mrpbench_core.engine.execution.reactions import reaches
 from mrpbench_core.engine.execution.task_board import Job, TaskBoard, TaskEvent
 from mrpbench_core.engine.own import Handed, name_of, own
-from mrpbench_core.model.common.arrays import Bool, Float, Int
-from mrpbench_core.model.planning.assignment import QueueProblem
-from mrpbench_core.model.planning.problem import GoalSet, Problem
+from mrpbench_core.model.common.arrays import Bool, Int
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.scenario import Task
 
 
@@ -64,6 +64,7 @@ class TaskManager:
         sequences: bool = False,
     ) -> None:
         self._stream, self._assigner, self._costs, self._places = stream, assigner, costs, places
+        self._queue_problems = QueueProblems(assigner, costs)
         self._roadmap = problem.roadmap
         starts = zip(costs.profile.tolist(), problem.start.tolist(), strict=True)
         self._components = {(profile, costs.labels[profile][start]) for profile, start in starts}
@@ -78,9 +79,7 @@ class TaskManager:
         """Tasks or robots have changed since the last assignment."""
         self._sequences = sequences
         self._planned = PlannedErrands(len(problem))
-        self._lengths: dict[int, tuple[Float, ...]] = {}
-        """Of the tasks that are not begun, for each motion profile; see `_length`."""
-        self._ways: dict[int, tuple[tuple[int, ...], list[tuple[Job, int]], Errands]] = {}
+        self._ways: dict[int, tuple[tuple[int, ...], list[Errand], Errands]] = {}
         """By robot: what its errands ahead depend on, these, and their names."""
         self._missed: set[int] = set()
         """Robots that came to rest without having visited all goals of their paths; they stop at the next one."""
@@ -196,7 +195,7 @@ class TaskManager:
         open_tasks = self._board.unbegun()
         if not open_tasks:
             return
-        problem = self._queue_problem(now, open_tasks)
+        problem = self._queue_problems.of(now, self._board, open_tasks, self._head, self._aborted)
         handed = Handed(problem, "the tasks")
         began = time.perf_counter()
         try:
@@ -209,64 +208,6 @@ class TaskManager:
         if fault := check_queues(problem, queues):
             raise BrokenContractError(f"{name_of(self._assigner)} {fault}")
         self._board.assign(now, tuple(tuple(open_tasks[int(task)] for task in queue) for queue in queues))
-
-    def _queue_problem(self, now: float, open_tasks: list[int]) -> QueueProblem:
-        jobs = [self._board.jobs[index] for index in open_tasks]
-        first, begin = _flat([job.places[0] for job in jobs])
-        last, end = _flat([job.places[-1] for job in jobs])
-        profiles = range(len(self._costs.labels))
-        column = {index: number for number, index in enumerate(open_tasks)}
-        place, free_in = self._head.copy(), np.zeros(len(self._robots))
-        for robot in self._robots:
-            if (job := self._board.begun(robot)) is not None:
-                profile = int(self._costs.profile[robot])
-                (way,) = self._costs.along(profile, ((int(self._head[robot]),), *job.places[job.errand :]))
-                free_in[robot] = way.min() + _service(job, now)
-                place[robot] = job.places[-1][int(way.argmin())]
-        free_in[self._aborted] = np.inf
-        self._lengths = {
-            index: self._lengths.get(index) or self._length(self._board.jobs[index]) for index in open_tasks
-        }
-        lengths = np.array([np.concatenate(own) for own in zip(*self._lengths.values(), strict=True)])
-        approach = np.zeros((len(place), len(first)))
-        for p in profiles:
-            robots = np.flatnonzero(self._costs.profile == p)
-            if self._assigner.reads_costs:
-                approach[robots] = self._costs.seconds(p, place[robots], first)
-            able = self._costs.joined(p, place[robots], first) & np.isfinite(lengths[p])
-            row, task = np.nonzero(~able)
-            approach[robots[row], task] = np.inf
-        length = lengths[self._costs.profile] if self._assigner.reads_costs else np.zeros((len(place), 1))
-        if len(first) > len(jobs):
-            total = approach + length
-            best = np.stack([at + total[:, at:to].argmin(axis=1) for at, to in pairwise([*begin, len(first)])], axis=1)
-            approach = np.take_along_axis(approach, best, axis=1)
-            length = np.take_along_axis(length, best, axis=1) if self._assigner.reads_costs else length
-        for values in (approach, length):
-            values.setflags(write=False)  # so that no field copies them
-        between: Float = np.empty((0, 0, 0))
-        if self._assigner.reads_between:
-            between = np.array([self._costs.seconds(p, last, first) for p in profiles])
-            between = np.minimum.reduceat(np.minimum.reduceat(between, end, axis=1), begin, axis=2)
-        return QueueProblem(
-            now=now,
-            tasks=tuple(job.task for job in jobs),
-            queues=tuple(tuple(column[index] for index in queue if index in column) for queue in self._board.queues),
-            free_in=free_in,
-            approach=approach,
-            length=length,
-            between=between,
-            profile=self._costs.profile.astype(np.int32),
-            errands=tuple(job.places for job in jobs),
-            ahead=tuple(
-                () if job is None else job.places[job.errand :] for job in map(self._board.begun, self._robots)
-            ),
-        )
-
-    def _length(self, job: Job) -> tuple[Float, ...]:
-        """For each motion profile the seconds f8[k] from each place of the first errand of a task to its end."""
-        service, profiles = job.task.service.sum(), range(len(self._costs.labels))
-        return tuple(self._costs.along(profile, job.places).min(axis=1) + service for profile in profiles)
 
     def reason(self, now: float) -> str | None:
         """Return why a new plan is needed now, or None: some robot's errand is not the one of its path."""
@@ -295,7 +236,7 @@ class TaskManager:
         ahead = [self._way(robot) for robot in self._robots]
         self._planned.ask([names for _, names in ahead])
         going = [robot for robot in np.flatnonzero(~held).tolist() if ahead[robot][0]]
-        ways = [self._nearest_first(robot, ahead[robot][0]) for robot in going]
+        ways = [self._costs.nearest_first(ahead[robot][0], int(self._head[robot])) for robot in going]
         if restricted.roadmap is not self._roadmap:
             ways = [[*takewhile(lambda it: it.yaws, (self._within(restricted, it) for it in way))] for way in ways]
         resting: list[list[Errand]] = []
@@ -321,7 +262,7 @@ class TaskManager:
         """Note that no plan to the last goals takes effect."""
         self._failures += 1
 
-    def _way(self, robot: int) -> tuple[list[tuple[Job, int]], Errands]:
+    def _way(self, robot: int) -> tuple[list[Errand], Errands]:
         """The errands ahead of a robot, and their names."""
         job = self._board.current(robot)
         if job is None:
@@ -330,22 +271,18 @@ class TaskManager:
         known = self._ways.get(robot)
         if known is None or known[0] != depends_on:
             ahead = self._ahead(robot)
-            known = self._ways[robot] = depends_on, ahead, tuple((it.task.index, number) for it, number in ahead)
+            known = self._ways[robot] = depends_on, ahead, tuple((errand.task, errand.number) for errand in ahead)
         return known[1:]
 
-    def _ahead(self, robot: int) -> list[tuple[Job, int]]:
+    def _ahead(self, robot: int) -> list[Errand]:
         """The errands to which a plan leads a robot: the next one and, if it need not rest there, those after it."""
-        ahead: list[tuple[Job, int]] = []
+        ahead: list[Errand] = []
         for job in self._board.queue(robot):
             for number in range(job.errand, len(job.places)):
-                ahead.append((job, number))
+                ahead.append(Errand(robot, job.task.index, number, job.yaws[number]))
                 if job.rests[number] or not self._sequences or robot in self._missed:
                     return ahead
         return ahead
-
-    def _nearest_first(self, robot: int, ahead: Sequence[tuple[Job, int]]) -> list[Errand]:
-        errands = (Errand(robot, job.task.index, number, job.yaws[number]) for job, number in ahead)
-        return self._costs.nearest_first(errands, int(self._head[robot]))
 
     def _within(self, restricted: Problem, errand: Errand) -> Errand:
         """Leave out places that the robot cannot reach in a problem."""
@@ -355,15 +292,3 @@ class TaskManager:
     def _is_done(self, errand: tuple[int, int]) -> bool:
         job = self._board.jobs.get(errand[0])
         return job is None or job.errand > errand[1]
-
-
-def _flat(goals: Sequence[GoalSet]) -> tuple[Int, list[int]]:
-    """The vertices of sets, one after another, and where each set begins."""
-    sizes = [len(goal) for goal in goals]
-    return np.array([vertex for goal in goals for vertex in goal], np.int64), (np.cumsum(sizes) - sizes).tolist()
-
-
-def _service(job: Job, now: float) -> float:
-    """Seconds of service that a task still needs."""
-    left = float(job.task.service[job.errand :].sum())
-    return left if math.isnan(job.since) else max(0.0, left - (now - job.since))

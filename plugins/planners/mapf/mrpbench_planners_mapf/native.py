@@ -1,7 +1,7 @@
 """Between the model and the solvers in C++: a problem becomes an instance, an answer becomes a plan."""
 
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from types import ModuleType
 
 import numpy as np
@@ -118,8 +118,8 @@ def _instance(problem: Problem, module: ModuleType, rank: Int32 | None, known: K
     )
 
 
-def _goals(goal: Iterable[int]) -> Int32:
-    return np.array(sorted(set(goal)), np.int32)
+def _goals(goal: Sequence[int]) -> Int32:
+    return np.array(goal if len(goal) == 1 else sorted(set(goal)), np.int32)
 
 
 def _exclusions(problem: Problem) -> SolverExclusions:

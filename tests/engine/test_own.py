@@ -1,0 +1,85 @@
+"""Copies that cannot be told from the original, and what is changed in them is found."""
+
+import ctypes
+
+import attrs
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.builtin.assigners.identity import Identity
+from mrpbench_core.engine.own import _LARGE as LARGE
+from mrpbench_core.engine.own import Handed, _HandedCopies, difference, own
+from mrpbench_core.testing.instances.problems import grid_of, problem_on
+
+LIAR = Identity()
+PROBLEM = problem_on(grid_of(["..."]), [0], [2])
+ATOMS = st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=3)
+VALUES = st.recursive(
+    ATOMS,
+    lambda inner: st.lists(inner, max_size=3).map(tuple) | st.lists(inner, max_size=3) | st.dictionaries(ATOMS, inner),
+)
+
+
+def mutable(value):
+    """The lists and dictionaries in a value."""
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, tuple | list) else ()
+    return [*([value] if isinstance(value, list | dict) else []), *(found for item in inner for found in mutable(item))]
+
+
+@given(VALUES)
+def test_copies_are_equal_and_share_nothing_that_can_be_changed(value):
+    copied = own(value)
+    assert difference(copied, value, "it") is None
+    ours, theirs = mutable(value), mutable(copied)
+    assert len(ours) == len(theirs)
+    assert not {id(it) for it in ours} & {id(it) for it in theirs}
+    for container in theirs:
+        container.clear()
+    assert all(it in ([], {}) for it in theirs)
+    assert (difference(copied, value, "it") is None) == (not any(ours))
+
+
+@pytest.mark.parametrize("size", [4, LARGE])
+def test_arrays_of_a_copy_are_others_and_what_is_put_in_their_place_is_found(size):
+    problem = attrs.evolve(PROBLEM, ready=np.arange(size))
+    handed = Handed(problem, "the problem")
+    given, kept = handed.given.ready, problem.ready
+    assert not np.shares_memory(given, kept)
+    with pytest.raises(ValueError, match="read-only"):
+        given[0] = 7
+    given.shape = (2, size // 2)
+    assert difference(handed.given, problem, "it") == "it.ready"
+    given.shape = (size,)
+    assert difference(handed.given, problem, "it") is None
+    object.__setattr__(handed.given, "ready", np.arange(1, size + 1))
+    assert difference(handed.given, problem, "it") == "it.ready"
+
+
+def test_a_large_array_is_copied_once_as_long_as_nobody_writes_to_its_copy():
+    problem = attrs.evolve(PROBLEM, ready=np.arange(LARGE))
+    first, second = Handed(problem, "the problem"), Handed(problem, "the problem")
+    assert first.given.ready is second.given.ready
+    second.check(LIAR)
+    ctypes.memset(second.given.ready.ctypes.data, 1, 8)
+    assert problem.ready[0] == 0
+    with pytest.raises(BrokenContractError, match=r"changed the problem\.ready"):
+        second.check(LIAR)
+    Handed(problem, "the problem").check(LIAR)
+
+
+def test_copies_are_forgotten_with_their_originals():
+    original = np.arange(LARGE)
+    before = len(_HandedCopies.arrays)
+    Handed([original], "it")
+    assert len(_HandedCopies.arrays) == before + 1
+    del original
+    assert len(_HandedCopies.arrays) == before
+
+
+def test_numbers_of_another_type_are_found():
+    for one, other in (((1,), (True,)), ((1,), (1.0,)), ((0.0,), (-0.0,)), (((1, 2),), ((1,), (2,)))):
+        assert difference(one, other, "it") == "it"
+    assert difference((float("nan"), 2**70), (float("nan"), 2**70), "it") is None
