@@ -7,6 +7,7 @@ import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.builtin.assigners.greedy import Greedy
+from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.planning.assignment import QueueProblem, Queues
 
 
@@ -30,42 +31,40 @@ class Insertion(Greedy):
     def assign_queues(self, problem: QueueProblem) -> Queues:
         """Return the queues of all robots; a task that no robot can do is in none."""
         queues: list[list[int]] = [[] for _ in problem.free_in]
-        robots, left = range(len(queues)), list(range(len(problem.tasks)))
-        best = {task: [_cheapest(problem, robot, [], task) for robot in robots] for task in left}
-        while left:
-            task = max(left, key=lambda it: _regret([cost for cost, _ in best[it]])) if self.regret else left[0]
-            left.remove(task)
-            cost, robot = min((cost, robot) for robot, (cost, _) in enumerate(best[task]))
-            if not np.isfinite(cost):
-                continue
-            queues[robot].insert(best[task][robot][1], task)
-            for other in left:
-                best[other][robot] = _cheapest(problem, robot, queues[robot], other)
+        left = np.arange(len(problem.tasks) if queues else 0)
+        growth, place = np.empty((len(queues), len(left))), np.empty((len(queues), len(left)), np.int64)
+        for robot in range(len(queues)):
+            growth[robot], place[robot] = _insertions(problem, robot, [])
+        while left.size:
+            number = int(_regret(growth[:, left]).argmax()) if self.regret else 0
+            task, left = int(left[number]), np.delete(left, number)
+            robot = int(growth[:, task].argmin())
+            if np.isfinite(growth[robot, task]):
+                queues[robot].insert(place[robot, task], task)
+                growth[robot], place[robot] = _insertions(problem, robot, queues[robot])
         return tuple(map(tuple, queues))
 
 
-def _regret(costs: list[float]) -> float:
-    """By how much the second best robot is worse than the best one."""
-    first, *others = sorted(cost for cost in costs if np.isfinite(cost)) or [0.0]
-    return others[0] - first if others else np.inf
+def _regret(growth: Float) -> Float:
+    """By how much the second best robot is worse than the best one: f8[k] for growth f8[n,k]; inf if only one can."""
+    regret = np.full(growth.shape[1], np.inf)
+    if len(growth) > 1:
+        best, second = np.sort(growth, axis=0)[:2]
+        np.subtract(second, best, out=regret, where=np.isfinite(second))
+    return regret
 
 
-def _cheapest(problem: QueueProblem, robot: int, queue: list[int], task: int) -> tuple[float, int]:
-    """The least growth of the sum of times at which the tasks of a queue are done, and the place in the queue."""
-    if not np.isfinite(problem.free_in[robot] + problem.approach[robot, task]):  # the robot cannot do it
-        return np.inf, 0
-    before = _sum_of_times(problem, robot, queue)
-    longer = ([*queue[:place], task, *queue[place:]] for place in range(len(queue) + 1))
-    grown = [_sum_of_times(problem, robot, it) - before for it in longer]
-    place = int(np.argmin(grown))
-    return grown[place], place
+def _insertions(problem: QueueProblem, robot: int, queue: list[int]) -> tuple[Float, Int]:
+    """For each task, the least growth f8[m] of the sum of times at which a queue's tasks are done, and the place i8[m].
 
-
-def _sum_of_times(problem: QueueProblem, robot: int, queue: list[int]) -> float:
-    """Seconds from now until each task of a queue is done, added up."""
-    profile, time, total = int(problem.profile[robot]), float(problem.free_in[robot]), 0.0
-    for place, task in enumerate(queue):
-        way = problem.between[profile, queue[place - 1], task] if place else problem.approach[robot, task]
-        time += float(way + problem.length[robot, task])
-        total += time
-    return total
+    A task is done when the robot has come to it from what is before it, and delays all that is after it.
+    """
+    between, length, size = problem.between[problem.profile[robot]], problem.length[robot], len(queue)
+    way = np.vstack([problem.approach[robot], between[queue]])  # f8[k+1,m] to each task from what is before each place
+    driven = way[np.arange(size), queue]
+    start = problem.free_in[robot] + np.concatenate([[0.0], np.cumsum(driven + length[queue])])
+    growth = start[:, None] + way + length
+    growth[:size] += np.arange(size, 0, -1)[:, None] * (way[:size] + length + between[:, queue].T - driven[:, None])
+    growth[:, ~np.isfinite(problem.approach[robot])] = np.inf
+    place = growth.argmin(axis=0)
+    return growth[place, np.arange(len(place))], place
