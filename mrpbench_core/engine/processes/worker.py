@@ -89,7 +89,7 @@ def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack
         picture=None if job["picture"] is None else Path(job["picture"]),
     )
     observers = Observers(
-        planned=lambda problem, result: hooks.call("mrpbench_planned", problem=problem, result=result),
+        planned=(lambda **seen: hooks.call("mrpbench_planned", **seen)) if hooks.has("mrpbench_planned") else None,
         executing=lambda context: hooks.call("mrpbench_executing", context=context),
         stepped=(lambda **seen: hooks.call("mrpbench_stepped", **seen)) if hooks.has("mrpbench_stepped") else None,
         executed=lambda: hooks.call("mrpbench_executed"),
