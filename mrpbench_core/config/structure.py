@@ -57,8 +57,10 @@ class Structure:
         Raises:
             InputErrors: what is wrong with one of them.
         """
-        fields = attrs.fields_dict(RunConfig)
-        return {key: self._field(from_data(value, Location()), fields[key], key) for key, value in given.items()}
+        fields = attrs.fields(RunConfig)
+        return {
+            key: self._field(from_data(value, Location()), getattr(fields, key), key) for key, value in given.items()
+        }
 
     def component(self, item: Item, base: type[C], key: str) -> C:
         """Return one component of a kind."""

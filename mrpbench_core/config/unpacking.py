@@ -1,6 +1,6 @@
 """Configurations of runs from plain data, in processes that did not read the study."""
 
-import json
+import marshal
 import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
@@ -38,7 +38,7 @@ class Unpacking:
             InputErrors: see `unpack`.
         """
         self._origin = first["folder"], first["sources"]
-        self._texts = {key: json.dumps(value) for key, value in first["config"].items()}
+        self._plain = {key: _bytes(value) for key, value in first["config"].items()}
         self._files = [
             (Path(os.path.normpath(Path(first["folder"], name))), sha256) for name, sha256 in _files(first["config"])
         ]
@@ -48,12 +48,17 @@ class Unpacking:
     def __call__(self, parcel: Mapping[str, Any]) -> RunConfig:
         """Return the configuration of a parcel; see `unpack`. Only the settings that differ are structured."""
         plain = parcel["config"]
-        if (parcel["folder"], parcel["sources"]) == self._origin and self._texts.keys() == plain.keys():
-            changed = {key: value for key, value in plain.items() if self._texts[key] != json.dumps(value)}
+        if (parcel["folder"], parcel["sources"]) == self._origin and self._plain.keys() == plain.keys():
+            changed = {key: value for key, value in plain.items() if self._plain[key] != _bytes(value)}
             with suppress(InputErrors, InputError, ValueError, TypeError):  # then `unpack` says what is wrong
                 if all(content_hash(file) == sha256 for file, sha256 in self._files):
                     return attrs.evolve(self.config, **self._structure.settings(changed))
         return unpack(parcel)
+
+
+def _bytes(value: Any) -> bytes:
+    """Plain data for comparisons, in which 1, 1.0 and true differ; quicker than JSON, in every run."""
+    return marshal.dumps(value, 2)  # later formats depend on how often an object is used
 
 
 def _files(value: Any) -> Iterator[tuple[str, str]]:

@@ -13,8 +13,8 @@ def _ignore(**_: Any) -> None: ...
 class Observers:
     """Called by keyword; see `mrpbench_core.api.hooks`."""
 
-    planned: Callable[..., Any] = _ignore
-    """problem: Problem, result: PlanResult."""
+    planned: Callable[..., Any] | None = None
+    """problem: Problem, result: PlanResult; copies."""
     executing: Callable[..., Any] = _ignore
     """context: RunContext."""
     stepped: Callable[..., Any] | None = None

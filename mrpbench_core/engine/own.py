@@ -189,6 +189,8 @@ def _fields(kind: type) -> tuple[tuple[str, str], ...]:
 
 def difference(given: Any, kept: Any, name: str) -> str | None:
     """Return where `given` differs from `kept`, as in `problem.goals`, or None."""
+    if given is kept:
+        return None
     kind = type(kept)
     if type(given) is not kind:
         return name

@@ -135,7 +135,8 @@ def _plan(inputs: RunInputs, problem: Problem, record: RunRecord) -> tuple[PlanR
     inputs.announce(Stage.CHECKING, {})  # which is no part of the planner's time
     result, fault = judge(promises, problem, result)
     record.plan = {} if fault else claims_of(promises, problem, result)
-    inputs.observers.planned(problem=own(problem), result=own(result))
+    if inputs.observers.planned is not None:
+        inputs.observers.planned(problem=own(problem), result=own(result))
     if fault is not None:
         return attrs.evolve(result, plan=None), RunEnded(
             RunStatus.PLAN_INVALID, Stage.PLANNING, f"{fault} ({title(config.planner)})"
@@ -163,7 +164,8 @@ def _stand(inputs: RunInputs, problem: Problem, record: RunRecord, places: Int |
         raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, reason)
     nothing = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
     result = PlanResult(status=PlanStatus.SOLVED, plan=Plan(paths=(nothing,) * len(problem)))
-    inputs.observers.planned(problem=own(problem), result=own(result))
+    if inputs.observers.planned is not None:
+        inputs.observers.planned(problem=own(problem), result=own(result))
     return result
 
 

@@ -47,7 +47,7 @@ class RunRecord:
 
     def message(self) -> dict[str, Any]:
         """The record as plain data, for another process."""
-        return attrs.asdict(self)
+        return {**attrs.asdict(self, recurse=False), "error": self.error and attrs.asdict(self.error)}
 
     @classmethod
     def of_message(cls, message: dict[str, Any]) -> Self:

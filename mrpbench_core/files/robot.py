@@ -50,13 +50,12 @@ def load_robot(name_or_path: str, folder: Path | None = None) -> RobotModel:
     Raises:
         InputError: the name is unknown, the file unreadable, or a key unknown, missing or wrong.
     """
-    file = robot_file(name_or_path, folder)
-    return _built_in(file) if file.parent == _ROBOTS else _read(file)
+    return _built_in(name_or_path) if name_or_path in robot_names() else _read(robot_file(name_or_path, folder))
 
 
 @functools.cache
-def _built_in(file: Path) -> RobotModel:
-    return _read(file)
+def _built_in(name: str) -> RobotModel:
+    return _read(robot_file(name))
 
 
 def _read(file: Path) -> RobotModel:

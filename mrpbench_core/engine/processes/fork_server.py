@@ -20,11 +20,10 @@ import numpy as np
 
 from mrpbench_core.config.unpacking import Unpack, Unpacking, unpack
 from mrpbench_core.engine.processes.channel import Channel, ClosedError, GarbledError, new_key
-from mrpbench_core.engine.processes.output import redirect
+from mrpbench_core.engine.processes.output import flush, redirect
 from mrpbench_core.engine.processes.process_tree import end_with_parent
 from mrpbench_core.engine.processes.warm_up import warm_up
-from mrpbench_core.engine.stages.fleet import robot_model
-from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.engine.stages.prepare import prepare
 from mrpbench_core.plugins.hooks import Hooks, load_hooks
 from mrpbench_core.plugins.importing import tell_imports
 
@@ -76,7 +75,7 @@ class ForkServer:
             socket.send_fds(self.connection, [b"f"], [connection.fileno()])
 
     def receive(self, timeout_s: float | None = None) -> dict[str, Any] | None:
-        """The next message: `importing`, a plugin or None; `forked`; or `ended`, the wait status of the forked process.
+        """The next message: `importing`, a plugin or None; or `ended`, the wait status of the forked process.
 
         Raises:
             ClosedError: the server has ended.
@@ -105,13 +104,14 @@ def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], 
     if "parcel" in job:
         warm_up()
         hooks = load_hooks()
-        with suppress(InputError, InputErrors):  # the run reports them
+        with suppress(Exception):  # the run reports it
             unpacking = first = Unpacking(job["parcel"])
-            for entry in first.config.fleet:
-                robot_model(entry)
+            prepare(first.config)
+    flush()
     server = os.getpid()
     while True:
-        np.random.seed()  # noqa: NPY002 - the state that plugins find in a process that was not forked
+        state = np.frombuffer(os.urandom(4 * 624), np.uint32)
+        np.random.set_state(("MT19937", state, 624, 0, 0.0))  # noqa: NPY002 - other random numbers for plugins in each process
         gc.freeze()  # collections in the forked processes then leave the shared memory alone
         _, descriptors, _, _ = socket.recv_fds(connection, 1, 1)
         if not descriptors:  # the supervisor closed its end
@@ -128,9 +128,7 @@ def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], 
             os._exit(0)
         os.close(descriptors[0])
         os.close(writer)
-        channel.send({"forked": pid})
-        status = os.waitpid(pid, 0)[1]
-        channel.send({"ended": status})
+        channel.send({"ended": os.waitpid(pid, 0)[1]})
         _import(imported)
         os.close(imported)
 
@@ -150,3 +148,4 @@ def _import(descriptor: int) -> None:
         for name in os.read(descriptor, _NAMES).decode(errors="replace").split():
             with suppress(Exception, SystemExit):
                 importlib.import_module(name)
+            flush()

@@ -34,10 +34,10 @@ class LimitMonitor:
         self._importing: str | None = None
         self._import_began = self._began
 
-    def enter(self, stage: Stage, limit_s: float | None, scenario_id: str | None) -> None:
-        """Note that a stage begins."""
+    def enter(self, stage: Stage, at: float, limit_s: float | None, scenario_id: str | None) -> None:
+        """Note that a stage began `at` monotonic seconds, as the job says: not before the last one, nor in future."""
         self.stage = stage
-        self._stage_began = time.monotonic()
+        self._stage_began = min(max(self._stage_began, at), time.monotonic())
         self._limit = limit_s
         self._scenario_id = scenario_id or self._scenario_id
 

@@ -26,12 +26,9 @@ def machine() -> dict[str, Any]:
 def oom_kills() -> int:
     """The number of processes that the kernel has ended since boot for lack of memory."""
     try:
-        for line in Path("/proc/vmstat").read_text().splitlines():
-            if line.startswith("oom_kill "):
-                return int(line.split()[1])
-    except OSError:
-        pass
-    return 0
+        return int(Path("/proc/vmstat").read_bytes().partition(b"\noom_kill ")[2].split(maxsplit=1)[0])
+    except (OSError, IndexError):
+        return 0
 
 
 def _processor() -> str:

@@ -15,13 +15,18 @@ LARGEST = 16 * 2**20
 def redirect(log: Path | str) -> None:
     """Append everything that this process prints, in Python or in native code, to a file; also why it crashes."""
     flush()
+    append_to(log)
+    for stream in (sys.stdout, sys.stderr):
+        stream.reconfigure(line_buffering=True, errors="backslashreplace")  # type: ignore[union-attr]
+    faulthandler.enable()
+
+
+def append_to(log: Path | str) -> None:
+    """Redirect this process, or one that it has forked, to another file; nothing is in buffers."""
     target = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
     os.dup2(target, 1)
     os.dup2(target, 2)
     os.close(target)
-    for stream in (sys.stdout, sys.stderr):
-        stream.reconfigure(line_buffering=True, errors="backslashreplace")  # type: ignore[union-attr]
-    faulthandler.enable()
 
 
 def flush() -> None:

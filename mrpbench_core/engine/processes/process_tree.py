@@ -69,11 +69,7 @@ def address_space() -> int:
 def kill_descendants(spared: Collection[int] = ()) -> bool:
     """Kill and reap all descendants of this process, except those in `spared`; tell whether all have ended."""
     deadline = time.monotonic() + ENDING_S
-    while True:
-        reap(spared)
-        alive = list(descendants(os.getpid(), spared))
-        if not alive:
-            return True
+    while alive := list(descendants(os.getpid(), spared)):
         if time.monotonic() > deadline:
             return False
         for pid in alive:
@@ -81,7 +77,9 @@ def kill_descendants(spared: Collection[int] = ()) -> bool:
                 os.kill(pid, signal.SIGKILL)
             except ProcessLookupError:
                 continue
+        reap(spared)
         time.sleep(0.0005)
+    return True
 
 
 def reap(spared: Collection[int]) -> None:

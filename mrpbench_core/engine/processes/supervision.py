@@ -24,7 +24,11 @@ from mrpbench_core.model.runs.status import RunStatus, Stage
 Message = dict[str, Any]
 
 SAMPLING_S = 0.05
-"""Seconds between two measurements of memory and log, which messages do not delay."""
+"""Seconds between two measurements of memory and log, which messages do not delay.
+
+The messages of a job are read when they come only after the first of these: most are not urgent, and a short run ends
+before that.
+"""
 ENDING_S = 0.05
 """Seconds that a process may take to end after its answer, before it is killed."""
 TELLING_S = 5.0
@@ -59,8 +63,9 @@ class Supervision:
         key = new_key()
         self._channel = Channel(self._connection, key)
         self._poll = select.poll()
-        for source in (invoker, server, self._connection):
+        for source in (invoker, server):
             self._poll.register(source, select.POLLIN)
+        self._poll.register(self._connection, 0)  # its end only
         server.fork(theirs)
         theirs.close()
         with suppress(OSError, ClosedError):  # it has ended, which `run` finds
@@ -130,7 +135,8 @@ class Supervision:
             self._invoker.send(message)
             self._progressed = True
         elif "stage" in message:
-            self._monitor.enter(Stage(message["stage"]), message.get("limit_s"), message.get("scenario_id"))
+            stage = Stage(message["stage"])
+            self._monitor.enter(stage, message["at"], message.get("limit_s"), message.get("scenario_id"))
             if self._progressed:
                 self._invoker.send({"progress": None})
             self._progressed = False
@@ -164,8 +170,11 @@ class Supervision:
         if failure is None and self._closing is not None and now > self._closing:
             return self._failure(RunStatus.CRASHED, "the worker process closed its connection")
         if failure is None and now >= self._next_sample:
+            if self._closing is None:
+                self._poll.modify(self._connection, select.POLLIN)
             cut(self._log)
-            failure = self._monitor.overweight(sum(map(resident_bytes, descendants(os.getpid(), self._servers))))
+            held = sum(map(resident_bytes, descendants(os.getpid(), self._servers)))
+            failure = self._monitor.overweight(max(held, resident_bytes(self._server.pid)))  # which may prepare the run
             self._next_sample = time.monotonic() + max(SAMPLING_S, 20 * (time.monotonic() - now))
         return None if failure is None else {"failure": attrs.asdict(failure)}
 

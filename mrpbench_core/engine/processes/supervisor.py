@@ -62,7 +62,10 @@ class Supervisor:
         try:
             return self._execute({**job, "temporary": temporary}, log)
         finally:
-            shutil.rmtree(temporary, ignore_errors=True)
+            try:
+                os.rmdir(temporary)  # noqa: PTH106 - called for every run
+            except OSError:
+                shutil.rmtree(temporary, ignore_errors=True)
 
     def _execute(self, job: dict[str, Any], log: Path) -> dict[str, Any]:
         plugins, server = self._server(job)

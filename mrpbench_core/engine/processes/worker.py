@@ -9,6 +9,7 @@ import os
 import resource
 import socket
 import tempfile
+import time
 import traceback
 from collections.abc import Callable
 from pathlib import Path
@@ -23,7 +24,7 @@ from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.origins import owner_of, title, with_origin
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.processes.channel import KEY_BYTES, Channel
-from mrpbench_core.engine.processes.output import flush, redirect
+from mrpbench_core.engine.processes.output import append_to, flush
 from mrpbench_core.engine.processes.process_tree import address_space, prefer_to_end
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
@@ -41,7 +42,7 @@ def execute_job(connection: socket.socket, hooks: Hooks, unpack: Unpack, execute
     channel = Channel(connection, connection.recv(KEY_BYTES, socket.MSG_WAITALL))
     job = channel.receive()
     assert job is not None
-    redirect(job["log"])
+    append_to(job["log"])
     tell_imports(lambda plugin: channel.send({"importing": plugin}))
     if "call" in job:
         os.chdir(job["folder"])
@@ -80,7 +81,7 @@ def _run(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack) ->
 
 def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack) -> dict[str, Any]:
     def announce(name: Stage, facts: dict[str, Any]) -> None:
-        channel.send({"stage": name, **jsonable(facts)})
+        channel.send({"stage": name, "at": time.monotonic(), **jsonable(facts)})
 
     paths = RunPaths(
         recording=Path(job["recording"]),
@@ -88,7 +89,7 @@ def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack
         picture=None if job["picture"] is None else Path(job["picture"]),
     )
     observers = Observers(
-        planned=lambda problem, result: hooks.call("mrpbench_planned", problem=problem, result=result),
+        planned=(lambda **seen: hooks.call("mrpbench_planned", **seen)) if hooks.has("mrpbench_planned") else None,
         executing=lambda context: hooks.call("mrpbench_executing", context=context),
         stepped=(lambda **seen: hooks.call("mrpbench_stepped", **seen)) if hooks.has("mrpbench_stepped") else None,
         executed=lambda: hooks.call("mrpbench_executed"),

@@ -1,5 +1,6 @@
 """What a planner claims of a problem, for the record: reports compare the claims of all runs that had this problem."""
 
+import functools
 import hashlib
 import math
 from enum import Enum
@@ -12,6 +13,8 @@ from mrpbench_core.api.planner import Promise
 from mrpbench_core.engine.stages.judge import Promises
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
+
+_name = functools.cache(str)  # NumPy takes 15 µs to spell a type
 
 
 def claims_of(promises: Promises, problem: Problem, result: PlanResult) -> dict[str, Any]:
@@ -48,7 +51,7 @@ def _digest(value: Any, known: dict[int, bytes]) -> bytes:
         return known[id(value)]
     found = hashlib.blake2b(type(value).__name__.encode(), digest_size=16)
     if isinstance(value, np.ndarray):
-        found.update(f"{value.dtype} {value.shape}".encode() + np.ascontiguousarray(value).tobytes())
+        found.update(f"{_name(value.dtype)} {value.shape}".encode() + np.ascontiguousarray(value).tobytes())
         return found.digest()
     if isinstance(value, tuple) and value and all(type(item) is int for item in value):
         found.update(np.array(value, np.int64).tobytes())

@@ -30,7 +30,9 @@ def build_fleet(config: RunConfig, size: int) -> Fleet:
 
 def robot_model(entry: FleetEntry) -> RobotModel:
     """The model that an entry names, with its changes to the lidar."""
-    model = attrs.evolve(load_robot(str(entry.robot)), graph=entry.graph)
+    model = load_robot(str(entry.robot))
+    if entry.graph is not None:
+        model = attrs.evolve(model, graph=entry.graph)
     if entry.lidar is None:
         return model
     if entry.lidar == "none":

@@ -4,6 +4,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.roadmap import RoadmapBuilder
+from mrpbench_core.api.world import WorldSource
 from mrpbench_core.checking.context import check_instance
 from mrpbench_core.checking.doorways import check_doorways
 from mrpbench_core.config.identity import options_text
@@ -11,7 +12,7 @@ from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import check_drawn, check_made, check_returned, check_size
 from mrpbench_core.engine.own import Handed, difference, own
 from mrpbench_core.engine.stage import Announce, RunEnded
-from mrpbench_core.engine.stages.fleet import build_fleet
+from mrpbench_core.engine.stages.fleet import build_fleet, robot_model
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.common.fleet import Fleet
@@ -20,7 +21,10 @@ from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.model.worlds.world import World
+from mrpbench_core.plugins.provenance import components_in
 
+_WORLD: list[tuple[WorldSource, World]] = []
+"""The world that `prepare` loaded and its source, or nothing."""
 _LAST: list[tuple[RoadmapBuilder, World, Fleet, Roadmap]] = []
 """The roadmap that this process built last and what it was built from, or nothing."""
 
@@ -52,8 +56,7 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
         RunEnded: the scenario cannot be solved by any planner.
     """
     announce(Stage.WORLD, {})
-    world = own(check_returned(config.world, config.world.load(), World))
-    check_made("the world", check_instance(world))
+    world = _world(config.world)
     fleet = build_fleet(config, check_size(config.scenario.size()))
     announce(Stage.ROADMAP, {})
     roadmap = _roadmap(config.roadmap, world, fleet)
@@ -75,6 +78,30 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
         start=start_vertices(roadmap, scenario),
         goals=goal_vertices(roadmap, scenario),
     )
+
+
+def prepare(config: RunConfig) -> None:
+    """Load the world and build the roadmap of a run, for it and for others that have these objects in common.
+
+    Nothing is done where this would call a component that is no part of the core.
+    """
+    for entry in config.fleet:
+        robot_model(entry)
+    components = components_in((config.world, config.roadmap, config.scenario))
+    if all(type(component).__module__.startswith("mrpbench_core.") for component in components):
+        world = _world(config.world)
+        _roadmap(config.roadmap, world, build_fleet(config, check_size(config.scenario.size())))
+        if not config.world.reads():  # the content of these files may change
+            _WORLD[:] = [(config.world, world)]
+
+
+def _world(source: WorldSource) -> World:
+    """Load the world, or take the one that was prepared."""
+    if _WORLD and _WORLD[0][0] is source:
+        return _WORLD[0][1]
+    world = own(check_returned(source, source.load(), World))
+    check_made("the world", check_instance(world))
+    return world
 
 
 def _roadmap(builder: RoadmapBuilder, world: World, fleet: Fleet) -> Roadmap:

@@ -87,7 +87,8 @@ class Roadmap:
         table[flat[::-1]] = np.arange(len(flat))[::-1]  # the first vertex of each cell
         cell = np.floor((np.atleast_2d(points) - self.grid.origin) / self.grid.cell_size).astype(int)
         inside = (cell >= 0).all(1) & (cell[:, 0] < columns) & (cell[:, 1] < rows)
-        inside &= np.isin(levels, self.level)  # a raster has one level
+        if len(flat):
+            inside &= np.asarray(levels) == self.level[0]  # a raster has one level
         return np.where(inside, table[np.where(inside, cell[:, 1] * columns + cell[:, 0], 0)], -1).astype("i4")
 
     def facing(self, vertices: Int32, yaw: Float) -> Int32:
@@ -108,5 +109,8 @@ class Roadmap:
     @property
     def distinct(self) -> Int:
         """The first vertex i8[k] of each place, in order; all vertices where no two are at one place."""
-        place = np.column_stack([self.position, self.level])
-        return np.sort(np.unique(place, axis=0, return_index=True)[1])
+        if self.grid is None:
+            place = np.column_stack([self.position, self.level])
+            return np.sort(np.unique(place, axis=0, return_index=True)[1])
+        row, column = self.grid.cell.T
+        return np.sort(np.unique(row * self.grid.shape[1] + column, return_index=True)[1])

@@ -1,10 +1,12 @@
 """Instances of runs: what runs that agree share, and what they do not."""
 
+import attrs
 import pytest
 
 from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.stages.prepare import build_run_instance
+from mrpbench_core.engine.stages.prepare import build_run_instance, prepare
 
 STUDY = {"world": "office", "scenario": {"plugin": "random", "robots": 2}, "planner": "example", "simulator": "none"}
 STUDY |= {"roadmap": {"plugin": "grid", "cell_size": 1.0}}
@@ -36,6 +38,41 @@ def test_a_roadmap_follows_its_options_the_robots_and_the_world(name, values):
         assert (built.position == rebuilt.position).all()
         assert (built.duration == rebuilt.duration).all()
     assert one.position.shape != other.position.shape or (one.duration != other.duration).any()
+
+
+def instance(config):
+    return build_run_instance(config, lambda stage, facts: None)
+
+
+def test_runs_that_are_prepared_have_the_instances_of_others(monkeypatch):
+    config, other = (load_study(STUDY).runs[0].config for _ in range(2))
+    loads = []
+    monkeypatch.setattr(Office, "load", lambda world, load=Office.load: loads.append(world) or load(world))
+    prepare(config)
+    for seed in (0, 1):
+        prepared = instance(attrs.evolve(config, seed=seed))
+        assert loads == [config.world]
+        assert instance(attrs.evolve(other, seed=seed)).scenario.id == prepared.scenario.id
+        loads.pop()
+
+
+def test_a_world_that_reads_files_of_which_the_configuration_knows_nothing_is_read_for_each_run(monkeypatch, tmp_path):
+    (point,) = load_study(STUDY).runs
+    monkeypatch.setattr(Office, "reads", lambda _: (tmp_path / "walls.pgm",))
+    prepare(point.config)
+    assert instance(point.config).world is not instance(point.config).world
+
+
+@pytest.mark.parametrize("kind", ["World", "Roadmap", "Scenario"])
+def test_nothing_is_prepared_by_components_of_others(tmp_path, monkeypatch, kind):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bad.py").write_text(MAKERS)
+    how = {"World": "walls", "Roadmap": "edges", "Scenario": "size"}[kind]
+    robots = {"robots": 2} if kind == "Scenario" else {}
+    (point,) = load_study(STUDY | {kind.lower(): {"plugin": f"./bad.py:Bad{kind}", "how": how, **robots}}).runs
+    prepare(point.config)  # whatever they make is refused
+    with pytest.raises(BrokenContractError):
+        instance(point.config)
 
 
 MAKERS = """
