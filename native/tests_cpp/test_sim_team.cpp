@@ -1,6 +1,11 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <atomic>
+#include <optional>
 #include <set>
 #include <stdexcept>
+#include <thread>
 
 #include "check.hpp"
 #include "mrpbench_sim/team.hpp"
@@ -50,4 +55,21 @@ TEST("the failure of the first piece that fails is told, and the next call works
   std::vector<int> done(50);
   team.share(50, [&](std::size_t i) { done[i] = 1; });
   for (const int it : done) CHECK(it == 1);
+}
+
+TEST("a forked process works on alone, and ends") {
+  std::optional<Team> team(3);
+  std::vector<int> done(50);
+  const auto count = [&] { team->share(done.size(), [&](std::size_t i) { ++done[i]; }); };
+  count();
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);
+    count();
+    team.reset();
+    _exit(done == std::vector<int>(50, 2) ? 0 : 1);
+  }
+  int status = 1;
+  CHECK(waitpid(child, &status, 0) == child);
+  CHECK(status == 0);
 }

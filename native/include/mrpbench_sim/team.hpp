@@ -3,22 +3,19 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
-#include <cstdint>
 #include <exception>
 #include <functional>
-#include <mutex>
-#include <thread>
+#include <memory>
 #include <vector>
 
 namespace mrpbench::sim {
 
 /// The calling thread and others, which sleep between calls: to begin a thread takes as long as the commands of ten
 /// robots, and what belongs to a thread would be made anew each time. The others begin with the first call that has
-/// work for them.
+/// work for them. In a process that is forked off from there on, one thread does all work.
 class Team {
  public:
-  explicit Team(int threads) : threads_(static_cast<std::size_t>(std::max(1, threads))) {}
+  explicit Team(int threads);
   ~Team();
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
@@ -50,20 +47,14 @@ class Team {
   }
 
  private:
+  /// The other threads and what they wait for.
+  struct Others;
+
   /// Call `take` in this thread and in those of at least `wanted` - 1 others that wake up before it returns here.
   void run(std::size_t wanted, const std::function<void()>& take);
-  void serve();
 
   std::size_t threads_;
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  const std::function<void()>* take_ = nullptr;
-  std::uint64_t calls_ = 0;
-  bool ends_ = false;
-  /// Others that are in `take_`.
-  std::atomic<int> busy_{0};
-  /// The last member, so that they end before the others do.
-  std::vector<std::jthread> others_;
+  std::unique_ptr<Others> others_;
 };
 
 }  // namespace mrpbench::sim
