@@ -5,6 +5,7 @@
 
 #include "mrpbench_local/controller.hpp"
 #include "mrpbench_local/path/reroute.hpp"
+#include "mrpbench_sim/team.hpp"
 
 namespace mrpbench::local {
 
@@ -59,7 +60,7 @@ class Fleet {
   static void refresh(Robot& robot, double now, Pose pose);
 
   std::shared_ptr<const StaticMap> walls_;
-  int threads_;
+  sim::Team team_;
   std::vector<std::unique_ptr<Robot>> robots_;
 };
 

@@ -2,11 +2,13 @@
 // in closed form; the exact test of the core's `kinematic` simulator decides at the ends of that angle.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "mrpbench_sim/plane.hpp"
 #include "mrpbench_sim/segment_buckets.hpp"
+#include "mrpbench_sim/team.hpp"
 
 namespace mrpbench::sim {
 
@@ -46,7 +48,7 @@ class Caster {
   std::size_t beam(long index) const;
 
   Lidar lidar_;
-  int threads_;
+  std::unique_ptr<Team> team_;
   std::vector<Wall> walls_;
   SegmentBuckets buckets_;
   std::vector<double> cosine_, sine_;

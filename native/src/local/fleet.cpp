@@ -4,12 +4,11 @@
 #include <stdexcept>
 
 #include "mrpbench_local/costmap/collision.hpp"
-#include "mrpbench_sim/share.hpp"
 
 namespace mrpbench::local {
 
 Fleet::Fleet(std::vector<Segment> walls, double reach, int threads)
-    : walls_(std::make_shared<const StaticMap>(std::move(walls), reach)), threads_(threads) {}
+    : walls_(std::make_shared<const StaticMap>(std::move(walls), reach)), team_(threads) {}
 
 void Fleet::add(const RobotOptions& options, std::unique_ptr<Controller> controller) {
   robots_.push_back(std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), std::move(controller), options}));
@@ -25,7 +24,7 @@ void Fleet::refresh(Robot& robot, double now, Pose pose) {
 void Fleet::see(double now, std::span<const std::int32_t> robots, std::span<const Pose> poses,
                 std::span<const double> ranges) {
   const std::size_t beams = robots.empty() ? 0 : ranges.size() / robots.size();
-  sim::share(robots.size(), threads_, [&](std::size_t row) {
+  team_.share(robots.size(), [&](std::size_t row) {
     Robot& robot = *robots_[static_cast<std::size_t>(robots[row])];
     const Pose& pose = poses[static_cast<std::size_t>(robots[row])];
     robot.costmap.see(pose, robot.options.sensor, ranges.subspan(row * beams, beams));
@@ -49,7 +48,7 @@ void Fleet::command(double now, std::span<const Request> requests, std::span<Twi
   if (extra) {
     for (std::size_t i = 0; i < requests.size(); ++i) answer(i);
   } else {
-    sim::share(requests.size(), threads_, answer);
+    team_.share(requests.size(), answer);
   }
 }
 

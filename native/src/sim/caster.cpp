@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "mrpbench_sim/disc_hash.hpp"
-#include "mrpbench_sim/share.hpp"
 
 namespace mrpbench::sim {
 
@@ -47,7 +46,7 @@ Lidar sound(const Lidar& lidar) {
 
 Caster::Caster(std::vector<Segment> segments, const Lidar& lidar, int threads)
     : lidar_(sound(lidar)),
-      threads_(threads),
+      team_(std::make_unique<Team>(threads)),
       buckets_(segments, lidar.range, bucket_size(lidar.range)),
       per_radian_(lidar.beams / kTurn),
       padding_(kRough * per_radian_),
@@ -73,7 +72,7 @@ void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, st
   DiscHash hash((lidar_.range + largest) / 2);
   hash.build(centres);
   const auto beams = static_cast<std::size_t>(lidar_.beams);
-  share(scanning.size(), threads_, [&](std::size_t row) {
+  team_->share(scanning.size(), [&](std::size_t row) {
     const int robot = scanning[row];
     const Pose& pose = poses[static_cast<std::size_t>(robot)];
     if (!somewhere({pose.x, pose.y}) || !std::isfinite(pose.yaw)) throw std::invalid_argument("poses must be finite");
