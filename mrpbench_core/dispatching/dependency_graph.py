@@ -201,15 +201,17 @@ class DependencyGraph:
     def update(self, counts: Int, robots: Int) -> None:
         """Meet the dependencies on `robots` i8[k], given the counts i8[2,n] of leading segments, and release moves."""
         ready = []
-        for robot in robots.tolist():
-            for kind in (REACHED, CLEARED):
-                row, value = kind * len(self.frontier) + robot, int(counts[kind, robot])
-                for count in range(self._met[row] + 1, value + 1):
-                    for group in self._waiting.pop(row * self._stride + count, ()):
-                        self.unmet[group] -= 1
-                        if not self.unmet[group]:
-                            ready.append(group)
-                self._met[row] = max(self._met[row], value)
+        rows = np.add.outer(robots, np.array([REACHED, CLEARED]) * len(self.frontier)).ravel()
+        for row, value in zip(rows.tolist(), counts.ravel()[rows].tolist(), strict=True):
+            met = self._met[row]
+            if value <= met:
+                continue
+            self._met[row] = value
+            for key in range(row * self._stride + met + 1, row * self._stride + value + 1):
+                for group in self._waiting.pop(key, ()):
+                    self.unmet[group] -= 1
+                    if not self.unmet[group]:
+                        ready.append(group)
         self.rotating += [self.rotations[group] for group in ready if group in self.rotations]
         for group in ready:
             for move in self.rotations.get(group, (group,)):

@@ -1,14 +1,12 @@
 """The paths of robots, as a navigator needs them."""
 
-from collections.abc import Iterator, Sequence
-from functools import cached_property
-from itertools import pairwise
-from typing import overload
+from collections.abc import Sequence
 
 import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, array
+from mrpbench_core.model.common.flat_sequence import FlatSequence, firsts, joined, rows
 
 
 @attrs.frozen(kw_only=True)
@@ -40,8 +38,8 @@ class Route:
 
 
 @attrs.frozen(kw_only=True)
-class Routes(Sequence[Route]):
-    """The routes of all robots in flat arrays, which are copied as a whole; items are made when asked for."""
+class Routes(FlatSequence[Route]):
+    """The routes of all robots."""
 
     first: Int = array("i8")
     """i8[n+1]: the waypoints of robot i are `first[i]:first[i + 1]`, at least one."""
@@ -58,31 +56,18 @@ class Routes(Sequence[Route]):
         if isinstance(routes, Routes):
             return routes
         return cls(
-            first=np.cumsum([0, *(len(route.level) for route in routes)]),
-            waypoint=np.concatenate([np.empty((0, 3)), *(route.waypoint for route in routes)]),
-            level=np.concatenate([np.empty(0, np.int16), *(route.level for route in routes)]),
-            speed=np.concatenate([np.empty(0), *(np.append(route.speed, np.inf) for route in routes)]),
+            first=firsts(len(route.level) for route in routes),
+            waypoint=joined((route.waypoint for route in routes), "f8", 3),
+            level=joined((route.level for route in routes), "i2"),
+            speed=joined((np.append(route.speed, np.inf) for route in routes), "f8"),
         )
 
     def __len__(self) -> int:
         return len(self.first) - 1
 
-    @overload
-    def __getitem__(self, robot: int) -> Route: ...
-    @overload
-    def __getitem__(self, robot: slice) -> tuple[Route, ...]: ...
-    def __getitem__(self, robot: int | slice) -> Route | tuple[Route, ...]:
-        return self._items[robot]
-
-    def __iter__(self) -> Iterator[Route]:
-        return iter(self._items)
-
-    @cached_property
-    def _items(self) -> tuple[Route, ...]:
-        return tuple(
-            Route(waypoint=self.waypoint[begin:end], level=self.level[begin:end], speed=self.speed[begin : end - 1])
-            for begin, end in pairwise(self.first.tolist())
-        )
+    def _item(self, index: int) -> Route:
+        here = rows(self.first, index)
+        return Route(waypoint=self.waypoint[here], level=self.level[here], speed=self.speed[here][:-1])
 
     @property
     def size(self) -> Int:
@@ -92,8 +77,8 @@ class Routes(Sequence[Route]):
 
 def last_moves(routes: Sequence[Route]) -> Int:
     """`Route.last_move` of each of n routes, i8[n], for all at once."""
-    joined = Routes.of(routes)
-    first, size, place, level = joined.first[:-1], joined.size, joined.waypoint[:, :2], joined.level
+    flat = Routes.of(routes)
+    first, size, place, level = flat.first[:-1], flat.size, flat.waypoint[:, :2], flat.level
     robot = np.repeat(np.arange(len(size)), size)
     moved = (place[1:] != place[:-1]).any(axis=1) | (level[1:] != level[:-1])
     at = np.flatnonzero(moved & (robot[1:] == robot[:-1]))

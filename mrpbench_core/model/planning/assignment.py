@@ -7,7 +7,7 @@ import attrs
 from mrpbench_core.model.common.arrays import Float, Int32, array
 from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.scenario import Task
-from mrpbench_core.model.planning.tasks import joined
+from mrpbench_core.model.planning.tasks import flat_tasks
 
 
 @attrs.frozen(kw_only=True)
@@ -48,7 +48,7 @@ class QueueProblem:
 
     now: float
     """simulated seconds."""
-    tasks: Sequence[Task] = attrs.field(converter=joined)
+    tasks: Sequence[Task] = attrs.field(converter=flat_tasks)
     """m tasks, in the order of their release, which are held as `Tasks`."""
     queues: Queues
     """What was decided last, one queue per robot."""

@@ -2,12 +2,12 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
-from typing import overload
 
 import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Int, Int32, array
+from mrpbench_core.model.common.flat_sequence import FlatSequence, firsts, joined, rows
 from mrpbench_core.model.planning.roadmap import Roadmap
 
 
@@ -47,8 +47,8 @@ class Path:
 
 
 @attrs.frozen(kw_only=True)
-class Paths(Sequence[Path]):
-    """The paths of all robots in flat arrays, which are copied and compared as a whole; items are made on demand."""
+class Paths(FlatSequence[Path]):
+    """The paths of all robots."""
 
     first: Int = array("i8")
     """i8[n+1]: the segments of robot i are `first[i]:first[i + 1]`."""
@@ -63,27 +63,19 @@ class Paths(Sequence[Path]):
         if isinstance(paths, Paths):
             return paths
         given = tuple(paths)
-        nothing = np.empty(0, np.int64)
         return cls(
-            first=np.cumsum([0, *map(len, given)]),
-            edge=np.concatenate([nothing.astype(np.int32), *(path.edge for path in given)]),
-            enter=np.concatenate([nothing, *(path.enter for path in given)]),
-            leave=np.concatenate([nothing, *(path.leave for path in given)]),
+            first=firsts(map(len, given)),
+            edge=joined((path.edge for path in given), "i4"),
+            enter=joined((path.enter for path in given), "i8"),
+            leave=joined((path.leave for path in given), "i8"),
         )
 
     def __len__(self) -> int:
         return len(self.first) - 1
 
-    @overload
-    def __getitem__(self, robot: int) -> Path: ...
-    @overload
-    def __getitem__(self, robot: slice) -> tuple[Path, ...]: ...
-    def __getitem__(self, robot: int | slice) -> Path | tuple[Path, ...]:
-        if isinstance(robot, slice):
-            return tuple(self[index] for index in range(len(self))[robot])
-        index = range(len(self))[robot]
-        rows = slice(*self.first[index : index + 2].tolist())
-        return Path(edge=self.edge[rows], enter=self.enter[rows], leave=self.leave[rows])
+    def _item(self, index: int) -> Path:
+        here = rows(self.first, index)
+        return Path(edge=self.edge[here], enter=self.enter[here], leave=self.leave[here])
 
     @property
     def size(self) -> Int:

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mrpbench_core.model.planning.scenario import Task
-from mrpbench_core.model.planning.tasks import joined
+from mrpbench_core.model.planning.tasks import flat_tasks
 
 NUMBERS = st.floats(0, 100)
 
@@ -30,7 +30,7 @@ def tasks(draw):
 
 @given(st.lists(tasks(), max_size=4))
 def test_joined_tasks_are_the_same_tasks(given_tasks):
-    flat = joined(given_tasks)
+    flat = flat_tasks(given_tasks)
     assert len(flat) == len(given_tasks)
     assert repr(list(flat)) == repr(given_tasks)
-    assert joined(flat) is flat
+    assert flat_tasks(flat) is flat
