@@ -28,7 +28,7 @@ class Child:
         ours, theirs = socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "mrpbench_core.engine.processes.supervisor", str(theirs.fileno())],
+                [sys.executable, "-P", "-m", "mrpbench_core.engine.processes.supervisor", str(theirs.fileno())],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 pass_fds=[theirs.fileno()],
