@@ -11,7 +11,9 @@ from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.scenario import Scenario, Task
 
-STATE = State(pose=np.zeros((2, 3)), twist=np.zeros((2, 2)), level=[0, 0], contacts=[[0, 1], [1, -1]], facilities={"door": 1.0})
+STATE = State(
+    pose=np.zeros((2, 3)), twist=np.zeros((2, 2)), level=[0, 0], contacts=[[0, 1], [1, -1]], facilities={"door": 1.0}
+)
 SCAN = ScanBatch(stamp=1.0, robot=[1], ranges=[[1.0, np.inf]])
 ESTIMATE = Estimate(pose=np.zeros((2, 3)))
 ORDERS = Orders(released=[2, 1])
