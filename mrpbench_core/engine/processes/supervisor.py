@@ -107,22 +107,28 @@ def main(descriptor: int, folder: str) -> None:
     become_subreaper()
     connection = socket.socket(fileno=descriptor)
     connection.set_inheritable(False)
-    signal.signal(signal.SIGTERM, _terminate)
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, _terminate)
+    ended_by = None
     try:
         Supervisor(connection, folder).serve()
-    except _TerminatedError:
-        remove_tree(folder, ignore_errors=True)
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
-        os.kill(os.getpid(), signal.SIGTERM)
+    except _TerminatedError as termination:
+        ended_by = termination.number
     remove_tree(folder, ignore_errors=True)
+    if ended_by is not None:
+        signal.signal(ended_by, signal.SIG_DFL)
+        os.kill(os.getpid(), ended_by)
 
 
 class _TerminatedError(BaseException):
-    """SIGTERM was received."""
+    """A signal that ends the process was received."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
 
 
 def _terminate(number: int, frame: object) -> NoReturn:  # noqa: ARG001
-    raise _TerminatedError
+    raise _TerminatedError(number)
 
 
 if __name__ == "__main__":
