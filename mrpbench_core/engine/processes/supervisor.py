@@ -50,8 +50,8 @@ class Supervisor:
             kill_descendants()
 
     def _answer(self, job: dict[str, Any]) -> dict[str, Any]:
-        """Execute a job; return its answer."""
-        log = Path(job["log"])
+        """Execute a job; return its answer, with what plugins printed if the job names no file for it."""
+        log = Path(job.get("log") or Path(self._folder, "log.txt"))
         try:
             log.unlink(missing_ok=True)
             log.touch()
@@ -62,7 +62,10 @@ class Supervisor:
         except OSError as error:
             return {"mistake": f"no temporary folder: {error.strerror}"}
         try:
-            return self._execute({**job, "temporary": temporary}, log)
+            answer = self._execute({**job, "log": str(log), "temporary": temporary}, log)
+            if "log" not in job and log.exists():
+                answer["printed"] = log.read_text(errors="replace")
+            return answer
         finally:
             remove_tree(temporary, ignore_errors=True)
 
