@@ -88,7 +88,8 @@ BUILDING = b"""name: small
 coordinate_system: cartesian_meters
 lifts:
   lift_a: {x: 7, y: 2, yaw: 0, width: 1.6, depth: 1.6, reference_floor_name: L1, initial_floor_name: L1,
-    doors: {front: {x: -0.8, y: 0, width: 1, motion_axis_orientation: 1.57, door_type: 2}}, level_doors: {L1: [front], L2: [front]}}
+    doors: {front: {x: -0.8, y: 0, width: 1, motion_axis_orientation: 1.57, door_type: 2}},
+    level_doors: {L1: [front], L2: [front]}}
 levels:
   L1:
     elevation: 0
@@ -111,7 +112,8 @@ levels:
     models: [{model_name: Box, name: crate, static: true, x: 1.5, y: 3, yaw: 0.3, z: 0}]
   L2:
     elevation: 4
-    vertices: [[0, 0, 0, ""], [8, 0, 0, ""], [8, 4, 0, ""], [0, 4, 0, ""], [5, 2, 0, up], [7, 2, 0, cabin, {lift_cabin: [1, lift_a]}]]
+    vertices: [[0, 0, 0, ""], [8, 0, 0, ""], [8, 4, 0, ""], [0, 4, 0, ""], [5, 2, 0, up],
+      [7, 2, 0, cabin, {lift_cabin: [1, lift_a]}]]
     walls: [[0, 1], [1, 2], [2, 3], [3, 0]]
     lanes: [[4, 5, {bidirectional: [4, true]}]]
 """
